@@ -1,0 +1,99 @@
+// plumbline: Galerkin reference solutions for nonlocal models, and verification of meshfree rules.
+
+#include "base/error.h"
+#include "run.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/multithread_info.h>
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+
+namespace
+{
+  std::vector<plumbline::scene::Override> to_overrides(const std::vector<std::string> &settings)
+  {
+    std::vector<plumbline::scene::Override> overrides;
+    for (const std::string &setting : settings)
+    {
+      const auto equals = setting.find('=');
+      if (equals == std::string::npos)
+        throw plumbline::InputError("--set '" + setting +
+                                    "' has no '='; write --set Section/key=value");
+      overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+    }
+    return overrides;
+  }
+} // namespace
+
+int main(int argc, char **argv)
+try
+{
+  CLI::App app("Plumbline: reference solutions for nonlocal models, and which meshfree rule to trust.");
+  app.set_version_flag("--version", PLUMBLINE_VERSION);
+  app.require_subcommand(1);
+
+  plumbline::app::RunOptions options;
+  std::vector<std::string> settings;
+  unsigned int n_threads = 0;
+  auto *run = app.add_subcommand("run", "Run a scene and write its report");
+  run->add_option("SCENE", options.scene_file, "Scene file (.prm or .json)")->required();
+  run->add_option("-o,--output", options.output, "Output folder (default: results/<scene>)");
+  run->add_option("--set", settings, "Section/key=value, instead of what the file says");
+  run->add_option("--methods", options.methods, "Methods, comma separated, instead of the scene's");
+  run->add_option("--levels", options.n_levels, "The first so many levels of each sweep only");
+  run->add_option("--threads", n_threads, "Threads (default: all cores)");
+  run->add_flag("--check", options.check, "Exit with 1 if the Expected section does not hold");
+  run->add_flag("--quiet", options.quiet, "Print nothing but errors");
+  run->add_flag("--json", options.json, "Print results.json instead of the verdict table");
+
+  std::string folder, subject, model, key;
+  auto *report = app.add_subcommand("report", "Rebuild tables, charts and page from results.json");
+  report->add_option("DIR", folder, "Output folder of a run")->required();
+  auto *list = app.add_subcommand("list", "List methods, kernels or scenes");
+  list->add_option("WHAT", subject, "methods, kernels or scenes")->required();
+  auto *make_template = app.add_subcommand("template", "Print a scene with all keys and their help");
+  make_template->add_option("MODEL", model, "scalar or tensor")->required();
+  auto *describe = app.add_subcommand("describe", "What a key of a scene means");
+  describe->add_option("KEY", key, "Section or Section/key")->required();
+
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::ParseError &error)
+  {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(
+      argc, argv, n_threads == 0 ? dealii::numbers::invalid_unsigned_int : n_threads);
+  options.overrides = to_overrides(settings);
+  if (*run)
+    return plumbline::app::run(options);
+  if (*report)
+    return plumbline::app::rebuild_report(folder);
+  if (*list)
+    plumbline::app::list(subject);
+  if (*make_template)
+    std::cout << plumbline::scene::scene_template(model);
+  if (*describe)
+    std::cout << plumbline::scene::describe(key);
+  return 0;
+}
+catch (const plumbline::InputError &error)
+{
+  std::cerr << "plumbline: " << error.what() << '\n';
+  return 2;
+}
+catch (const plumbline::NumericalError &error)
+{
+  std::cerr << "plumbline: " << error.what() << '\n';
+  return 3;
+}
+catch (const std::exception &error)
+{
+  std::cerr << "plumbline: unexpected error: " << error.what() << '\n';
+  return 3;
+}

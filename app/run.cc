@@ -1,0 +1,249 @@
+#include "run.h"
+
+#include "base/error.h"
+#include "meshfree/lattice_method.h"
+#include "reference/lattice_method.h"
+#include "report/json.h"
+#include "report/report.h"
+#include "study/conclusions.h"
+#include "study/sweep.h"
+
+#include <deal.II/base/config.h>
+#include <deal.II/base/multithread_info.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <set>
+
+namespace plumbline::app
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    volatile std::sig_atomic_t is_interrupted = 0;
+    void on_interrupt(int) { is_interrupted = 1; }
+
+    /// The one place that knows both sides.
+    study::Methods all_methods()
+    {
+      study::Methods methods = meshfree::lattice_methods();
+      for (const auto &method : reference::lattice_methods())
+        methods.push_back(method);
+      return methods;
+    }
+
+    std::string processor()
+    {
+      std::ifstream info("/proc/cpuinfo");
+      for (std::string line; std::getline(info, line);)
+        if (line.compare(0, 10, "model name") == 0)
+          return line.substr(line.find(':') + 2);
+      return "unknown";
+    }
+
+    std::map<std::string, std::string> provenance()
+    {
+      return {{"plumbline", PLUMBLINE_VERSION},
+              {"deal.II", DEAL_II_PACKAGE_VERSION},
+              {"compiler", __VERSION__},
+              {"processor", processor()},
+              {"threads", std::to_string(dealii::MultithreadInfo::n_threads())}};
+    }
+
+    /// Make the folder and try it, so that no work is lost at the end.
+    void prepare_folder(const fs::path &folder)
+    {
+      std::error_code error;
+      fs::create_directories(folder, error);
+      const fs::path probe = folder / ".write-test";
+      const bool is_writable = !error && (std::ofstream(probe) << "x").flush().good();
+      fs::remove(probe, error);
+      if (!is_writable)
+        throw InputError("output folder '" + folder.string() +
+                         "' cannot be written; give a writable one with -o");
+    }
+
+    /// What an interrupted run of the same scene left in the folder.
+    study::Results earlier_results(const fs::path &folder, const scene::Scene &scene)
+    {
+      const fs::path file = folder / "results.json";
+      if (!fs::exists(file))
+        return {};
+      try
+      {
+        const study::Results earlier = report::read_json(file);
+        if (!earlier.is_complete && earlier.scene_text == scene.text)
+          return earlier;
+      }
+      catch (const InputError &)
+      {
+        // not ours, or of another version: it is replaced
+      }
+      return {};
+    }
+
+    /// One line that is rewritten, on a terminal, after the first two seconds.
+    class ProgressLine
+    {
+    public:
+      explicit ProgressLine(bool is_wanted) : is_on_(is_wanted && isatty(STDERR_FILENO) != 0) {}
+      ~ProgressLine()
+      {
+        if (is_shown_)
+          std::cerr << "\r\033[K" << std::flush;
+      }
+      void show(const std::string &what, double fraction)
+      {
+        using namespace std::chrono_literals;
+        if (!is_on_ || std::chrono::steady_clock::now() - start_ < 2s)
+          return;
+        is_shown_ = true;
+        std::cerr << "\r\033[K" << std::setw(3) << static_cast<int>(100 * fraction) << " %  " << what
+                  << std::flush;
+      }
+
+    private:
+      bool is_on_, is_shown_ = false;
+      std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    };
+
+    std::string file_name(const study::Run &run)
+    {
+      std::string name = run.problem + "_" + run.series + "_" + run.method;
+      std::replace_if(
+          name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '.'; },
+          '_');
+      return name + ".vtu";
+    }
+
+    void print_summary(const study::Results &results, const fs::path &folder)
+    {
+      std::cout << results.scene_name << ": " << results.purpose << "\n\n"
+                << results.decisive_error << '\n';
+      for (const study::Trend &trend : results.trends)
+        if (trend.error == results.decisive_error)
+          std::cout << "  " << std::left << std::setw(11) << trend.method << std::setw(8)
+                    << trend.problem << std::setw(12) << trend.series << std::setw(18)
+                    << trend.verdict << trend.reason << '\n';
+      for (const study::Advice &advice : results.advice)
+        std::cout << "\n" << advice.problem << ", " << advice.series << ": " << advice.text << '\n';
+      for (const study::Expectation &expectation : results.expectations)
+        if (!expectation.holds)
+          std::cout << "\nnot as expected: " << expectation.subject << ": expected "
+                    << expectation.expected << ", found " << expectation.found << '\n';
+      const auto n_held = std::count_if(results.expectations.begin(), results.expectations.end(),
+                                        [](const auto &e) { return e.holds; });
+      if (!results.expectations.empty())
+        std::cout << "\nexpectations: " << n_held << " of " << results.expectations.size()
+                  << " hold\n";
+      std::cout << "\nreport: " << (folder / "report.html").string() << '\n';
+    }
+
+    int exit_code(const study::Results &results, bool check)
+    {
+      if (!results.is_complete)
+        return 130;
+      const bool has_solution = std::any_of(results.runs.begin(), results.runs.end(),
+                                            [](const study::Run &r) { return r.failure.empty(); });
+      if (!has_solution)
+        return 3;
+      const bool holds = std::all_of(results.expectations.begin(), results.expectations.end(),
+                                     [](const study::Expectation &e) { return e.holds; });
+      return check && !holds ? 1 : 0;
+    }
+  } // namespace
+
+  int run(const RunOptions &options)
+  {
+    auto overrides = options.overrides;
+    if (!options.methods.empty())
+      overrides.push_back({"Methods/names", options.methods});
+    const scene::Scene scene = scene::read_scene(options.scene_file, overrides);
+    const study::Methods available = all_methods();
+    const study::Methods methods = study::choose_methods(scene, available);
+    study::check_data(scene);
+
+    const fs::path folder =
+        options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
+    prepare_folder(folder);
+    study::Results earlier = earlier_results(folder, scene);
+    if (!earlier.runs.empty() && !options.quiet)
+      std::cerr << "continuing: " << earlier.runs.size() << " solves are in '" << folder.string()
+                << "' already\n";
+    earlier.provenance = provenance();
+
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+    study::Results results;
+    {
+      ProgressLine progress(!options.quiet);
+      study::SweepControl control;
+      control.n_levels = options.n_levels;
+      control.on_progress = [&](const std::string &what, double f) { progress.show(what, f); };
+      control.on_result = [&](const study::Results &r) {
+        report::write_json(r, folder / "results.json");
+      };
+      control.should_stop = [] { return is_interrupted != 0; };
+      if (scene.write_fields)
+        control.on_finest = [&](const study::Solution &solution, const study::Run &run) {
+          fs::create_directories(folder / "fields");
+          solution.write_vtu((folder / "fields" / file_name(run)).string());
+        };
+      results = study::run_sweep(scene, methods, available, control, earlier);
+    }
+    report::write_report(results, folder);
+
+    if (options.json)
+      std::cout << std::ifstream(folder / "results.json").rdbuf();
+    else if (!options.quiet)
+      print_summary(results, folder);
+    if (!results.is_complete)
+      std::cerr << "interrupted: what is finished is in '" << folder.string()
+                << "'; the same command continues\n";
+    for (const study::Run &run : results.runs)
+      if (!run.failure.empty())
+        std::cerr << "no solution: " << run.method << ", " << run.problem << ", " << run.series
+                  << ", h = " << run.h << ": " << run.failure << '\n';
+    return exit_code(results, options.check);
+  }
+
+  int rebuild_report(const std::string &folder)
+  {
+    report::write_report(report::read_json(fs::path(folder) / "results.json"), folder);
+    std::cout << "report: " << (fs::path(folder) / "report.html").string() << '\n';
+    return 0;
+  }
+
+  void list(const std::string &subject)
+  {
+    if (subject == "methods")
+      for (const auto &method : all_methods())
+        std::cout << std::left << std::setw(11) << method->name() << std::setw(11)
+                  << method->family() << method->help() << '\n';
+    else if (subject == "kernels")
+      for (const physics::KernelType &type : physics::kernel_types())
+        std::cout << std::left << std::setw(24) << type.name << std::setw(28) << type.formula
+                  << type.source << '\n';
+    else if (subject == "scenes")
+    {
+      if (!fs::is_directory(PLUMBLINE_SCENES))
+        throw InputError(std::string("the scenes folder '") + PLUMBLINE_SCENES + "' is not there");
+      std::set<fs::path> files;
+      for (const auto &entry : fs::recursive_directory_iterator(PLUMBLINE_SCENES))
+        if (entry.path().extension() == ".prm")
+          files.insert(entry.path());
+      for (const fs::path &file : files)
+        std::cout << file.string() << "\n    " << scene::read_scene(file.string()).purpose << '\n';
+    }
+    else
+      throw InputError("list: '" + subject + "' is not known; choose methods, kernels or scenes");
+  }
+} // namespace plumbline::app

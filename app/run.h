@@ -1,0 +1,30 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace plumbline::app
+{
+  struct RunOptions
+  {
+    std::string scene_file, output; ///< output empty: results/<scene name>
+    std::vector<scene::Override> overrides;
+    std::string methods; ///< comma separated, instead of the scene's
+    unsigned int n_levels = 0;
+    bool check = false, quiet = false, json = false;
+  };
+
+  /// Run a scene, write its report, print the verdicts.
+  /// @return exit code: 0, 1 (an expectation does not hold, with check), 3 (no method gave a solution,
+  ///         or charts could not be drawn), 130 (interrupted; what is finished is written)
+  int run(const RunOptions &options);
+
+  /// Rebuild tables, charts and page of a folder from its results.json.
+  int rebuild_report(const std::string &folder);
+
+  /// Names and help of methods, kernels or scenes.
+  /// @throws InputError  another subject
+  void list(const std::string &subject);
+} // namespace plumbline::app

@@ -1,0 +1,36 @@
+# One library target per folder. The targets a folder links are the folders that it may include, and
+# tests/house walks the includes to say so by name.
+
+# deal.II with the flags that users of it need; its own macro would add -g to every file
+include(${DEAL_II_TARGET_CONFIG})
+add_library(plumbline_dealii INTERFACE)
+set_target_properties(plumbline_dealii PROPERTIES EXPORT_NAME dealii)
+target_include_directories(plumbline_dealii SYSTEM INTERFACE ${DEAL_II_INCLUDE_DIRS})
+target_compile_definitions(plumbline_dealii INTERFACE ${DEAL_II_USER_DEFINITIONS}
+  $<$<CONFIG:Debug>:${DEAL_II_USER_DEFINITIONS_DEBUG}>)
+target_link_libraries(plumbline_dealii INTERFACE
+  $<IF:$<CONFIG:Debug>,${DEAL_II_TARGET_DEBUG},${DEAL_II_TARGET_RELEASE}>)
+target_link_options(plumbline_dealii INTERFACE -fuse-ld=gold)
+
+# plumbline_module(<name> SOURCES <files> [LINK <targets>])
+function(plumbline_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  set(target plumbline_${name})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(plumbline::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/plumbline>)
+  target_link_libraries(${target} PUBLIC plumbline_dealii ${ARG_LINK})
+  plumbline_compile_options(${target})
+  set_property(GLOBAL APPEND PROPERTY PLUMBLINE_MODULES ${target})
+endfunction()
+
+function(plumbline_compile_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic)
+  if(PLUMBLINE_SANITIZE)
+    target_compile_options(${target} PUBLIC -fsanitize=address,undefined -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+  endif()
+endfunction()

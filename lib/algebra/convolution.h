@@ -1,0 +1,32 @@
+#pragma once
+
+#include "algebra/stencil.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace plumbline::algebra
+{
+  /// Applies a stencil by fast Fourier transforms (FFTW): O(N log N) whatever the reach.
+  class Convolution
+  {
+  public:
+    /// @param n       extents of the output positions
+    /// @param margin  the input reaches this many positions beyond the output on every side
+    Convolution(const Stencil &stencil, std::array<int, 2> n, int margin);
+    Convolution(Convolution &&) noexcept;
+    ~Convolution();
+
+    /// @param input   shape (n_blocks, n[1] + 2 margin, n[0] + 2 margin)
+    /// @param output  shape (n_blocks, n[1], n[0])
+    void apply(const double *input, double *output) const;
+
+    /// Estimated seconds an apply takes on one core, to choose a road (measured on one machine).
+    static double estimated_seconds(unsigned int n_blocks, int reach, std::array<int, 2> n);
+
+  private:
+    struct Transforms;
+    std::unique_ptr<Transforms> transforms_;
+  };
+} // namespace plumbline::algebra

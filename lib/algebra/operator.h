@@ -1,0 +1,45 @@
+#pragma once
+
+#include "algebra/stencil.h"
+
+#include <deal.II/lac/vector.h>
+
+#include <memory>
+#include <string>
+
+namespace plumbline::algebra
+{
+  using Vector = dealii::Vector<double>;
+
+  /// How an operator is applied.
+  enum class Road
+  {
+    automatic, ///< direct or fft, whichever is estimated to be faster
+    fft,
+    direct,
+    sparse
+  };
+
+  /// @throws InputError  not one of automatic, fft, direct, sparse
+  Road road_from_name(const std::string &name);
+
+  /// A linear operator on the vectors of a NodeSet; positions that are not free are zero in and out.
+  class Operator
+  {
+  public:
+    virtual ~Operator() = default;
+    virtual void vmult(Vector &result, const Vector &input) const = 0;
+    virtual std::string road() const = 0;
+    virtual std::uint64_t n_bonds() const = 0; ///< pairs one application sums over
+  };
+
+  /// Couplings between free nodes of a stencil, on the road asked for.
+  /// @throws InputError  Road::direct for a stencil that is not even or has more than two blocks
+  std::unique_ptr<Operator> make_operator(const Stencil &stencil, const geometry::NodeSet &nodes,
+                                          Road road = Road::automatic);
+
+  /// The action of given values outside the free nodes on the free nodes: Σ_k A(k) g(i + k).
+  /// @param data  shape (n_blocks, n[1] + 2 reach, n[0] + 2 reach), 0 at free positions
+  Vector collar_action(const Stencil &stencil, const geometry::NodeSet &nodes,
+                       const std::vector<double> &data);
+} // namespace plumbline::algebra

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "algebra/rectangle_solver.h"
+
+namespace plumbline::algebra
+{
+  /// Preconditioner for a stencil on a union of lattice cells: the sum of the rectangle solvers over the
+  /// largest rectangles in Ω (overlapping additive Schwarz). On a rectangle this is the τ preconditioner
+  /// itself, whose iteration counts do not depend on h; on a union of a few rectangles that overlap by
+  /// a fixed length they stay bounded as well, and grow with the number of rectangles.
+  class SchwarzPreconditioner
+  {
+  public:
+    SchwarzPreconditioner(const Stencil &stencil, const geometry::NodeSet &nodes,
+                          const std::vector<geometry::CellRange> &rectangles);
+
+    void vmult(Vector &result, const Vector &input) const;
+
+  private:
+    std::vector<std::unique_ptr<RectangleSolver>> solvers_;
+  };
+} // namespace plumbline::algebra

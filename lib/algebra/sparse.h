@@ -1,0 +1,29 @@
+#pragma once
+
+#include "algebra/operator.h"
+
+#include <memory>
+
+namespace plumbline::algebra
+{
+  /// The same operator as an assembled Trilinos matrix: the second road to every number, and the one
+  /// that other solvers can take. Memory O(unknowns × bonds).
+  class SparseOperator : public Operator
+  {
+  public:
+    SparseOperator(const Stencil &stencil, const geometry::NodeSet &nodes);
+    ~SparseOperator() override;
+
+    void vmult(Vector &result, const Vector &input) const override;
+    std::string road() const override { return "sparse"; }
+    std::uint64_t n_bonds() const override;
+
+    /// Solve by Trilinos' direct solver (Amesos KLU), for small systems.
+    /// @throws NumericalError  the matrix is singular
+    void solve_directly(Vector &solution, const Vector &right_hand_side) const;
+
+  private:
+    struct Matrix;
+    std::unique_ptr<Matrix> matrix_;
+  };
+} // namespace plumbline::algebra

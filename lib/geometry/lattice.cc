@@ -1,0 +1,187 @@
+#include "geometry/lattice.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace plumbline::geometry
+{
+  namespace
+  {
+    /// A length counts as a whole number of cells if it is one to this fraction of a cell.
+    constexpr double whole = 1e-6;
+
+    int whole_cells(double length, double h, const Box &box)
+    {
+      const double cells = length / h;
+      if (std::abs(cells - std::round(cells)) > whole)
+      {
+        std::ostringstream message;
+        message << "mesh size h = " << h << " does not divide the box [" << box.lower << "; "
+                << box.upper << "] of Domain into whole cells (" << cells
+                << " cells); choose h so that every side is a multiple of it";
+        throw InputError(message.str());
+      }
+      return static_cast<int>(std::round(cells));
+    }
+  } // namespace
+
+  Lattice::Lattice(const Domain &domain, double h) : h_(h)
+  {
+    if (!(h > 0) || !std::isfinite(h))
+      throw InputError("mesh size h = " + std::to_string(h) + " must be a positive length");
+    if (domain.include.empty())
+      throw InputError("Domain/boxes is empty; give at least one box 'x0, y0 : x1, y1'");
+
+    Point<2> upper = domain.include[0].upper;
+    origin_ = domain.include[0].lower;
+    for (const Box &box : domain.include)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        origin_[d] = std::min(origin_[d], box.lower[d]);
+        upper[d] = std::max(upper[d], box.upper[d]);
+      }
+    for (unsigned int d = 0; d < 2; ++d)
+      n_[d] = whole_cells(upper[d] - origin_[d], h, {origin_, upper});
+    inside_.assign(static_cast<std::size_t>(n_[0]) * n_[1], 0);
+
+    const auto fill = [&](const Box &box, char value) {
+      std::array<int, 2> from{}, to{};
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        from[d] = std::max(0, whole_cells(box.lower[d] - origin_[d], h, box));
+        to[d] = std::min(n_[d], whole_cells(box.upper[d] - origin_[d], h, box));
+      }
+      for (int j = from[1]; j < to[1]; ++j)
+        for (int i = from[0]; i < to[0]; ++i)
+          inside_[static_cast<std::size_t>(j) * n_[0] + i] = value;
+    };
+    for (const Box &box : domain.include)
+      fill(box, 1);
+    for (const Box &box : domain.exclude)
+      fill(box, 0);
+    if (std::none_of(inside_.begin(), inside_.end(), [](char c) { return c != 0; }))
+      throw InputError("Domain: no cell is left; Domain/holes covers Domain/boxes");
+  }
+
+  bool Lattice::is_inside(int i, int j) const
+  {
+    return i >= 0 && j >= 0 && i < n_[0] && j < n_[1] &&
+           inside_[static_cast<std::size_t>(j) * n_[0] + i] != 0;
+  }
+
+  bool Lattice::is_rectangle() const
+  {
+    return std::all_of(inside_.begin(), inside_.end(), [](char c) { return c != 0; });
+  }
+
+  Point<2> Lattice::point(double s, double t) const
+  {
+    return Point<2>(origin_[0] + h_ * s, origin_[1] + h_ * t);
+  }
+
+  std::size_t NodeSet::n_unknowns() const
+  {
+    return n_components *
+           static_cast<std::size_t>(std::count_if(is_free.begin(), is_free.end(),
+                                                  [](char c) { return c != 0; }));
+  }
+
+  bool NodeSet::free(unsigned int family, int i, int j) const
+  {
+    return i >= 0 && j >= 0 && i < n[0] && j < n[1] &&
+           is_free[(static_cast<std::size_t>(family) * n[1] + j) * n[0] + i] != 0;
+  }
+
+  Point<2> NodeSet::place(unsigned int family, int i, int j) const
+  {
+    return Point<2>(i + axis[family % axis.size()].offset, j + axis[family / axis.size()].offset);
+  }
+
+  NodeSet free_nodes(const Lattice &lattice, std::vector<AxisSpecies> axis,
+                     unsigned int n_components)
+  {
+    NodeSet nodes;
+    nodes.axis = std::move(axis);
+    nodes.n_components = n_components;
+    nodes.n = lattice.n_cells();
+    nodes.is_free.resize(nodes.n_families() * nodes.n_positions());
+    std::size_t index = 0;
+    for (unsigned int s = 0; s < nodes.n_families(); ++s)
+    {
+      const int left = nodes.axis[s % nodes.axis.size()].at_vertex ? 1 : 0;
+      const int below = nodes.axis[s / nodes.axis.size()].at_vertex ? 1 : 0;
+      for (int j = 0; j < nodes.n[1]; ++j)
+        for (int i = 0; i < nodes.n[0]; ++i)
+        {
+          bool is_free = true;
+          for (int dj = -below; dj <= 0; ++dj)
+            for (int di = -left; di <= 0; ++di)
+              is_free = is_free && lattice.is_inside(i + di, j + dj);
+          nodes.is_free[index++] = is_free;
+        }
+    }
+    if (nodes.n_unknowns() == 0)
+    {
+      std::ostringstream message;
+      message << "mesh size h = " << lattice.h()
+              << " leaves no free node in the domain; refine (Study/h)";
+      throw InputError(message.str());
+    }
+    return nodes;
+  }
+
+  std::vector<CellRange> maximal_rectangles(const Lattice &lattice)
+  {
+    // Rows and columns where the shape of Ω changes; a maximal rectangle begins and ends there.
+    const auto &n = lattice.n_cells();
+    std::array<std::set<int>, 2> breaks{std::set<int>{0, n[0]}, std::set<int>{0, n[1]}};
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i)
+      {
+        if (lattice.is_inside(i, j) != lattice.is_inside(i - 1, j))
+          breaks[0].insert(i);
+        if (lattice.is_inside(i, j) != lattice.is_inside(i, j - 1))
+          breaks[1].insert(j);
+      }
+    const std::vector<int> x(breaks[0].begin(), breaks[0].end());
+    const std::vector<int> y(breaks[1].begin(), breaks[1].end());
+
+    std::vector<CellRange> filled;
+    for (std::size_t i0 = 0; i0 + 1 < x.size(); ++i0)
+      for (std::size_t j0 = 0; j0 + 1 < y.size(); ++j0)
+        for (std::size_t i1 = i0 + 1, j_end = y.size(); i1 < x.size(); ++i1)
+          for (std::size_t j1 = j0 + 1; j1 < j_end; ++j1)
+          {
+            // the block next to the upper right corner decides, the others were checked before
+            bool is_filled = true;
+            for (std::size_t a = i0; a < i1 && is_filled; ++a)
+              is_filled = lattice.is_inside(x[a], y[j1 - 1]);
+            if (!is_filled)
+            {
+              j_end = j1;
+              break;
+            }
+            filled.push_back({{x[i0], y[j0]}, {x[i1], y[j1]}});
+          }
+
+    const auto contains = [](const CellRange &big, const CellRange &small) {
+      return big.lower[0] <= small.lower[0] && big.lower[1] <= small.lower[1] &&
+             big.upper[0] >= small.upper[0] && big.upper[1] >= small.upper[1];
+    };
+    std::vector<CellRange> maximal;
+    for (const CellRange &candidate : filled)
+    {
+      const auto n_containing =
+          std::count_if(filled.begin(), filled.end(),
+                        [&](const CellRange &other) { return contains(other, candidate); });
+      if (n_containing == 1)
+        maximal.push_back(candidate);
+    }
+    return maximal;
+  }
+} // namespace plumbline::geometry

@@ -1,0 +1,103 @@
+#include "physics/expression.h"
+
+#include "base/error.h"
+
+#include <muParser.h>
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace plumbline::physics
+{
+  struct Expression::Parsers
+  {
+    double x = 0, y = 0;
+    std::vector<mu::Parser> components;
+  };
+
+  Expression::Expression(std::string key, std::string text, std::map<std::string, double> constants)
+      : key_(std::move(key)), text_(std::move(text)), constants_(std::move(constants)),
+        parsers_(std::make_unique<Parsers>())
+  {
+    for (const std::string &part : split_outside_brackets(text_, ','))
+      try
+      {
+        mu::Parser parser;
+        parser.DefineVar("x", &parsers_->x);
+        parser.DefineVar("y", &parsers_->y);
+        parser.DefineConst("pi", M_PI);
+        for (const auto &[name, value] : constants_)
+          parser.DefineConst(name, value);
+        parser.SetExpr(part);
+        parser.Eval();
+        parsers_->components.push_back(parser);
+      }
+      catch (const mu::Parser::exception_type &error)
+      {
+        std::string names = "x, y, pi";
+        for (const auto &constant : constants_)
+          names += ", " + constant.first;
+        throw InputError(key_ + " = '" + part + "' does not parse: " + error.GetMsg() +
+                         " Write a muParser expression in " + names + ".");
+      }
+  }
+
+  Expression::Expression(const Expression &other)
+      : Expression(other.key_, other.text_, other.constants_)
+  {
+  }
+
+  Expression &Expression::operator=(const Expression &other)
+  {
+    Expression copy(other);
+    std::swap(key_, copy.key_);
+    std::swap(text_, copy.text_);
+    std::swap(constants_, copy.constants_);
+    std::swap(parsers_, copy.parsers_);
+    return *this;
+  }
+
+  Expression::~Expression() = default;
+
+  unsigned int Expression::n_components() const
+  {
+    return static_cast<unsigned int>(parsers_->components.size());
+  }
+
+  double Expression::operator()(const Point<2> &x, unsigned int component) const
+  {
+    parsers_->x = x[0];
+    parsers_->y = x[1];
+    const double value = parsers_->components[component].Eval();
+    if (!std::isfinite(value))
+    {
+      std::ostringstream message;
+      message << key_ << " = '" << text_ << "' gives " << value << " at (x, y) = (" << x[0] << ", "
+              << x[1] << "); it must be a finite number in the domain and its collar";
+      throw InputError(message.str());
+    }
+    return value;
+  }
+
+  std::vector<std::string> split_outside_brackets(const std::string &text, char separator)
+  {
+    std::vector<std::string> parts(1);
+    int depth = 0;
+    for (const char c : text)
+    {
+      depth += (c == '(' || c == '[') - (c == ')' || c == ']');
+      if (c == separator && depth == 0)
+        parts.emplace_back();
+      else
+        parts.back() += c;
+    }
+    for (std::string &part : parts)
+    {
+      const auto first = part.find_first_not_of(" \t\n");
+      const auto last = part.find_last_not_of(" \t\n");
+      part = first == std::string::npos ? "" : part.substr(first, last - first + 1);
+    }
+    return parts;
+  }
+} // namespace plumbline::physics

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <deal.II/base/point.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace plumbline::physics
+{
+  using dealii::Point;
+
+  /// A vector field R² → R^n_components given by muParser expressions in x and y.
+  /// Copies share nothing: give each thread its own.
+  class Expression
+  {
+  public:
+    /// @param key        the scene key the text comes from, for messages
+    /// @param text       one expression a component, separated by commas at depth 0
+    /// @param constants  names beside x, y and pi, for example delta
+    /// @throws InputError  an expression that does not parse, with muParser's reason and position
+    Expression(std::string key, std::string text, std::map<std::string, double> constants = {});
+    Expression(const Expression &other);
+    Expression &operator=(const Expression &other);
+    ~Expression();
+
+    unsigned int n_components() const;
+    const std::string &text() const { return text_; }
+
+    /// @throws InputError  the value is not a finite number
+    double operator()(const Point<2> &x, unsigned int component = 0) const;
+
+  private:
+    struct Parsers;
+    std::string key_, text_;
+    std::map<std::string, double> constants_;
+    std::unique_ptr<Parsers> parsers_;
+  };
+
+  /// Split at a separator, but not inside brackets; each part trimmed.
+  std::vector<std::string> split_outside_brackets(const std::string &text, char separator);
+} // namespace plumbline::physics

@@ -1,0 +1,316 @@
+#include "report/charts.h"
+
+#include "report/formats.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    /// One level of one method; NaN where a logarithmic axis has no place for the value.
+    struct Point
+    {
+      const MethodName *method;
+      const Case *one;
+      const study::Run *run;
+      double x, y;
+      bool is_drawn() const { return std::isfinite(x) && std::isfinite(y); }
+    };
+
+    /// Iterations fill a logarithmic axis from this ratio on.
+    constexpr double wide = 20;
+
+    double positive(double value)
+    {
+      return value > 0 && std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
+    }
+
+    Vertex coordinates(const study::Results &results, const study::Run &run, ChartKind kind,
+                       bool is_horizon)
+    {
+      const double error = positive(decisive_error(results, run));
+      switch (kind)
+      {
+      case ChartKind::work_precision:
+        return {positive(run.cost.seconds()), error};
+      case ChartKind::memory:
+        return {positive(1e-6 * static_cast<double>(run.cost.peak_bytes)), error};
+      case ChartKind::iterations:
+        return {positive(is_horizon ? run.horizon : run.h),
+                run.failure.empty() ? positive(run.cost.n_iterations)
+                                    : std::numeric_limits<double>::quiet_NaN()};
+      case ChartKind::convergence:
+        break;
+      }
+      return {positive(is_horizon ? run.horizon : run.h), error};
+    }
+
+    std::string kind_slug(ChartKind kind)
+    {
+      switch (kind)
+      {
+      case ChartKind::work_precision:
+        return "work-precision";
+      case ChartKind::memory:
+        return "memory";
+      case ChartKind::iterations:
+        return "iterations";
+      case ChartKind::convergence:
+        break;
+      }
+      return "convergence";
+    }
+
+    std::string kind_title(ChartKind kind)
+    {
+      switch (kind)
+      {
+      case ChartKind::work_precision:
+        return "error against work";
+      case ChartKind::memory:
+        return "error against memory";
+      case ChartKind::iterations:
+        return "iterations of the solver";
+      case ChartKind::convergence:
+        break;
+      }
+      return "convergence";
+    }
+
+    std::string x_label(ChartKind kind, bool is_horizon)
+    {
+      switch (kind)
+      {
+      case ChartKind::work_precision:
+        return "work: setup and solve [CPU s]";
+      case ChartKind::memory:
+        return "peak memory [MB]";
+      case ChartKind::iterations:
+      case ChartKind::convergence:
+        break;
+      }
+      return is_horizon ? "horizon δ [length]" : "mesh size h [length]";
+    }
+
+    /// The cases of a chart: one, or all of its problem.
+    std::vector<const Case *> cases_of(const std::vector<Case> &all, const Chart &chart)
+    {
+      std::vector<const Case *> found;
+      for (const Case &one : all)
+        if (one.problem == chart.problem && (is_overall(chart) || one.series == chart.series))
+          found.push_back(&one);
+      return found;
+    }
+
+    std::vector<Point> points_of(const study::Results &results,
+                                 const std::vector<MethodName> &methods,
+                                 const std::vector<const Case *> &chosen, ChartKind kind)
+    {
+      std::vector<Point> points;
+      for (const MethodName &method : methods)
+        for (const Case *one : chosen)
+        {
+          const bool is_horizon = varies_horizon(results, *one);
+          for (const study::Run *run : runs_of(results, method.name, *one))
+          {
+            const Vertex v = coordinates(results, *run, kind, is_horizon);
+            points.push_back({&method, one, run, v.x, v.y});
+          }
+        }
+      return points;
+    }
+
+    /// A verdict may be a mere number ("rate 0.1") where the regime asks no question.
+    bool says_not(const study::Trend &trend)
+    {
+      return verdict_words(trend).compare(0, 4, "rate") != 0;
+    }
+
+    /// The legend says which methods stall, and in how many series if not in all of the picture.
+    std::string legend(const study::Results &results, const MethodName &method,
+                       const std::vector<const Case *> &chosen)
+    {
+      std::string verdict;
+      std::size_t n_stalls = 0;
+      for (const Case *one : chosen)
+        if (const study::Trend *trend = decisive_trend(results, method.name, *one))
+          if (trend->outcome == study::Outcome::stalls && says_not(*trend))
+          {
+            verdict = verdict_words(*trend);
+            ++n_stalls;
+          }
+      if (n_stalls == 0)
+        return method.name;
+      const std::string part = n_stalls < chosen.size() ? ": " + std::to_string(n_stalls) + " of " +
+                                                              std::to_string(chosen.size())
+                                                        : "";
+      return method.name + " (" + verdict + part + ")";
+    }
+
+    /// The cheapest points for their error, cheap to dear.
+    std::vector<Vertex> frontier(const std::vector<Point> &points)
+    {
+      std::vector<Vertex> sorted, best;
+      for (const Point &point : points)
+        if (point.is_drawn())
+          sorted.push_back({point.x, point.y});
+      std::sort(sorted.begin(), sorted.end(),
+                [](const Vertex &a, const Vertex &b)
+                { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+      for (const Vertex &v : sorted)
+        if (best.empty() || v.y < best.back().y)
+          best.push_back(v);
+      return best;
+    }
+
+    Plot plot_of(const study::Results &results, const std::vector<MethodName> &methods,
+                 const std::vector<const Case *> &chosen, const Chart &chart,
+                 const std::vector<Point> &points)
+    {
+      const bool is_horizon = varies_horizon(results, *chosen.front());
+      const bool is_iterations = chart.kind == ChartKind::iterations;
+      Plot plot;
+      plot.file = chart.name + ".svg";
+      plot.title = chart.title;
+      plot.x_label = x_label(chart.kind, is_horizon);
+      plot.y_label = is_iterations ? "iterations [1]"
+                                   : "error: " + error_words(results.decisive_error) +
+                                         " [unit of the solution]";
+      plot.has_slopes = chart.kind == ChartKind::convergence;
+      plot.shows_round_off = !is_iterations;
+
+      double least = std::numeric_limits<double>::max(), most = 0;
+      for (const Point &point : points)
+        if (point.is_drawn())
+        {
+          least = std::min(least, point.y);
+          most = std::max(most, point.y);
+          if (is_iterations || chart.kind == ChartKind::convergence)
+            plot.x_ticks.push_back(point.x);
+        }
+      plot.is_y_log = !is_iterations || most > wide * least;
+      if (chart.kind == ChartKind::work_precision)
+        plot.frontier = frontier(points);
+
+      for (const MethodName &method : methods)
+        for (std::size_t i = 0; i < chosen.size(); ++i)
+        {
+          Line line;
+          line.style = style_of(methods, method.name);
+          // Several series in one picture: the first is broad, the last is thin.
+          line.width = chosen.size() == 1 ? 1.8 : std::max(.7, 2.4 - .8 * static_cast<double>(i));
+          line.label = i == 0 ? legend(results, method, chosen) : "";
+          bool has_runs = false;
+          for (const Point &point : points)
+            if (point.method->name == method.name && point.one == chosen[i])
+            {
+              has_runs = true;
+              if (point.is_drawn())
+                line.points.push_back({point.x, point.y});
+            }
+          if (has_runs || i == 0)
+            plot.lines.push_back(line);
+        }
+      return plot;
+    }
+
+    Table data_of(const Chart &chart, const std::vector<Point> &points, bool is_horizon)
+    {
+      const bool is_iterations = chart.kind == ChartKind::iterations;
+      Table table;
+      table.columns = {"method",
+                       "problem",
+                       "series",
+                       "level",
+                       x_label(chart.kind, is_horizon),
+                       is_iterations ? "iterations" : "error"};
+      for (const Point &point : points)
+        table.rows.push_back({text_cell(point.method->name), text_cell(point.one->problem),
+                              text_cell(point.one->series), count_cell(point.run->level),
+                              number_cell(point.x), number_cell(point.y)});
+      return table;
+    }
+  } // namespace
+
+  bool is_overall(const Chart &chart)
+  {
+    return chart.kind == ChartKind::work_precision && chart.name == kind_slug(chart.kind);
+  }
+
+  Style style_of(const std::vector<MethodName> &methods, const std::string &name)
+  {
+    unsigned int n_of_family[2] = {0, 0};
+    for (const MethodName &method : methods)
+    {
+      unsigned int &n = n_of_family[method.is_reference() ? 1 : 0];
+      if (method.name == name)
+        return style_of(n, method.is_reference());
+      ++n;
+    }
+    return style_of(0, false);
+  }
+
+  std::vector<Chart> list_charts(const study::Results &results)
+  {
+    const std::vector<Case> all = cases(results);
+    const std::vector<MethodName> names = methods(results);
+    std::vector<Chart> candidates;
+    if (!all.empty())
+    {
+      const std::string &problem = all.front().problem;
+      std::string series, separator;
+      std::size_t n = 0;
+      for (const Case &one : all)
+        if (one.problem == problem)
+        {
+          series += std::exchange(separator, ", ") + one.series;
+          ++n;
+        }
+      candidates.push_back({ChartKind::work_precision, kind_slug(ChartKind::work_precision),
+                            problem + ": " + kind_title(ChartKind::work_precision) +
+                                (n > 1 ? " (broad to thin lines: " + series + ")" : ""),
+                            problem, ""});
+    }
+    for (const ChartKind kind : {ChartKind::work_precision, ChartKind::convergence,
+                                 ChartKind::memory, ChartKind::iterations})
+      for (const Case &one : all)
+        candidates.push_back({kind, kind_slug(kind) + "_" + one.slug,
+                              one.title() + ": " + kind_title(kind), one.problem, one.series});
+
+    std::vector<Chart> charts;
+    for (const Chart &chart : candidates)
+    {
+      const std::vector<Point> points = points_of(results, names, cases_of(all, chart), chart.kind);
+      if (std::any_of(points.begin(), points.end(), [](const Point &p) { return p.is_drawn(); }))
+        charts.push_back(chart);
+    }
+    return charts;
+  }
+
+  std::vector<Chart> write_charts(const study::Results &results, const std::filesystem::path &dir)
+  {
+    const std::filesystem::path folder = dir / "charts";
+    const std::vector<Case> all = cases(results);
+    const std::vector<MethodName> names = methods(results);
+    const std::vector<Chart> charts = list_charts(results);
+    std::vector<Plot> plots;
+    for (const Chart &chart : charts)
+    {
+      const std::vector<const Case *> chosen = cases_of(all, chart);
+      const std::vector<Point> points = points_of(results, names, chosen, chart.kind);
+      plots.push_back(plot_of(results, names, chosen, chart, points));
+      write_file(folder / (chart.name + ".csv"),
+                 to_csv(data_of(chart, points, varies_horizon(results, *chosen.front()))));
+      std::filesystem::remove(folder / plots.back().file); // no old picture beside new data
+    }
+    if (charts.empty())
+      return charts;
+    write_file(folder / "charts.gp", gnuplot_script(plots));
+    run_gnuplot(folder, "charts.gp");
+    return charts;
+  }
+} // namespace plumbline::report

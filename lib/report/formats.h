@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace plumbline::report
+{
+  /// All digits of a number ("%.17g"); empty for a value that is not finite.
+  std::string exact(double value);
+
+  /// Four significant digits for people: 0.05, 1.234e-5; an en dash for a value that is not finite.
+  std::string rounded(double value);
+
+  /// Four significant digits, always with an exponent (1.234e-5), so that a column lines up.
+  std::string rounded_error(double value);
+
+  /// A number with what may be wrong about it: "2.013 ± 0.031".
+  std::string rounded_with_uncertainty(double value, double uncertainty);
+
+  /// Lower-case letters, digits, '.' and '-' for file names: "δ = 0.4" becomes "delta-0.4".
+  std::string slug(const std::string &name);
+
+  std::string escape_html(const std::string &text);
+
+  /// Special characters made harmless; Greek letters and signs as mathematics.
+  std::string escape_latex(const std::string &text);
+
+  /// A field by RFC 4180: in quotes if it holds a comma, a quote, a line break or outer blanks.
+  std::string quote_csv(const std::string &text);
+
+  /// Write so that a reader finds the old file or the new one, never a part: a neighbouring file
+  /// first, then a rename. Missing folders are made.
+  /// @throws InputError  the folder cannot be written
+  void write_file(const std::filesystem::path &file, const std::string &text);
+
+  /// One entry of a table: what the CSV holds (one field or more) and what people read.
+  struct Cell
+  {
+    std::vector<std::string> csv;
+    std::string text;
+    bool is_number = false;
+  };
+
+  Cell text_cell(const std::string &text);
+  Cell number_cell(double value);
+  Cell error_cell(double value);
+  Cell rate_cell(double value); ///< three decimals
+  Cell count_cell(std::uint64_t value);
+  Cell uncertain_cell(double value, double uncertainty);       ///< two CSV fields
+  Cell uncertain_error_cell(double value, double uncertainty); ///< the same, with exponents
+  Cell empty_cell();
+
+  /// The head of a column: for people, and one name for each CSV field of its cells.
+  struct Column
+  {
+    Column(const std::string &head) : head(head), csv{head} {}
+    Column(const char *head) : Column(std::string(head)) {}
+    Column(std::string head, std::vector<std::string> csv)
+        : head(std::move(head)), csv(std::move(csv))
+    {
+    }
+    std::string head;
+    std::vector<std::string> csv;
+  };
+
+  /// Rows all have columns.size() cells.
+  struct Table
+  {
+    std::string caption;
+    std::vector<Column> columns;
+    std::vector<std::vector<Cell>> rows;
+  };
+
+  std::string to_csv(const Table &table);      ///< unrounded, heads in the first line
+  std::string to_markdown(const Table &table); ///< rounded, pipe table
+  std::string to_latex(const Table &table);    ///< rounded, a tabular of the booktabs package
+  std::string to_html(const Table &table); ///< rounded, <table>; the caption is left to the page
+} // namespace plumbline::report

@@ -1,0 +1,327 @@
+#include "report/json.h"
+
+#include "base/error.h"
+#include "report/formats.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <fstream>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    using Json = nlohmann::ordered_json;
+
+    const std::pair<study::Outcome, const char *> outcome_names[] = {
+        {study::Outcome::converges, "converges"},
+        {study::Outcome::stalls, "stalls"},
+        {study::Outcome::undecided, "undecided"},
+        {study::Outcome::failed, "failed"}};
+
+    // Each key stands here once; the same list writes and reads.
+    template <typename Archive>
+    void visit(Archive &a, base::Cost &cost)
+    {
+      a("setup_seconds", cost.setup_seconds);
+      a("solve_seconds", cost.solve_seconds);
+      a("peak_bytes", cost.peak_bytes);
+      a("n_unknowns", cost.n_unknowns);
+      a("n_bonds", cost.n_bonds);
+      a("n_iterations", cost.n_iterations);
+    }
+
+    template <typename Archive>
+    void visit(Archive &a, study::Diagnostics &diagnostics)
+    {
+      a("n_neighbours", diagnostics.n_neighbours);
+      a("smallest_weight_ratio", diagnostics.smallest_weight_ratio);
+      a("n_negative_weights", diagnostics.n_negative_weights);
+      a("relative_residual", diagnostics.relative_residual);
+      a("operator_road", diagnostics.operator_road);
+      a("n_geometry_checks", diagnostics.n_geometry_checks);
+      a("geometry_difference", diagnostics.geometry_difference);
+      a("notes", diagnostics.notes);
+    }
+
+    template <typename Archive>
+    void visit(Archive &a, study::Run &run)
+    {
+      a("method", run.method);
+      a("family", run.family);
+      a("problem", run.problem);
+      a("series", run.series);
+      a("level", run.level);
+      a("h", run.h);
+      a("horizon", run.horizon);
+      a("cost", run.cost);
+      a("diagnostics", run.diagnostics);
+      a("errors", run.errors);
+      a("failure", run.failure);
+    }
+
+    template <typename Archive>
+    void visit(Archive &a, study::Trend &trend)
+    {
+      a("method", trend.method);
+      a("family", trend.family);
+      a("problem", trend.problem);
+      a("series", trend.series);
+      a("error", trend.error);
+      a("parameter", trend.parameter);
+      a("x", trend.x);
+      a("values", trend.values);
+      a("rates", trend.rates);
+      a("rate", trend.rate);
+      a("rate_uncertainty", trend.rate_uncertainty);
+      a("plateau", trend.plateau);
+      a("plateau_uncertainty", trend.plateau_uncertainty);
+      a("outcome", trend.outcome);
+      a("verdict", trend.verdict);
+      a("reason", trend.reason);
+    }
+
+    template <typename Archive>
+    void visit(Archive &a, study::ReferenceEstimate &reference)
+    {
+      a("problem", reference.problem);
+      a("series", reference.series);
+      a("method", reference.method);
+      a("level", reference.level);
+      a("h", reference.h);
+      a("horizon", reference.horizon);
+      a("h_change", reference.h_change);
+      a("p_change", reference.p_change);
+      a("estimate", reference.estimate);
+    }
+
+    template <typename Archive>
+    void visit(Archive &a, study::Omission &omission)
+    {
+      a("what", omission.what);
+      a("why", omission.why);
+      a("saving", omission.saving);
+    }
+
+    template <typename Archive>
+    void visit(Archive &a, study::Expectation &expectation)
+    {
+      a("subject", expectation.subject);
+      a("expected", expectation.expected);
+      a("found", expectation.found);
+      a("holds", expectation.holds);
+    }
+
+    template <typename Archive>
+    void visit(Archive &a, study::Advice &advice)
+    {
+      a("problem", advice.problem);
+      a("series", advice.series);
+      a("text", advice.text);
+    }
+
+    template <typename Archive>
+    void visit(Archive &a, study::Results &results)
+    {
+      a("scene_name", results.scene_name);
+      a("purpose", results.purpose);
+      a("regime", results.regime);
+      a("decisive_error", results.decisive_error);
+      a("is_complete", results.is_complete);
+      a("provenance", results.provenance);
+      a("trends", results.trends);
+      a("advice", results.advice);
+      a("references", results.references);
+      a("expectations", results.expectations);
+      a("omissions", results.omissions);
+      a("runs", results.runs);
+      a("scene_text", results.scene_text);
+    }
+
+    class Writer
+    {
+    public:
+      template <typename T>
+      void operator()(const char *key, T &value)
+      {
+        object_[key] = json(value);
+      }
+      Json take() { return std::move(object_); }
+
+    private:
+      template <typename T>
+      static Json json(T &value)
+      {
+        if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>)
+          return value; // the library writes NaN and infinity as null
+        else
+        {
+          Writer writer;
+          visit(writer, value);
+          return writer.take();
+        }
+      }
+      static Json json(study::Outcome &outcome)
+      {
+        for (const auto &[known, name] : outcome_names)
+          if (known == outcome)
+            return name;
+        return nullptr;
+      }
+      template <typename T>
+      static Json json(std::vector<T> &values)
+      {
+        Json array = Json::array();
+        for (T &value : values)
+          array.push_back(json(value));
+        return array;
+      }
+      template <typename T>
+      static Json json(std::map<std::string, T> &values)
+      {
+        Json object = Json::object();
+        for (auto &[key, value] : values)
+          object[key] = json(value);
+        return object;
+      }
+
+      Json object_ = Json::object();
+    };
+
+    /// Says where in the file it is, so that a message can name the place.
+    class Reader
+    {
+    public:
+      Reader(const Json &object, std::string place, const std::string &file)
+          : object_(object), place_(std::move(place)), file_(file)
+      {
+        expect(object.is_object(), place_.empty() ? "the whole" : place_, "an object");
+      }
+
+      template <typename T>
+      void operator()(const char *key, T &value) const
+      {
+        const std::string place = place_.empty() ? key : place_ + "." + key;
+        const auto found = object_.find(key);
+        if (found == object_.end())
+          throw InputError("results file '" + file_ + "': " + place +
+                           " is missing; run the scene again, or rebuild the file by schema.md");
+        read(*found, value, place);
+      }
+
+    private:
+      void expect(bool holds, const std::string &place, const std::string &type) const
+      {
+        if (!holds)
+          throw InputError("results file '" + file_ + "': " + place + " is not " + type +
+                           "; run the scene again, or mend the file by schema.md");
+      }
+
+      void read(const Json &json, bool &value, const std::string &place) const
+      {
+        expect(json.is_boolean(), place, "true or false");
+        value = json.get<bool>();
+      }
+      void read(const Json &json, double &value, const std::string &place) const
+      {
+        expect(json.is_number() || json.is_null(), place, "a number or null");
+        value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+      }
+      void read(const Json &json, std::string &value, const std::string &place) const
+      {
+        expect(json.is_string(), place, "a text");
+        value = json.get<std::string>();
+      }
+      void read(const Json &json, study::Outcome &value, const std::string &place) const
+      {
+        for (const auto &[outcome, name] : outcome_names)
+          if (json == name)
+          {
+            value = outcome;
+            return;
+          }
+        expect(false, place, "one of converges, stalls, undecided, failed");
+      }
+      template <typename T>
+      void read(const Json &json, std::vector<T> &values, const std::string &place) const
+      {
+        expect(json.is_array(), place, "an array");
+        values.resize(json.size());
+        for (std::size_t i = 0; i < values.size(); ++i)
+          read(json[i], values[i], place + "[" + std::to_string(i) + "]");
+      }
+      template <typename T>
+      void read(const Json &json, std::map<std::string, T> &values, const std::string &place) const
+      {
+        expect(json.is_object(), place, "an object");
+        for (const auto &[key, value] : json.items())
+          read(value, values[key], place + "[\"" + key + "\"]");
+      }
+      template <typename T>
+      void read(const Json &json, T &value, const std::string &place) const
+      {
+        if constexpr (std::is_unsigned_v<T>)
+        {
+          expect(json.is_number_unsigned() &&
+                     json.get<std::uint64_t>() <= std::numeric_limits<T>::max(),
+                 place,
+                 "a whole number in [0, " + std::to_string(std::numeric_limits<T>::max()) + "]");
+          value = json.get<T>();
+        }
+        else
+        {
+          const Reader reader(json, place, file_);
+          visit(reader, value);
+        }
+      }
+
+      const Json &object_;
+      std::string place_;
+      const std::string &file_;
+    };
+  } // namespace
+
+  void write_json(const study::Results &results, const std::filesystem::path &file)
+  {
+    Json json = {{"schema", schema}};
+    Writer writer;
+    study::Results copy =
+        results; // one list of keys serves the reader, too, which changes its values
+    visit(writer, copy);
+    json.update(writer.take());
+    write_file(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  }
+
+  study::Results read_json(const std::filesystem::path &file)
+  {
+    const std::string name = file.string();
+    std::ifstream in(file, std::ios::binary);
+    if (!in || std::filesystem::is_directory(file))
+      throw InputError("results file '" + name +
+                       "' cannot be read; give the folder that 'plumbline run' has written");
+    Json json;
+    try
+    {
+      json = Json::parse(in);
+    }
+    catch (const Json::parse_error &error)
+    {
+      throw InputError("results file '" + name + "' is not JSON (" + error.what() +
+                       "); run the scene again");
+    }
+    unsigned int found = 0;
+    const Reader reader(json, "", name);
+    reader("schema", found);
+    if (found != schema)
+      throw InputError("results file '" + name + "': schema = " + std::to_string(found) +
+                       ", but this version reads schema " + std::to_string(schema) +
+                       "; run the scene again, or use the version named under provenance");
+    study::Results results;
+    visit(reader, results);
+    return results;
+  }
+} // namespace plumbline::report

@@ -1,0 +1,330 @@
+#include "report/page.h"
+
+#include "report/formats.h"
+#include "report/page_parts.h"
+#include "report/tables.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <utility>
+
+namespace plumbline::report
+{
+  namespace page
+  {
+    namespace
+    {
+      std::string regime_words(const std::string &regime)
+      {
+        if (regime == "m")
+          return "m-convergence: the horizon δ is fixed and h → 0, against the nonlocal solution";
+        if (regime == "delta")
+          return "δ-convergence: m = δ/h is fixed and δ → 0, against the local limit; this decides "
+                 "asymptotic compatibility (AC)";
+        if (regime == "delta-m")
+          return "δm-convergence: δ → 0 and m = δ/h → ∞ together";
+        if (regime == "horizon")
+          return "h is fixed and the horizon δ varies: how errors depend on the horizon";
+        return regime;
+      }
+
+      std::string outcome_class(study::Outcome outcome)
+      {
+        static const std::array<const char *, 4> names = {"converges", "stalls", "undecided",
+                                                          "failed"};
+        return names[static_cast<std::size_t>(outcome)];
+      }
+
+      std::string verdict_cell(const study::Trend *trend)
+      {
+        if (trend == nullptr)
+          return "<td class=\"absent\">not run</td>";
+        std::string text = "<td class=\"" + outcome_class(trend->outcome) + "\" title=\"" +
+                           escape_html(trend->reason) + "\"><b>" + outcome_symbol(trend->outcome) +
+                           " " + escape_html(verdict_words(*trend)) + "</b>";
+        if (!trend->values.empty())
+          text += "<small>" + rounded_error(trend->values.back()) + "</small>";
+        // Between errors of the size of rounding a rate is noise.
+        const std::size_t n = trend->values.size();
+        if (n > 0 && std::max(trend->values[n - 1], trend->values[n < 2 ? 0 : n - 2]) < round_off)
+          text += "<small>round-off</small>";
+        else if (!trend->rates.empty() && std::isfinite(trend->rates.back()))
+        {
+          std::ostringstream rate;
+          rate.precision(2);
+          rate << std::fixed << trend->rates.back();
+          text += "<small>rate " + rate.str() + "</small>";
+        }
+        return text + "</td>";
+      }
+
+      std::string section(const std::string &id, const std::string &head,
+                          const std::string &content)
+      {
+        return "<section id=\"" + id + "\">\n<h2>" + head + "</h2>\n" + content + "</section>\n";
+      }
+
+      std::string paragraph(const std::string &text)
+      {
+        return "<p>" + escape_html(text) + "</p>\n";
+      }
+    } // namespace
+
+    std::string folded(const std::string &summary, const std::string &content, bool is_open)
+    {
+      return std::string("<details") + (is_open ? " open" : "") + "><summary>" +
+             escape_html(summary) + "</summary>\n" + content + "</details>\n";
+    }
+
+    std::string header(const study::Results &results)
+    {
+      std::array<unsigned int, 4> n{};
+      for (const study::Trend &trend : results.trends)
+        if (trend.error == results.decisive_error)
+          ++n[static_cast<std::size_t>(trend.outcome)];
+      const auto n_hold = std::count_if(results.expectations.begin(), results.expectations.end(),
+                                        [](const study::Expectation &e) { return e.holds; });
+
+      std::string text = "<header>\n<div class=\"brand\">Plumbline report</div>\n<h1>" +
+                         escape_html(results.scene_name) + "</h1>\n";
+      if (!results.purpose.empty())
+        text += "<p class=\"purpose\">" + escape_html(results.purpose) + "</p>\n";
+      if (!results.is_complete)
+        text += "<p class=\"banner\"><b>This run is not complete.</b> What follows rests on the "
+                "levels that are finished; the same command on the same folder goes on from "
+                "here.</p>\n";
+      text += "<p class=\"soft\">" + escape_html(regime_words(results.regime)) +
+              ". Verdicts rest on the error " + escape_html(error_words(results.decisive_error)) +
+              ".</p>\n<ul class=\"facts\">\n<li>" + std::to_string(methods(results).size()) +
+              " methods</li><li>" + std::to_string(results.runs.size()) + " runs</li><li>✓ " +
+              std::to_string(n[0]) + " converge</li><li>✗ " + std::to_string(n[1]) +
+              " stall</li><li>? " + std::to_string(n[2]) + " undecided</li><li>– " +
+              std::to_string(n[3]) + " failed</li>";
+      if (!results.expectations.empty())
+        text += "<li>expected: " + std::to_string(n_hold) + " of " +
+                std::to_string(results.expectations.size()) + " hold</li>";
+      return text + "\n</ul>\n<nav><a href=\"#verdicts\">Verdicts</a><a href=\"#work\">Work and "
+                    "precision</a><a href=\"#convergence\">Convergence</a><a href=\"#numbers\">"
+                    "Tables</a><a href=\"#reference\">Reference</a><a href=\"#model\">Model</a>"
+                    "<a href=\"#diagnostics\">Diagnostics</a><a href=\"#provenance\">Provenance"
+                    "</a></nav>\n</header>\n";
+    }
+
+    std::string advice(const study::Results &results)
+    {
+      if (results.advice.empty())
+        return "";
+      // The same text for several cases stands once.
+      std::vector<std::pair<std::string, std::string>> cards;
+      for (const study::Advice &one : results.advice)
+      {
+        const std::string place = Case{one.problem, one.series, ""}.title();
+        const auto same = std::find_if(cards.begin(), cards.end(),
+                                       [&](const auto &card) { return card.second == one.text; });
+        if (same == cards.end())
+          cards.emplace_back(place, one.text);
+        else
+          same->first += "; " + place;
+      }
+      std::string text = "<div class=\"cards\">\n";
+      for (const auto &[places, words] : cards)
+        text += "<div class=\"card\"><b>" + escape_html(places) + "</b>" + escape_html(words) +
+                "</div>\n";
+      return section("advice", "Which method?", text + "</div>\n");
+    }
+
+    std::string verdicts(const study::Results &results)
+    {
+      const std::vector<Case> all = cases(results);
+      std::vector<MethodName> names = methods(results);
+      const std::vector<MethodName> styles = names;
+      std::stable_partition(names.begin(), names.end(),
+                            [](const MethodName &m) { return !m.is_reference(); });
+      if (all.empty())
+        return section("verdicts", "Verdicts", paragraph("No run has been finished yet."));
+
+      std::string problems = "<tr><th></th>", series = "<tr><th>method</th>";
+      std::vector<Case> columns; // those of one problem side by side
+      for (const Case &one : all)
+        if (std::none_of(columns.begin(), columns.end(),
+                         [&](const Case &c) { return c.problem == one.problem; }))
+        {
+          std::size_t n = 0;
+          for (const Case &other : all)
+            if (other.problem == one.problem)
+            {
+              columns.push_back(other);
+              series += "<th>" + escape_html(other.series) + "</th>";
+              ++n;
+            }
+          problems += "<th class=\"problem\" colspan=\"" + std::to_string(n) + "\">" +
+                      escape_html(one.problem) + "</th>";
+        }
+
+      std::string text = "<div class=\"wide\"><table class=\"verdicts\">\n<thead>" + problems +
+                         "</tr>\n" + series + "</tr></thead>\n<tbody>\n";
+      for (const MethodName &method : names)
+      {
+        text += "<tr><th class=\"method\" scope=\"row\">" + marker(style_of(styles, method.name)) +
+                escape_html(method.name) + "</th>";
+        for (const Case &one : columns)
+          text += verdict_cell(decisive_trend(results, method.name, one));
+        text += "</tr>\n";
+      }
+      text +=
+          "</tbody></table></div>\n<p class=\"soft\">In each cell: the verdict, the error at the "
+          "finest level, and the rate over the last two levels. ✓&nbsp;converges: no plateau, rate "
+          "at least ¾. ✗&nbsp;stalls: a significant plateau, or a growing error. ?&nbsp;undecided: "
+          "one "
+          "finer level would help. –&nbsp;failed: no solution at some level.</p>\n";
+      text += folded("Fitted rates and plateaus, with the reason of each verdict",
+                     to_html(verdict_table(results)) +
+                         "<p class=\"soft\">Data: <code>tables/verdicts.csv</code></p>\n");
+      const Table others = other_errors_table(results);
+      if (!others.rows.empty())
+        text += folded("Other errors", to_html(others));
+      const Table failures = failure_table(results);
+      if (!failures.rows.empty())
+        text += folded("Levels without a solution (" + std::to_string(failures.rows.size()) + ")",
+                       to_html(failures), true);
+      return section("verdicts", "Verdicts", text);
+    }
+
+    std::string numbers(const study::Results &results)
+    {
+      std::string text;
+      bool is_first = true;
+      for (const Case &one : cases(results))
+      {
+        const Table table = error_table(results, one);
+        text += folded(table.caption,
+                       to_html(table) + "<p class=\"soft\">Data: <code>tables/errors_" +
+                           escape_html(one.slug) + ".csv</code></p>\n",
+                       is_first);
+        is_first = false;
+      }
+      text += folded("Cost of each run", to_html(cost_table(results)) +
+                                             "<p class=\"soft\">CPU seconds are summed over "
+                                             "threads. Data: <code>tables/cost.csv</code></p>\n");
+      return section("numbers", "Tables", text);
+    }
+
+    std::string reference(const study::Results &results)
+    {
+      if (results.references.empty())
+        return section("reference", "The reference’s own error",
+                       paragraph("No estimate: errors here are against an exact solution, or the "
+                                 "scene did not ask for one."));
+      const Table doubtful = doubtful_differences(results);
+      std::string text = paragraph("How much the reference’s cell averages change when h is halved "
+                                   "and when the degree is raised by one; the larger is its "
+                                   "estimate.");
+      text += folded("Estimates (" + std::to_string(results.references.size()) + " levels)",
+                     to_html(reference_table(results)), results.references.size() <= 12);
+      const bool is_estimated =
+          std::any_of(results.references.begin(), results.references.end(),
+                      [](const study::ReferenceEstimate &e) { return e.estimate > 0; });
+      if (doubtful.rows.empty())
+        return section("reference", "The reference’s own error",
+                       text + paragraph(is_estimated
+                                            ? "Every difference from the reference is at least ten "
+                                              "times its estimate."
+                                            : "The scene did not ask for the estimates, so nothing "
+                                              "says how far the reference can be trusted."));
+      text +=
+          "<div class=\"warning\"><b>⚠ " + std::to_string(doubtful.rows.size()) +
+          " differences are less than ten times the reference’s own estimate.</b> They may be "
+          "the reference’s error as much as the method’s: refine the reference, or read them as "
+          "“equal to the reference”.</div>\n" +
+          folded("Which differences", to_html(doubtful), doubtful.rows.size() <= 12);
+      return section("reference", "The reference’s own error", text);
+    }
+
+    std::string model(const study::Results &results)
+    {
+      std::uint64_t n_checks = 0;
+      std::size_t n_runs = 0;
+      double worst = 0;
+      for (const study::Run &run : results.runs)
+        if (run.diagnostics.n_geometry_checks > 0)
+        {
+          n_checks += run.diagnostics.n_geometry_checks;
+          worst = std::max(worst, run.diagnostics.geometry_difference);
+          ++n_runs;
+        }
+      std::string text;
+      if (results.omissions.empty())
+        text = paragraph("Nothing that the scene asks for was left out.");
+      else
+      {
+        Table table;
+        table.columns = {"left out", "because", "saves"};
+        for (const study::Omission &omission : results.omissions)
+          table.rows.push_back(
+              {text_cell(omission.what), text_cell(omission.why), text_cell(omission.saving)});
+        text = to_html(table);
+      }
+      text +=
+          paragraph(n_checks == 0 ? "Geometry: no cut cell was recomputed with the exact backend."
+                                  : "Geometry: " + std::to_string(n_checks) + " cut cells in " +
+                                        std::to_string(n_runs) +
+                                        " runs were recomputed with exact geometry; the worst "
+                                        "difference is " +
+                                        rounded(worst) + " of a cell.");
+      return section("model", "What was modelled, and what was left out", text);
+    }
+
+    std::string expectations(const study::Results &results)
+    {
+      if (results.expectations.empty())
+        return "";
+      std::string text = "<div class=\"wide\"><table>\n<thead><tr><th></th><th>subject</th><th>"
+                         "expected</th><th>found</th></tr></thead>\n<tbody>\n";
+      for (const study::Expectation &one : results.expectations)
+        text += std::string("<tr><td class=\"") +
+                (one.holds ? "yes\">✓ holds" : "no\">✗ does not hold") + "</td><td>" +
+                escape_html(one.subject) + "</td><td>" + escape_html(one.expected) + "</td><td>" +
+                escape_html(one.found) + "</td></tr>\n";
+      return section("expectations", "What the scene expects", text + "</tbody></table></div>\n");
+    }
+
+    std::string diagnostics(const study::Results &results)
+    {
+      const Table table = diagnostics_table(results);
+      return section("diagnostics", "Diagnostics",
+                     table.rows.empty() ? paragraph("None yet.") : to_html(table));
+    }
+
+    std::string provenance(const study::Results &results)
+    {
+      Table table;
+      table.columns = {"what", "value"};
+      for (const auto &[key, value] : results.provenance)
+        table.rows.push_back({text_cell(key), text_cell(value)});
+      return section(
+          "provenance", "Provenance",
+          folded("Versions, libraries, machine", to_html(table)) +
+              folded("The scene as read", "<pre>" + escape_html(results.scene_text) + "</pre>\n") +
+              "<p class=\"soft\">All numbers: <code>results.json</code>, unrounded "
+              "tables in <code>tables/*.csv</code>, data of each chart beside it in "
+              "<code>charts/*.csv</code>.</p>\n");
+    }
+  } // namespace page
+
+  void write_page(const study::Results &results, const std::filesystem::path &dir)
+  {
+    const std::string html =
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
+        "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+        escape_html(results.scene_name) + " – Plumbline report</title>\n<style>" +
+        page::style_sheet + "</style>\n</head>\n<body>\n" + page::header(results) + "<main>\n" +
+        page::advice(results) + page::verdicts(results) + page::expectations(results) +
+        page::charts(results, dir) + page::numbers(results) + page::reference(results) +
+        page::model(results) + page::diagnostics(results) + page::provenance(results) +
+        "</main>\n</body>\n</html>\n";
+    write_file(dir / "report.html", html);
+  }
+} // namespace plumbline::report

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "study/results.h"
+
+#include <filesystem>
+
+namespace plumbline::report
+{
+  /// Write dir/report.html: one file that needs no other, no network and no script. Pictures are
+  /// taken from dir/charts (see write_charts); one that is not there is named with its data.
+  /// @throws InputError  dir cannot be written
+  void write_page(const study::Results &results, const std::filesystem::path &dir);
+} // namespace plumbline::report

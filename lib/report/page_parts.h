@@ -1,0 +1,54 @@
+#pragma once
+
+#include "report/charts.h"
+#include "report/selection.h"
+
+#include <filesystem>
+#include <string>
+
+/// The pieces of report.html, each a string of HTML with everything escaped.
+namespace plumbline::report::page
+{
+  extern const char *const style_sheet;
+
+  /// A small picture of a method's line and symbol, as in the charts.
+  std::string marker(const Style &style);
+
+  /// A picture to stand inside a page: without its prologue, its ids made unique by the prefix, and
+  /// a label for those who cannot see it.
+  std::string inline_svg(const std::string &svg, const std::string &prefix,
+                         const std::string &label);
+
+  /// Title, purpose, what kind of study, how many verdicts, whether the run was finished.
+  std::string header(const study::Results &results);
+
+  /// Which method to take, by problem and series.
+  std::string advice(const study::Results &results);
+
+  /// Rows: methods; columns: problems and series; in each cell the verdict in a word and a sign,
+  /// the finest error and the last rate.
+  std::string verdicts(const study::Results &results);
+
+  /// All charts, the overall and the first convergence chart large.
+  std::string charts(const study::Results &results, const std::filesystem::path &dir);
+
+  /// The reference's own estimates, and the differences that are too small for them.
+  std::string reference(const study::Results &results);
+
+  /// Tables of errors and cost.
+  std::string numbers(const study::Results &results);
+
+  /// What was modelled, and what was left out; the check of the geometry.
+  std::string model(const study::Results &results);
+
+  /// What the scene expects, and what was found.
+  std::string expectations(const study::Results &results);
+
+  std::string diagnostics(const study::Results &results);
+
+  /// Where the numbers come from: versions, machine, the scene as read.
+  std::string provenance(const study::Results &results);
+
+  /// <details> with a summary.
+  std::string folded(const std::string &summary, const std::string &content, bool is_open = false);
+} // namespace plumbline::report::page

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plumbline::report
+{
+  /// How a method looks in every chart: meshfree solid with filled symbols, reference dashed with
+  /// open ones.
+  struct Style
+  {
+    std::string colour; ///< "#rrggbb"
+    unsigned int symbol =
+        0; ///< 0 circle, 1 square, 2 triangle, 3 diamond, 4 triangle down, 5 pentagon
+    bool is_dashed = false;
+  };
+
+  /// The style of the i-th method of its family. Colours by Okabe and Ito without yellow, which
+  /// is faint on white; 42 methods of a family look different.
+  Style style_of(unsigned int i, bool is_reference);
+
+  struct Vertex
+  {
+    double x = 0, y = 0;
+  };
+
+  struct Line
+  {
+    std::string label; ///< empty: not in the legend
+    Style style;
+    double width = 1.8;
+    std::vector<Vertex> points; ///< positive on logarithmic axes
+  };
+
+  struct Plot
+  {
+    std::string file; ///< name of the picture, without folder
+    std::string title, x_label, y_label;
+    bool is_y_log = true; ///< x always is
+    bool has_slopes = false;
+    bool shows_round_off = false; ///< marks where differences are of the size of rounding
+    std::vector<double> x_ticks;  ///< empty: powers of ten
+    std::vector<Vertex> frontier; ///< drawn broad and grey behind the lines
+    std::vector<Line> lines;      ///< at least one point in all
+  };
+
+  /// Errors below this are of the size of rounding: sums of 1e4 terms of size 1 differ by as much.
+  constexpr double round_off = 1e-11;
+
+  struct Range
+  {
+    double low = 0, high = 0;
+  };
+
+  /// Of a logarithmic axis: the values with a margin, and two powers of ten at least.
+  Range log_range(const std::vector<double> &values);
+
+  /// The right-angled triangle of slope p: (x0, y0), (x1, y0), (x1, y1) with y1 = y0 (x1/x0)^p.
+  struct SlopeTriangle
+  {
+    unsigned int slope = 0;
+    double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  };
+
+  /// A place that no line and none of the triangles in `taken` touches, near a line of that slope
+  /// if there is one; nothing if there is no such place or the triangle would be too flat to read.
+  std::optional<SlopeTriangle> place_slope(unsigned int slope, const std::vector<Line> &lines,
+                                           const Range &x, const Range &y,
+                                           const std::vector<SlopeTriangle> &taken);
+
+  /// The commands that draw all plots, each to its own file.
+  std::string gnuplot_script(const std::vector<Plot> &plots);
+
+  /// Run gnuplot once, inside the folder, on a script that lies there.
+  /// @throws NumericalError  gnuplot is missing, or does not accept the script
+  void run_gnuplot(const std::filesystem::path &folder, const std::string &script);
+} // namespace plumbline::report

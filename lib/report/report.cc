@@ -1,0 +1,26 @@
+#include "report/report.h"
+
+#include "base/error.h"
+#include "report/charts.h"
+#include "report/json.h"
+#include "report/page.h"
+#include "report/tables.h"
+
+namespace plumbline::report
+{
+  void write_report(const study::Results &results, const std::filesystem::path &dir)
+  {
+    write_json(results, dir / "results.json");
+    write_tables(results, dir);
+    try
+    {
+      write_charts(results, dir);
+    }
+    catch (const NumericalError &)
+    {
+      write_page(results, dir); // it says what is missing
+      throw;
+    }
+    write_page(results, dir);
+  }
+} // namespace plumbline::report

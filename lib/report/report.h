@@ -1,0 +1,13 @@
+#pragma once
+
+#include "study/results.h"
+
+#include <filesystem>
+
+namespace plumbline::report
+{
+  /// Write everything into a folder: results.json, tables, charts and report.html.
+  /// @throws InputError      dir cannot be written
+  /// @throws NumericalError  the charts could not be drawn; all else is written before that
+  void write_report(const study::Results &results, const std::filesystem::path &dir);
+} // namespace plumbline::report

@@ -1,0 +1,145 @@
+#include "report/selection.h"
+
+#include "report/formats.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+    void add_case(std::vector<Case> &found, const std::string &problem, const std::string &series)
+    {
+      for (const Case &one : found)
+        if (one.problem == problem && one.series == series)
+          return;
+      const std::string plain = slug(problem) + "_" + slug(series);
+      std::string unique = plain;
+      const auto is_taken = [&](const Case &one) { return one.slug == unique; };
+      for (unsigned int n = 2; std::any_of(found.begin(), found.end(), is_taken); ++n)
+        unique = plain + "_" + std::to_string(n);
+      found.push_back({problem, series, unique});
+    }
+
+    void add_method(std::vector<MethodName> &found, const std::string &name,
+                    const std::string &family)
+    {
+      for (const MethodName &method : found)
+        if (method.name == name)
+          return;
+      found.push_back({name, family});
+    }
+  } // namespace
+
+  std::vector<Case> cases(const study::Results &results)
+  {
+    std::vector<Case> found;
+    for (const study::Run &run : results.runs)
+      add_case(found, run.problem, run.series);
+    for (const study::Trend &trend : results.trends)
+      add_case(found, trend.problem, trend.series);
+    return found;
+  }
+
+  std::vector<MethodName> methods(const study::Results &results)
+  {
+    std::vector<MethodName> found;
+    for (const study::Run &run : results.runs)
+      add_method(found, run.method, run.family);
+    for (const study::Trend &trend : results.trends)
+      add_method(found, trend.method, trend.family);
+    return found;
+  }
+
+  const study::Trend *decisive_trend(const study::Results &results, const std::string &method,
+                                     const Case &one)
+  {
+    for (const study::Trend &trend : results.trends)
+      if (trend.method == method && trend.problem == one.problem && trend.series == one.series &&
+          trend.error == results.decisive_error)
+        return &trend;
+    return nullptr;
+  }
+
+  std::vector<const study::Run *> runs_of(const study::Results &results, const std::string &method,
+                                          const Case &one)
+  {
+    std::vector<const study::Run *> found;
+    for (const study::Run &run : results.runs)
+      if (run.method == method && run.problem == one.problem && run.series == one.series)
+        found.push_back(&run);
+    std::stable_sort(found.begin(), found.end(),
+                     [](const study::Run *a, const study::Run *b) { return a->level < b->level; });
+    return found;
+  }
+
+  double decisive_error(const study::Results &results, const study::Run &run)
+  {
+    const auto error = run.errors.find(results.decisive_error);
+    return run.failure.empty() && error != run.errors.end() ? error->second : not_a_number;
+  }
+
+  double rate_at(const study::Trend &trend, double x)
+  {
+    for (std::size_t i = 1; i < trend.x.size() && i <= trend.rates.size(); ++i)
+      if (std::abs(trend.x[i] - x) <= same_length * std::abs(x))
+        return trend.rates[i - 1];
+    return not_a_number;
+  }
+
+  bool varies_horizon(const study::Results &results, const Case &one)
+  {
+    for (const study::Trend &trend : results.trends)
+      if (trend.problem == one.problem && trend.series == one.series)
+        return trend.parameter == "horizon";
+    return false;
+  }
+
+  std::string error_words(const std::string &error)
+  {
+    std::string words = error;
+    if (const std::size_t bar = words.find(" | "); bar != std::string::npos)
+      words.replace(bar, 3, " against ");
+    if (const std::size_t inf = words.find("Linf"); inf != std::string::npos)
+      words.replace(inf, 4, "L∞");
+    return words;
+  }
+
+  std::string outcome_symbol(study::Outcome outcome)
+  {
+    switch (outcome)
+    {
+    case study::Outcome::converges:
+      return "✓";
+    case study::Outcome::stalls:
+      return "✗";
+    case study::Outcome::undecided:
+      return "?";
+    case study::Outcome::failed:
+      break;
+    }
+    return "–";
+  }
+
+  std::string verdict_words(const study::Trend &trend)
+  {
+    if (!trend.verdict.empty())
+      return trend.verdict;
+    switch (trend.outcome)
+    {
+    case study::Outcome::converges:
+      return "converges";
+    case study::Outcome::stalls:
+      return "stalls";
+    case study::Outcome::undecided:
+      return "undecided";
+    case study::Outcome::failed:
+      break;
+    }
+    return "failed";
+  }
+} // namespace plumbline::report

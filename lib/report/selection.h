@@ -1,0 +1,58 @@
+#pragma once
+
+#include "study/results.h"
+
+#include <string>
+#include <vector>
+
+namespace plumbline::report
+{
+  /// One problem with one series: a column of the verdict table, a chart, a table of errors.
+  struct Case
+  {
+    std::string problem, series;
+    std::string slug; ///< for file names, unique among the cases of one result
+    std::string title() const { return series.empty() ? problem : problem + ", " + series; }
+  };
+
+  struct MethodName
+  {
+    std::string name, family;
+    bool is_reference() const { return family == "reference"; }
+  };
+
+  /// In the order in which they were run.
+  std::vector<Case> cases(const study::Results &results);
+  std::vector<MethodName> methods(const study::Results &results);
+
+  /// The trend of the error that verdicts rest on; nullptr if there is none.
+  const study::Trend *decisive_trend(const study::Results &results, const std::string &method,
+                                     const Case &one);
+
+  /// The runs of one method on one case, coarse to fine.
+  std::vector<const study::Run *> runs_of(const study::Results &results, const std::string &method,
+                                          const Case &one);
+
+  /// The decisive error of a run; NaN if the run has none.
+  double decisive_error(const study::Results &results, const study::Run &run);
+
+  /// A length agrees with another if it does to this fraction: both are printed from the same
+  /// scene.
+  constexpr double same_length = 1e-9;
+
+  /// The rate of a trend between the level with parameter x and the one before; NaN if there is
+  /// none.
+  double rate_at(const study::Trend &trend, double x);
+
+  /// What varies over the levels, from the trends: the horizon if one says so, else h.
+  bool varies_horizon(const study::Results &results, const Case &one);
+
+  /// "nodal Linf | exact" in words: "nodal L∞ against exact".
+  std::string error_words(const std::string &error);
+
+  /// ✓, ✗, ? or –.
+  std::string outcome_symbol(study::Outcome outcome);
+
+  /// The verdict's own words, or those of the outcome if it has none.
+  std::string verdict_words(const study::Trend &trend);
+} // namespace plumbline::report

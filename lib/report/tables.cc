@@ -1,0 +1,276 @@
+#include "report/tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    /// Levels of a case over all methods, coarse to fine.
+    struct Level
+    {
+      unsigned int number;
+      double h, horizon;
+      bool holds(const study::Run &run) const
+      {
+        return run.level == number && std::abs(run.h - h) <= same_length * h &&
+               std::abs(run.horizon - horizon) <= same_length * horizon;
+      }
+    };
+
+    std::vector<Level> levels_of(const study::Results &results, const Case &one)
+    {
+      std::vector<Level> levels;
+      for (const study::Run &run : results.runs)
+        if (run.problem == one.problem && run.series == one.series &&
+            std::none_of(levels.begin(), levels.end(),
+                         [&](const Level &level) { return level.holds(run); }))
+          levels.push_back({run.level, run.h, run.horizon});
+      std::stable_sort(levels.begin(), levels.end(),
+                       [](const Level &a, const Level &b) {
+                         return std::make_tuple(a.number, -a.h) < std::make_tuple(b.number, -b.h);
+                       });
+      return levels;
+    }
+
+    bool is_against_reference(const std::string &error)
+    {
+      const std::string target = " | reference";
+      return error.size() >= target.size() &&
+             error.compare(error.size() - target.size(), target.size(), target) == 0;
+    }
+
+    /// A trend that could not be fitted has zeros for all of these.
+    bool is_fitted(const study::Trend &trend)
+    {
+      return trend.rate != 0 || trend.rate_uncertainty != 0 || trend.plateau != 0 ||
+             trend.plateau_uncertainty != 0;
+    }
+
+    Cell fitted_rate(const study::Trend &trend)
+    {
+      return is_fitted(trend) ? uncertain_cell(trend.rate, trend.rate_uncertainty)
+                              : Cell{{"", ""}, empty_cell().text, true};
+    }
+
+    Cell fitted_plateau(const study::Trend &trend)
+    {
+      return is_fitted(trend) ? uncertain_error_cell(trend.plateau, trend.plateau_uncertainty)
+                              : Cell{{"", ""}, empty_cell().text, true};
+    }
+
+    std::string span(double low, double high)
+    {
+      return low == high ? rounded(low) : rounded(low) + " to " + rounded(high);
+    }
+
+    void write_table(const Table &table, const std::filesystem::path &stem)
+    {
+      const auto with = [&](const char *extension)
+      {
+        std::filesystem::path file = stem;
+        return file += extension; // not replace_extension: a series "m = 2.5" has a dot
+      };
+      write_file(with(".csv"), to_csv(table));
+      write_file(with(".md"), to_markdown(table));
+      write_file(with(".tex"), to_latex(table));
+    }
+  } // namespace
+
+  Table error_table(const study::Results &results, const Case &one)
+  {
+    Table table;
+    table.caption = one.title() + ": error, " + error_words(results.decisive_error);
+    table.columns = {"level", {"h", {"h [length]"}}, {"δ", {"horizon [length]"}}, "m"};
+    const std::vector<MethodName> all = methods(results);
+    std::vector<const MethodName *> shown;
+    for (const MethodName &method : all)
+      if (!runs_of(results, method.name, one).empty())
+      {
+        shown.push_back(&method);
+        table.columns.push_back({method.name, {method.name + " error"}});
+        table.columns.push_back({"rate", {method.name + " rate"}});
+      }
+
+    const bool is_horizon = varies_horizon(results, one);
+    for (const Level &level : levels_of(results, one))
+    {
+      std::vector<Cell> row = {count_cell(level.number), number_cell(level.h),
+                               number_cell(level.horizon), number_cell(level.horizon / level.h)};
+      for (const MethodName *method : shown)
+      {
+        Cell error = empty_cell(), rate = empty_cell();
+        for (const study::Run *run : runs_of(results, method->name, one))
+          if (level.holds(*run))
+          {
+            error = error_cell(decisive_error(results, *run));
+            if (const study::Trend *trend = decisive_trend(results, method->name, one))
+              rate = rate_cell(rate_at(*trend, is_horizon ? run->horizon : run->h));
+          }
+        row.push_back(error);
+        row.push_back(rate);
+      }
+      table.rows.push_back(row);
+    }
+    return table;
+  }
+
+  Table verdict_table(const study::Results &results)
+  {
+    Table table;
+    table.caption = "Verdicts on the error " + error_words(results.decisive_error) +
+                    ", from the fit e = a + b x^p: rate p, plateau a";
+    table.columns = {"method",
+                     "problem",
+                     "series",
+                     {"rate", {"rate", "rate uncertainty"}},
+                     {"plateau", {"plateau", "plateau uncertainty"}},
+                     "verdict",
+                     "reason"};
+    for (const MethodName &method : methods(results))
+      for (const Case &one : cases(results))
+        if (const study::Trend *trend = decisive_trend(results, method.name, one))
+          table.rows.push_back({text_cell(trend->method), text_cell(trend->problem),
+                                text_cell(trend->series), fitted_rate(*trend),
+                                fitted_plateau(*trend), text_cell(verdict_words(*trend)),
+                                text_cell(trend->reason)});
+    return table;
+  }
+
+  Table cost_table(const study::Results &results)
+  {
+    Table table;
+    table.caption = "Cost of each run; CPU seconds are summed over threads";
+    table.columns = {"method", "problem",     "series",      "h",       "unknowns",
+                     "bonds",  "setup CPU s", "solve CPU s", "peak MB", "iterations"};
+    for (const study::Run &run : results.runs)
+      if (run.failure.empty())
+        table.rows.push_back({text_cell(run.method), text_cell(run.problem), text_cell(run.series),
+                              number_cell(run.h), count_cell(run.cost.n_unknowns),
+                              count_cell(run.cost.n_bonds), number_cell(run.cost.setup_seconds),
+                              number_cell(run.cost.solve_seconds),
+                              number_cell(1e-6 * static_cast<double>(run.cost.peak_bytes)),
+                              count_cell(run.cost.n_iterations)});
+    return table;
+  }
+
+  Table other_errors_table(const study::Results &results)
+  {
+    Table table;
+    table.columns = {"method", "problem", "series", "error", "finest value", "rate", "verdict"};
+    for (const study::Trend &trend : results.trends)
+      if (trend.error != results.decisive_error)
+        table.rows.push_back(
+            {text_cell(trend.method), text_cell(trend.problem), text_cell(trend.series),
+             text_cell(error_words(trend.error)),
+             error_cell(trend.values.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                             : trend.values.back()),
+             fitted_rate(trend), text_cell(verdict_words(trend))});
+    return table;
+  }
+
+  Table reference_table(const study::Results &results)
+  {
+    Table table;
+    table.columns = {"reference", "problem",       "series",          "level",   "h",
+                     "δ",         "change to h/2", "change to p + 1", "estimate"};
+    for (const study::ReferenceEstimate &estimate : results.references)
+      table.rows.push_back({text_cell(estimate.method), text_cell(estimate.problem),
+                            text_cell(estimate.series), count_cell(estimate.level),
+                            number_cell(estimate.h), number_cell(estimate.horizon),
+                            error_cell(estimate.h_change), error_cell(estimate.p_change),
+                            error_cell(estimate.estimate)});
+    return table;
+  }
+
+  Table doubtful_differences(const study::Results &results)
+  {
+    Table table;
+    table.columns = {"method",     "problem", "series",   "level",
+                     "difference", "value",   "estimate", "value / estimate"};
+    for (const study::ReferenceEstimate &estimate : results.references)
+      for (const study::Run &run : results.runs)
+        if (run.problem == estimate.problem && run.series == estimate.series &&
+            run.level == estimate.level && run.method != estimate.method && run.failure.empty())
+          for (const auto &[error, value] : run.errors)
+            if (is_against_reference(error) && value < trusted_ratio * estimate.estimate)
+              table.rows.push_back(
+                  {text_cell(run.method), text_cell(run.problem), text_cell(run.series),
+                   count_cell(run.level), text_cell(error_words(error)), error_cell(value),
+                   error_cell(estimate.estimate), number_cell(value / estimate.estimate)});
+    return table;
+  }
+
+  Table diagnostics_table(const study::Results &results)
+  {
+    Table table;
+    table.columns = {"method",           "family",         "neighbours", "smallest weight ratio",
+                     "negative weights", "worst residual", "operator",   "notes"};
+    for (const MethodName &method : methods(results))
+    {
+      double fewest = std::numeric_limits<double>::max(), most = 0, ratio = fewest, residual = 0;
+      unsigned int n_negative = 0;
+      std::vector<std::string> roads, notes;
+      const auto add = [](std::vector<std::string> &list, const std::string &text)
+      {
+        if (!text.empty() && std::find(list.begin(), list.end(), text) == list.end())
+          list.push_back(text);
+      };
+      for (const study::Run &run : results.runs)
+        if (run.method == method.name && run.failure.empty())
+        {
+          const study::Diagnostics &d = run.diagnostics;
+          fewest = std::min<double>(fewest, d.n_neighbours);
+          most = std::max<double>(most, d.n_neighbours);
+          ratio = std::min(ratio, d.smallest_weight_ratio);
+          residual = std::max(residual, d.relative_residual);
+          n_negative = std::max(n_negative, d.n_negative_weights);
+          add(roads, d.operator_road);
+          for (const std::string &note : d.notes)
+            add(notes, note);
+        }
+      if (fewest > most)
+        continue; // no run came through
+      const auto join = [](const std::vector<std::string> &list, const std::string &separator)
+      {
+        std::string text;
+        for (const std::string &item : list)
+          text += (text.empty() ? "" : separator) + item;
+        return text;
+      };
+      table.rows.push_back({text_cell(method.name),
+                            text_cell(method.family),
+                            {{span(fewest, most)}, span(fewest, most), true},
+                            number_cell(ratio),
+                            count_cell(n_negative),
+                            error_cell(residual),
+                            text_cell(join(roads, ", ")),
+                            text_cell(join(notes, "; "))});
+    }
+    return table;
+  }
+
+  Table failure_table(const study::Results &results)
+  {
+    Table table;
+    table.columns = {"method", "problem", "series", "level", "h", "δ", "why"};
+    for (const study::Run &run : results.runs)
+      if (!run.failure.empty())
+        table.rows.push_back({text_cell(run.method), text_cell(run.problem), text_cell(run.series),
+                              count_cell(run.level), number_cell(run.h), number_cell(run.horizon),
+                              text_cell(run.failure)});
+    return table;
+  }
+
+  void write_tables(const study::Results &results, const std::filesystem::path &dir)
+  {
+    const std::filesystem::path folder = dir / "tables";
+    for (const Case &one : cases(results))
+      write_table(error_table(results, one), folder / ("errors_" + one.slug));
+    write_table(verdict_table(results), folder / "verdicts");
+    write_table(cost_table(results), folder / "cost");
+  }
+} // namespace plumbline::report

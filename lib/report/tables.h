@@ -1,0 +1,43 @@
+#pragma once
+
+#include "report/formats.h"
+#include "report/selection.h"
+
+#include <filesystem>
+
+namespace plumbline::report
+{
+  /// Rows: levels with h, horizon and m = horizon / h. Columns: of each method the decisive error
+  /// and the rate from the level before. No value: no solution, or no error of that name.
+  Table error_table(const study::Results &results, const Case &one);
+
+  /// One row for each method and case: fitted rate and plateau, verdict and reason.
+  Table verdict_table(const study::Results &results);
+
+  /// One row for each run.
+  Table cost_table(const study::Results &results);
+
+  /// The errors that verdicts do not rest on: finest value, fitted rate, verdict.
+  Table other_errors_table(const study::Results &results);
+
+  /// The reference's own uncertainty at each level.
+  Table reference_table(const study::Results &results);
+
+  /// A run whose difference from the reference is not at least this many times the reference's own
+  /// estimate says little.
+  constexpr double trusted_ratio = 10;
+
+  /// The differences too small for the reference: one row each, with the ratio. Differences are the
+  /// errors with the target "reference". A level without an estimate (zero) says nothing.
+  Table doubtful_differences(const study::Results &results);
+
+  /// Of each method over all its runs: neighbours, weights, residual, road, notes.
+  Table diagnostics_table(const study::Results &results);
+
+  /// The runs without a solution, and why.
+  Table failure_table(const study::Results &results);
+
+  /// Write dir/tables: errors_CASE, verdicts and cost, each as .csv (unrounded), .md and .tex.
+  /// @throws InputError  dir cannot be written
+  void write_tables(const study::Results &results, const std::filesystem::path &dir);
+} // namespace plumbline::report

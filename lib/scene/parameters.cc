@@ -1,0 +1,217 @@
+#include "scene/parameters.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace plumbline::scene
+{
+  namespace
+  {
+    namespace Patterns = dealii::Patterns;
+
+    struct Key
+    {
+      std::string section, name, value;
+      std::shared_ptr<Patterns::PatternBase> pattern;
+      std::string help;
+    };
+
+    std::shared_ptr<Patterns::PatternBase> text() { return std::make_shared<Patterns::Anything>(); }
+    std::shared_ptr<Patterns::PatternBase> one_of(const std::string &names)
+    {
+      return std::make_shared<Patterns::Selection>(names);
+    }
+    std::shared_ptr<Patterns::PatternBase> yes_or_no() { return std::make_shared<Patterns::Bool>(); }
+    std::shared_ptr<Patterns::PatternBase> count(int lowest)
+    {
+      return std::make_shared<Patterns::Integer>(lowest);
+    }
+    std::shared_ptr<Patterns::PatternBase> number() { return std::make_shared<Patterns::Double>(); }
+    std::shared_ptr<Patterns::PatternBase> positive()
+    {
+      return std::make_shared<Patterns::Double>(1e-300);
+    }
+
+    std::string kernel_names()
+    {
+      std::string names;
+      for (const physics::KernelType &type : physics::kernel_types())
+        names += (names.empty() ? "" : "|") + type.name;
+      return names;
+    }
+
+    const std::vector<Key> &keys()
+    {
+      static const std::vector<Key> table = {
+          {"", "Purpose", "", text(), "What the scene is for, in one line."},
+
+          {"Domain", "boxes", "0, 0 : 1, 1", text(),
+           "The domain Omega: boxes 'x0, y0 : x1, y1' separated by ';'. Every side must be a multiple "
+           "of each mesh size from the others. [length]"},
+          {"Domain", "holes", "", text(), "Boxes to take out again, written like boxes. [length]"},
+          {"Domain", "collar", "auto", text(),
+           "Width of the interaction collar where the volume constraint gives u: auto, or a width of "
+           "at least the largest horizon. [length]"},
+
+          {"Kernel", "type", "linear-decay", one_of(kernel_names()),
+           "Radial profile of the kernel, scalar or bond tensor; see 'plumbline list kernels'."},
+          {"Kernel", "limit", "-1/2 Laplace", one_of("-1/2 Laplace|-Laplace|Navier|none"),
+           "The local operator that the kernel is scaled to as the horizon tends to 0: -1/2 Laplace "
+           "(the moment of xi_1^2 is 1), -Laplace, Navier with 'bulk modulus' (bond tensors), or none: "
+           "'constant' is taken as it is."},
+          {"Kernel", "bulk modulus", "1", positive(),
+           "kappa of bond tensors; lambda = mu = 3 kappa / 5 (plane strain). [force/length^2]"},
+          {"Kernel", "constant", "1", number(), "The factor c where limit = none."},
+          {"Kernel", "coefficients", "", text(),
+           "a_0, a_1, ... of the profile p(t) = a_0 + a_1 t + ..., t = r / horizon, of polynomial "
+           "kernels."},
+          {"Kernel", "singularity", "0", std::make_shared<Patterns::Integer>(0, 1),
+           "a of the polynomial profile p(t) / t^a."},
+
+          {"Problem", "solution", "", text(),
+           "The exact nonlocal solution: a muParser expression in x, y and delta (the horizon), "
+           "components separated by ','; several cases as 'name: expression; name: expression'. "
+           "Empty: not known."},
+          {"Problem", "load", "manufactured", text(),
+           "The body load b: manufactured (the nonlocal operator applied to the solution), or "
+           "expressions written like the solution."},
+          {"Problem", "constraint", "solution", text(),
+           "u in the collar: solution, or an expression."},
+          {"Problem", "local solution", "solution", text(),
+           "The solution of the local limit: solution (where it does not depend on the horizon), none, "
+           "or an expression."},
+
+          {"Methods", "names", "", text(),
+           "Methods to compare, separated by ','; 'all' takes those that can do the scene. See "
+           "'plumbline list methods'."},
+          {"Methods", "nodes", "centres", one_of("centres|vertices"),
+           "Meshfree nodes at the cell centres, or at the vertices (the boundary among the data)."},
+
+          {"Study", "regime", "delta", one_of("m|delta|delta-m|horizon"),
+           "m: horizon fixed, h to 0. delta: m = horizon / h fixed, h to 0 (decides asymptotic "
+           "compatibility). delta-m: pairs of h and m. horizon: h fixed, horizon varies."},
+          {"Study", "h", "0.1, 0.05, 0.025", text(),
+           "Mesh sizes, separated by ',', coarse to fine. [length]"},
+          {"Study", "m", "3", text(), "Ratios horizon / h, real numbers >= 1 (delta, delta-m)."},
+          {"Study", "horizon", "0.4", text(), "Horizons (m, horizon). [length]"},
+          {"Study", "norms", "nodal Linf, averages L2, field L2", text(),
+           "Of nodal Linf, nodal L2 (at the method's own nodes), averages Linf, averages L2 (cell "
+           "averages), field Linf, field L2 (of the function), separated by ','."},
+          {"Study", "decisive error", "nodal Linf | exact", text(),
+           "The 'norm | target' that verdicts rest on; targets: exact, local, reference."},
+
+          {"Reference", "method", "none", text(),
+           "Galerkin method whose cell averages are the reference: none, Q1, Q2, Q3, ..."},
+          {"Reference", "estimate", "true", yes_or_no(),
+           "Estimate the reference's own error by h/2 and by degree p+1."},
+
+          {"Geometry", "backend", "fast", one_of("fast|cgal"),
+           "Who intersects balls and cells: fast (double precision) or cgal (exact circular kernel)."},
+          {"Geometry", "checks", "24", count(0),
+           "Cut cells of each reference that are recomputed with the exact backend."},
+          {"Geometry", "seed", "1", count(0), "Seed of the sample of checked cells."},
+
+          {"Solver", "operator", "automatic", one_of("automatic|fft|direct|sparse"),
+           "How the operator is applied: by Fourier transforms, by the shared stencil, by a sparse "
+           "Trilinos matrix, or whichever of the first two is faster."},
+          {"Solver", "tolerance", "1e-12", positive(), "Relative residual of the linear system."},
+          {"Solver", "max iterations", "1000", count(1), "Most iterations of conjugate gradients."},
+
+          {"Output", "fields", "false", yes_or_no(),
+           "Write the solutions of the finest levels as VTU files."},
+
+          {"Expected", "verdicts", "", text(),
+           "'method[, case][, series]: verdict' separated by ';', e.g. 'IPA-AC: not AC; Q1: AC'."},
+          {"Expected", "errors", "", text(),
+           "'method[, case][, series]: e0 e1 ...', the decisive error at each level."},
+          {"Expected", "error tolerance", "5e-4", positive(), "Relative, of Expected/errors."},
+          {"Expected", "rates", "", text(),
+           "'method[, case][, series]: p', the observed rate between the two finest levels."},
+          {"Expected", "rate tolerance", "0.1", positive(), "Absolute, of Expected/rates."},
+          {"Expected", "bounds", "", text(),
+           "'method[, case][, series]: e', the decisive error stays below e at every level."},
+      };
+      return table;
+    }
+
+    std::string path(const Key &key)
+    {
+      return key.section.empty() ? key.name : key.section + "/" + key.name;
+    }
+
+    const Key &find(const std::string &name)
+    {
+      for (const Key &key : keys())
+        if (path(key) == name)
+          return key;
+      const std::string section = name.substr(0, name.find('/'));
+      std::string similar, every;
+      for (const Key &key : keys())
+      {
+        every += (every.empty() ? "" : ", ") + path(key);
+        if (key.section == section || key.name == name)
+          similar += (similar.empty() ? "" : ", ") + path(key);
+      }
+      throw InputError("key '" + name + "' is not known; write one of: " +
+                       (similar.empty() ? every : similar));
+    }
+
+    std::string help_of(const Key &key)
+    {
+      return path(key) + "\n  " + key.help + "\n  default: " + (key.value.empty() ? "(empty)" : key.value) +
+             "\n  allowed: " + key.pattern->description(Patterns::PatternBase::Text) + "\n";
+    }
+  } // namespace
+
+  void declare(dealii::ParameterHandler &parameters)
+  {
+    for (const Key &key : keys())
+    {
+      if (!key.section.empty())
+        parameters.enter_subsection(key.section);
+      parameters.declare_entry(key.name, key.value, *key.pattern, key.help);
+      if (!key.section.empty())
+        parameters.leave_subsection();
+    }
+  }
+
+  std::vector<std::string> all_keys()
+  {
+    std::vector<std::string> names;
+    for (const Key &key : keys())
+      names.push_back(path(key));
+    return names;
+  }
+
+  std::string get(dealii::ParameterHandler &parameters, const std::string &name)
+  {
+    const Key &key = find(name);
+    if (key.section.empty())
+      return parameters.get(key.name);
+    return parameters.get({key.section}, key.name);
+  }
+
+  void set(dealii::ParameterHandler &parameters, const std::string &name, const std::string &value)
+  {
+    const Key &key = find(name);
+    if (!key.pattern->match(value))
+      throw InputError(name + " = '" + value + "' is not allowed; it must be " +
+                       key.pattern->description(Patterns::PatternBase::Text));
+    if (!key.section.empty())
+      parameters.enter_subsection(key.section);
+    parameters.set(key.name, value);
+    if (!key.section.empty())
+      parameters.leave_subsection();
+  }
+
+  std::string describe(const std::string &name)
+  {
+    std::string result;
+    for (const Key &key : keys())
+      if (key.section == name)
+        result += help_of(key);
+    return result.empty() ? help_of(find(name)) : result;
+  }
+} // namespace plumbline::scene

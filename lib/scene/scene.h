@@ -1,0 +1,116 @@
+#pragma once
+
+#include "geometry/ball_cell.h"
+#include "geometry/lattice.h"
+#include "physics/kernel.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plumbline::scene
+{
+  /// How a sweep refines.
+  enum class Regime
+  {
+    m,       ///< horizon fixed, h → 0: towards the nonlocal solution
+    delta,   ///< m = horizon / h fixed, h → 0: towards the local limit; decides asymptotic compatibility
+    delta_m, ///< horizon → 0 and m → ∞ together
+    horizon  ///< h fixed, horizon varies: how errors depend on the horizon
+  };
+
+  /// A named field to solve for, or a named load.
+  struct Case
+  {
+    std::string name, expression;
+  };
+
+  struct Level
+  {
+    double h, horizon; ///< [length]
+  };
+
+  /// Levels from coarse to fine with what is held fixed as name, e.g. "m = 3".
+  struct Series
+  {
+    std::string name;
+    std::vector<Level> levels;
+  };
+
+  /// One expectation: which method (and case, and series, if given), and what is expected of it.
+  struct Expected
+  {
+    std::string method, problem, series; ///< empty: all
+    std::string text;                    ///< as in the scene, for reports
+    std::vector<double> values;
+    std::string verdict;
+  };
+
+  /// Everything a scene file says, checked. Lengths in the scene's unit of length.
+  struct Scene
+  {
+    std::string name, purpose;
+    std::string text; ///< all keys and values; parses to the same scene
+
+    geometry::Domain domain;
+    std::optional<double> collar; ///< width; empty: as wide as the ball needs
+
+    std::string kernel_type, limit;
+    std::vector<physics::PowerTerm> profile;
+    physics::Structure structure;
+    double bulk_modulus, kernel_constant;
+
+    std::vector<Case> solutions;            ///< exact nonlocal solutions, empty if not known
+    std::vector<Case> loads;                ///< empty: manufactured from the solutions
+    std::string constraint, local_solution; ///< "solution" or expressions
+
+    std::vector<std::string> methods;
+    bool nodes_at_vertices;
+
+    Regime regime;
+    std::vector<Series> series;
+    std::vector<std::string> norms;
+    std::string decisive_error; ///< "norm | target"
+
+    std::string reference; ///< a method's name, or "none"
+    bool estimate_reference;
+
+    geometry::Backend backend;
+    unsigned int n_geometry_checks, seed;
+
+    std::string operator_road;
+    double tolerance;
+    unsigned int max_iterations;
+
+    bool write_fields;
+
+    std::vector<Expected> expected_verdicts, expected_errors, expected_rates, expected_bounds;
+    double error_tolerance, rate_tolerance;
+
+    /// The names of its cases: of the solutions, or of the loads.
+    std::vector<std::string> case_names() const;
+
+    physics::Kernel<2> kernel(double horizon) const;
+  };
+
+  /// Section/key = value, given on the command line after the file was read.
+  struct Override
+  {
+    std::string key, value;
+  };
+
+  /// @param file  .prm or .json
+  /// @throws InputError  file not readable, unknown key, wrong type, or values that do not fit together
+  Scene read_scene(const std::string &file, const std::vector<Override> &overrides = {});
+
+  /// The same from a text in .prm syntax.
+  Scene parse_scene(const std::string &name, const std::string &text,
+                    const std::vector<Override> &overrides = {});
+
+  /// A whole scene with every key, its default and its meaning, for a model: "scalar" or "tensor".
+  std::string scene_template(const std::string &model);
+
+  /// What a key means, its default and what it allows; for "Section" all its keys.
+  /// @throws InputError  unknown key; the message names similar ones
+  std::string describe(const std::string &key);
+} // namespace plumbline::scene

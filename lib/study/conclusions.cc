@@ -1,0 +1,277 @@
+#include "study/conclusions.h"
+
+#include "study/trend.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iomanip>
+#include <set>
+#include <sstream>
+#include <tuple>
+
+namespace plumbline::study
+{
+  namespace
+  {
+    std::string number(double value)
+    {
+      std::ostringstream text;
+      text << std::setprecision(4) << value;
+      return text.str();
+    }
+
+    std::string verdict(scene::Regime regime, const Trend &trend)
+    {
+      if (trend.outcome == Outcome::failed)
+        return "failed";
+      if (regime == scene::Regime::horizon)
+        return "rate " + number(trend.rate);
+      const std::string name = regime == scene::Regime::delta ? "AC"
+                               : regime == scene::Regime::m   ? "m-convergent"
+                                                              : "delta-m-convergent";
+      switch (trend.outcome)
+      {
+      case Outcome::converges:
+        return name;
+      case Outcome::stalls:
+        return "not " + name;
+      default:
+        return "undecided";
+      }
+    }
+
+    /// The errors of one method, case and series over its levels.
+    Trend collect(const scene::Scene &scene, const Results &results, const Run &first,
+                  const std::string &error)
+    {
+      Trend trend;
+      trend.method = first.method;
+      trend.family = first.family;
+      trend.problem = first.problem;
+      trend.series = first.series;
+      trend.error = error;
+      trend.parameter = scene.regime == scene::Regime::horizon ? "horizon" : "h";
+      for (const Run &run : results.runs)
+      {
+        if (run.method != first.method || run.problem != first.problem ||
+            run.series != first.series)
+          continue;
+        const auto value = run.errors.find(error);
+        if (!run.failure.empty() || value == run.errors.end())
+        {
+          trend.outcome = Outcome::failed;
+          trend.reason = run.failure;
+          continue;
+        }
+        trend.x.push_back(trend.parameter == "h" ? run.h : run.horizon);
+        trend.values.push_back(value->second);
+      }
+      if (trend.outcome != Outcome::failed)
+        judge(trend);
+      trend.verdict = verdict(scene.regime, trend);
+      return trend;
+    }
+
+    void make_trends(const scene::Scene &scene, Results &results)
+    {
+      std::set<std::tuple<std::string, std::string, std::string>> seen;
+      for (const Run &run : results.runs)
+      {
+        if (!seen.insert({run.method, run.problem, run.series}).second)
+          continue;
+        std::set<std::string> errors{scene.decisive_error};
+        for (const Run &other : results.runs)
+          if (other.method == run.method && other.problem == run.problem)
+            for (const auto &entry : other.errors)
+              errors.insert(entry.first);
+        for (const std::string &error : errors)
+          results.trends.push_back(collect(scene, results, run, error));
+      }
+    }
+
+    std::string without_blanks(std::string text)
+    {
+      text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
+      return text;
+    }
+
+    using Check = std::function<Expectation(const scene::Expected &, const Trend &)>;
+
+    void check_all(const std::vector<scene::Expected> &list, Results &results,
+                   const std::string &what, const Check &check)
+    {
+      for (const scene::Expected &expected : list)
+      {
+        bool is_found = false;
+        for (const Trend &trend : results.trends)
+        {
+          if (trend.error != results.decisive_error || trend.method != expected.method ||
+              (!expected.problem.empty() && trend.problem != expected.problem) ||
+              (!expected.series.empty() &&
+               without_blanks(trend.series) != without_blanks(expected.series)))
+            continue;
+          is_found = true;
+          Expectation result = check(expected, trend);
+          result.subject =
+              trend.method + ", " + trend.problem + ", " + trend.series + ": " + what;
+          results.expectations.push_back(result);
+        }
+        if (!is_found)
+          results.expectations.push_back({expected.text, what, "no such method, case or series was run", false});
+      }
+    }
+
+    std::string join(const std::vector<double> &values)
+    {
+      std::string text;
+      for (const double value : values)
+      {
+        std::ostringstream one;
+        one << std::setprecision(7) << value;
+        text += (text.empty() ? "" : " ") + one.str();
+      }
+      return text;
+    }
+
+    void check_expectations(const scene::Scene &scene, Results &results)
+    {
+      check_all(scene.expected_verdicts, results, "verdict",
+                [](const scene::Expected &expected, const Trend &trend) {
+                  return Expectation{"", expected.verdict, trend.verdict,
+                                     expected.verdict == trend.verdict};
+                });
+      check_all(scene.expected_errors, results, "errors",
+                [&](const scene::Expected &expected, const Trend &trend) {
+                  // a shortened sweep is checked as far as it goes
+                  bool holds = !trend.values.empty() && trend.values.size() <= expected.values.size();
+                  for (std::size_t i = 0; i < trend.values.size() && holds; ++i)
+                    holds = std::abs(trend.values[i] / expected.values[i] - 1) <=
+                            scene.error_tolerance;
+                  return Expectation{"", join(expected.values), join(trend.values), holds};
+                });
+      check_all(scene.expected_rates, results, "rate of the last two levels",
+                [&](const scene::Expected &expected, const Trend &trend) {
+                  const double rate = trend.rates.empty() ? 0 : trend.rates.back();
+                  return Expectation{"", join(expected.values) + " ± " + number(scene.rate_tolerance),
+                                     number(rate),
+                                     !trend.rates.empty() && expected.values.size() == 1 &&
+                                         std::abs(rate - expected.values[0]) <= scene.rate_tolerance};
+                });
+      check_all(scene.expected_bounds, results, "largest error",
+                [](const scene::Expected &expected, const Trend &trend) {
+                  const double largest =
+                      trend.values.empty()
+                          ? 0
+                          : *std::max_element(trend.values.begin(), trend.values.end());
+                  return Expectation{"", "<= " + join(expected.values), number(largest),
+                                     !trend.values.empty() && trend.outcome != Outcome::failed &&
+                                         expected.values.size() == 1 &&
+                                         largest <= expected.values[0]};
+                });
+    }
+
+    /// The cheapest run of methods that converge with an error of at most a target, or nullptr.
+    const Run *cheapest(const Results &results, const std::set<std::string> &methods,
+                        const std::string &problem, const std::string &series, double target)
+    {
+      const Run *best = nullptr;
+      for (const Run &run : results.runs)
+      {
+        const auto error = run.errors.find(results.decisive_error);
+        if (run.problem == problem && run.series == series && methods.count(run.method) > 0 &&
+            error != run.errors.end() && error->second <= target &&
+            (best == nullptr || run.cost.seconds() < best->cost.seconds()))
+          best = &run;
+      }
+      return best;
+    }
+
+    void give_advice(const scene::Scene &scene, Results &results)
+    {
+      for (const std::string &problem : scene.case_names())
+        for (const auto &series : scene.series)
+        {
+          std::set<std::string> good;
+          std::string bad;
+          double reached = 0;
+          for (const Trend &trend : results.trends)
+            if (trend.error == results.decisive_error && trend.problem == problem &&
+                trend.series == series.name)
+            {
+              if (trend.outcome == Outcome::converges)
+              {
+                good.insert(trend.method);
+                reached = reached == 0 ? trend.values.back() : std::min(reached, trend.values.back());
+              }
+              else if (trend.outcome == Outcome::stalls)
+                bad += (bad.empty() ? "" : ", ") + trend.method;
+            }
+          std::string text;
+          std::string last;
+          for (const double target : {1e-2, 1e-3, 1e-4, 1e-6, 1e-8})
+            if (const Run *run = cheapest(results, good, problem, series.name, target))
+            {
+              const std::string choice = run->method + " at h = " + number(run->h) + " (error " +
+                                         number(run->errors.at(results.decisive_error)) + ", " +
+                                         number(run->cost.seconds()) + " CPU s)";
+              if (choice != last)
+                text += (text.empty() ? "" : "; ") + std::string("to ") + number(target) + " " + choice;
+              last = choice;
+            }
+          if (text.empty())
+            text = good.empty() ? "no method of this run is known to converge"
+                                : "no converging method reaches 1e-2 yet; refine";
+          else
+            text = "cheapest " + text;
+          if (!bad.empty())
+            text += ". Do not refine towards the limit with " + bad + ": they stall.";
+          results.advice.push_back({problem, series.name, text});
+        }
+    }
+
+    void list_omissions(const scene::Scene &scene, Results &results)
+    {
+      const Run *largest = nullptr;
+      for (const Run &run : results.runs)
+        if (run.failure.empty() && (largest == nullptr || run.cost.n_bonds > largest->cost.n_bonds))
+          largest = &run;
+      if (largest == nullptr)
+        return;
+      const double bonds = static_cast<double>(largest->cost.n_bonds);
+      const double rows = std::max<double>(1., static_cast<double>(largest->cost.n_unknowns));
+      const std::string where = " (" + largest->method + ", h = " + number(largest->h) + ")";
+      const auto megabytes = [](double bytes) { return number(bytes / 1e6) + " MB"; };
+      if (scene.operator_road != "sparse")
+        results.omissions.push_back(
+            {"a matrix", "uniform lattice and homogeneous kernel: all rows are one stencil",
+             "an assembled matrix would hold " + number(bonds) + " entries, " +
+                 megabytes(12 * bonds) + "; the stencil holds " + number(bonds / rows) +
+                 " a row" + where});
+      if (scene.structure == physics::Structure::scalar)
+        results.omissions.push_back({"the second component",
+                                     "the kernel is scalar, so components do not couple",
+                                     "half the unknowns, a quarter of the entries"});
+      else
+        results.omissions.push_back({"the dilatation", "bond tensor: lambda = mu, no volumetric term",
+                                     "one unknown a node, and a family pass"});
+      results.omissions.push_back({"Newton's method", "the model is linear",
+                                   "one solve of " + std::to_string(largest->cost.n_iterations) +
+                                       " iterations a level" + where});
+      results.omissions.push_back({"bond state", "no fracture: no bond can break",
+                                   megabytes(bonds / 8) + " at one bit a bond" + where});
+    }
+  } // namespace
+
+  void conclude(const scene::Scene &scene, Results &results)
+  {
+    results.trends.clear();
+    results.expectations.clear();
+    results.advice.clear();
+    results.omissions.clear();
+    make_trends(scene, results);
+    check_expectations(scene, results);
+    give_advice(scene, results);
+    list_omissions(scene, results);
+  }
+} // namespace plumbline::study

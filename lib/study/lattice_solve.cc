@@ -1,0 +1,72 @@
+#include "study/lattice_solve.h"
+
+#include "algebra/solve.h"
+#include "base/error.h"
+
+#include <sstream>
+
+namespace plumbline::study
+{
+  namespace
+  {
+    /// The constraint at all positions within `margin` of the bounding box that are not free.
+    std::vector<double> collar_data(const scene::Problem &problem, const geometry::NodeSet &nodes,
+                                    int margin)
+    {
+      std::vector<double> data;
+      data.reserve(static_cast<std::size_t>(nodes.n_blocks()) * (nodes.n[0] + 2 * margin) *
+                   (nodes.n[1] + 2 * margin));
+      for (unsigned int c = 0; c < nodes.n_components; ++c)
+        for (unsigned int s = 0; s < nodes.n_families(); ++s)
+          for (int j = -margin; j < nodes.n[1] + margin; ++j)
+            for (int i = -margin; i < nodes.n[0] + margin; ++i)
+              if (nodes.free(s, i, j))
+                data.push_back(0);
+              else
+              {
+                const auto place = nodes.place(s, i, j);
+                data.push_back(
+                    problem.constraint.value(problem.lattice.point(place[0], place[1]), c));
+              }
+      return data;
+    }
+  } // namespace
+
+  LatticeSolve solve_on_lattice(const scene::Scene &scene, const scene::Problem &problem,
+                                const geometry::NodeSet &nodes, const algebra::Stencil &stencil,
+                                const std::function<algebra::Vector()> &load)
+  {
+    if (const double defect = stencil.symmetry_defect(); defect > 1e-12)
+    {
+      std::ostringstream message;
+      message << "the operator is not symmetric (defect " << defect
+              << "), so conjugate gradients would give a wrong solution";
+      throw NumericalError(message.str());
+    }
+    LatticeSolve result;
+    base::CpuTimer timer;
+    const auto matrix =
+        make_operator(stencil, nodes, algebra::road_from_name(scene.operator_road));
+    const algebra::SchwarzPreconditioner preconditioner(stencil, nodes,
+                                                        maximal_rectangles(problem.lattice));
+    result.cost.setup_seconds = timer.seconds();
+
+    timer.restart();
+    result.margin = stencil.reach();
+    result.data = collar_data(problem, nodes, result.margin);
+    algebra::Vector right_hand_side = load();
+    right_hand_side -= collar_action(stencil, nodes, result.data);
+    result.solution.reinit(nodes.size());
+    const auto solved = algebra::solve(*matrix, preconditioner, result.solution, right_hand_side,
+                                       scene.tolerance, scene.max_iterations);
+    result.cost.solve_seconds = timer.seconds();
+    result.cost.n_unknowns = nodes.n_unknowns();
+    result.cost.n_bonds = matrix->n_bonds();
+    result.cost.n_iterations = solved.n_iterations;
+    result.diagnostics.n_neighbours =
+        static_cast<unsigned int>(stencil.n_entries() / stencil.n_blocks() - 1);
+    result.diagnostics.relative_residual = solved.relative_residual;
+    result.diagnostics.operator_road = matrix->road();
+    return result;
+  }
+} // namespace plumbline::study

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "algebra/operator.h"
+#include "study/method.h"
+
+namespace plumbline::study
+{
+  /// The solution of a translation-invariant problem on a lattice, as both sides need it.
+  struct LatticeSolve
+  {
+    algebra::Vector solution; ///< over the free nodes, shape of the NodeSet
+    std::vector<double> data; ///< the constraint around them, shape (n_blocks, n[1] + 2 margin, n[0] + 2 margin)
+    int margin;
+    base::Cost cost; ///< operator and solver; what came before is the caller's to add
+    Diagnostics diagnostics;
+  };
+
+  /// Solve stencil u = load on the free nodes, with u given by the problem's constraint elsewhere.
+  /// @param load  right-hand side over the nodes, without the collar
+  /// @throws NumericalError  an operator that is not positive definite, no convergence
+  LatticeSolve solve_on_lattice(const scene::Scene &scene, const scene::Problem &problem,
+                                const geometry::NodeSet &nodes, const algebra::Stencil &stencil,
+                                const std::function<algebra::Vector()> &load);
+} // namespace plumbline::study

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "scene/problem.h"
+#include "study/results.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace plumbline::study
+{
+  /// What a method yields for one problem: the same view for both sides, so that they can be compared.
+  struct Solution
+  {
+    std::vector<dealii::Point<2>> nodes; ///< the method's own free nodes in Ω
+    std::vector<double> nodal;           ///< values there, shape (n_nodes, n_components)
+    std::vector<double> averages; ///< over the comparison cells, shape (n_cells, n_components)
+    std::function<double(const dealii::Point<2> &, unsigned int component)> value; ///< in Ω
+    std::function<void(const std::string &file)> write_vtu;
+    base::Cost cost;
+    Diagnostics diagnostics;
+  };
+
+  /// A way to solve scenes, on either side.
+  class Method
+  {
+  public:
+    virtual ~Method() = default;
+    virtual std::string name() const = 0;
+    virtual std::string family() const = 0; ///< "meshfree" or "reference"
+    virtual std::string help() const = 0;
+
+    /// Empty if the method can do the scene, else the reason.
+    virtual std::string why_not(const scene::Scene &scene) const = 0;
+
+    /// @throws NumericalError  no solution; @throws InputError  data that is not finite
+    virtual Solution solve(const scene::Scene &scene, const scene::Problem &problem) const = 0;
+
+    /// The same method one polynomial degree higher, if it has one: for its error estimate.
+    virtual std::shared_ptr<const Method> higher_degree() const { return nullptr; }
+  };
+
+  using Methods = std::vector<std::shared_ptr<const Method>>;
+
+  /// The cells that solutions are averaged over, one for each meshfree node: the lattice cells of Ω, or
+  /// squares around its inner vertices. One family of nodes with the given number of components.
+  geometry::NodeSet comparison_nodes(const scene::Scene &scene, const geometry::Lattice &lattice,
+                                     unsigned int n_components);
+} // namespace plumbline::study

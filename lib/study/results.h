@@ -1,0 +1,109 @@
+#pragma once
+
+#include "base/cost.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace plumbline::study
+{
+  /// What a method says about its own solution.
+  struct Diagnostics
+  {
+    unsigned int n_neighbours = 0;       ///< bonds of one family (meshfree), cells in reach (Galerkin)
+    double smallest_weight_ratio = 1;    ///< min over a family of weight / (ball ∩ cell area or cell)
+    unsigned int n_negative_weights = 0; ///< in one family
+    double relative_residual = 0;        ///< of the linear system when the solver stopped
+    std::string operator_road;           ///< "fft", "direct" or "sparse"
+    unsigned int n_geometry_checks = 0;  ///< cut cells recomputed with the exact backend
+    double geometry_difference = 0;      ///< worst difference among them, relative to the cell
+    std::vector<std::string> notes;      ///< what the method had to do, e.g. clip a negative kernel
+  };
+
+  /// One method on one case at one level.
+  struct Run
+  {
+    std::string method;          ///< e.g. "IPA-AC"
+    std::string family;          ///< "meshfree" or "reference"
+    std::string problem;         ///< case name, e.g. "case1"
+    std::string series;          ///< what is held fixed, e.g. "m = 3"
+    unsigned int level = 0;      ///< from coarse to fine
+    double h = 0, horizon = 0;   ///< [length]
+    base::Cost cost;
+    Diagnostics diagnostics;
+    std::map<std::string, double> errors; ///< by "norm | target", e.g. "nodal Linf | exact"
+    std::string failure;         ///< empty, or why there is no solution
+  };
+
+  /// A convergence study has one of these answers.
+  enum class Outcome
+  {
+    converges,     ///< plateau statistically nil, rate at least 3/4
+    stalls,        ///< significant plateau, or the error grows again
+    undecided,     ///< neither; one finer level would help
+    failed         ///< no solution at some level
+  };
+
+  /// One error over a sweep, and what it says.
+  struct Trend
+  {
+    std::string method, family, problem, series;
+    std::string error;            ///< "norm | target"
+    std::string parameter;        ///< what varies: "h" or "horizon"
+    std::vector<double> x;        ///< its values, coarse to fine [length]
+    std::vector<double> values;   ///< the errors
+    std::vector<double> rates;    ///< between neighbours, size x.size() - 1
+    double rate = 0, rate_uncertainty = 0;       ///< p of the fit e = a + b x^p
+    double plateau = 0, plateau_uncertainty = 0; ///< a of the fit
+    Outcome outcome = Outcome::undecided;
+    std::string verdict;          ///< "AC", "not AC", "m-convergent", "not m-convergent", "undecided" ...
+    std::string reason;           ///< one sentence with the numbers
+  };
+
+  /// The reference's own uncertainty at one level.
+  struct ReferenceEstimate
+  {
+    std::string problem, series, method; ///< method: of the reference, e.g. "Q2"
+    unsigned int level = 0;
+    double h = 0, horizon = 0;
+    double h_change = 0;  ///< averages L2: change to h/2
+    double p_change = 0;  ///< averages L2: change to degree p + 1
+    double estimate = 0;  ///< the larger of the two
+  };
+
+  /// Something the scene did not need.
+  struct Omission
+  {
+    std::string what, why, saving;
+  };
+
+  /// One line of the scene's Expected section.
+  struct Expectation
+  {
+    std::string subject, expected, found;
+    bool holds = false;
+  };
+
+  /// Which method to take for one problem and series.
+  struct Advice
+  {
+    std::string problem, series, text;
+  };
+
+  /// Everything of one run of a scene, as written to results.json.
+  struct Results
+  {
+    std::string scene_name, purpose, regime; ///< regime: "m", "delta", "delta-m" or "horizon"
+    std::string scene_text;                  ///< the scene as read, all keys
+    std::map<std::string, std::string> provenance; ///< version, libraries, machine
+    std::string decisive_error;              ///< the "norm | target" that verdicts rest on
+    std::vector<Run> runs;
+    std::vector<Trend> trends;
+    std::vector<ReferenceEstimate> references;
+    std::vector<Omission> omissions;
+    std::vector<Expectation> expectations;
+    std::vector<Advice> advice;
+    bool is_complete = false; ///< false while a run is going on, or after an interrupt
+  };
+} // namespace plumbline::study

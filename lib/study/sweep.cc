@@ -1,0 +1,277 @@
+#include "study/sweep.h"
+
+#include "base/error.h"
+#include "study/comparison.h"
+#include "study/conclusions.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::study
+{
+  namespace
+  {
+    std::shared_ptr<const Method> find_method(const Methods &available, const std::string &name,
+                                              const std::string &key)
+    {
+      std::string names;
+      for (const auto &method : available)
+      {
+        if (method->name() == name)
+          return method;
+        names += (names.empty() ? "" : ", ") + method->name();
+      }
+      throw InputError(key + ": method '" + name + "' is not known; choose of " + names);
+    }
+
+    const char *regime_name(scene::Regime regime)
+    {
+      switch (regime)
+      {
+      case scene::Regime::m:
+        return "m";
+      case scene::Regime::delta:
+        return "delta";
+      case scene::Regime::delta_m:
+        return "delta-m";
+      case scene::Regime::horizon:
+        break;
+      }
+      return "horizon";
+    }
+
+    bool is_same_run(const Run &run, const std::string &method, const std::string &problem,
+                     const std::string &series, unsigned int level)
+    {
+      return run.method == method && run.problem == problem && run.series == series &&
+             run.level == level;
+    }
+
+    /// A reference solution's averages, and how far they move to h/2 and to degree p + 1.
+    struct ReferenceAverages
+    {
+      std::vector<double> averages;
+      ReferenceEstimate estimate;
+    };
+
+    ReferenceAverages solve_reference(const scene::Scene &scene, const scene::Problem &problem,
+                                      unsigned int case_index, const scene::Level &level,
+                                      const Method &method)
+    {
+      ReferenceAverages result;
+      result.averages = method.solve(scene, problem).averages;
+      result.estimate.method = method.name();
+      if (!scene.estimate_reference)
+        return result;
+
+      scene::Scene fine_scene = scene;
+      fine_scene.nodes_at_vertices = false;
+      fine_scene.n_geometry_checks = 0;
+      const scene::Problem fine =
+          make_problem(fine_scene, case_index, {level.h / 2, level.horizon});
+      const auto fine_averages =
+          coarsen_averages(method.solve(fine_scene, fine).averages,
+                           comparison_nodes(fine_scene, fine.lattice, fine.n_components),
+                           comparison_nodes(scene, problem.lattice, problem.n_components));
+      result.estimate.h_change = averages_l2(result.averages, fine_averages, level.h);
+      if (const auto higher = method.higher_degree())
+        result.estimate.p_change =
+            averages_l2(result.averages, higher->solve(scene, problem).averages, level.h);
+      result.estimate.estimate = std::max(result.estimate.h_change, result.estimate.p_change);
+      return result;
+    }
+
+    /// One walk through cases, series and levels.
+    class Sweep
+    {
+    public:
+      Sweep(const scene::Scene &scene, const Methods &methods, const Methods &available,
+            const SweepControl &control, const Results &earlier)
+          : scene_(scene), methods_(methods), available_(available), control_(control),
+            earlier_(earlier)
+      {
+        results_.scene_name = scene.name;
+        results_.purpose = scene.purpose;
+        results_.regime = regime_name(scene.regime);
+        results_.scene_text = scene.text;
+        results_.decisive_error = scene.decisive_error;
+        results_.provenance = earlier.provenance;
+      }
+
+      Results run()
+      {
+        const auto cases = scene_.case_names();
+        std::size_t n_done = 0, n_all = 0;
+        for (const auto &series : scene_.series)
+          n_all += cases.size() * n_levels(series) * methods_.size();
+        for (unsigned int c = 0; c < cases.size() && !is_stopped_; ++c)
+          for (const auto &series : scene_.series)
+            for (unsigned int level = 0; level < n_levels(series) && !is_stopped_; ++level)
+            {
+              run_level(c, cases[c], series, level, n_done, n_all);
+              n_done += methods_.size();
+            }
+        results_.is_complete = !is_stopped_;
+        conclude(scene_, results_);
+        return results_;
+      }
+
+    private:
+      unsigned int n_levels(const scene::Series &series) const
+      {
+        const auto n = static_cast<unsigned int>(series.levels.size());
+        return control_.n_levels == 0 ? n : std::min(n, control_.n_levels);
+      }
+
+      /// Take over what an earlier run of the same scene has for this level.
+      bool take_earlier(const std::string &name, const scene::Series &series, unsigned int level)
+      {
+        std::vector<Run> known;
+        for (const auto &method : methods_)
+          for (const Run &run : earlier_.runs)
+            if (is_same_run(run, method->name(), name, series.name, level))
+              known.push_back(run);
+        if (known.size() != methods_.size())
+          return false;
+        results_.runs.insert(results_.runs.end(), known.begin(), known.end());
+        for (const ReferenceEstimate &estimate : earlier_.references)
+          if (estimate.problem == name && estimate.series == series.name && estimate.level == level)
+            results_.references.push_back(estimate);
+        return true;
+      }
+
+      void run_level(unsigned int case_index, const std::string &name, const scene::Series &series,
+                     unsigned int level, std::size_t n_done, std::size_t n_all)
+      {
+        if (take_earlier(name, series, level))
+          return;
+        const scene::Level &sizes = series.levels[level];
+        const scene::Problem problem = make_problem(scene_, case_index, sizes);
+        ReferenceAverages reference;
+        if (scene_.reference != "none")
+        {
+          reference = solve_reference(scene_, problem, case_index, sizes,
+                                      *find_method(available_, scene_.reference, "Reference/method"));
+          reference.estimate.problem = name;
+          reference.estimate.series = series.name;
+          reference.estimate.level = level;
+          reference.estimate.h = sizes.h;
+          reference.estimate.horizon = sizes.horizon;
+          results_.references.push_back(reference.estimate);
+        }
+        for (const auto &method : methods_)
+        {
+          if (control_.should_stop && control_.should_stop())
+          {
+            is_stopped_ = true;
+            return;
+          }
+          if (control_.on_progress)
+            control_.on_progress(name + ", " + series.name + ", level " +
+                                     std::to_string(level + 1) + ": " + method->name(),
+                                 static_cast<double>(n_done++) / static_cast<double>(n_all));
+          run_method(*method, name, series, level, problem, reference.averages);
+          if (control_.on_result)
+            control_.on_result(results_);
+        }
+      }
+
+      void run_method(const Method &method, const std::string &name, const scene::Series &series,
+                      unsigned int level, const scene::Problem &problem,
+                      const std::vector<double> &reference)
+      {
+        Run run;
+        run.method = method.name();
+        run.family = method.family();
+        run.problem = name;
+        run.series = series.name;
+        run.level = level;
+        run.h = series.levels[level].h;
+        run.horizon = series.levels[level].horizon;
+        try
+        {
+          const Solution solution = method.solve(scene_, problem);
+          run.cost = solution.cost;
+          run.diagnostics = solution.diagnostics;
+          run.errors = errors(scene_, problem, solution, reference);
+          for (const auto &[error, value] : run.errors)
+            if (!std::isfinite(value))
+              throw NumericalError("the error " + error + " is not a finite number");
+          if (control_.on_finest && level + 1 == n_levels(series))
+            control_.on_finest(solution, run);
+        }
+        catch (const NumericalError &error)
+        {
+          run.failure = error.what();
+        }
+        results_.runs.push_back(run);
+      }
+
+      const scene::Scene &scene_;
+      const Methods &methods_, &available_;
+      const SweepControl &control_;
+      const Results &earlier_;
+      Results results_;
+      bool is_stopped_ = false;
+    };
+  } // namespace
+
+  Methods choose_methods(const scene::Scene &scene, const Methods &available)
+  {
+    Methods chosen;
+    for (const std::string &name : scene.methods)
+      if (name == "all")
+      {
+        for (const auto &method : available)
+          if (method->why_not(scene).empty())
+            chosen.push_back(method);
+      }
+      else
+      {
+        chosen.push_back(find_method(available, name, "Methods/names"));
+        if (const std::string reason = chosen.back()->why_not(scene); !reason.empty())
+          throw InputError("Methods/names: '" + name + "' cannot do this scene: " + reason);
+      }
+    if (scene.reference != "none")
+      (void)find_method(available, scene.reference, "Reference/method");
+    for (const auto *list : {&scene.expected_verdicts, &scene.expected_errors, &scene.expected_rates,
+                             &scene.expected_bounds})
+      for (const scene::Expected &expected : *list)
+        (void)find_method(available, expected.method, "Expected");
+    return chosen;
+  }
+
+  void check_data(const scene::Scene &scene)
+  {
+    constexpr int n_samples = 24;
+    const auto names = scene.case_names();
+    for (unsigned int c = 0; c < names.size(); ++c)
+      for (const auto &series : scene.series)
+      {
+        const scene::Level &level = series.levels.front();
+        const scene::Problem problem = make_problem(scene, c, level);
+        const auto &n = problem.lattice.n_cells();
+        const double margin = level.horizon / level.h + 1;
+        for (int j = 0; j <= n_samples; ++j)
+          for (int i = 0; i <= n_samples; ++i)
+          {
+            const double s = -margin + i * (n[0] + 2 * margin) / n_samples;
+            const double t = -margin + j * (n[1] + 2 * margin) / n_samples;
+            const bool is_inside = problem.lattice.is_inside(static_cast<int>(std::floor(s)),
+                                                             static_cast<int>(std::floor(t)));
+            for (unsigned int component = 0; component < problem.n_components; ++component)
+            {
+              (void)problem.constraint.value(problem.lattice.point(s, t), component);
+              if (is_inside)
+                (void)problem.load.value(problem.lattice.point(s, t), component);
+            }
+          }
+      }
+  }
+
+  Results run_sweep(const scene::Scene &scene, const Methods &methods, const Methods &available,
+                    const SweepControl &control, const Results &earlier)
+  {
+    return Sweep(scene, methods, available, control, earlier).run();
+  }
+} // namespace plumbline::study

@@ -1,0 +1,175 @@
+#include "study/trend.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace plumbline::study
+{
+  namespace
+  {
+    /// Errors of fields of size one are round-off of entries, loads and solver below this.
+    constexpr double round_off = 1e-10;
+
+    struct LinearFit
+    {
+      double a, b, residual;
+    };
+
+    /// a and b of e = a + b x^p for fixed p, by least squares of relative residuals.
+    LinearFit fit_at(const std::vector<double> &x, const std::vector<double> &e, double p)
+    {
+      double s11 = 0, s12 = 0, s22 = 0, r1 = 0, r2 = 0;
+      const double scale = x.front();
+      for (std::size_t i = 0; i < x.size(); ++i)
+      {
+        const double u = 1 / e[i], v = std::pow(x[i] / scale, p) / e[i];
+        s11 += u * u;
+        s12 += u * v;
+        s22 += v * v;
+        r1 += u;
+        r2 += v;
+      }
+      const double determinant = s11 * s22 - s12 * s12;
+      LinearFit fit{(s22 * r1 - s12 * r2) / determinant, (s11 * r2 - s12 * r1) / determinant, 0};
+      for (std::size_t i = 0; i < x.size(); ++i)
+      {
+        const double relative = (fit.a + fit.b * std::pow(x[i] / scale, p)) / e[i] - 1;
+        fit.residual += relative * relative;
+      }
+      fit.b /= std::pow(scale, p);
+      return fit;
+    }
+
+    PlateauFit best_fit(const std::vector<double> &x, const std::vector<double> &e)
+    {
+      constexpr double lowest = .25, highest = 8, step = .01;
+      PlateauFit best;
+      double residual = 1e300;
+      for (double p = lowest; p <= highest; p += step)
+        if (const LinearFit fit = fit_at(x, e, p); fit.residual < residual)
+        {
+          residual = fit.residual;
+          best = {fit.a, fit.b, p, 0};
+        }
+      return best;
+    }
+
+    std::string number(double value)
+    {
+      std::ostringstream text;
+      text << std::setprecision(3) << value;
+      return text.str();
+    }
+  } // namespace
+
+  PlateauFit fit_plateau(const std::vector<double> &x, const std::vector<double> &e)
+  {
+    PlateauFit fit = best_fit(x, e);
+    if (x.size() == 3)
+    {
+      // nothing to leave out: the spread between first and second order extrapolation of the last pair
+      const auto extrapolate = [&](double p) {
+        const double ratio = std::pow(x[1] / x[2], p);
+        return (ratio * e[2] - e[1]) / (ratio - 1);
+      };
+      fit.a_uncertainty = std::abs(extrapolate(1) - extrapolate(2));
+      return fit;
+    }
+    for (std::size_t left_out = 0; left_out < x.size(); ++left_out)
+    {
+      auto fewer_x = x, fewer_e = e;
+      fewer_x.erase(fewer_x.begin() + left_out);
+      fewer_e.erase(fewer_e.begin() + left_out);
+      fit.a_uncertainty =
+          std::max(fit.a_uncertainty, std::abs(best_fit(fewer_x, fewer_e).a - fit.a));
+    }
+    return fit;
+  }
+
+  Slope fit_slope(const std::vector<double> &x, const std::vector<double> &e)
+  {
+    const auto n = static_cast<double>(x.size());
+    double mean_x = 0, mean_e = 0, sxx = 0, sxe = 0, residual = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+      mean_x += std::log(x[i]) / n;
+      mean_e += std::log(e[i]) / n;
+    }
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+      sxx += std::pow(std::log(x[i]) - mean_x, 2);
+      sxe += (std::log(x[i]) - mean_x) * (std::log(e[i]) - mean_e);
+    }
+    Slope slope{sxe / sxx, 0};
+    for (std::size_t i = 0; i < x.size(); ++i)
+      residual +=
+          std::pow(std::log(e[i]) - mean_e - slope.value * (std::log(x[i]) - mean_x), 2);
+    slope.uncertainty = n > 2 ? std::sqrt(residual / (n - 2) / sxx) : 0;
+    return slope;
+  }
+
+  void judge(Trend &trend)
+  {
+    trend.rates.clear();
+    for (std::size_t i = 1; i < trend.x.size(); ++i)
+      trend.rates.push_back(std::log(trend.values[i] / trend.values[i - 1]) /
+                            std::log(trend.x[i] / trend.x[i - 1]));
+    const double largest =
+        trend.values.empty() ? 0 : *std::max_element(trend.values.begin(), trend.values.end());
+    if (!trend.values.empty() && largest < round_off)
+    {
+      trend.outcome = Outcome::converges;
+      trend.reason = "exact to round-off, largest error " + number(largest);
+      return;
+    }
+
+    std::vector<double> x, e;
+    for (std::size_t i = 0; i < trend.x.size(); ++i)
+      if (trend.values[i] > round_off)
+      {
+        x.push_back(trend.x[i]);
+        e.push_back(trend.values[i]);
+      }
+    if (x.size() < 3)
+    {
+      trend.outcome = Outcome::undecided;
+      trend.reason = "fewer than three levels above round-off";
+      return;
+    }
+    const PlateauFit fit = fit_plateau(x, e);
+    const Slope slope = fit_slope({x.end() - 3, x.end()}, {e.end() - 3, e.end()});
+    const double last = e.back(), smallest = *std::min_element(e.begin(), e.end());
+    trend.plateau = fit.a;
+    trend.plateau_uncertainty = fit.a_uncertainty;
+    trend.rate = slope.value;
+    trend.rate_uncertainty = slope.uncertainty;
+
+    const bool is_significant = fit.a > 3 * fit.a_uncertainty;
+    const bool is_nil = !is_significant || fit.a < .1 * last;
+    const std::string numbers = "plateau " + number(fit.a) + " ± " + number(fit.a_uncertainty) +
+                                ", last error " + number(last) + ", rate " + number(slope.value) +
+                                " ± " + number(slope.uncertainty);
+    if (last > 2 * smallest)
+    {
+      trend.outcome = Outcome::stalls;
+      trend.reason = "the error grows again, from " + number(smallest) + " to " + number(last);
+    }
+    else if (is_nil && slope.value >= .75)
+    {
+      trend.outcome = Outcome::converges;
+      trend.reason = "no plateau: " + numbers;
+    }
+    else if (is_significant && fit.a >= .3 * last)
+    {
+      trend.outcome = Outcome::stalls;
+      trend.reason = "significant plateau: " + numbers;
+    }
+    else
+    {
+      trend.outcome = Outcome::undecided;
+      trend.reason = "run one finer level: " + numbers;
+    }
+  }
+} // namespace plumbline::study

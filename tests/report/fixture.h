@@ -1,0 +1,179 @@
+#pragma once
+
+#include "study/results.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Results such as a δ-convergence study leaves behind, from formulas: 2 problems × 2 series × 5
+/// methods × 5 levels, with everything that is awkward to print.
+namespace plumbline::report::fixture
+{
+  struct Model
+  {
+    std::string method, family;
+    double plateau, factor, rate; ///< error = plateau + factor horizon^rate
+    double cost;                  ///< CPU seconds per unknown
+    unsigned int iterations;
+  };
+
+  inline std::vector<Model> models()
+  {
+    return {{"FA", "meshfree", 7.4e-3, .05, 1, 2e-7, 12},
+            {"IPA-AC", "meshfree", 1.26e-2, .3, 2, 4e-7, 12},
+            {"IPA-AC recalibrated", "meshfree", 0, .31, 2, 5e-7, 12},
+            {"P0", "reference", 6.6e-3, .4, 2, 3e-6, 16},
+            {"Q1", "reference", 0, .2, 2, 6e-6, 16}};
+  }
+
+  inline study::Results make(const std::vector<std::string> &problems,
+                             const std::vector<double> &ratios, const std::vector<Model> &models,
+                             unsigned int n_levels)
+  {
+    study::Results results;
+    results.scene_name = "compatibility_scalar";
+    results.purpose =
+        "Which quadrature rules stay right as the horizon δ goes to 0 with δ/h fixed?";
+    results.regime = "delta";
+    results.scene_text = "# Compatibility\nsubsection Kernel\n  set profile = "
+                         "<script>alert(1)</script> & \"quoted\"\nend\n";
+    results.provenance = {{"version", "0.1.0"},
+                          {"libraries", "deal.II 9.4.1, FFTW 3.3.10"},
+                          {"machine", "2 cores & 8 GB"}};
+    results.decisive_error = "nodal Linf | exact";
+    results.is_complete = true;
+    double scale = 1;
+    for (const std::string &problem : problems)
+    {
+      for (const double m : ratios)
+      {
+        const std::string series = "m = " + std::to_string(static_cast<int>(m));
+        for (const Model &model : models)
+        {
+          study::Trend trend{model.method,
+                             model.family,
+                             problem,
+                             series,
+                             results.decisive_error,
+                             "horizon",
+                             {},
+                             {},
+                             {},
+                             model.rate,
+                             .03,
+                             scale * model.plateau / m,
+                             2e-5,
+                             model.plateau > 0 ? study::Outcome::stalls : study::Outcome::converges,
+                             model.plateau > 0 ? "not AC" : "AC",
+                             "the error tends to a plateau of " +
+                                 std::to_string(scale * model.plateau / m) + " ± 0.00002"};
+          for (unsigned int level = 0; level < n_levels; ++level)
+          {
+            study::Run run;
+            run.method = model.method;
+            run.family = model.family;
+            run.problem = problem;
+            run.series = series;
+            run.level = level;
+            run.h = .1 / std::pow(2., level);
+            run.horizon = m * run.h;
+            run.cost.n_unknowns = static_cast<std::size_t>(std::pow(1 / run.h - 1, 2));
+            run.cost.n_bonds = static_cast<std::uint64_t>(3.14 * m * m) * run.cost.n_unknowns;
+            run.cost.setup_seconds = model.cost * static_cast<double>(run.cost.n_bonds);
+            run.cost.solve_seconds = 2e-7 * static_cast<double>(run.cost.n_unknowns);
+            run.cost.peak_bytes = 2000000 + 80 * run.cost.n_unknowns;
+            run.cost.n_iterations = model.iterations + level;
+            run.diagnostics.n_neighbours = static_cast<unsigned int>(3.14 * m * m);
+            run.diagnostics.smallest_weight_ratio = model.family == "meshfree" ? .87 : 1;
+            run.diagnostics.relative_residual = 3e-13;
+            run.diagnostics.operator_road = "fft";
+            run.diagnostics.n_geometry_checks = 40;
+            run.diagnostics.geometry_difference = 2e-15;
+            const double error =
+                scale * (model.plateau + model.factor * std::pow(run.horizon, model.rate)) / m;
+            run.errors = {{results.decisive_error, error}, {"averages L2 | reference", .6 * error}};
+            trend.x.push_back(run.horizon);
+            trend.values.push_back(error);
+            if (level > 0)
+              trend.rates.push_back(std::log2(trend.values[level - 1] / error));
+            results.runs.push_back(run);
+          }
+          results.trends.push_back(trend);
+        }
+        for (unsigned int level = 0; level < n_levels; ++level)
+          results.references.push_back({problem, series, "Q2", level, .1 / std::pow(2., level),
+                                        m * .1 / std::pow(2., level), 3e-5, 1e-5, 3e-5});
+        results.advice.push_back({problem, series,
+                                  "Take IPA-AC recalibrated: error 1.2e-" +
+                                      std::to_string(static_cast<int>(m)) +
+                                      " in 0.3 CPU s; Q1 needs 9 "
+                                      "CPU s for the same."});
+      }
+      scale *= .4;
+    }
+    results.omissions = {{"outer quadrature", "the lattice has exact entries", "9 of 10 CPU s"},
+                         {"the matrix", "one stencil <serves> all nodes", "memory of 1e6 bonds"}};
+    results.expectations = {{"IPA-AC, case1, m = 3", "not AC", "not AC", true},
+                            {"FA, case1, m = 3", "AC", "not AC", false}};
+    return results;
+  }
+
+  /// The awkward cases: an error that is zero, one that is not a number, a level without solution.
+  inline study::Results results()
+  {
+    study::Results results = make({"case1", "case_2 δ"}, {3, 4}, models(), 5);
+    const auto run = [&](const std::string &method, unsigned int level) -> study::Run &
+    {
+      for (study::Run &one : results.runs)
+        if (one.method == method && one.level == level && one.problem == "case1")
+          return one;
+      std::abort();
+    };
+    run("Q1", 0).errors[results.decisive_error] = 0;
+    run("Q1", 1).errors[results.decisive_error] = 3e-13;
+    run("P0", 2).errors[results.decisive_error] = std::numeric_limits<double>::quiet_NaN();
+    run("FA", 4).failure = "family of node 17 is singular, \"rank\" 17 < 18";
+    run("FA", 4).errors.clear();
+    run("IPA-AC", 3).diagnostics.notes = {"kernel clipped at <0>, 12 nodes"};
+    run("IPA-AC", 3).diagnostics.n_negative_weights = 2;
+    return results;
+  }
+
+  /// A folder that goes away with the test.
+  class Folder
+  {
+  public:
+    Folder()
+    {
+      std::string name = (std::filesystem::temp_directory_path() / "plumbline-XXXXXX").string();
+      path_ = mkdtemp(name.data());
+    }
+    ~Folder() { std::filesystem::remove_all(path_); }
+    Folder(const Folder &) = delete;
+    const std::filesystem::path &path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+  };
+
+  inline std::string read(const std::filesystem::path &file)
+  {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  inline std::size_t count(const std::string &text, const std::string &part)
+  {
+    std::size_t n = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+      ++n;
+    return n;
+  }
+} // namespace plumbline::report::fixture

@@ -1,0 +1,186 @@
+#include "report/json.h"
+
+#include "base/error.h"
+#include "tests/report/fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    std::string error_of(const std::filesystem::path &file)
+    {
+      try
+      {
+        read_json(file);
+      }
+      catch (const InputError &error)
+      {
+        return error.what();
+      }
+      return "no error";
+    }
+
+    void write(const std::filesystem::path &file, const std::string &text)
+    {
+      std::ofstream(file, std::ios::binary) << text;
+    }
+  } // namespace
+
+  TEST(ReportJson, IsTheSameAfterARoundTrip)
+  {
+    const fixture::Folder folder;
+    const study::Results results = fixture::results();
+    write_json(results, folder.path() / "a.json");
+    const study::Results back = read_json(folder.path() / "a.json");
+
+    // Every key takes part: the text written from what was read is the text that was read.
+    write_json(back, folder.path() / "b.json");
+    EXPECT_EQ(fixture::read(folder.path() / "a.json"), fixture::read(folder.path() / "b.json"));
+
+    // And what was read is what there was, in each part.
+    ASSERT_EQ(back.runs.size(), results.runs.size());
+    for (std::size_t i = 0; i < back.runs.size(); ++i)
+    {
+      EXPECT_EQ(back.runs[i].method, results.runs[i].method);
+      EXPECT_EQ(back.runs[i].h, results.runs[i].h);
+      EXPECT_EQ(back.runs[i].cost.setup_seconds, results.runs[i].cost.setup_seconds);
+      EXPECT_EQ(back.runs[i].cost.n_bonds, results.runs[i].cost.n_bonds);
+      EXPECT_EQ(back.runs[i].diagnostics.notes, results.runs[i].diagnostics.notes);
+      EXPECT_EQ(back.runs[i].failure, results.runs[i].failure);
+      ASSERT_EQ(back.runs[i].errors.size(), results.runs[i].errors.size());
+      for (const auto &[name, value] : results.runs[i].errors)
+        if (std::isfinite(value))
+          EXPECT_EQ(back.runs[i].errors.at(name), value);
+        else
+          EXPECT_TRUE(std::isnan(back.runs[i].errors.at(name)));
+    }
+    ASSERT_EQ(back.trends.size(), results.trends.size());
+    for (std::size_t i = 0; i < back.trends.size(); ++i)
+    {
+      EXPECT_EQ(back.trends[i].values, results.trends[i].values);
+      EXPECT_EQ(back.trends[i].outcome, results.trends[i].outcome);
+      EXPECT_EQ(back.trends[i].plateau, results.trends[i].plateau);
+    }
+    EXPECT_EQ(back.purpose, results.purpose); // with δ in it
+    EXPECT_EQ(back.scene_text, results.scene_text);
+    EXPECT_EQ(back.provenance, results.provenance);
+    EXPECT_EQ(back.is_complete, results.is_complete);
+    EXPECT_EQ(back.references.size(), results.references.size());
+    EXPECT_EQ(back.omissions.at(1).what, results.omissions.at(1).what);
+    EXPECT_EQ(back.expectations.at(1).holds, false);
+    EXPECT_EQ(back.advice.at(3).text, results.advice.at(3).text);
+  }
+
+  TEST(ReportJson, KeepsTheExtremesOfNumbers)
+  {
+    const fixture::Folder folder;
+    study::Results results;
+    study::Run run;
+    run.cost.n_bonds = std::numeric_limits<std::uint64_t>::max();
+    run.h = .1;
+    run.horizon = std::nextafter(.3, 1.);
+    run.cost.setup_seconds = std::numeric_limits<double>::denorm_min();
+    run.cost.solve_seconds = std::numeric_limits<double>::max();
+    run.errors = {{"nan", std::nan("")}, {"inf", std::numeric_limits<double>::infinity()}};
+    results.runs = {run};
+    write_json(results, folder.path() / "results.json");
+    EXPECT_NE(fixture::read(folder.path() / "results.json").find("\"nan\": null"),
+              std::string::npos);
+    const study::Run back = read_json(folder.path() / "results.json").runs.at(0);
+    EXPECT_EQ(back.cost.n_bonds, run.cost.n_bonds);
+    EXPECT_EQ(back.h, run.h);
+    EXPECT_EQ(back.horizon, run.horizon);
+    EXPECT_EQ(back.cost.setup_seconds, run.cost.setup_seconds);
+    EXPECT_EQ(back.cost.solve_seconds, run.cost.solve_seconds);
+    EXPECT_TRUE(std::isnan(back.errors.at("nan")));
+    EXPECT_TRUE(std::isnan(back.errors.at("inf")));
+  }
+
+  TEST(ReportJson, DescribesEveryKeyInSchemaMd)
+  {
+    const std::filesystem::path here = std::filesystem::path(__FILE__).parent_path();
+    const std::string schema_md = fixture::read(here / "../../lib/report/schema.md");
+    ASSERT_FALSE(schema_md.empty());
+    const fixture::Folder folder;
+    study::Results results = fixture::results();
+    for (study::Run &run : results.runs)
+      run.errors.clear(); // their keys, and those of the provenance, are the user's
+    results.provenance.clear();
+    write_json(results, folder.path() / "results.json");
+    const std::string json = fixture::read(folder.path() / "results.json");
+    std::size_t n_keys = 0;
+    for (std::size_t at = json.find("\": "); at != std::string::npos;
+         at = json.find("\": ", at + 1))
+    {
+      const std::size_t begin = json.rfind('"', at - 1) + 1;
+      const std::string key = json.substr(begin, at - begin);
+      if (key == "cost" || key == "diagnostics")
+        continue; // described with their parts
+      EXPECT_TRUE(schema_md.find("`" + key + "`") != std::string::npos ||
+                  schema_md.find("." + key + "`") != std::string::npos)
+          << key;
+      ++n_keys;
+    }
+    EXPECT_GT(n_keys, 1000u);
+  }
+
+  TEST(ReportJson, ReplacesTheFileAndLeavesNoPart)
+  {
+    const fixture::Folder folder;
+    const std::filesystem::path file = folder.path() / "new" / "results.json";
+    write_json(fixture::results(), file);
+    write_json(study::Results(), file);
+    EXPECT_TRUE(read_json(file).runs.empty());
+    std::size_t n_files = 0;
+    for (const auto &entry : std::filesystem::directory_iterator(file.parent_path()))
+      n_files += entry.is_regular_file() ? 1 : 0;
+    EXPECT_EQ(n_files, 1u);
+  }
+
+  TEST(ReportJson, SaysWhatIsWrongWithAFileAndWhatToDo)
+  {
+    const fixture::Folder folder;
+    const std::filesystem::path file = folder.path() / "results.json";
+    const auto expect = [&](const std::string &part)
+    {
+      const std::string message = error_of(file);
+      EXPECT_NE(message.find(part), std::string::npos) << message;
+      EXPECT_NE(message.find(file.string()), std::string::npos) << message;
+      EXPECT_NE(message.find("; "), std::string::npos) << "no remedy in: " << message;
+    };
+    expect("cannot be read");
+    write(file, "{\"schema\": 1, ");
+    expect("is not JSON");
+    write(file, "[1]");
+    expect("is not an object");
+    write(file, "{}");
+    expect("schema is missing");
+    write(file, "{\"schema\": 2}");
+    expect("schema = 2");
+    write(file, "{\"schema\": 1}");
+    expect("scene_name is missing");
+
+    const auto damaged = [&](const std::string &from, const std::string &to)
+    {
+      write_json(fixture::results(), file);
+      std::string text = fixture::read(file);
+      const std::size_t at = text.find(from);
+      ASSERT_NE(at, std::string::npos) << from;
+      write(file, text.replace(at, from.size(), to));
+    };
+    damaged("\"outcome\": \"stalls\"", "\"outcome\": \"so so\"");
+    expect("trends[0].outcome is not one of converges, stalls, undecided, failed");
+    damaged("\"n_unknowns\": 81", "\"n_unknowns\": -81");
+    expect("runs[0].cost.n_unknowns is not a whole number");
+    damaged("\"peak_bytes\":", "\"bytes\":");
+    expect("runs[0].cost.peak_bytes is missing");
+    damaged("\"h\": 0.1", "\"h\": \"0.1\"");
+    expect(".h is not a number");
+  }
+} // namespace plumbline::report
