@@ -115,6 +115,14 @@ namespace plumbline::app
       std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     };
 
+    /// Beside an installed command, else those of the source tree.
+    fs::path scenes_folder()
+    {
+      const fs::path installed =
+          fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/plumbline/scenes";
+      return fs::is_directory(installed) ? installed : fs::path(PLUMBLINE_SCENES);
+    }
+
     std::string file_name(const study::Run &run)
     {
       std::string name = run.problem + "_" + run.series + "_" + run.method;
@@ -234,10 +242,11 @@ namespace plumbline::app
                   << type.source << '\n';
     else if (subject == "scenes")
     {
-      if (!fs::is_directory(PLUMBLINE_SCENES))
-        throw InputError(std::string("the scenes folder '") + PLUMBLINE_SCENES + "' is not there");
+      const fs::path folder = scenes_folder();
+      if (!fs::is_directory(folder))
+        throw InputError("the scenes folder '" + folder.string() + "' is not there");
       std::set<fs::path> files;
-      for (const auto &entry : fs::recursive_directory_iterator(PLUMBLINE_SCENES))
+      for (const auto &entry : fs::recursive_directory_iterator(folder))
         if (entry.path().extension() == ".prm")
           files.insert(entry.path());
       for (const fs::path &file : files)

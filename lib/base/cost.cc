@@ -1,5 +1,7 @@
 #include "base/cost.h"
 
+#include <malloc.h>
+
 #include <ctime>
 #include <fstream>
 #include <string>
@@ -32,6 +34,7 @@ namespace plumbline::base
 
   MemoryGauge::MemoryGauge()
   {
+    malloc_trim(0); // memory that was freed but kept would hide what the solve takes
     std::ofstream("/proc/self/clear_refs") << "5";
     start_ = status_bytes("VmRSS:");
   }

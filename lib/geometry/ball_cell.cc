@@ -30,7 +30,7 @@ namespace plumbline::geometry
       double diagonal_square() const { return dot(upper - lower, upper - lower); }
     };
 
-    /// A polygon whose area is below this fraction of its bounding box' diagonal squared is
+    /// A polygon whose area is below this fraction of its bounding box's diagonal squared is
     /// degenerate: its area is then rounding.
     constexpr double flat = 8 * eps;
 
@@ -91,11 +91,10 @@ namespace plumbline::geometry
 
       Shape shape{0, vec(vertices[0]), vec(vertices[0])};
       double finite = 0, least_turn = 0;
-      unsigned int flips =
-          0; // of the edges between the upper and the lower half plane: 2 if convex
+      unsigned int flips = 0; // of edges between the upper and the lower half plane: 2 if convex
       const auto is_upper = [](Vec e) { return e.y > 0 || (e.y == 0 && e.x > 0); };
-      Vec a = vec(vertices[n - 1]), last = vec(vertices[0]) - a;
-      for (unsigned int i = n - 1; i > 0 && same(last, {0, 0}); --i) // repeated vertices
+      Vec a = vec(vertices[n - 1]), last{0, 0}; // the edge that ends in a
+      for (unsigned int i = n - 1; i > 0 && same(last, {0, 0}); --i)
         last = relative(vertices[i], vertices[i - 1]);
       for (unsigned int i = 0; i < n; ++i)
       {
@@ -167,6 +166,7 @@ namespace plumbline::geometry
       else
         walk(SmallBall(ball, vertices), sink);
     }
+
     std::vector<Piece> pieces(const Ball &ball, ArrayView<const Point<2>> vertices,
                               const Shape &shape, Backend backend)
     {

@@ -42,7 +42,7 @@ namespace plumbline::geometry
   /// included. A polygon of aspect ratio a costs digits in proportion; the centroid is rounded to
   /// its own coordinates.
   /// Any number of vertices; repeated and collinear ones are allowed. Backend::fast allocates
-  /// nothing and takes .15 µs for a square that is cut; Backend::cgal takes some 70 µs.
+  /// nothing and takes .15 µs for a square that is cut; Backend::cgal takes 60 µs.
   /// Not for: curved or non-convex cells; lengths below 1e-75 or above 1e75, whose powers leave
   /// double.
   /// Source: areas of the cells of a family as in Seleson 2014, doi:10.1016/j.cma.2014.06.016; here

@@ -158,9 +158,8 @@ namespace plumbline::geometry::detail
       double from, to; ///< angles relative to the corner's
       bool is_arc;
       Vec normal{0, 0};
-      double along = 0,
-             across = 0; ///< the normal's components, along and across the corner's direction
-      double shift = 0;  ///< of the side's line, from the corner
+      double along = 0, across = 0; ///< components of the normal, with respect to the corner
+      double shift = 0;             ///< of the side's line, from the corner
     };
 
     /// How far the angles between which the ray meets the side's line reach beyond [a, b].
@@ -226,10 +225,10 @@ namespace plumbline::geometry::detail
 
     /// Of a length or an angle: what rounding leaves of a zero.
     static constexpr double negligible = 4e-16;
-    /// Degree 8 and 16 angles reach rounding up to these lengths of an interval; below, in u.
-    static constexpr double widest_angle = 2.1, widest_u = 2.4;
-    /// An interval's length in units of its distance from the angle at which a side is radial.
-    static constexpr double widest_ratio = 1.2;
+    /// Largest length of an interval, in the angle and in u, and in units of its distance from the
+    /// angle at which a side is seen edge-on: with these, 16 points integrate degree 8 times 1/r to
+    /// 1e-14 (measured).
+    static constexpr double widest_angle = 2.1, widest_u = 2.4, widest_ratio = 1.2;
 
     const Ball &ball_;
     const Vec centre_;

@@ -85,7 +85,7 @@ namespace plumbline::geometry::detail
   }
 
   /// (a - centre) × (b - a), likewise.
-  inline double moment(const Point<2> &a, const Point<2> &b, const Point<2> &centre)
+  inline double edge_cross(const Point<2> &a, const Point<2> &b, const Point<2> &centre)
   {
     const Twofold x = difference(a[0], centre[0]), y = difference(a[1], centre[1]);
     const Twofold u = difference(b[0], a[0]), v = difference(b[1], a[1]);
@@ -110,8 +110,8 @@ namespace plumbline::geometry::detail
   };
 
   /// Positions relative to the first vertex, for a cell whose diagonal is below the radius. The
-  /// first vertex' power is taken in twofold precision; from there on all roundings are relative to
-  /// the cell, and a circle far larger than the cell costs no digits.
+  /// first vertex's power is taken in twofold precision; from there on all roundings are relative
+  /// to the cell, and a circle far larger than the cell costs no digits.
   struct SmallCell
   {
     const Ball &ball;
@@ -174,7 +174,7 @@ namespace plumbline::geometry::detail
       const double length = std::sqrt(dot(e, e));
       const Vec t = (1 / length) * e;
       const double d =
-          moment(vertices[i], vertices[(i + 1) % vertices.size()], ball.centre) / length;
+          edge_cross(vertices[i], vertices[(i + 1) % vertices.size()], ball.centre) / length;
       const double from = dot(a.at, t), to = dot(b.at, t);
       const double square = (ball.radius - d) * (ball.radius + d);
       const double half_chord = std::sqrt(std::max(square, 0.));

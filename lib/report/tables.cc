@@ -122,7 +122,7 @@ namespace plumbline::report
   {
     Table table;
     table.caption = "Verdicts on the error " + error_words(results.decisive_error) +
-                    ", from the fit e = a + b x^p: rate p, plateau a";
+                    ": fitted rate, and plateau a of e = a + b x^p";
     table.columns = {"method",
                      "problem",
                      "series",

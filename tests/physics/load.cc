@@ -1,0 +1,148 @@
+#include "physics/load.h"
+
+#include "base/error.h"
+#include "physics/chebyshev.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace plumbline;
+using namespace plumbline::physics;
+
+namespace
+{
+  constexpr double horizon = .4;
+
+  Kernel<2> linear_decay()
+  {
+    return Kernel<2>::with_diffusion(kernel_type("linear-decay").profile, horizon, .5);
+  }
+
+  /// Compare at random points of the unit square.
+  template <class Exact>
+  void expect_load(const Kernel<2> &kernel, const std::string &u, const Exact &exact,
+                   unsigned int component = 0)
+  {
+    const ManufacturedLoad load(kernel, Expression("Problem/solution", u));
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> uniform;
+    for (int i = 0; i < 20; ++i)
+    {
+      const Point<2> x(uniform(random), uniform(random));
+      const double value = exact(x[0], x[1]);
+      EXPECT_NEAR(load(x, component), value, 1e-13 * std::max(1., std::abs(value)))
+          << u << " at " << x;
+    }
+  }
+} // namespace
+
+// Closed forms of Yang & Yin, section 5, for the linear-decay kernel.
+TEST(ManufacturedLoad, agrees_with_closed_forms_for_polynomials)
+{
+  expect_load(linear_decay(), "x*(1-x)/2 + y*(1-y)/2", [](double, double) { return 1; });
+  expect_load(linear_decay(), "x^3 + 2*y^2", [](double x, double) { return -(3 * x + 2); });
+  expect_load(linear_decay(), "x^3*y^2 + y^4", [](double x, double y) {
+    return -(x * x * x + 3 * x * y * y + 6 * y * y) - 5 * horizon * horizon / 14 * (1 + x);
+  });
+}
+
+TEST(ManufacturedLoad, agrees_with_the_closed_form_for_the_bond_tensor)
+{
+  const double kappa = 1.5;
+  const auto kernel =
+      Kernel<2>::with_bulk_modulus(kernel_type("bond-tensor").profile, horizon, kappa);
+  const std::string v = "x*(1-x)/2 + y*(1-y)/2";
+  for (unsigned int c = 0; c < 2; ++c)
+    expect_load(kernel, v + "," + v, [&](double, double) { return 12 * kappa / 5; }, c);
+}
+
+// -∫ (u(x+z) - u(x)) over the ball = [πδ² - 2πδ J1(kδ)/k] u for u = sin(k·x).
+TEST(ManufacturedLoad, agrees_with_bessel_functions_for_waves)
+{
+  const auto kernel = Kernel<2>::with_diffusion(kernel_type("constant").profile, horizon, 1);
+  const double k = std::hypot(5, 3);
+  const double symbol = kernel.constant() * (M_PI * horizon * horizon -
+                                             2 * M_PI * horizon * std::cyl_bessel_j(1, k * horizon) / k);
+  expect_load(kernel, "sin(5*x + 3*y)",
+              [&](double x, double y) { return symbol * std::sin(5 * x + 3 * y); });
+}
+
+TEST(ManufacturedLoad, refuses_a_field_that_is_not_smooth)
+{
+  const ManufacturedLoad load(linear_decay(), Expression("Problem/solution", "sign(x - 0.51)"));
+  EXPECT_THROW(load(Point<2>(.5, .5), 0), NumericalError);
+}
+
+TEST(ManufacturedLoad, refuses_one_component_for_a_tensor)
+{
+  const auto kernel = Kernel<2>::with_bulk_modulus(kernel_type("bond-tensor").profile, horizon, 1);
+  EXPECT_THROW(ManufacturedLoad(kernel, Expression("Problem/solution", "x")), InputError);
+}
+
+TEST(Expression, knows_x_y_pi_and_constants)
+{
+  const Expression f("key", "sin(pi*x) + delta, pow(x, 2) * y", {{"delta", .25}});
+  ASSERT_EQ(f.n_components(), 2u);
+  EXPECT_DOUBLE_EQ(f(Point<2>(.5, 2), 0), 1.25);
+  EXPECT_DOUBLE_EQ(f(Point<2>(.5, 2), 1), .5);
+  const Expression copy = f;
+  EXPECT_DOUBLE_EQ(copy(Point<2>(1, 3), 1), 3);
+}
+
+TEST(Expression, reports_what_does_not_parse_and_what_is_not_finite)
+{
+  try
+  {
+    Expression("Problem/load", "x +* y");
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("Problem/load = 'x +* y' does not parse"),
+              std::string::npos);
+  }
+  const Expression root("Problem/load", "sqrt(x)");
+  try
+  {
+    (void)root(Point<2>(-1, 2));
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("at (x, y) = (-1, 2)"), std::string::npos);
+  }
+}
+
+TEST(ChebyshevField, reproduces_smooth_fields_to_round_off_and_contracts_axis_by_axis)
+{
+  const auto f = [](const Point<2> &x, unsigned int c) {
+    return c == 0 ? std::exp(x[0]) * std::cos(4 * x[1]) : x[0] * x[0] * x[1];
+  };
+  const auto field = ChebyshevField::resolve(f, 2, Point<2>(-1, 0), Point<2>(2, 1));
+  ASSERT_TRUE(field);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform;
+  for (int i = 0; i < 50; ++i)
+  {
+    const Point<2> x(3 * uniform(random) - 1, uniform(random));
+    for (unsigned int c = 0; c < 2; ++c)
+      EXPECT_NEAR((*field)(x, c), f(x, c), 4e-14);
+  }
+  const auto a = field->basis(0, .3);
+  auto b = field->basis(1, .2);
+  const auto more = field->basis(1, .7);
+  b.insert(b.end(), more.begin(), more.end());
+  const auto values = field->contract(1, a, b);
+  ASSERT_EQ(values.size(), 2u);
+  EXPECT_NEAR(values[0], .3 * .3 * .2, 1e-15);
+  EXPECT_NEAR(values[1], .3 * .3 * .7, 1e-15);
+}
+
+TEST(ChebyshevField, does_not_claim_to_resolve_a_kink)
+{
+  EXPECT_FALSE(ChebyshevField::resolve(
+      [](const Point<2> &x, unsigned int) { return std::abs(x[0] - .3); }, 1, Point<2>(),
+      Point<2>(1, 1)));
+}

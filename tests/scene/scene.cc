@@ -1,0 +1,157 @@
+#include "scene/scene.h"
+
+#include "base/error.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+using namespace plumbline;
+using namespace plumbline::scene;
+
+namespace
+{
+  const std::string minimal = "subsection Problem\n set solution = x^2\nend\nsubsection Methods\n set names = "
+                              "Q1\nend\n";
+
+  Scene parse(const std::string &more) { return parse_scene("test.prm", minimal + more); }
+
+  std::string section(const std::string &name, const std::string &setting)
+  {
+    return "subsection " + name + "\n set " + setting + "\nend\n";
+  }
+
+  void expect_error(const std::string &more, const std::string &message,
+                    const std::vector<Override> &overrides = {})
+  {
+    try
+    {
+      parse_scene("test.prm", minimal + more, overrides);
+      ADD_FAILURE() << "no error for: " << more;
+    }
+    catch (const InputError &error)
+    {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find("scene 'test.prm': "), 0u) << error.what();
+    }
+  }
+} // namespace
+
+TEST(Scene, defaults_make_a_delta_convergence_study)
+{
+  const Scene scene = parse("");
+  EXPECT_EQ(scene.name, "test");
+  ASSERT_EQ(scene.series.size(), 1u);
+  EXPECT_EQ(scene.series[0].name, "m = 3");
+  ASSERT_EQ(scene.series[0].levels.size(), 3u);
+  EXPECT_DOUBLE_EQ(scene.series[0].levels[1].horizon, .15);
+  EXPECT_EQ(scene.case_names(), std::vector<std::string>{"u"});
+  EXPECT_NEAR(scene.kernel(.3).limit().diffusion, .5, 1e-14);
+}
+
+TEST(Scene, printed_back_parses_to_the_same_scene)
+{
+  const Scene scene = parse(section("Study", "m = 2.5, 3") + section("Expected", "verdicts = Q1: AC") +
+                            section("Domain", "holes = 0.5, 0.5 : 1, 1"));
+  const Scene again = parse_scene("test.prm", scene.text);
+  EXPECT_EQ(again.text, scene.text);
+  EXPECT_EQ(again.series.size(), 2u);
+  EXPECT_EQ(again.domain.exclude.size(), 1u);
+  EXPECT_EQ(again.expected_verdicts.at(0).verdict, "AC");
+}
+
+TEST(Scene, cases_have_names_and_components)
+{
+  const Scene scene = parse_scene(
+      "t.prm", "subsection Kernel\n set type = bond-tensor\n set limit = Navier\nend\nsubsection Problem\n set "
+               "solution = a: max(x, y), y; b: x > 0 ? 1 : 2, x\nend\nsubsection Methods\n set names = Q1\nend\n");
+  ASSERT_EQ(scene.solutions.size(), 2u);
+  EXPECT_EQ(scene.solutions[0].name, "a");
+  EXPECT_EQ(scene.solutions[0].expression, "max(x, y), y");
+  EXPECT_EQ(scene.solutions[1].expression, "x > 0 ? 1 : 2, x");
+}
+
+TEST(Scene, overrides_win_over_the_file_and_json_is_read_too)
+{
+  EXPECT_EQ(parse_scene("t.prm", minimal, {{"Study/m", "5"}}).series[0].name, "m = 5");
+  const std::string file = ::testing::TempDir() + "scene_test.json";
+  std::ofstream(file) << R"({"Problem": {"solution": "x"}, "Methods": {"names": "Q1"}, "Study": {"m": "4"}})";
+  EXPECT_EQ(read_scene(file).series[0].name, "m = 4");
+}
+
+TEST(Scene, templates_parse_and_describe_knows_every_section)
+{
+  for (const std::string model : {"scalar", "tensor"})
+    EXPECT_NO_THROW(parse_scene("template.prm", scene_template(model)));
+  EXPECT_THROW(scene_template("fluid"), InputError);
+  EXPECT_NE(describe("Study/m").find("horizon / h"), std::string::npos);
+  EXPECT_NE(describe("Kernel").find("Kernel/bulk modulus"), std::string::npos);
+  try
+  {
+    (void)describe("Kernel/size");
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("Kernel/type"), std::string::npos);
+  }
+}
+
+TEST(SceneErrors, unknown_keys_and_wrong_types)
+{
+  expect_error(section("Study", "mesh = 0.1"), "mesh");
+  expect_error("subsection Sudy\n set h = 1\nend\n", "Sudy");
+  expect_error(section("Geometry", "checks = many"), "checks");
+  expect_error(section("Kernel", "type = gauss"), "linear-decay");
+  expect_error(section("Study", "h = 0.1, fine"), "Study/h: 'fine' is not a number");
+  expect_error("", "key 'Study/hh' is not known; write one of: Study/regime, Study/h", {{"Study/hh", "1"}});
+  expect_error("", "Solver/tolerance = 'small' is not allowed", {{"Solver/tolerance", "small"}});
+}
+
+TEST(SceneErrors, levels_that_do_not_fit)
+{
+  expect_error(section("Study", "m = 0.5"), "the horizon 0.05 is smaller than the mesh size 0.1");
+  expect_error(section("Study", "h = 0.3"), "h = 0.3 does not divide the box");
+  expect_error(section("Study", "h = -0.1"), "must be a positive length");
+  expect_error(section("Domain", "collar = 0.1"), "Domain/collar = 0.1 is thinner than the horizon 0.3");
+  expect_error(section("Study", "regime = delta-m"), "Study/m has 1 values and Study/h has 3");
+  expect_error(section("Domain", "boxes = 0, 0 : 1"), "'0, 0 : 1' is not a box");
+  expect_error(section("Domain", "boxes = 1, 1 : 0, 2"), "is empty; its second corner");
+}
+
+TEST(SceneErrors, kernels_and_models_that_do_not_fit)
+{
+  expect_error(section("Kernel", "limit = Navier"), "Navier does not fit the scalar kernel 'linear-decay'");
+  expect_error(section("Kernel", "type = bond-tensor"), "does not fit the bond tensor");
+  expect_error("subsection Kernel\n set type = bond-tensor\n set limit = Navier\nend\n",
+               "has 1 component(s), but the bond tensor needs 2");
+  expect_error(section("Problem", "solution = x, y"), "has 2 component(s), but the scalar kernel needs 1");
+  expect_error(section("Kernel", "type = polynomial"), "needs its polynomial; give Kernel/coefficients");
+  expect_error(section("Kernel", "coefficients = 1, 2"), "is for polynomial kernels");
+}
+
+TEST(SceneErrors, expressions_and_targets)
+{
+  expect_error(section("Problem", "solution = x^^2"), "Problem/solution = 'x^^2' does not parse");
+  expect_error(section("Problem", "solution = sin(z)"), "Write a muParser expression in x, y, pi, delta");
+  expect_error(section("Problem", "solution ="), "needs Problem/solution");
+  expect_error(section("Study", "norms = H1"), "'H1' is not a norm");
+  expect_error(section("Study", "decisive error = nodal Linf"), "must be 'norm | target'");
+  expect_error(section("Study", "decisive error = averages L2 | reference"), "Reference/method, which is none");
+  expect_error(section("Methods", "names ="), "Methods/names is empty");
+  expect_error(section("Expected", "verdicts = Q1 AC"), "has no ':'");
+  expect_error(section("Expected", "errors = Q1, case9: 1"), "'case9' in 'Q1, case9: 1' is neither a case");
+}
+
+TEST(SceneErrors, a_file_that_is_not_there)
+{
+  try
+  {
+    (void)read_scene("no/such/scene.prm");
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_STREQ(error.what(), "scene 'no/such/scene.prm' cannot be read; give a .prm or .json file");
+  }
+}

@@ -1,0 +1,184 @@
+#include "study/comparison.h"
+#include "base/error.h"
+#include "study/sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace plumbline;
+using namespace plumbline::study;
+
+namespace
+{
+  scene::Scene make_scene(const std::string &more = "", const std::string &solution = "x^3*y^2 + y^4")
+  {
+    return scene::parse_scene("test.prm",
+                              "subsection Problem\n set solution = " + solution +
+                                  "\nend\nsubsection Methods\n set names = fake\nend\n" + more);
+  }
+
+  /// The exact solution plus a known error, as if a method had found it.
+  class FakeMethod : public Method
+  {
+  public:
+    explicit FakeMethod(double rate, double plateau = 0) : rate_(rate), plateau_(plateau) {}
+    std::string name() const override { return "fake"; }
+    std::string family() const override { return "meshfree"; }
+    std::string help() const override { return ""; }
+    std::string why_not(const scene::Scene &) const override { return {}; }
+    Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
+    {
+      ++n_solves;
+      const double error = plateau_ + std::pow(problem.lattice.h(), rate_);
+      const auto cells = comparison_nodes(scene, problem.lattice, problem.n_components);
+      Solution solution;
+      for (int j = 0; j < cells.n[1]; ++j)
+        for (int i = 0; i < cells.n[0]; ++i)
+          if (cells.free(0, i, j))
+          {
+            const auto place = cells.place(0, i, j);
+            solution.nodes.push_back(problem.lattice.point(place[0], place[1]));
+            solution.nodal.push_back(problem.solution->value(solution.nodes.back(), 0) + error);
+          }
+      solution.averages = cell_averages(*problem.solution, problem.lattice, cells);
+      for (double &average : solution.averages)
+        average -= error;
+      const auto exact = problem.solution->value;
+      solution.value = [exact, error](const dealii::Point<2> &x, unsigned int c) {
+        return exact(x, c) + error;
+      };
+      return solution;
+    }
+    mutable unsigned int n_solves = 0;
+
+  private:
+    double rate_, plateau_;
+  };
+} // namespace
+
+TEST(CellAverages, are_exact_for_polynomials_at_centres_and_vertices)
+{
+  for (const std::string nodes : {"centres", "vertices"})
+  {
+    const auto scene = make_scene("subsection Methods\n set nodes = " + nodes + "\nend\n");
+    const auto problem = make_problem(scene, 0, {.125, .25});
+    const auto cells = comparison_nodes(scene, problem.lattice, 1);
+    const auto averages = cell_averages(*problem.solution, problem.lattice, cells);
+    std::size_t index = 0;
+    const auto mean = [](int power, double a, double b) {
+      return (std::pow(b, power + 1) - std::pow(a, power + 1)) / (power + 1) / (b - a);
+    };
+    for (int j = 0; j < cells.n[1]; ++j)
+      for (int i = 0; i < cells.n[0]; ++i)
+        if (cells.free(0, i, j))
+        {
+          const double x = .125 * (i + cells.axis[0].offset), y = .125 * (j + cells.axis[0].offset);
+          const double x0 = x - .0625, x1 = x + .0625, y0 = y - .0625, y1 = y + .0625;
+          EXPECT_NEAR(averages[index++], mean(3, x0, x1) * mean(2, y0, y1) + mean(4, y0, y1), 1e-14);
+        }
+    EXPECT_EQ(index, averages.size());
+  }
+}
+
+TEST(CellAverages, without_a_series_agree_with_those_with_one)
+{
+  const auto scene = make_scene();
+  const auto problem = make_problem(scene, 0, {.25, .25});
+  const auto cells = comparison_nodes(scene, problem.lattice, 1);
+  scene::Field pointwise = *problem.solution;
+  pointwise.series.reset();
+  const auto a = cell_averages(*problem.solution, problem.lattice, cells);
+  const auto b = cell_averages(pointwise, problem.lattice, cells);
+  EXPECT_LT(averages_l2(a, b, 1), 1e-13);
+}
+
+TEST(CoarsenAverages, of_exact_fine_averages_are_exact_coarse_averages)
+{
+  for (const std::string nodes : {"centres", "vertices"})
+  {
+    const std::string holes = "subsection Domain\n set holes = 0.5, 0.5 : 1, 1\nend\n";
+    const auto scene = make_scene(holes + "subsection Methods\n set nodes = " + nodes + "\nend\n");
+    const auto fine_scene = make_scene(holes);
+    const auto coarse = make_problem(scene, 0, {.125, .25}), fine = make_problem(fine_scene, 0, {.0625, .25});
+    const auto cells = comparison_nodes(scene, coarse.lattice, 1);
+    const auto fine_cells = comparison_nodes(fine_scene, fine.lattice, 1);
+    const auto coarsened = coarsen_averages(
+        cell_averages(*fine.solution, fine.lattice, fine_cells), fine_cells, cells);
+    EXPECT_LT(averages_l2(coarsened, cell_averages(*coarse.solution, coarse.lattice, cells), 1), 1e-14);
+  }
+}
+
+TEST(Errors, are_those_put_in)
+{
+  const auto scene = make_scene("subsection Study\n set norms = nodal Linf, nodal L2, averages Linf, averages "
+                                "L2, field Linf, field L2\nend\n");
+  const auto problem = make_problem(scene, 0, {.1, .3});
+  const auto solution = FakeMethod(2).solve(scene, problem);
+  const auto reference = std::vector<double>(solution.averages.size(), 0.);
+  const auto found = errors(scene, problem, solution, reference);
+  for (const std::string norm : {"nodal Linf", "nodal L2", "averages Linf", "averages L2", "field Linf", "field L2"})
+    EXPECT_NEAR(found.at(norm + " | exact"), .01, 1e-13) << norm;
+  EXPECT_NEAR(found.at("averages L2 | reference"), averages_l2(solution.averages, reference, .1), 1e-15);
+  EXPECT_EQ(found.count("nodal Linf | reference"), 0u);
+}
+
+TEST(Sweep, judges_checks_and_resumes)
+{
+  const std::string study = "subsection Study\n set regime = delta\n set m = 2, 3\n set h = 0.2, 0.1, 0.05, "
+                            "0.025\n set norms = nodal Linf\nend\nsubsection Expected\n set verdicts = fake: "
+                            "AC\n set rates = fake, m = 2: 2\n set errors = fake, m = 3: 4e-2 1e-2 2.5e-3 "
+                            "6.25e-4\n set bounds = fake: 1e-2\nend\n";
+  const auto scene = make_scene(study);
+  const auto good = std::make_shared<FakeMethod>(2);
+  const Methods methods = {good};
+  const Results results = run_sweep(scene, methods, methods, {});
+  EXPECT_TRUE(results.is_complete);
+  EXPECT_EQ(results.runs.size(), 8u);
+  ASSERT_EQ(results.trends.size(), 2u);
+  EXPECT_EQ(results.trends[0].verdict, "AC");
+  std::map<std::string, bool> holds;
+  for (const Expectation &expectation : results.expectations)
+    holds[expectation.subject] = expectation.holds;
+  EXPECT_TRUE(holds.at("fake, u, m = 3: verdict"));
+  EXPECT_TRUE(holds.at("fake, u, m = 2: rate of the last two levels"));
+  EXPECT_TRUE(holds.at("fake, u, m = 3: errors"));
+  EXPECT_FALSE(holds.at("fake, u, m = 2: largest error")); // .04 > .01
+
+  // a sweep stopped after three solves goes on where it was
+  unsigned int n_allowed = 3;
+  SweepControl control;
+  control.should_stop = [&] { return n_allowed-- == 0; };
+  const Results partial = run_sweep(scene, methods, methods, control);
+  EXPECT_FALSE(partial.is_complete);
+  EXPECT_EQ(partial.runs.size(), 3u);
+  good->n_solves = 0;
+  const Results whole = run_sweep(scene, methods, methods, {}, partial);
+  EXPECT_EQ(good->n_solves, 5u);
+  EXPECT_EQ(whole.runs.size(), 8u);
+
+  const Methods stalling = {std::make_shared<FakeMethod>(1, .01)};
+  EXPECT_EQ(run_sweep(scene, stalling, stalling, {}).trends[0].verdict, "not AC");
+}
+
+TEST(Sweep, unknown_methods_are_errors_that_name_the_known_ones)
+{
+  const Methods methods = {std::make_shared<FakeMethod>(2)};
+  auto scene = make_scene();
+  scene.methods = {"IPA"};
+  try
+  {
+    (void)choose_methods(scene, methods);
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_STREQ(error.what(), "Methods/names: method 'IPA' is not known; choose of fake");
+  }
+}
+
+TEST(Sweep, data_that_are_not_finite_are_found_before_any_solve)
+{
+  EXPECT_THROW(check_data(make_scene("", "sqrt(x)")), InputError);
+  EXPECT_NO_THROW(check_data(make_scene("", "sqrt(x + 1)")));
+}

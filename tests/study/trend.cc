@@ -1,0 +1,94 @@
+#include "study/trend.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace plumbline::study;
+
+namespace
+{
+  const std::vector<double> h = {.1, .05, .025, .0125, .00625};
+
+  Trend judged(const std::vector<double> &x, const std::vector<double> &errors)
+  {
+    Trend trend;
+    trend.x = x;
+    trend.values = errors;
+    judge(trend);
+    return trend;
+  }
+
+  template <class Error>
+  Trend judged(const Error &error)
+  {
+    std::vector<double> errors;
+    for (const double size : h)
+      errors.push_back(error(size));
+    return judged(h, errors);
+  }
+} // namespace
+
+TEST(FitPlateau, recovers_the_parameters_of_an_exact_sequence)
+{
+  std::vector<double> errors;
+  for (const double size : h)
+    errors.push_back(.0123 + .4 * std::pow(size, 1.25));
+  const PlateauFit fit = fit_plateau(h, errors);
+  EXPECT_NEAR(fit.a, .0123, 1e-6);
+  EXPECT_NEAR(fit.b, .4, 1e-3);
+  EXPECT_NEAR(fit.p, 1.25, .01);
+  EXPECT_LT(fit.a_uncertainty, 1e-5);
+}
+
+TEST(FitSlope, is_exact_for_a_power_and_uncertain_for_noise)
+{
+  EXPECT_NEAR(fit_slope({1, .5, .25}, {8, 2, .5}).value, 2, 1e-12);
+  EXPECT_NEAR(fit_slope({1, .5, .25}, {8, 2, .5}).uncertainty, 0, 1e-12);
+  EXPECT_GT(fit_slope({1, .5, .25}, {8, 1, .5}).uncertainty, .1);
+}
+
+TEST(Judge, a_power_converges_with_its_rate)
+{
+  for (const double rate : {1., 2., 4.})
+  {
+    const Trend trend = judged([&](double x) { return .3 * std::pow(x, rate); });
+    EXPECT_EQ(trend.outcome, Outcome::converges);
+    EXPECT_NEAR(trend.rate, rate, 1e-6);
+    ASSERT_EQ(trend.rates.size(), 4u);
+    EXPECT_NEAR(trend.rates[0], rate, 1e-12);
+  }
+}
+
+TEST(Judge, a_plateau_stalls_even_while_the_error_still_falls)
+{
+  EXPECT_EQ(judged([](double x) { return .0125 + .04 * x; }).outcome, Outcome::stalls);
+  EXPECT_EQ(judged([](double x) { return .0125 + .4 * x; }).outcome, Outcome::stalls);
+  // IPA-AC, m = 3, of Yang & Yin, table 3
+  EXPECT_EQ(judged(h, {1.62e-2, 1.42e-2, 1.32e-2, 1.27e-2, 1.25e-2}).outcome, Outcome::stalls);
+}
+
+TEST(Judge, an_error_that_grows_again_stalls)
+{
+  EXPECT_EQ(judged(h, {5e-2, 1.4e-2, 2.9e-3, 1e-2, 1.5e-2}).outcome, Outcome::stalls);
+}
+
+TEST(Judge, a_small_plateau_under_a_large_error_is_not_called_early)
+{
+  // at these levels nobody can tell: the plateau is a fifth of the last error
+  const Trend trend = judged([](double x) { return 2e-5 + 2 * x * x; });
+  EXPECT_EQ(trend.outcome, Outcome::undecided);
+  EXPECT_NE(trend.reason.find("one finer level"), std::string::npos);
+}
+
+TEST(Judge, round_off_converges_and_levels_at_round_off_do_not_count)
+{
+  EXPECT_EQ(judged(h, {1e-14, 3e-14, 1e-13, 4e-13, 2e-12}).outcome, Outcome::converges);
+  EXPECT_EQ(judged(h, {1e-3, 6.25e-5, 3.9e-6, 2.4e-7, 2e-11}).outcome, Outcome::converges);
+}
+
+TEST(Judge, two_levels_are_not_enough)
+{
+  EXPECT_EQ(judged({.1, .05}, {1e-2, 2.5e-3}).outcome, Outcome::undecided);
+  EXPECT_EQ(judged({}, {}).outcome, Outcome::undecided);
+}
