@@ -1,6 +1,7 @@
 # Walk the includes: base <- {physics, geometry} <- {scene, algebra} <- study <- report; reference and
 # meshfree include lib and never each other; Trilinos is named in algebra and reference alone; CGAL in
 # sources alone.
+cmake_minimum_required(VERSION 3.22)
 set(may_include_base base)
 set(may_include_physics base physics)
 set(may_include_geometry base geometry)

@@ -54,7 +54,7 @@ namespace plumbline::study
     std::vector<double> x;        ///< its values, coarse to fine [length]
     std::vector<double> values;   ///< the errors
     std::vector<double> rates;    ///< between neighbours, size x.size() - 1
-    double rate = 0, rate_uncertainty = 0;       ///< p of the fit e = a + b x^p
+    double rate = 0, rate_uncertainty = 0;       ///< slope of the last three levels, log over log
     double plateau = 0, plateau_uncertainty = 0; ///< a of the fit
     Outcome outcome = Outcome::undecided;
     std::string verdict;          ///< "AC", "not AC", "m-convergent", "not m-convergent", "undecided" ...

@@ -161,7 +161,8 @@ namespace plumbline::study
       trend.outcome = Outcome::converges;
       trend.reason = "no plateau: " + numbers;
     }
-    else if (is_significant && fit.a >= .3 * last)
+    else if ((is_significant && fit.a >= .3 * last) ||
+             (fit.a > 10 * fit.a_uncertainty && fit.a >= .1 * last))
     {
       trend.outcome = Outcome::stalls;
       trend.reason = "significant plateau: " + numbers;

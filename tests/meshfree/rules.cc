@@ -201,7 +201,7 @@ TEST(OptimisationBased, integrates_its_space_with_positive_weights_on_lattices)
   for (double m = 2; m <= 6; m += .25)
   {
     const auto bonds = optimisation_based(tensor_kernel(m), h, Backend::fast);
-    EXPECT_GT(smallest_ratio(bonds), 0) << m;
+    EXPECT_GT(smallest_ratio(bonds), -1e-13) << m; // 0 by symmetry at m = 2
     const auto kernel = tensor_kernel(m);
     for (unsigned int a = 0; a < 2; ++a)
       for (const auto &[p, q] : {std::pair<int, int>{2, 0}, {1, 1}, {0, 2}})
@@ -230,23 +230,19 @@ TEST(FullArea, counts_nodes_on_the_circle_and_jitters_with_the_ratio)
 {
   // (3, 4, 5): 80 nodes of the disc of radius 5, ties included
   EXPECT_EQ(full_area(scalar_kernel(5), h, Backend::fast).family.size(), 80u);
-  // the error constant of the full area rule changes direction with m far more often than that of exact areas
-  const auto turns = [](const auto &rule) {
-    int n = 0;
-    double last = 0, direction = -1;
-    for (double m = 3; m <= 12; m += .25)
+  // as m grows, the moment of the full area rule jumps with every node that enters the ball
+  const auto variation = [](const auto &rule) {
+    double total = 0, last = NAN;
+    for (double m = 3; m <= 12; m += .125)
     {
       const auto kernel = scalar_kernel(m, "constant");
-      const double constant = std::abs(moment(kernel, rule(kernel, h, Backend::fast), 0, 0, 2, 0) - 1);
-      if ((constant - last) * direction < 0 && m > 3.25)
-        ++n;
-      direction = constant - last;
-      last = constant;
+      const double moment_of_rule = moment(kernel, rule(kernel, h, Backend::fast), 0, 0, 2, 0);
+      total += std::isnan(last) ? 0 : std::abs(moment_of_rule - last);
+      last = moment_of_rule;
     }
-    return n;
+    return total;
   };
-  EXPECT_GT(turns(full_area), 15);
-  EXPECT_LT(turns(improved_partial_area), 3);
+  EXPECT_GT(variation(full_area), 8 * variation(partial_area));
 }
 
 TEST(Ramps, are_one_inside_and_linear_across_the_horizon)

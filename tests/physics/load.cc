@@ -83,7 +83,7 @@ TEST(ManufacturedLoad, refuses_one_component_for_a_tensor)
 
 TEST(Expression, knows_x_y_pi_and_constants)
 {
-  const Expression f("key", "sin(pi*x) + delta, pow(x, 2) * y", {{"delta", .25}});
+  const Expression f("key", "sin(pi*x) + delta, x^2 * max(y, 0)", {{"delta", .25}});
   ASSERT_EQ(f.n_components(), 2u);
   EXPECT_DOUBLE_EQ(f(Point<2>(.5, 2), 0), 1.25);
   EXPECT_DOUBLE_EQ(f(Point<2>(.5, 2), 1), .5);
@@ -136,8 +136,8 @@ TEST(ChebyshevField, reproduces_smooth_fields_to_round_off_and_contracts_axis_by
   b.insert(b.end(), more.begin(), more.end());
   const auto values = field->contract(1, a, b);
   ASSERT_EQ(values.size(), 2u);
-  EXPECT_NEAR(values[0], .3 * .3 * .2, 1e-15);
-  EXPECT_NEAR(values[1], .3 * .3 * .7, 1e-15);
+  EXPECT_NEAR(values[0], .3 * .3 * .2, 1e-14);
+  EXPECT_NEAR(values[1], .3 * .3 * .7, 1e-14);
 }
 
 TEST(ChebyshevField, does_not_claim_to_resolve_a_kink)

@@ -50,7 +50,8 @@ namespace
 
   std::string domain(const std::string &holes)
   {
-    return "subsection Domain\n set holes = " + holes + "\nend\n";
+    return "subsection Domain\n set holes = " + holes +
+           "\nend\nsubsection Study\n set h = 0.125\nend\n";
   }
 } // namespace
 
