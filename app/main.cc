@@ -30,7 +30,8 @@ namespace
 int main(int argc, char **argv)
 try
 {
-  CLI::App app("Plumbline: reference solutions for nonlocal models, and which meshfree rule to trust.");
+  CLI::App app(
+      "Plumbline: reference solutions for nonlocal models, and which meshfree rule to trust.");
   app.set_version_flag("--version", PLUMBLINE_VERSION);
   app.require_subcommand(1);
 
@@ -53,7 +54,8 @@ try
   report->add_option("DIR", folder, "Output folder of a run")->required();
   auto *list = app.add_subcommand("list", "List methods, kernels or scenes");
   list->add_option("WHAT", subject, "methods, kernels or scenes")->required();
-  auto *make_template = app.add_subcommand("template", "Print a scene with all keys and their help");
+  auto *make_template =
+      app.add_subcommand("template", "Print a scene with all keys and their help");
   make_template->add_option("MODEL", model, "scalar or tensor")->required();
   auto *describe = app.add_subcommand("describe", "What a key of a scene means");
   describe->add_option("KEY", key, "Section or Section/key")->required();

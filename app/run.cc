@@ -29,7 +29,10 @@ namespace plumbline::app
   namespace
   {
     volatile std::sig_atomic_t is_interrupted = 0;
-    void on_interrupt(int) { is_interrupted = 1; }
+    void on_interrupt(int)
+    {
+      is_interrupted = 1;
+    }
 
     /// The one place that knows both sides.
     study::Methods all_methods()
@@ -106,8 +109,8 @@ namespace plumbline::app
         if (!is_on_ || std::chrono::steady_clock::now() - start_ < 2s)
           return;
         is_shown_ = true;
-        std::cerr << "\r\033[K" << std::setw(3) << static_cast<int>(100 * fraction) << " %  " << what
-                  << std::flush;
+        std::cerr << "\r\033[K" << std::setw(3) << static_cast<int>(100 * fraction) << " %  "
+                  << what << std::flush;
       }
 
     private:
@@ -127,8 +130,8 @@ namespace plumbline::app
     {
       std::string name = run.problem + "_" + run.series + "_" + run.method;
       std::replace_if(
-          name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '.'; },
-          '_');
+          name.begin(), name.end(),
+          [](unsigned char c) { return std::isalnum(c) == 0 && c != '.'; }, '_');
       return name + ".vtu";
     }
 
@@ -142,7 +145,15 @@ namespace plumbline::app
                     << trend.problem << std::setw(12) << trend.series << std::setw(18)
                     << trend.verdict << trend.reason << '\n';
       for (const study::Advice &advice : results.advice)
-        std::cout << "\n" << advice.problem << ", " << advice.series << ": " << advice.text << '\n';
+      {
+        std::cout << '\n' << advice.problem << ", " << advice.series << '\n';
+        for (const study::Choice &choice : advice.choices)
+          std::cout << "  cheapest to " << choice.target << ": " << choice.method
+                    << " at h = " << choice.h << ", error " << choice.error << ", "
+                    << choice.seconds << " CPU s\n";
+        if (advice.choices.empty())
+          std::cout << "  no method that is known to converge reaches 0.01 here\n";
+      }
       for (const study::Expectation &expectation : results.expectations)
         if (!expectation.holds)
           std::cout << "\nnot as expected: " << expectation.subject << ": expected "
@@ -196,12 +207,12 @@ namespace plumbline::app
       study::SweepControl control;
       control.n_levels = options.n_levels;
       control.on_progress = [&](const std::string &what, double f) { progress.show(what, f); };
-      control.on_result = [&](const study::Results &r) {
-        report::write_json(r, folder / "results.json");
-      };
+      control.on_result = [&](const study::Results &r)
+      { report::write_json(r, folder / "results.json"); };
       control.should_stop = [] { return is_interrupted != 0; };
       if (scene.write_fields)
-        control.on_finest = [&](const study::Solution &solution, const study::Run &run) {
+        control.on_finest = [&](const study::Solution &solution, const study::Run &run)
+        {
           fs::create_directories(folder / "fields");
           solution.write_vtu((folder / "fields" / file_name(run)).string());
         };

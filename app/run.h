@@ -17,7 +17,8 @@ namespace plumbline::app
   };
 
   /// Run a scene, write its report, print the verdicts.
-  /// @return exit code: 0, 1 (an expectation does not hold, with check), 3 (no method gave a solution,
+  /// @return exit code: 0, 1 (an expectation does not hold, with check), 3 (no method gave a
+  /// solution,
   ///         or charts could not be drawn), 130 (interrupted; what is finished is written)
   int run(const RunOptions &options);
 

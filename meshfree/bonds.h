@@ -26,8 +26,8 @@ namespace plumbline::meshfree
     std::vector<std::string> notes; ///< what the rule had to do that a user should know
   };
 
-  /// A node counts as inside the ball up to this fraction of the radius beyond it: on lattices nodes lie
-  /// on the circle, as in the (3, 4, 5) triangle.
+  /// A node counts as inside the ball up to this fraction of the radius beyond it: on lattices
+  /// nodes lie on the circle, as in the (3, 4, 5) triangle.
   constexpr double tie_tolerance = 1e-9;
 
   /// The kernel C_ab at a bond's kernel point; a negative profile beyond the horizon counts as 0.

@@ -28,7 +28,8 @@ namespace plumbline::meshfree
         std::vector<double> smooth;
         if (problem.load.series)
         {
-          const auto at_nodes = [&](unsigned int axis) {
+          const auto at_nodes = [&](unsigned int axis)
+          {
             std::vector<double> rows;
             for (int i = 0; i < nodes.n[axis]; ++i)
             {
@@ -83,8 +84,10 @@ namespace plumbline::meshfree
         throw InputError("cannot write '" + file + "'; give a writable output folder (-o)");
       const std::size_t n = nodes.n_unknowns() / nodes.n_components;
       out.precision(17);
-      out << "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\""
-          << n << "\" NumberOfCells=\"" << n << "\">\n<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\">\n";
+      out << "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n<UnstructuredGrid>\n<Piece "
+             "NumberOfPoints=\""
+          << n << "\" NumberOfCells=\"" << n
+          << "\">\n<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\">\n";
       for (int j = 0; j < nodes.n[1]; ++j)
         for (int i = 0; i < nodes.n[0]; ++i)
           if (nodes.free(0, i, j))
@@ -92,13 +95,15 @@ namespace plumbline::meshfree
             const auto place = nodes.place(0, i, j);
             out << lattice.point(place[0], place[1]) << " 0\n";
           }
-      out << "</DataArray></Points>\n<PointData><DataArray type=\"Float64\" Name=\"u\" NumberOfComponents=\""
+      out << "</DataArray></Points>\n<PointData><DataArray type=\"Float64\" Name=\"u\" "
+             "NumberOfComponents=\""
           << nodes.n_components << "\">\n";
       for (std::size_t i = 0; i < nodes.n_positions(); ++i)
         if (nodes.is_free[i] != 0)
           for (unsigned int c = 0; c < nodes.n_components; ++c)
             out << values[c * nodes.n_positions() + i] << (c + 1 < nodes.n_components ? ' ' : '\n');
-      const auto list = [&](const std::string &name, const std::string &type, const auto &entry) {
+      const auto list = [&](const std::string &name, const std::string &type, const auto &entry)
+      {
         out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\">\n";
         for (std::size_t i = 0; i < n; ++i)
           out << entry(i) << '\n';

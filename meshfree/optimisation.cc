@@ -36,7 +36,8 @@ namespace plumbline::meshfree
         for (Eigen::Index j = 0; j < n; ++j)
         {
           const double s1 = bonds.family[j].k1 * h / horizon, s2 = bonds.family[j].k2 * h / horizon;
-          values(row, j) = std::pow(s1, a) * std::pow(s2, order - a) / std::pow(std::hypot(s1, s2), 3);
+          values(row, j) =
+              std::pow(s1, a) * std::pow(s2, order - a) / std::pow(std::hypot(s1, s2), 3);
         }
       }
 

@@ -6,10 +6,10 @@ namespace plumbline::meshfree
 {
   const std::vector<Rule> &rules()
   {
-    const auto recalibrated_to = [](unsigned int degree) {
-      return [degree](const Kernel<2> &kernel, double h, Backend backend) {
-        return recalibrated(kernel, h, backend, degree);
-      };
+    const auto recalibrated_to = [](unsigned int degree)
+    {
+      return [degree](const Kernel<2> &kernel, double h, Backend backend)
+      { return recalibrated(kernel, h, backend, degree); };
     };
     static const std::vector<Rule> table = {
         {"FA", "full area of cells whose node is in the ball", full_area},

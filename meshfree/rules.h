@@ -21,18 +21,18 @@ namespace plumbline::meshfree
   /// Source: Le, Chan & Schwartz 2014, doi:10.1002/nme.4642.
   Bonds qwj(const Kernel<2> &kernel, double h, Backend backend);
 
-  /// Exact area of ball ∩ cell, also of cells whose centre is outside; kernel at the node, clipped at 0.
-  /// Source: Seleson 2014, doi:10.1016/j.cma.2014.06.016.
+  /// Exact area of ball ∩ cell, also of cells whose centre is outside; kernel at the node, clipped
+  /// at 0. Source: Seleson 2014, doi:10.1016/j.cma.2014.06.016.
   Bonds partial_area(const Kernel<2> &kernel, double h, Backend backend);
 
   /// Exact area, kernel at the centroid of ball ∩ cell. Second order at fixed horizon, not AC.
   /// Source: Seleson 2014, doi:10.1016/j.cma.2014.06.016.
   Bonds improved_partial_area(const Kernel<2> &kernel, double h, Backend backend);
 
-  /// IPA-AC areas A changed as little as possible, min Σ (w - A)²/A, so that the discrete operator has the
-  /// exact moments up to a degree: asymptotically compatible of order 2 (degree 2) or 4 (degree 4).
-  /// Scalar kernels at the centroid; tensors at the node, since at the centroid a third, nearly
-  /// dependent constraint asks for negative weights.
+  /// IPA-AC areas A changed as little as possible, min Σ (w - A)²/A, so that the discrete operator
+  /// has the exact moments up to a degree: asymptotically compatible of order 2 (degree 2) or 4
+  /// (degree 4). Scalar kernels at the centroid; tensors at the node, since at the centroid a
+  /// third, nearly dependent constraint asks for negative weights.
   /// @throws NumericalError  the moments cannot be met: too few neighbours
   Bonds recalibrated(const Kernel<2> &kernel, double h, Backend backend, unsigned int degree);
 

@@ -58,7 +58,8 @@ namespace plumbline::reference
     for (const auto &cell : dofs.active_cell_iterators())
     {
       const dealii::Tensor<1, 2> place = (cell->center() - lattice.origin()) / lattice.h();
-      const int i = static_cast<int>(std::floor(place[0])), j = static_cast<int>(std::floor(place[1]));
+      const int i = static_cast<int>(std::floor(place[0])),
+                j = static_cast<int>(std::floor(place[1]));
       cell->get_dof_indices(indices);
       for (unsigned int k = 0; k < indices.size(); ++k)
       {
@@ -78,9 +79,9 @@ namespace plumbline::reference
     if (field.n_components() == 1)
       output.add_data_vector(deal.values, "u");
     else
-      output.add_data_vector(
-          deal.values, std::vector<std::string>(2, "u"), dealii::DataOut<2>::type_dof_data,
-          {2, dealii::DataComponentInterpretation::component_is_part_of_vector});
+      output.add_data_vector(deal.values, std::vector<std::string>(2, "u"),
+                             dealii::DataOut<2>::type_dof_data,
+                             {2, dealii::DataComponentInterpretation::component_is_part_of_vector});
     output.build_patches(std::max(1u, field.shapes().degree()));
     std::ofstream stream(file);
     if (!stream)

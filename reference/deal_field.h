@@ -9,8 +9,8 @@
 
 namespace plumbline::reference
 {
-  /// A lattice field as deal.II sees it: the cells of Ω as a triangulation, FE_Q or FE_DGQ on them, and
-  /// the vector of degrees of freedom.
+  /// A lattice field as deal.II sees it: the cells of Ω as a triangulation, FE_Q or FE_DGQ on them,
+  /// and the vector of degrees of freedom.
   struct DealField
   {
     explicit DealField(const LatticeField &field);

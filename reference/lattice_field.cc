@@ -54,7 +54,8 @@ namespace plumbline::reference
       int cell;
       std::vector<double> weights;
     };
-    const auto part = [&](int cell, double from, double to) {
+    const auto part = [&](int cell, double from, double to)
+    {
       const dealii::QGauss<1> gauss(shapes_.degree() / 2 + 1);
       Part result{cell, std::vector<double>(shapes_.n_local())};
       for (unsigned int q = 0; q < gauss.size(); ++q)

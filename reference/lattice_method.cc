@@ -29,8 +29,7 @@ namespace plumbline::reference
         for (unsigned int q = 0; q < gauss.size(); ++q)
         {
           const double x = gauss.point(q)[0];
-          const auto basis =
-              series.basis(axis, lattice.origin()[axis] + lattice.h() * (cell + x));
+          const auto basis = series.basis(axis, lattice.origin()[axis] + lattice.h() * (cell + x));
           for (const auto &part : shapes.restrictions(family))
           {
             const int i = cell - part.cell;
@@ -58,9 +57,9 @@ namespace plumbline::reference
             for (unsigned int q = 0; q < gauss.size(); ++q)
             {
               const Point<2> x = gauss.point(q);
-              const double value = h * h * gauss.weight(q) *
-                                   problem.load.value(problem.lattice.point(i + x[0], j + x[1]),
-                                                      component);
+              const double value =
+                  h * h * gauss.weight(q) *
+                  problem.load.value(problem.lattice.point(i + x[0], j + x[1]), component);
               for (const auto &a : shapes.restrictions(family % n_axis))
                 for (const auto &b : shapes.restrictions(family / n_axis))
                   if (i - a.cell >= 0 && i - a.cell < n[0] && j - b.cell >= 0 && j - b.cell < n[1])
@@ -69,7 +68,8 @@ namespace plumbline::reference
             }
     }
 
-    Vector load_vector(const scene::Problem &problem, const AxisShapes &shapes, const NodeSet &nodes)
+    Vector load_vector(const scene::Problem &problem, const AxisShapes &shapes,
+                       const NodeSet &nodes)
     {
       Vector load(nodes.size());
       const auto n_axis = static_cast<unsigned int>(nodes.axis.size());
@@ -79,9 +79,9 @@ namespace plumbline::reference
           if (problem.load.series)
           {
             const auto &series = *problem.load.series;
-            const auto values = series.contract(
-                c, test_basis(series, 0, problem.lattice, shapes, s % n_axis),
-                test_basis(series, 1, problem.lattice, shapes, s / n_axis));
+            const auto values =
+                series.contract(c, test_basis(series, 0, problem.lattice, shapes, s % n_axis),
+                                test_basis(series, 1, problem.lattice, shapes, s / n_axis));
             std::copy(values.begin(), values.end(), load.begin() + block);
           }
           else
@@ -135,7 +135,8 @@ namespace plumbline::reference
       {
         return std::make_shared<LatticeMethod>(is_continuous_, degree_ + 1);
       }
-      study::Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override;
+      study::Solution solve(const scene::Scene &scene,
+                            const scene::Problem &problem) const override;
 
     private:
       bool is_continuous_;
@@ -165,18 +166,17 @@ namespace plumbline::reference
             {
               const Point<2> place = nodes.place(s, i, j);
               solution.nodes.push_back(problem.lattice.point(place[0], place[1]));
-              const auto local = [&](unsigned int family) {
-                return field.shapes().is_continuous() && family == 0 ? 0 : family;
-              };
+              const auto local = [&](unsigned int family)
+              { return field.shapes().is_continuous() && family == 0 ? 0 : family; };
               const auto n_axis = static_cast<unsigned int>(nodes.axis.size());
               for (unsigned int c = 0; c < nodes.n_components; ++c)
-                solution.nodal.push_back(field.local(c, i, j, local(s % n_axis), local(s / n_axis)));
+                solution.nodal.push_back(
+                    field.local(c, i, j, local(s % n_axis), local(s / n_axis)));
             }
       solution.averages =
           field.averages(study::comparison_nodes(scene, problem.lattice, problem.n_components));
-      solution.value = [result](const Point<2> &x, unsigned int c) {
-        return result->field.value(x, c);
-      };
+      solution.value = [result](const Point<2> &x, unsigned int c)
+      { return result->field.value(x, c); };
       solution.write_vtu = [result](const std::string &file) { write_vtu(result->field, file); };
       return solution;
     }

@@ -11,8 +11,8 @@ namespace plumbline::reference
     using geometry::Ball;
     using geometry::Point;
 
-    /// ∫ over cell ∩ ball of C_ab(z) P_p(x) P_q(y) dz, x and y the cell's own coordinates in [-1, 1],
-    /// for (a,b) = (0,0), (0,1), (1,1): index (ab n_modes + p) n_modes + q.
+    /// ∫ over cell ∩ ball of C_ab(z) P_p(x) P_q(y) dz, x and y the cell's own coordinates in [-1,
+    /// 1], for (a,b) = (0,0), (0,1), (1,1): index (ab n_modes + p) n_modes + q.
     using CellMoments = std::vector<double>;
 
     class MomentTable
@@ -23,8 +23,8 @@ namespace plumbline::reference
 
       int n_cells() const { return n_; }
 
-      /// The moment of the cell [i, i+1] × [j, j+1] h, -n <= i, j < n, by reflection and exchange from
-      /// the octant 0 <= j <= i.
+      /// The moment of the cell [i, i+1] × [j, j+1] h, -n <= i, j < n, by reflection and exchange
+      /// from the octant 0 <= j <= i.
       double operator()(int i, int j, unsigned int a, unsigned int b, unsigned int p,
                         unsigned int q) const;
       bool is_empty(int i, int j) const { return octant_[slot(i, j)].empty(); }
@@ -125,7 +125,8 @@ namespace plumbline::reference
                 along_y[q] += rx[p] * moments[p * n_modes + q];
             for (unsigned int s2 = 0; s2 < n_axis; ++s2)
               for (unsigned int t2 = 0; t2 < n_axis; ++t2)
-                for (int d2 = Correlations::first_interval; d2 < -Correlations::first_interval; ++d2)
+                for (int d2 = Correlations::first_interval; d2 < -Correlations::first_interval;
+                     ++d2)
                 {
                   const double *const ry = r.coefficients(s2, t2, d2);
                   if (ry == nullptr)
@@ -193,12 +194,10 @@ namespace plumbline::reference
     {
       const auto cell = geometry::square(Point<2>(i * h, j * h), h);
       const auto fast = geometry::intersect(ball, geometry::view(cell));
-      const auto exact =
-          geometry::intersect(ball, geometry::view(cell), geometry::Backend::cgal);
-      check.worst_difference =
-          std::max({check.worst_difference, std::abs(fast.area - exact.area) / (h * h),
-                    (fast.area * fast.centroid - exact.area * exact.centroid).norm() /
-                        (h * h * horizon)});
+      const auto exact = geometry::intersect(ball, geometry::view(cell), geometry::Backend::cgal);
+      check.worst_difference = std::max(
+          {check.worst_difference, std::abs(fast.area - exact.area) / (h * h),
+           (fast.area * fast.centroid - exact.area * exact.centroid).norm() / (h * h * horizon)});
     }
     return check;
   }

@@ -9,8 +9,8 @@
 
 namespace plumbline::reference
 {
-  /// The one-dimensional shape functions of deal.II's FE_Q or FE_DGQ, in cells of length 1, sorted into
-  /// families that repeat from cell to cell. Tensor products of them span the lattice spaces.
+  /// The one-dimensional shape functions of deal.II's FE_Q or FE_DGQ, in cells of length 1, sorted
+  /// into families that repeat from cell to cell. Tensor products of them span the lattice spaces.
   class AxisShapes
   {
   public:

@@ -41,9 +41,9 @@ namespace plumbline::algebra
     unsigned int n_blocks;
     std::array<int, 2> n;
     int margin;
-    std::array<int, 2> length;  ///< of the transform
-    std::size_t n_real, n_modes; ///< points of one transform, and its non-redundant modes
-    bool is_real;                ///< the symbol: true for even stencils
+    std::array<int, 2> length;           ///< of the transform
+    std::size_t n_real, n_modes;         ///< points of one transform, and its non-redundant modes
+    bool is_real;                        ///< the symbol: true for even stencils
     std::vector<double> real_symbol;     ///< shape (n_modes, n_blocks (n_blocks+1) / 2)
     std::vector<Complex> complex_symbol; ///< the same shape, s >= t
     AlignedArray<double> field;          ///< shape (n_blocks, length[1], length[0])
@@ -64,12 +64,12 @@ namespace plumbline::algebra
     modes = AlignedArray<Complex>(n_blocks * n_modes);
     set_plan_threads(n_real);
     const int dims[2] = {length[1], length[0]};
-    forward = Plan(fftw_plan_many_dft_r2c(2, dims, static_cast<int>(n_blocks), field.data(), nullptr,
-                                          1, static_cast<int>(n_real), mode_data(), nullptr, 1,
-                                          static_cast<int>(n_modes), FFTW_ESTIMATE));
-    backward = Plan(fftw_plan_many_dft_c2r(2, dims, static_cast<int>(n_blocks), mode_data(), nullptr,
-                                           1, static_cast<int>(n_modes), field.data(), nullptr, 1,
-                                           static_cast<int>(n_real), FFTW_ESTIMATE));
+    forward = Plan(fftw_plan_many_dft_r2c(2, dims, static_cast<int>(n_blocks), field.data(),
+                                          nullptr, 1, static_cast<int>(n_real), mode_data(),
+                                          nullptr, 1, static_cast<int>(n_modes), FFTW_ESTIMATE));
+    backward = Plan(fftw_plan_many_dft_c2r(2, dims, static_cast<int>(n_blocks), mode_data(),
+                                           nullptr, 1, static_cast<int>(n_modes), field.data(),
+                                           nullptr, 1, static_cast<int>(n_real), FFTW_ESTIMATE));
   }
 
   /// The symbol Σ_k A_st(k) exp(i k·t) of the lower triangle s >= t; the rest is its conjugate.
@@ -79,8 +79,8 @@ namespace plumbline::algebra
     const int reach = stencil.reach();
     is_real = stencil.is_even();
     (is_real ? real_symbol.resize(n_modes * n_pairs) : complex_symbol.resize(n_modes * n_pairs));
-    const Plan single(fftw_plan_dft_r2c_2d(length[1], length[0], field.data(), mode_data(),
-                                           FFTW_ESTIMATE));
+    const Plan single(
+        fftw_plan_dft_r2c_2d(length[1], length[0], field.data(), mode_data(), FFTW_ESTIMATE));
     const double scale = 1. / static_cast<double>(n_real);
     std::size_t pair = 0;
     for (unsigned int s = 0; s < n_blocks; ++s)
@@ -152,8 +152,8 @@ namespace plumbline::algebra
     transforms_->n = n;
     transforms_->margin = margin;
     for (unsigned int d = 0; d < 2; ++d)
-      transforms_->length[d] = fast_length(
-          std::max(n[d] + stencil.reach() + margin, 2 * stencil.reach() + 1));
+      transforms_->length[d] =
+          fast_length(std::max(n[d] + stencil.reach() + margin, 2 * stencil.reach() + 1));
     transforms_->make_plans();
     transforms_->transform_stencil(stencil);
   }
@@ -178,15 +178,15 @@ namespace plumbline::algebra
       for (int j = 0; j < T.n[1]; ++j)
         std::copy_n(T.field.data() + s * T.n_real +
                         static_cast<std::size_t>(j + T.margin) * T.length[0] + T.margin,
-                    T.n[0],
-                    output + (static_cast<std::size_t>(s) * T.n[1] + j) * T.n[0]);
+                    T.n[0], output + (static_cast<std::size_t>(s) * T.n[1] + j) * T.n[0]);
   }
 
   double Convolution::estimated_seconds(unsigned int n_blocks, int reach, std::array<int, 2> n)
   {
-    const double points = static_cast<double>(fast_length(n[0] + reach)) * fast_length(n[1] + reach);
-    constexpr double seconds_per_point_and_level = .45e-9, seconds_per_product = 1.5e-9;
+    const double points =
+        static_cast<double>(fast_length(n[0] + reach)) * fast_length(n[1] + reach);
+    constexpr double seconds_per_point_and_level = .5e-9, seconds_per_product = 5e-9;
     return n_blocks * points * std::log2(points) * seconds_per_point_and_level +
-           .5 * n_blocks * n_blocks * points * seconds_per_product;
+           .5 * n_blocks * (n_blocks - 1) * points * seconds_per_product;
   }
 } // namespace plumbline::algebra

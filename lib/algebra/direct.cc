@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
-// One build serves machines with and without wide vectors; the loader picks the clone. Sanitizers do not
-// work with that choice.
+// One build serves machines with and without wide vectors; the loader picks the clone. Sanitizers
+// do not work with that choice.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
 #define PLUMBLINE_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
@@ -82,7 +82,8 @@ namespace plumbline::algebra
         width_((n[0] + tile - 1) / tile * tile + 2 * reach_),
         block_size_(width_ * (n[1] + 2 * reach_)), padded_(n_blocks_ * block_size_)
   {
-    const auto weights = [&](int k1, int k2) {
+    const auto weights = [&](int k1, int k2)
+    {
       std::array<double, 3> w{stencil(0, 0, k1, k2), 0, 0};
       if (n_blocks_ == 2)
       {
@@ -128,7 +129,8 @@ namespace plumbline::algebra
                     padded_.data() + s * block_size_ + (j + reach_) * width_ + reach_);
     dealii::parallel::apply_to_subranges(
         0, n_[1],
-        [&](int from, int to) {
+        [&](int from, int to)
+        {
           if (n_blocks_ == 1)
             apply_rows<1>(from, to, output);
           else
@@ -139,7 +141,7 @@ namespace plumbline::algebra
 
   double DirectStencil::estimated_seconds(const Stencil &stencil, std::array<int, 2> n)
   {
-    constexpr double seconds_per_entry = .25e-9;
+    constexpr double seconds_per_entry = .06e-9;
     return seconds_per_entry * static_cast<double>(stencil.n_entries()) * n[0] * n[1];
   }
 } // namespace plumbline::algebra

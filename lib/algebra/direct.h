@@ -8,8 +8,8 @@
 namespace plumbline::algebra
 {
   /// Applies an even stencil of one or two components by summing over opposite pairs of bonds,
-  /// w (u(i+k) + u(i-k)), each pair loaded once for a register's worth of nodes. Wins over transforms
-  /// when the reach is small.
+  /// w (u(i+k) + u(i-k)), each pair loaded once for a register's worth of nodes. Wins over
+  /// transforms when the reach is small.
   class DirectStencil
   {
   public:

@@ -23,7 +23,8 @@ namespace plumbline::algebra
   /// @throws InputError  not one of automatic, fft, direct, sparse
   Road road_from_name(const std::string &name);
 
-  /// A linear operator on the vectors of a NodeSet; positions that are not free are zero in and out.
+  /// A linear operator on the vectors of a NodeSet; positions that are not free are zero in and
+  /// out.
   class Operator
   {
   public:

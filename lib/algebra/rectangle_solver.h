@@ -25,8 +25,8 @@ namespace plumbline::algebra
                                                     const geometry::NodeSet &nodes,
                                                     const geometry::CellRange &cells);
 
-  /// The same idea for several node families: reflect the rectangle oddly to twice its size, where the
-  /// operator is block circulant, and invert its symbol block by block.
+  /// The same idea for several node families: reflect the rectangle oddly to twice its size, where
+  /// the operator is block circulant, and invert its symbol block by block.
   /// @throws NumericalError  as above
   std::unique_ptr<RectangleSolver> make_reflection_solver(const Stencil &stencil,
                                                           const geometry::NodeSet &nodes,

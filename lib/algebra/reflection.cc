@@ -38,16 +38,16 @@ namespace plumbline::algebra
       geometry::NodeSet nodes_;
       std::array<int, 2> lower_, n_; ///< first cell and number of cells
       std::size_t n_real_, n_modes_;
-      std::vector<Complex> inverse_;  ///< shape (n_components, n_modes, n_families, n_families)
-      AlignedArray<double> field_;    ///< shape (n_families, 2 n[1], 2 n[0])
-      AlignedArray<Complex> modes_;   ///< shape (n_families, n_modes)
+      std::vector<Complex> inverse_; ///< shape (n_components, n_modes, n_families, n_families)
+      AlignedArray<double> field_;   ///< shape (n_families, 2 n[1], 2 n[0])
+      AlignedArray<Complex> modes_;  ///< shape (n_families, n_modes)
       Plan forward_, backward_;
     };
 
     ReflectionSolver::ReflectionSolver(const Stencil &stencil, const geometry::NodeSet &nodes,
                                        const geometry::CellRange &cells)
-        : nodes_(nodes), lower_(cells.lower),
-          n_{cells.upper[0] - cells.lower[0], cells.upper[1] - cells.lower[1]},
+        : nodes_(nodes),
+          lower_(cells.lower), n_{cells.upper[0] - cells.lower[0], cells.upper[1] - cells.lower[1]},
           n_real_(4 * static_cast<std::size_t>(n_[0]) * n_[1]),
           n_modes_(2 * static_cast<std::size_t>(n_[1]) * (n_[0] + 1))
     {
@@ -59,8 +59,8 @@ namespace plumbline::algebra
       const int many = static_cast<int>(n_families), n_real = static_cast<int>(n_real_),
                 n_modes = static_cast<int>(n_modes_);
       set_plan_threads(n_real_);
-      forward_ = Plan(fftw_plan_many_dft_r2c(2, dims, many, field_.data(), nullptr, 1, n_real, modes,
-                                             nullptr, 1, n_modes, FFTW_ESTIMATE));
+      forward_ = Plan(fftw_plan_many_dft_r2c(2, dims, many, field_.data(), nullptr, 1, n_real,
+                                             modes, nullptr, 1, n_modes, FFTW_ESTIMATE));
       backward_ = Plan(fftw_plan_many_dft_c2r(2, dims, many, modes, nullptr, 1, n_modes,
                                               field_.data(), nullptr, 1, n_real, FFTW_ESTIMATE));
       inverse_.reserve(nodes.n_components * n_modes_ * n_families * n_families);
@@ -119,8 +119,8 @@ namespace plumbline::algebra
                                                   int i) const
     {
       const geometry::AxisSpecies &species = nodes_.axis[family];
-      const int mirrored = species.at_vertex ? (2 * n_[axis] - i) % (2 * n_[axis])
-                                             : 2 * n_[axis] - 1 - i;
+      const int mirrored =
+          species.at_vertex ? (2 * n_[axis] - i) % (2 * n_[axis]) : 2 * n_[axis] - 1 - i;
       return {Image{i, family, 1}, Image{mirrored, species.mirror, -1}};
     }
 
@@ -128,7 +128,8 @@ namespace plumbline::algebra
     {
       const auto n_axis = static_cast<unsigned int>(nodes_.axis.size());
       const unsigned int n_families = nodes_.n_families();
-      const auto visit = [&](const auto &action) {
+      const auto visit = [&](const auto &action)
+      {
         for (unsigned int s = 0; s < n_families; ++s)
         {
           const unsigned int s1 = s % n_axis, s2 = s / n_axis;
@@ -145,20 +146,21 @@ namespace plumbline::algebra
       {
         const std::size_t start = c * n_families * nodes_.n_positions();
         std::fill_n(field_.data(), field_.size(), 0.);
-        visit([&](unsigned int, unsigned int s1, unsigned int s2, int i, int j, std::size_t at) {
-          for (const Image &x : images(0, s1, i))
-            for (const Image &y : images(1, s2, j))
-              field_[(x.family + y.family * n_axis) * n_real_ + y.index * width + x.index] =
-                  x.sign * y.sign * input[start + at];
-        });
+        visit(
+            [&](unsigned int, unsigned int s1, unsigned int s2, int i, int j, std::size_t at)
+            {
+              for (const Image &x : images(0, s1, i))
+                for (const Image &y : images(1, s2, j))
+                  field_[(x.family + y.family * n_axis) * n_real_ + y.index * width + x.index] =
+                      x.sign * y.sign * input[start + at];
+            });
         fftw_execute(forward_.get());
         Eigen::VectorXcd in(n_families);
         for (std::size_t q = 0; q < n_modes_; ++q)
         {
           for (unsigned int s = 0; s < n_families; ++s)
             in[s] = modes_[s * n_modes_ + q];
-          const Complex *row =
-              inverse_.data() + (c * n_modes_ + q) * n_families * n_families;
+          const Complex *row = inverse_.data() + (c * n_modes_ + q) * n_families * n_families;
           for (unsigned int s = 0; s < n_families; ++s, row += n_families)
           {
             Complex sum = 0;
@@ -168,9 +170,8 @@ namespace plumbline::algebra
           }
         }
         fftw_execute(backward_.get());
-        visit([&](unsigned int s, unsigned int, unsigned int, int i, int j, std::size_t at) {
-          result[start + at] += field_[s * n_real_ + j * width + i];
-        });
+        visit([&](unsigned int s, unsigned int, unsigned int, int i, int j, std::size_t at)
+              { result[start + at] += field_[s * n_real_ + j * width + i]; });
       }
     }
   } // namespace

@@ -4,10 +4,11 @@
 
 namespace plumbline::algebra
 {
-  /// Preconditioner for a stencil on a union of lattice cells: the sum of the rectangle solvers over the
-  /// largest rectangles in Ω (overlapping additive Schwarz). On a rectangle this is the τ preconditioner
-  /// itself, whose iteration counts do not depend on h; on a union of a few rectangles that overlap by
-  /// a fixed length they stay bounded as well, and grow with the number of rectangles.
+  /// Preconditioner for a stencil on a union of lattice cells: the sum of the rectangle solvers
+  /// over the largest rectangles in Ω (overlapping additive Schwarz). On a rectangle this is the τ
+  /// preconditioner itself, whose iteration counts do not depend on h; on a union of a few
+  /// rectangles that overlap by a fixed length they stay bounded as well, and grow with the number
+  /// of rectangles.
   class SchwarzPreconditioner
   {
   public:

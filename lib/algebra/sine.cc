@@ -32,8 +32,8 @@ namespace plumbline::algebra
     private:
       std::size_t position(unsigned int component, int j) const
       {
-        return component * stride_component_ + static_cast<std::size_t>(from_[1] + j) * stride_row_ +
-               from_[0];
+        return component * stride_component_ +
+               static_cast<std::size_t>(from_[1] + j) * stride_row_ + from_[0];
       }
 
       unsigned int n_components_;

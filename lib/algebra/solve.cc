@@ -49,8 +49,7 @@ namespace plumbline::algebra
                     Vector &solution, const Vector &right_hand_side, double tolerance,
                     unsigned int max_iterations)
   {
-    return solve_with(matrix, preconditioner, solution, right_hand_side, tolerance,
-                      max_iterations);
+    return solve_with(matrix, preconditioner, solution, right_hand_side, tolerance, max_iterations);
   }
 
   SolveResult solve(const Operator &matrix, Vector &solution, const Vector &right_hand_side,

@@ -76,8 +76,8 @@ namespace plumbline::algebra
                    k1 <= std::min(stencil.reach(), nodes.n[0] - 1 - i); ++k1)
               {
                 const double a = stencil(s, t, k1, k2);
-                const auto column =
-                    number[t * n_positions + static_cast<std::size_t>(j + k2) * nodes.n[0] + i + k1];
+                const auto column = number[t * n_positions +
+                                           static_cast<std::size_t>(j + k2) * nodes.n[0] + i + k1];
                 if (a != 0 && column != not_free)
                 {
                   columns.push_back(column);
@@ -85,7 +85,7 @@ namespace plumbline::algebra
                 }
               }
           matrix_->entries->set(row, static_cast<dealii::types::global_dof_index>(columns.size()),
-                               columns.data(), values.data());
+                                columns.data(), values.data());
         }
     matrix_->entries->compress(dealii::VectorOperation::insert);
   }
@@ -99,7 +99,10 @@ namespace plumbline::algebra
     matrix_->scatter(matrix_->out, result);
   }
 
-  std::uint64_t SparseOperator::n_bonds() const { return matrix_->entries->n_nonzero_elements(); }
+  std::uint64_t SparseOperator::n_bonds() const
+  {
+    return matrix_->entries->n_nonzero_elements();
+  }
 
   void SparseOperator::solve_directly(Vector &solution, const Vector &right_hand_side) const
   {

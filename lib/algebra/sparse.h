@@ -6,8 +6,8 @@
 
 namespace plumbline::algebra
 {
-  /// The same operator as an assembled Trilinos matrix: the second road to every number, and the one
-  /// that other solvers can take. Memory O(unknowns × bonds).
+  /// The same operator as an assembled Trilinos matrix: the second road to every number, and the
+  /// one that other solvers can take. Memory O(unknowns × bonds).
   class SparseOperator : public Operator
   {
   public:

@@ -14,7 +14,8 @@ namespace plumbline::algebra
   double &Stencil::operator()(unsigned int s, unsigned int t, int k1, int k2)
   {
     const std::size_t width = 2 * reach_ + 1;
-    return entries_[((static_cast<std::size_t>(s) * n_blocks_ + t) * width + (k2 + reach_)) * width +
+    return entries_[((static_cast<std::size_t>(s) * n_blocks_ + t) * width + (k2 + reach_)) *
+                        width +
                     (k1 + reach_)];
   }
 
@@ -54,8 +55,7 @@ namespace plumbline::algebra
           for (int k1 = -reach_; k1 <= reach_; ++k1)
           {
             largest = std::max(largest, std::abs((*this)(s, t, k1, k2)));
-            defect =
-                std::max(defect, std::abs((*this)(s, t, k1, k2) - (*this)(t, s, -k1, -k2)));
+            defect = std::max(defect, std::abs((*this)(s, t, k1, k2) - (*this)(t, s, -k1, -k2)));
           }
     return largest > 0 ? defect / largest : 0;
   }

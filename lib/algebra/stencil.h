@@ -7,8 +7,9 @@
 
 namespace plumbline::algebra
 {
-  /// A translation-invariant operator on a lattice: (A u)_s(i) = Σ_t Σ_k A_st(k) u_t(i + k), |k1|, |k2| <=
-  /// reach. Blocks s, t run over components and families of a NodeSet. Symmetric: A_ts(-k) = A_st(k).
+  /// A translation-invariant operator on a lattice: (A u)_s(i) = Σ_t Σ_k A_st(k) u_t(i + k), |k1|,
+  /// |k2| <= reach. Blocks s, t run over components and families of a NodeSet. Symmetric: A_ts(-k)
+  /// = A_st(k).
   class Stencil
   {
   public:
@@ -26,7 +27,8 @@ namespace plumbline::algebra
     /// Every block is even in k and A_st = A_ts: true for one family of nodes.
     bool is_even() const;
 
-    /// max |A_ts(-k) - A_st(k)| / max |A|: 0 to round-off, else conjugate gradients are not allowed.
+    /// max |A_ts(-k) - A_st(k)| / max |A|: 0 to round-off, else conjugate gradients are not
+    /// allowed.
     double symmetry_defect() const;
 
   private:

@@ -28,9 +28,15 @@ namespace plumbline::base
     }
   } // namespace
 
-  void CpuTimer::restart() { start_ = process_cpu_seconds(); }
+  void CpuTimer::restart()
+  {
+    start_ = process_cpu_seconds();
+  }
 
-  double CpuTimer::seconds() const { return process_cpu_seconds() - start_; }
+  double CpuTimer::seconds() const
+  {
+    return process_cpu_seconds() - start_;
+  }
 
   MemoryGauge::MemoryGauge()
   {

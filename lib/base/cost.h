@@ -6,13 +6,15 @@
 namespace plumbline::base
 {
   /// What one solve cost. CPU seconds are summed over threads; they, not wall time, are compared.
+  /// Not in it: manufacturing the load from a given solution, and comparing with it, which all
+  /// methods share.
   struct Cost
   {
-    double setup_seconds = 0;     ///< stencil or matrix entries, transforms planned [CPU s]
-    double solve_seconds = 0;     ///< right-hand side and solver [CPU s]
-    std::size_t peak_bytes = 0;   ///< largest resident memory above what stood before the solve
-    std::size_t n_unknowns = 0;   ///< degrees of freedom solved for
-    std::uint64_t n_bonds = 0;    ///< pairs that one operator application sums over
+    double setup_seconds = 0;   ///< stencil or matrix entries, transforms planned [CPU s]
+    double solve_seconds = 0;   ///< right-hand side and solver [CPU s]
+    std::size_t peak_bytes = 0; ///< largest resident memory above what stood before the solve
+    std::size_t n_unknowns = 0; ///< degrees of freedom solved for
+    std::uint64_t n_bonds = 0;  ///< pairs that one operator application sums over
     unsigned int n_iterations = 0;
 
     double seconds() const { return setup_seconds + solve_seconds; }
@@ -30,8 +32,9 @@ namespace plumbline::base
     double start_;
   };
 
-  /// Peak resident memory above the level at construction [bytes]. Uses the kernel's high-water mark,
-  /// which the constructor resets; where that is not allowed, growth of the process-wide peak.
+  /// Peak resident memory above the level at construction [bytes]. Uses the kernel's high-water
+  /// mark, which the constructor resets; where that is not allowed, growth of the process-wide
+  /// peak.
   class MemoryGauge
   {
   public:

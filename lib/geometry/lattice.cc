@@ -49,7 +49,8 @@ namespace plumbline::geometry
       n_[d] = whole_cells(upper[d] - origin_[d], h, {origin_, upper});
     inside_.assign(static_cast<std::size_t>(n_[0]) * n_[1], 0);
 
-    const auto fill = [&](const Box &box, char value) {
+    const auto fill = [&](const Box &box, char value)
+    {
       std::array<int, 2> from{}, to{};
       for (unsigned int d = 0; d < 2; ++d)
       {
@@ -86,9 +87,8 @@ namespace plumbline::geometry
 
   std::size_t NodeSet::n_unknowns() const
   {
-    return n_components *
-           static_cast<std::size_t>(std::count_if(is_free.begin(), is_free.end(),
-                                                  [](char c) { return c != 0; }));
+    return n_components * static_cast<std::size_t>(std::count_if(is_free.begin(), is_free.end(),
+                                                                 [](char c) { return c != 0; }));
   }
 
   bool NodeSet::free(unsigned int family, int i, int j) const
@@ -169,7 +169,8 @@ namespace plumbline::geometry
             filled.push_back({{x[i0], y[j0]}, {x[i1], y[j1]}});
           }
 
-    const auto contains = [](const CellRange &big, const CellRange &small) {
+    const auto contains = [](const CellRange &big, const CellRange &small)
+    {
       return big.lower[0] <= small.lower[0] && big.lower[1] <= small.lower[1] &&
              big.upper[0] >= small.upper[0] && big.upper[1] >= small.upper[1];
     };

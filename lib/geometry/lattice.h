@@ -21,8 +21,8 @@ namespace plumbline::geometry
     std::vector<Box> include, exclude;
   };
 
-  /// The square cells of Ω: those cells of a uniform lattice over the bounding box that a domain covers.
-  /// Everything outside Ω within reach of the horizon is the interaction collar.
+  /// The square cells of Ω: those cells of a uniform lattice over the bounding box that a domain
+  /// covers. Everything outside Ω within reach of the horizon is the interaction collar.
   class Lattice
   {
   public:
@@ -30,11 +30,11 @@ namespace plumbline::geometry
     Lattice(const Domain &domain, double h);
 
     double h() const { return h_; }
-    const Point<2> &origin() const { return origin_; }                 ///< lower corner of cell (0,0)
-    const std::array<int, 2> &n_cells() const { return n_; }           ///< of the bounding box
-    bool is_inside(int i, int j) const;                                ///< cell (i,j) lies in Ω
-    bool is_rectangle() const;                                         ///< Ω fills its bounding box
-    Point<2> point(double s, double t) const;                          ///< origin + h (s, t)
+    const Point<2> &origin() const { return origin_; }       ///< lower corner of cell (0,0)
+    const std::array<int, 2> &n_cells() const { return n_; } ///< of the bounding box
+    bool is_inside(int i, int j) const;                      ///< cell (i,j) lies in Ω
+    bool is_rectangle() const;                               ///< Ω fills its bounding box
+    Point<2> point(double s, double t) const;                ///< origin + h (s, t)
 
   private:
     double h_;
@@ -65,15 +65,15 @@ namespace plumbline::geometry
     unsigned int n_blocks() const { return n_components * n_families(); }
     std::size_t n_positions() const { return static_cast<std::size_t>(n[0]) * n[1]; }
     std::size_t size() const { return n_blocks() * n_positions(); }
-    std::size_t n_unknowns() const; ///< free degrees of freedom, all components
+    std::size_t n_unknowns() const;                     ///< free degrees of freedom, all components
     bool free(unsigned int family, int i, int j) const; ///< false outside the box as well
 
     /// Where family s sits at position (i, j), in cells from the origin.
     Point<2> place(unsigned int family, int i, int j) const;
   };
 
-  /// All degrees of freedom whose support lies in Ω: a family at a vertex along an axis needs the cells
-  /// on both sides, every other family its own cell.
+  /// All degrees of freedom whose support lies in Ω: a family at a vertex along an axis needs the
+  /// cells on both sides, every other family its own cell.
   NodeSet free_nodes(const Lattice &lattice, std::vector<AxisSpecies> axis,
                      unsigned int n_components);
 
@@ -83,6 +83,7 @@ namespace plumbline::geometry
     std::array<int, 2> lower, upper;
   };
 
-  /// The largest rectangles of cells in Ω: each lies in Ω and in no larger one. They cover Ω and overlap.
+  /// The largest rectangles of cells in Ω: each lies in Ω and in no larger one. They cover Ω and
+  /// overlap.
   std::vector<CellRange> maximal_rectangles(const Lattice &lattice);
 } // namespace plumbline::geometry

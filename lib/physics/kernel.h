@@ -48,8 +48,8 @@ namespace plumbline::physics
     double lambda = 0;
   };
 
-  /// The kernel C of L u(x) = -∫_{|ξ|<δ} C(ξ) (u(x+ξ) - u(x)) dξ with a radial profile that is a sum of
-  /// powers, so that all its moments are exact. Instantiated for dim = 2 and 3.
+  /// The kernel C of L u(x) = -∫_{|ξ|<δ} C(ξ) (u(x+ξ) - u(x)) dξ with a radial profile that is a
+  /// sum of powers, so that all its moments are exact. Instantiated for dim = 2 and 3.
   template <int dim>
   class Kernel
   {
@@ -63,9 +63,9 @@ namespace plumbline::physics
     /// The kernel whose local limit is -diffusion Δ.
     static Kernel with_diffusion(std::vector<PowerTerm> profile, double horizon, double diffusion);
 
-    /// The bond tensor of bulk modulus κ [force/length^2], λ = μ = 3κ/5: plane strain in 2D, ν = 1/4.
-    /// With ρ = 1/t this is c ξ⊗ξ/|ξ|³, c = 72κ/(5πδ³) in 2D and 18κ/(πδ⁴) in 3D.
-    /// Source: Silling & Askari 2005, doi:10.1016/j.compstruc.2004.11.026.
+    /// The bond tensor of bulk modulus κ [force/length^2], λ = μ = 3κ/5: plane strain in 2D, ν =
+    /// 1/4. With ρ = 1/t this is c ξ⊗ξ/|ξ|³, c = 72κ/(5πδ³) in 2D and 18κ/(πδ⁴) in 3D. Source:
+    /// Silling & Askari 2005, doi:10.1016/j.compstruc.2004.11.026.
     static Kernel with_bulk_modulus(std::vector<PowerTerm> profile, double horizon, double kappa);
 
     Structure structure() const { return structure_; }

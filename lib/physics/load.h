@@ -5,10 +5,10 @@
 
 namespace plumbline::physics
 {
-  /// The load b = L_δ u of a given field u: -∫_{|ξ|<δ} C(ξ) (u(x+ξ) - u(x)) dξ by Gauss points in the
-  /// radius and equidistant angles, both doubled until the value stops moving. Exact for polynomials.
-  /// Accuracy: 1e-13 of |b| for smooth u, down to the round-off 1e-16 ∫C max|u|.
-  /// Not for: u that is not smooth in the ball; give the load itself then.
+  /// The load b = L_δ u of a given field u: -∫_{|ξ|<δ} C(ξ) (u(x+ξ) - u(x)) dξ by Gauss points in
+  /// the radius and equidistant angles, both doubled until the value stops moving. Exact for
+  /// polynomials. Accuracy: 1e-13 of |b| for smooth u, down to the round-off 1e-16 ∫C max|u|. Not
+  /// for: u that is not smooth in the ball; give the load itself then.
   class ManufacturedLoad
   {
   public:

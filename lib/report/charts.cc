@@ -1,9 +1,12 @@
 #include "report/charts.h"
 
 #include "report/formats.h"
+#include "report/maps.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -44,6 +47,7 @@ namespace plumbline::report
                 run.failure.empty() ? positive(run.cost.n_iterations)
                                     : std::numeric_limits<double>::quiet_NaN()};
       case ChartKind::convergence:
+      case ChartKind::error_map:
         break;
       }
       return {positive(is_horizon ? run.horizon : run.h), error};
@@ -59,6 +63,8 @@ namespace plumbline::report
         return "memory";
       case ChartKind::iterations:
         return "iterations";
+      case ChartKind::error_map:
+        return "error-maps";
       case ChartKind::convergence:
         break;
       }
@@ -75,6 +81,7 @@ namespace plumbline::report
         return "error against memory";
       case ChartKind::iterations:
         return "iterations of the solver";
+      case ChartKind::error_map:
       case ChartKind::convergence:
         break;
       }
@@ -91,6 +98,7 @@ namespace plumbline::report
         return "peak memory [MB]";
       case ChartKind::iterations:
       case ChartKind::convergence:
+      case ChartKind::error_map:
         break;
       }
       return is_horizon ? "horizon δ [length]" : "mesh size h [length]";
@@ -151,18 +159,19 @@ namespace plumbline::report
       return method.name + " (" + verdict + part + ")";
     }
 
-    /// The cheapest points for their error, cheap to dear.
-    std::vector<Vertex> frontier(const std::vector<Point> &points)
+    /// The cheapest points for their error, cheap to dear; below round-off none is better. Of one
+    /// method, or of all.
+    std::vector<Vertex> frontier(const std::vector<Point> &points, const std::string &method = "")
     {
       std::vector<Vertex> sorted, best;
       for (const Point &point : points)
-        if (point.is_drawn())
+        if (point.is_drawn() && (method.empty() || point.method->name == method))
           sorted.push_back({point.x, point.y});
       std::sort(sorted.begin(), sorted.end(),
                 [](const Vertex &a, const Vertex &b)
                 { return a.x < b.x || (a.x == b.x && a.y < b.y); });
       for (const Vertex &v : sorted)
-        if (best.empty() || v.y < best.back().y)
+        if (best.empty() || (v.y < best.back().y && best.back().y > round_off))
           best.push_back(v);
       return best;
     }
@@ -197,24 +206,19 @@ namespace plumbline::report
         plot.frontier = frontier(points);
 
       for (const MethodName &method : methods)
-        for (std::size_t i = 0; i < chosen.size(); ++i)
-        {
-          Line line;
-          line.style = style_of(methods, method.name);
-          // Several series in one picture: the first is broad, the last is thin.
-          line.width = chosen.size() == 1 ? 1.8 : std::max(.7, 2.4 - .8 * static_cast<double>(i));
-          line.label = i == 0 ? legend(results, method, chosen) : "";
-          bool has_runs = false;
+      {
+        // A method without a point keeps its line of the legend.
+        Line line;
+        line.style = style_of(methods, method.name);
+        line.label = legend(results, method, chosen);
+        if (chosen.size() > 1)
+          line.points = frontier(points, method.name);
+        else
           for (const Point &point : points)
-            if (point.method->name == method.name && point.one == chosen[i])
-            {
-              has_runs = true;
-              if (point.is_drawn())
-                line.points.push_back({point.x, point.y});
-            }
-          if (has_runs || i == 0)
-            plot.lines.push_back(line);
-        }
+            if (point.method->name == method.name && point.is_drawn())
+              line.points.push_back({point.x, point.y});
+        plot.lines.push_back(line);
+      }
       return plot;
     }
 
@@ -261,7 +265,7 @@ namespace plumbline::report
     std::vector<Chart> candidates;
     if (!all.empty())
     {
-      const std::string &problem = all.front().problem;
+      const std::string problem = telling_problem(results);
       std::string series, separator;
       std::size_t n = 0;
       for (const Case &one : all)
@@ -272,7 +276,9 @@ namespace plumbline::report
         }
       candidates.push_back({ChartKind::work_precision, kind_slug(ChartKind::work_precision),
                             problem + ": " + kind_title(ChartKind::work_precision) +
-                                (n > 1 ? " (broad to thin lines: " + series + ")" : ""),
+                                (n > 1 ? " (of each method the best of " +
+                                             (n > 4 ? std::to_string(n) + " series" : series) + ")"
+                                       : ""),
                             problem, ""});
     }
     for (const ChartKind kind : {ChartKind::work_precision, ChartKind::convergence,
@@ -288,6 +294,10 @@ namespace plumbline::report
       if (std::any_of(points.begin(), points.end(), [](const Point &p) { return p.is_drawn(); }))
         charts.push_back(chart);
     }
+    if (!results.maps.empty())
+      charts.push_back({ChartKind::error_map, kind_slug(ChartKind::error_map),
+                        map_title(results.maps), results.maps.front().problem,
+                        results.maps.front().series});
     return charts;
   }
 
@@ -298,19 +308,35 @@ namespace plumbline::report
     const std::vector<MethodName> names = methods(results);
     const std::vector<Chart> charts = list_charts(results);
     std::vector<Plot> plots;
+    std::string script;
     for (const Chart &chart : charts)
     {
+      const std::string picture = chart.name + ".svg";
+      std::filesystem::remove(folder / picture); // no old picture beside new data
+      if (chart.kind == ChartKind::error_map)
+      {
+        write_file(folder / (chart.name + ".csv"), to_csv(map_table(results.maps)));
+        script += map_script(results.maps, picture);
+        continue;
+      }
       const std::vector<const Case *> chosen = cases_of(all, chart);
       const std::vector<Point> points = points_of(results, names, chosen, chart.kind);
       plots.push_back(plot_of(results, names, chosen, chart, points));
       write_file(folder / (chart.name + ".csv"),
                  to_csv(data_of(chart, points, varies_horizon(results, *chosen.front()))));
-      std::filesystem::remove(folder / plots.back().file); // no old picture beside new data
     }
     if (charts.empty())
       return charts;
-    write_file(folder / "charts.gp", gnuplot_script(plots));
+    write_file(folder / "charts.gp", gnuplot_script(plots) + script);
     run_gnuplot(folder, "charts.gp");
+    if (!results.maps.empty())
+    {
+      const std::filesystem::path file = folder / (kind_slug(ChartKind::error_map) + ".svg");
+      std::ifstream in(file, std::ios::binary);
+      const std::string svg((std::istreambuf_iterator<char>(in)), {});
+      in.close();
+      write_file(file, with_sharp_blocks(svg));
+    }
     return charts;
   }
 } // namespace plumbline::report

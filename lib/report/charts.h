@@ -13,6 +13,7 @@ namespace plumbline::report
   {
     work_precision, ///< decisive error against CPU seconds
     convergence,    ///< decisive error against what varies, h or horizon
+    error_map,      ///< where each method errs, see maps.h
     memory,         ///< decisive error against peak memory
     iterations      ///< of the linear solver, against what varies
   };
@@ -28,7 +29,8 @@ namespace plumbline::report
   /// Whether all series of the problem are in one picture.
   bool is_overall(const Chart &chart);
 
-  /// The charts that these results have points for. The first is the overall work-precision chart.
+  /// The charts that these results have points for. The first is the overall work-precision
+  /// chart: of the telling problem, with each method's points that no other series of it beats.
   std::vector<Chart> list_charts(const study::Results &results);
 
   /// The same style for a method in every chart.
@@ -36,7 +38,8 @@ namespace plumbline::report
 
   /// Draw all charts into dir/charts, in one gnuplot process; charts.gp draws them again. A point
   /// whose error is zero or not a number, or whose cost is zero, is left out of the picture, and
-  /// its value is an empty field in the CSV.
+  /// its value is an empty field in the CSV. Errors below round-off stand in a strip (see Strip) of
+  /// the picture, and as they are in the CSV.
   /// @throws NumericalError  gnuplot is missing or fails; InputError  dir cannot be written
   std::vector<Chart> write_charts(const study::Results &results, const std::filesystem::path &dir);
 } // namespace plumbline::report

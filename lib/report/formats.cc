@@ -76,6 +76,38 @@ namespace plumbline::report
     return rounded(value) + " ± " + short_exponent(print("%.2g", uncertainty));
   }
 
+  std::string short_power(double value)
+  {
+    std::string number = print("%.2e", value);
+    const std::size_t e = number.find('e');
+    if (!std::isfinite(value) || e == std::string::npos)
+      return missing;
+    std::string digits = number.substr(0, e);
+    digits.erase(digits.find_last_not_of('0') + 1);
+    if (digits.back() == '.')
+      digits.pop_back();
+    return short_exponent(digits + number.substr(e));
+  }
+
+  std::string rounded_seconds(double seconds)
+  {
+    if (!std::isfinite(seconds) || seconds < 0)
+      return missing;
+    const auto digits = [](double value)
+    {
+      // 99.6 has two digits before the point already; "%.2g" would give it an exponent.
+      if (value >= 99.5)
+        return print("%.0f", 10 * std::round(value / 10));
+      return print("%.2g", value);
+    };
+    // A unit is left where its figure would have four digits before the point, or three behind.
+    if (seconds < 1e-4)
+      return digits(1e6 * seconds) + " µs";
+    if (seconds < .1)
+      return digits(1e3 * seconds) + " ms";
+    return digits(seconds) + " s";
+  }
+
   std::string slug(const std::string &name)
   {
     static const std::vector<std::pair<std::string, std::string>> greek = {

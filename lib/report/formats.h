@@ -19,6 +19,12 @@ namespace plumbline::report
   /// A number with what may be wrong about it: "2.013 ± 0.031".
   std::string rounded_with_uncertainty(double value, double uncertainty);
 
+  /// A target such as 1e-2: three significant digits at most, always with an exponent.
+  std::string short_power(double value);
+
+  /// A time as people say it: "85 µs", "0.51 ms", "3.2 s", "410 s"; two significant digits.
+  std::string rounded_seconds(double seconds);
+
   /// Lower-case letters, digits, '.' and '-' for file names: "δ = 0.4" becomes "delta-0.4".
   std::string slug(const std::string &name);
 

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cstdint>
 #include <fstream>
 #include <limits>
@@ -117,11 +118,38 @@ namespace plumbline::report
     }
 
     template <typename Archive>
+    void visit(Archive &a, study::Choice &choice)
+    {
+      a("target", choice.target);
+      a("method", choice.method);
+      a("h", choice.h);
+      a("error", choice.error);
+      a("seconds", choice.seconds);
+    }
+
+    template <typename Archive>
     void visit(Archive &a, study::Advice &advice)
     {
       a("problem", advice.problem);
       a("series", advice.series);
-      a("text", advice.text);
+      a("choices", advice.choices);
+      a("stalling", advice.stalling);
+    }
+
+    template <typename Archive>
+    void visit(Archive &a, study::ErrorMap &map)
+    {
+      a("method", map.method);
+      a("problem", map.problem);
+      a("series", map.series);
+      a("quantity", map.quantity);
+      a("h", map.h);
+      a("horizon", map.horizon);
+      a("lower", map.lower);
+      a("upper", map.upper);
+      a("n_x", map.n_x);
+      a("n_y", map.n_y);
+      a("values", map.values);
     }
 
     template <typename Archive>
@@ -138,6 +166,7 @@ namespace plumbline::report
       a("references", results.references);
       a("expectations", results.expectations);
       a("omissions", results.omissions);
+      a("maps", results.maps);
       a("runs", results.runs);
       a("scene_text", results.scene_text);
     }
@@ -172,14 +201,20 @@ namespace plumbline::report
             return name;
         return nullptr;
       }
-      template <typename T>
-      static Json json(std::vector<T> &values)
+      template <typename Sequence>
+      static Json array(Sequence &values)
       {
         Json array = Json::array();
-        for (T &value : values)
+        for (auto &value : values)
           array.push_back(json(value));
         return array;
       }
+      template <typename T>
+      static Json json(std::vector<T> &values)
+      {
+        return array(values);
+      }
+      static Json json(std::array<double, 2> &values) { return array(values); }
       template <typename T>
       static Json json(std::map<std::string, T> &values)
       {
@@ -254,6 +289,12 @@ namespace plumbline::report
         for (std::size_t i = 0; i < values.size(); ++i)
           read(json[i], values[i], place + "[" + std::to_string(i) + "]");
       }
+      void read(const Json &json, std::array<double, 2> &values, const std::string &place) const
+      {
+        expect(json.is_array() && json.size() == values.size(), place, "an array of two numbers");
+        for (std::size_t i = 0; i < values.size(); ++i)
+          read(json[i], values[i], place + "[" + std::to_string(i) + "]");
+      }
       template <typename T>
       void read(const Json &json, std::map<std::string, T> &values, const std::string &place) const
       {
@@ -322,6 +363,16 @@ namespace plumbline::report
                        "; run the scene again, or use the version named under provenance");
     study::Results results;
     visit(reader, results);
+    for (std::size_t i = 0; i < results.maps.size(); ++i)
+    {
+      const study::ErrorMap &map = results.maps[i];
+      if (map.values.size() != std::size_t{map.n_x} * map.n_y)
+        throw InputError(
+            "results file '" + name + "': maps[" + std::to_string(i) + "].values has " +
+            std::to_string(map.values.size()) +
+            " numbers, not n_x * n_y = " + std::to_string(std::size_t{map.n_x} * map.n_y) +
+            "; run the scene again, or mend the file by schema.md");
+    }
     return results;
   }
 } // namespace plumbline::report

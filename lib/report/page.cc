@@ -60,18 +60,17 @@ namespace plumbline::report
         }
         return text + "</td>";
       }
-
-      std::string section(const std::string &id, const std::string &head,
-                          const std::string &content)
-      {
-        return "<section id=\"" + id + "\">\n<h2>" + head + "</h2>\n" + content + "</section>\n";
-      }
-
-      std::string paragraph(const std::string &text)
-      {
-        return "<p>" + escape_html(text) + "</p>\n";
-      }
     } // namespace
+
+    std::string section(const std::string &id, const std::string &head, const std::string &content)
+    {
+      return "<section id=\"" + id + "\">\n<h2>" + head + "</h2>\n" + content + "</section>\n";
+    }
+
+    std::string paragraph(const std::string &text)
+    {
+      return "<p>" + escape_html(text) + "</p>\n";
+    }
 
     std::string folded(const std::string &summary, const std::string &content, bool is_open)
     {
@@ -106,34 +105,14 @@ namespace plumbline::report
       if (!results.expectations.empty())
         text += "<li>expected: " + std::to_string(n_hold) + " of " +
                 std::to_string(results.expectations.size()) + " hold</li>";
-      return text + "\n</ul>\n<nav><a href=\"#verdicts\">Verdicts</a><a href=\"#work\">Work and "
-                    "precision</a><a href=\"#convergence\">Convergence</a><a href=\"#numbers\">"
-                    "Tables</a><a href=\"#reference\">Reference</a><a href=\"#model\">Model</a>"
-                    "<a href=\"#diagnostics\">Diagnostics</a><a href=\"#provenance\">Provenance"
-                    "</a></nav>\n</header>\n";
-    }
-
-    std::string advice(const study::Results &results)
-    {
-      if (results.advice.empty())
-        return "";
-      // The same text for several cases stands once.
-      std::vector<std::pair<std::string, std::string>> cards;
-      for (const study::Advice &one : results.advice)
-      {
-        const std::string place = Case{one.problem, one.series, ""}.title();
-        const auto same = std::find_if(cards.begin(), cards.end(),
-                                       [&](const auto &card) { return card.second == one.text; });
-        if (same == cards.end())
-          cards.emplace_back(place, one.text);
-        else
-          same->first += "; " + place;
-      }
-      std::string text = "<div class=\"cards\">\n";
-      for (const auto &[places, words] : cards)
-        text += "<div class=\"card\"><b>" + escape_html(places) + "</b>" + escape_html(words) +
-                "</div>\n";
-      return section("advice", "Which method?", text + "</div>\n");
+      return text +
+             "\n</ul>\n<nav><a href=\"#verdicts\">Verdicts</a><a href=\"#work\">Work and "
+             "precision</a><a href=\"#convergence\">Convergence</a>" +
+             (results.maps.empty() ? "" : "<a href=\"#maps\">Error maps</a>") +
+             "<a href=\"#numbers\">Tables</a><a href=\"#reference\">Reference</a><a "
+             "href=\"#model\">Model</a>"
+             "<a href=\"#diagnostics\">Diagnostics</a><a href=\"#provenance\">Provenance"
+             "</a></nav>\n</header>\n";
     }
 
     std::string verdicts(const study::Results &results)
@@ -281,14 +260,31 @@ namespace plumbline::report
     {
       if (results.expectations.empty())
         return "";
-      std::string text = "<div class=\"wide\"><table>\n<thead><tr><th></th><th>subject</th><th>"
-                         "expected</th><th>found</th></tr></thead>\n<tbody>\n";
+      std::array<std::string, 2> rows; // of those that do not hold, and of those that do
+      std::size_t n_hold = 0;
       for (const study::Expectation &one : results.expectations)
-        text += std::string("<tr><td class=\"") +
-                (one.holds ? "yes\">✓ holds" : "no\">✗ does not hold") + "</td><td>" +
-                escape_html(one.subject) + "</td><td>" + escape_html(one.expected) + "</td><td>" +
-                escape_html(one.found) + "</td></tr>\n";
-      return section("expectations", "What the scene expects", text + "</tbody></table></div>\n");
+      {
+        n_hold += one.holds ? 1 : 0;
+        rows[one.holds ? 1 : 0] += std::string("<tr><td class=\"") +
+                                   (one.holds ? "yes\">✓ holds" : "no\">✗ does not hold") +
+                                   "</td><td>" + escape_html(one.subject) + "</td><td>" +
+                                   escape_html(one.expected) + "</td><td>" +
+                                   escape_html(one.found) + "</td></tr>\n";
+      }
+      const auto table = [](const std::string &body)
+      {
+        return "<div class=\"wide\"><table>\n<thead><tr><th></th><th>subject</th><th>expected</th>"
+               "<th>found</th></tr></thead>\n<tbody>\n" +
+               body + "</tbody></table></div>\n";
+      };
+      const std::string words =
+          std::to_string(n_hold) + " of " + std::to_string(results.expectations.size()) + " hold";
+      std::string text;
+      if (!rows[0].empty())
+        text = "<p class=\"no\">✗ " + words + "; these do not:</p>\n" + table(rows[0]);
+      if (!rows[1].empty())
+        text += folded(rows[0].empty() ? "✓ " + words : "✓ Those that hold", table(rows[1]));
+      return section("expectations", "What the scene expects", text);
     }
 
     std::string diagnostics(const study::Results &results)

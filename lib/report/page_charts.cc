@@ -54,10 +54,18 @@ namespace plumbline::report::page
     const Section sections[] = {
         {ChartKind::work_precision, "work", "Work and precision",
          "Lower left is better: a smaller error for less work. Each point is a level of the sweep; "
+         "where several series share a chart, a line ends where more work gains nothing; "
          "the grey band joins the points that no other beats. Solid lines with filled symbols are "
-         "meshfree rules, dashed lines with open symbols are Galerkin methods."},
+         "meshfree rules, dashed lines with open symbols are Galerkin methods. Errors of the size "
+         "of rounding (below 1e-10), if there are any beside larger ones, stand in a grey strip: a "
+         "row for each method, not to scale."},
         {ChartKind::convergence, "convergence", "Convergence",
-         "A method that converges follows a slope triangle; one that stalls turns level."},
+         "A method that converges follows a slope triangle; one that stalls turns level; one that "
+         "is exact to rounding runs in the grey strip."},
+        {ChartKind::error_map, "maps", "Where the error sits",
+         "The largest error in each block of cells at the finest level. One colour scale for all "
+         "methods; dark is "
+         "accurate, white lies outside the domain."},
         {ChartKind::memory, "memory", "Memory", "Error against the largest memory in use."},
         {ChartKind::iterations, "iterations", "Iterations",
          "Iterations of the linear solver as the mesh is refined."}};
@@ -106,9 +114,10 @@ namespace plumbline::report::page
   std::string charts(const study::Results &results, const std::filesystem::path &dir)
   {
     const std::vector<Chart> all = list_charts(results);
+    const std::string main_problem = telling_problem(results);
     std::vector<Case> of_overall;
     for (const Case &one : cases(results))
-      if (!all.empty() && one.problem == all.front().problem)
+      if (one.problem == main_problem)
         of_overall.push_back(one);
     const bool are_many = all.size() > n_large;
 
@@ -129,7 +138,8 @@ namespace plumbline::report::page
             of_overall.size() == 1 && chart.problem == of_overall.front().problem &&
             is_overall(all.front()))
           continue;
-        const bool is_large = !is_minor && (large.empty() || !are_many);
+        const bool is_main = section.kind == ChartKind::error_map || chart.problem == main_problem;
+        const bool is_large = !is_minor && (!are_many || (is_main && large.empty()));
         (is_large ? large : small) += figure(chart, dir, number++, is_large);
         n_small += is_large ? 0 : 1;
       }

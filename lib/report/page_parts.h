@@ -22,7 +22,7 @@ namespace plumbline::report::page
   /// Title, purpose, what kind of study, how many verdicts, whether the run was finished.
   std::string header(const study::Results &results);
 
-  /// Which method to take, by problem and series.
+  /// Which method to take: one sentence over all cases, then a card for each problem and series.
   std::string advice(const study::Results &results);
 
   /// Rows: methods; columns: problems and series; in each cell the verdict in a word and a sign,
@@ -41,13 +41,18 @@ namespace plumbline::report::page
   /// What was modelled, and what was left out; the check of the geometry.
   std::string model(const study::Results &results);
 
-  /// What the scene expects, and what was found.
+  /// How many of the scene's expectations hold; those that do not are shown, the others folded.
   std::string expectations(const study::Results &results);
 
   std::string diagnostics(const study::Results &results);
 
   /// Where the numbers come from: versions, machine, the scene as read.
   std::string provenance(const study::Results &results);
+
+  /// <section> with a heading.
+  std::string section(const std::string &id, const std::string &head, const std::string &content);
+
+  std::string paragraph(const std::string &text);
 
   /// <details> with a summary.
   std::string folded(const std::string &summary, const std::string &content, bool is_open = false);

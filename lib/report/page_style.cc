@@ -28,10 +28,16 @@ nav a { margin-right: 1.1rem; white-space: nowrap; }
 .facts li { border: 1px solid var(--rule); border-radius: 99px; padding: .12rem .8rem; font-size: .88rem; }
 .banner, .warning { border-left: 4px solid #D55E00; background: #fdf1ea; padding: .7rem 1rem; margin: 1rem 0;
   border-radius: 0 6px 6px 0; max-width: none; }
-.cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(310px, 1fr)); gap: .8rem; margin: .8rem 0; }
+.answer { font-size: 1.08rem; max-width: 85ch; }
+.cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(430px, 100%), 1fr)); gap: .8rem; margin: .8rem 0; }
 .card { background: var(--ground); border: 1px solid var(--rule); border-left: 3px solid #0072B2; border-radius: 6px;
   padding: .7rem .95rem; }
-.card b { display: block; font-size: .82rem; color: var(--soft); font-weight: 600; }
+.card h3 { font-size: .86rem; color: var(--soft); font-weight: 600; margin: 0 0 .2rem; }
+.card p { margin: .3rem 0 0; }
+.card td { padding: .18rem .9rem .18rem 0; white-space: nowrap; max-width: none; }
+.card tr:last-child td { border-bottom: 0; }
+.card .marker { margin: 0 .35rem; }
+.avoid { color: #8a3500; font-size: .9rem; }
 .wide { overflow-x: auto; margin: .7rem 0; }
 table { border-collapse: collapse; font-size: .875rem; font-variant-numeric: tabular-nums; }
 th { text-align: left; font-weight: 600; color: #39424b; border-bottom: 1.5px solid #aab3bb; vertical-align: bottom; }
@@ -39,11 +45,11 @@ th, td { padding: .32rem .75rem .32rem 0; }
 td { border-bottom: 1px solid var(--rule); vertical-align: top; max-width: 46ch; }
 th.n, td.n { text-align: right; white-space: nowrap; }
 .wide tr:hover td { background: var(--ground); }
-.verdicts { width: 100%; border-collapse: separate; border-spacing: 3px; }
+.verdicts { min-width: 24rem; border-collapse: separate; border-spacing: 3px; }
 .verdicts th { border: 0; padding: .2rem .5rem; }
 .verdicts th.problem { border-bottom: 1.5px solid #aab3bb; }
 .verdicts th.method { white-space: nowrap; font-weight: 600; color: var(--ink); vertical-align: middle; }
-.verdicts td { border: 0; border-radius: 5px; padding: .34rem .5rem; min-width: 5.2rem; line-height: 1.32; }
+.verdicts td { border: 0; border-radius: 5px; padding: .34rem .5rem; min-width: 6.2rem; line-height: 1.32; }
 .verdicts td b { white-space: nowrap; font-size: .82rem; }
 .verdicts td small { display: block; font-size: .78rem; white-space: nowrap; }
 .wide .verdicts tr:hover td.converges, td.converges { background: #dff2ea; color: #004a37; }

@@ -30,18 +30,6 @@ namespace plumbline::report
     constexpr std::array<std::array<int, 2>, 6> point_types = {
         {{6, 7}, {4, 5}, {8, 9}, {12, 13}, {10, 11}, {14, 15}}};
 
-    /// Single quotes: no command or escape inside is carried out.
-    std::string quote(const std::string &text)
-    {
-      std::string result = "'";
-      for (const char c : text)
-        if (c == '\'')
-          result += "''";
-        else
-          result += c == '\n' || c == '\r' ? ' ' : c;
-      return result + "'";
-    }
-
     std::string two(double x, double y)
     {
       return exact(x) + " " + exact(y);
@@ -66,7 +54,6 @@ namespace plumbline::report
     std::string axis(char name, const Range &range, bool is_log, const std::vector<double> &ticks)
     {
       std::ostringstream out;
-      out << "set " << name << "range [" << exact(range.low) << ":" << exact(range.high) << "]\n";
       if (!ticks.empty())
       {
         std::string list, separator;
@@ -76,18 +63,22 @@ namespace plumbline::report
           // Labels closer than this would touch.
           const bool is_apart = std::log(tick / (last > 0 ? last : tick / 1e9)) >
                                 .075 * std::log(range.high / range.low);
-          list += std::exchange(separator, ", ") + quote(is_apart ? rounded(tick) : "") + " " +
-                  exact(tick);
+          list += std::exchange(separator, ", ") + quote_gnuplot(is_apart ? rounded(tick) : "") +
+                  " " + exact(tick);
           last = is_apart ? tick : last;
         }
         out << "unset m" << name << "tics\nset " << name << "tics nomirror (" << list << ")\n";
       }
       else if (is_log)
       {
+        const double first = std::ceil(std::log10(range.low) - 1e-9);
+        if (std::pow(10., first) > range.high) // no power of ten inside: one figure in the middle
+          return axis(name, range, is_log, {std::sqrt(range.low * range.high)});
         const int decades = static_cast<int>(std::ceil(std::log10(range.high / range.low)));
         const int step = (decades + 7) / 8; // eight figures along an axis are enough
-        out << "set " << name << "tics nomirror autofreq 1e" << step << "\nset format " << name
-            << " '10^{%T}'\n";
+        // From a power of ten inside, so that a strip below the range has no figures.
+        out << "set " << name << "tics nomirror 1e" << static_cast<int>(first) << ",1e" << step
+            << "," << exact(range.high * (1 + 1e-9)) << "\nset format " << name << " '10^{%T}'\n";
         out << (step == 1 ? "set m" : "unset m") << name << "tics\n";
       }
       else
@@ -96,31 +87,36 @@ namespace plumbline::report
       return out.str();
     }
 
-    std::size_t n_characters(const std::string &utf8)
+    /// Of a text of 14 pixels in a wide font; in a narrower one there is room to spare.
+    double width_of(const std::string &utf8)
     {
-      return static_cast<std::size_t>(
-          std::count_if(utf8.begin(), utf8.end(),
-                        [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+      constexpr double wide = 10.2, usual = 8.4;
+      double width = 0;
+      for (const char c : utf8)
+        if ((static_cast<unsigned char>(c) & 0xC0) != 0x80) // the first byte of a character
+          width += (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? wide : usual;
+      return width;
     }
 
     /// Size, margins and legend: every method has a line of the one column of the legend.
     std::string frame(const Plot &plot)
     {
-      // In pixels; a character is this wide on average, a line of the legend this high.
-      constexpr double width = 820, character = 7.4, line = 23.5;
-      std::size_t longest = 11, n = 1; // "best of all"
+      // In pixels; a line of the legend is this high.
+      constexpr double width = 820, line = 23.5;
+      double longest = width_of("best of all");
+      std::size_t n = 1;
       for (const Line &one : plot.lines)
         if (!one.label.empty())
         {
-          longest = std::max(longest, n_characters(one.label));
+          longest = std::max(longest, width_of(one.label));
           ++n;
         }
       const double height = std::max(480., 112 + line * static_cast<double>(n));
-      const double legend = std::min(.5 * width, 56 + character * static_cast<double>(longest));
+      const double legend = std::min(.5 * width, 56 + longest);
       std::ostringstream out;
       out << "set terminal svg size " << width << "," << height
           << " dynamic enhanced font 'sans-serif,14' background '#ffffff'\n"
-          << "set lmargin at screen " << 92 / width << "\nset rmargin at screen "
+          << "set lmargin at screen " << 100 / width << "\nset rmargin at screen "
           << 1 - (legend + 14) / width << "\nset bmargin at screen " << 62 / height
           << "\nset tmargin at screen " << 1 - 40 / height << "\nset key at screen "
           << 1 - legend / width << ", screen " << 1 - 36 / height
@@ -143,6 +139,53 @@ namespace plumbline::report
       return out.str();
     }
 
+    /// The parts of the lines above the strip, between points that are neighbours.
+    std::vector<Line> parts_above(const std::vector<Line> &lines, double level)
+    {
+      std::vector<Line> parts;
+      for (const Line &line : lines)
+      {
+        Line part;
+        for (const Vertex &v : line.points)
+          if (v.y >= level)
+            part.points.push_back(v);
+          else
+            parts.push_back(std::exchange(part, {}));
+        parts.push_back(part);
+      }
+      return parts;
+    }
+
+    Range span(const std::vector<double> &values)
+    {
+      return {*std::min_element(values.begin(), values.end()),
+              *std::max_element(values.begin(), values.end())};
+    }
+
+    Range x_range(const std::vector<double> &xs, std::vector<double> &ticks)
+    {
+      const Range values = span(xs);
+      if (!ticks.empty())
+        return {values.low / 1.25, values.high * 1.25};
+      if (values.high >= narrow * values.low)
+        return log_range(xs);
+      const Range x = {values.low / 1.5, values.high * 1.5};
+      ticks = one_two_five(x);
+      return x;
+    }
+
+    std::string strip_commands(const Strip &strip)
+    {
+      return "set object 9 rectangle from graph 0, first " + exact(strip.range.low) +
+             " to graph 1, first " + exact(strip.range.high) +
+             " fillcolor rgb '#f3f3f3' fillstyle solid noborder behind\n"
+             "set arrow 9 from graph 0, first " +
+             exact(strip.range.high) + " to graph 1, first " + exact(strip.range.high) +
+             " nohead lc rgb '#aaaaaa' lw .8 back\nset label 9 'round-off' at graph 0, first " +
+             exact(std::sqrt(strip.range.low * strip.range.high)) +
+             " right offset -.8,0 font ',11' textcolor rgb '#555555'\n";
+    }
+
     std::string plot_commands(const Plot &plot)
     {
       std::vector<double> xs, ys;
@@ -152,64 +195,62 @@ namespace plumbline::report
           xs.push_back(v.x);
           ys.push_back(v.y);
         }
-      const Range values = {*std::min_element(xs.begin(), xs.end()),
-                            *std::max_element(xs.begin(), xs.end())};
       std::vector<double> x_ticks = plot.x_ticks;
-      Range x = log_range(xs), y;
-      if (!x_ticks.empty())
-        x = {values.low / 1.25, values.high * 1.25};
-      else if (values.high < narrow * values.low)
-      {
-        x = {values.low / 1.5, values.high * 1.5};
-        x_ticks = one_two_five(x);
-      }
-      if (plot.is_y_log)
-        y = log_range(ys);
-      else
-        y = {0, 1.12 * std::max(1., *std::max_element(ys.begin(), ys.end()))};
+      const Range x = x_range(xs, x_ticks);
+      const bool has_strip = plot.shows_round_off && plot.is_y_log && span(ys).low < round_off &&
+                             span(ys).high >= round_off;
+      if (has_strip)
+        ys.erase(std::remove_if(ys.begin(), ys.end(), [](double y) { return y < round_off; }),
+                 ys.end());
+      const Range y = plot.is_y_log ? log_range(ys) : Range{0, 1.12 * std::max(1., span(ys).high)};
+      const Strip strip = has_strip ? make_strip(plot.lines, y) : Strip{{}, {y.low, y.low}};
 
       std::ostringstream out;
       out << "reset\n"
-          << frame(plot) << "set output " << quote(plot.file) << "\n"
+          << frame(plot) << "set output " << quote_gnuplot(plot.file) << "\n"
           << "set logscale x" << (plot.is_y_log ? "y" : "") << "\n"
           << "set border 3 lc rgb '#555555'\nset tics textcolor rgb '#222222'\n"
           << "set grid xtics ytics lt 1 lc rgb '#e4e4e4' lw .8\n"
-          << "set title " << quote(plot.title) << " noenhanced\n"
-          << "set xlabel " << quote(plot.x_label) << " noenhanced\n"
-          << "set ylabel " << quote(plot.y_label) << " noenhanced\n"
+          << "set title " << quote_gnuplot(plot.title) << " noenhanced\n"
+          << "set xlabel " << quote_gnuplot(plot.x_label) << " noenhanced\n"
+          << "set ylabel " << quote_gnuplot(plot.y_label) << " noenhanced\n"
+          << "set xrange [" << exact(x.low) << ":" << exact(x.high) << "]\nset yrange ["
+          << exact(strip.range.low) << ":" << exact(y.high) << "]\n"
           << axis('x', x, true, x_ticks) << axis('y', y, plot.is_y_log, {});
 
       if (plot.has_slopes)
       {
+        const std::vector<Line> lines = has_strip ? parts_above(plot.lines, round_off) : plot.lines;
         std::vector<SlopeTriangle> triangles;
         for (const unsigned int slope : {2, 1})
-          if (const auto triangle = place_slope(slope, plot.lines, x, y, triangles))
+          if (const auto triangle = place_slope(slope, lines, x, y, triangles))
           {
             triangles.push_back(*triangle);
             out << slope_commands(*triangle, static_cast<unsigned int>(triangles.size()));
           }
       }
-      if (plot.shows_round_off && y.low < round_off / 2)
-        out << "set object 9 rectangle from graph 0, first " << exact(y.low)
-            << " to graph 1, first " << exact(std::min(round_off, y.high))
-            << " fillcolor rgb '#f6f6f6' fillstyle solid noborder behind\n"
-            << "set label 9 'round-off' at graph .985, first " << exact(std::min(round_off, y.high))
-            << " right offset 0,-.7 font ',12' textcolor rgb '#777777'\n";
+      if (has_strip)
+        out << strip_commands(strip);
 
       std::string separator = "plot ";
       std::ostringstream data, commands;
       unsigned int n = 0;
-      const auto block = [&](const std::vector<Vertex> &points)
+      const auto block = [&](const std::vector<Vertex> &points, bool has_gap)
       {
         data << "$d" << ++n << " << EOD\n";
-        for (const Vertex &v : points)
-          data << two(v.x, v.y) << "\n";
+        for (std::size_t i = 0; i < points.size(); ++i)
+        {
+          // An empty line interrupts: the way into the strip has no slope.
+          if (has_gap && i > 0 && (points[i].y < y.low) != (points[i - 1].y < y.low))
+            data << "\n";
+          data << two(points[i].x, points[i].y) << "\n";
+        }
         data << "EOD\n";
         commands << std::exchange(separator, ", \\\n  ") << "$d" << n << " using 1:2 with ";
       };
       if (plot.frontier.size() > 1)
       {
-        block(plot.frontier);
+        block(has_strip ? strip.cut(plot.frontier) : plot.frontier, false);
         commands << "lines lc rgb '#dcdcdc' lw 9 title 'best of all'";
       }
       for (const Line &line : plot.lines)
@@ -218,15 +259,15 @@ namespace plumbline::report
           continue;
         // A method without a point keeps its line of the legend: gnuplot needs one value to draw
         // it.
-        block(line.points.empty() ? std::vector<Vertex>{{x.low / 10, y.low / 10}} : line.points);
+        block(line.points.empty() ? std::vector<Vertex>{{x.low / 10, y.high * 10}}
+              : has_strip         ? strip.enter(line)
+                                  : line.points,
+              has_strip);
         const Style &style = line.style;
         commands << "linespoints lc rgb '" << style.colour << "' lw " << line.width << " pt "
-                 << point_types[style.symbol][style.is_dashed ? 0 : 1] << " ps "
-                 << (line.width < 1     ? .55
-                     : line.width < 1.7 ? .7
-                                        : .85)
+                 << point_types[style.symbol][style.is_dashed ? 0 : 1] << " ps " << .85
                  << (style.is_dashed ? " dt (6,4)" : "")
-                 << (line.label.empty() ? " notitle" : " title " + quote(line.label));
+                 << (line.label.empty() ? " notitle" : " title " + quote_gnuplot(line.label));
       }
       return data.str() + out.str() + commands.str() + "\n";
     }
@@ -254,6 +295,17 @@ namespace plumbline::report
     if (n_powers() < 2 || std::ceil(to) - to < reach)
       to = std::ceil(to);
     return {std::pow(10., from), std::pow(10., to)};
+  }
+
+  std::string quote_gnuplot(const std::string &text)
+  {
+    std::string result = "'";
+    for (const char c : text)
+      if (c == '\'')
+        result += "''";
+      else
+        result += c == '\n' || c == '\r' ? ' ' : c;
+    return result + "'";
   }
 
   std::string gnuplot_script(const std::vector<Plot> &plots)

@@ -40,19 +40,35 @@ namespace plumbline::report
     std::string title, x_label, y_label;
     bool is_y_log = true; ///< x always is
     bool has_slopes = false;
-    bool shows_round_off = false; ///< marks where differences are of the size of rounding
+    bool shows_round_off = false; ///< what is smaller than that goes into a strip, see Strip
     std::vector<double> x_ticks;  ///< empty: powers of ten
     std::vector<Vertex> frontier; ///< drawn broad and grey behind the lines
     std::vector<Line> lines;      ///< at least one point in all
   };
 
-  /// Errors below this are of the size of rounding: sums of 1e4 terms of size 1 differ by as much.
-  constexpr double round_off = 1e-11;
+  /// Errors of fields of size one below this are of the size of rounding; the value by which
+  /// lib/study/trend.cc judges, so that pictures and verdicts agree.
+  constexpr double round_off = 1e-10;
 
   struct Range
   {
     double low = 0, high = 0;
   };
+
+  /// A strip below a logarithmic axis for errors of the size of rounding, beside others that are
+  /// not. How small they are says nothing, and over the decades between the others would lie flat.
+  struct Strip
+  {
+    std::vector<Style> rows; ///< from above, one for each method that has such errors
+    Range range;             ///< of y, high is where the axis ends
+
+    /// The line with its errors below round-off moved into its row.
+    std::vector<Vertex> enter(const Line &line) const;
+
+    /// The line with its errors below round-off moved through the whole strip, straight down.
+    std::vector<Vertex> cut(const std::vector<Vertex> &points) const;
+  };
+  Strip make_strip(const std::vector<Line> &lines, const Range &y);
 
   /// Of a logarithmic axis: the values with a margin, and two powers of ten at least.
   Range log_range(const std::vector<double> &values);
@@ -69,6 +85,9 @@ namespace plumbline::report
   std::optional<SlopeTriangle> place_slope(unsigned int slope, const std::vector<Line> &lines,
                                            const Range &x, const Range &y,
                                            const std::vector<SlopeTriangle> &taken);
+
+  /// A text as gnuplot takes it, in single quotes: no command or escape inside is carried out.
+  std::string quote_gnuplot(const std::string &text);
 
   /// The commands that draw all plots, each to its own file.
   std::string gnuplot_script(const std::vector<Plot> &plots);

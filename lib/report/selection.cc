@@ -1,6 +1,7 @@
 #include "report/selection.h"
 
 #include "report/formats.h"
+#include "report/plot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,6 +82,25 @@ namespace plumbline::report
   {
     const auto error = run.errors.find(results.decisive_error);
     return run.failure.empty() && error != run.errors.end() ? error->second : not_a_number;
+  }
+
+  std::string telling_problem(const study::Results &results)
+  {
+    std::string best;
+    std::size_t most = 0;
+    for (const Case &one : cases(results))
+    {
+      const auto n = static_cast<std::size_t>(std::count_if(
+          results.runs.begin(), results.runs.end(),
+          [&](const study::Run &run)
+          { return run.problem == one.problem && decisive_error(results, run) > round_off; }));
+      if (best.empty() || n > most)
+      {
+        best = one.problem;
+        most = n;
+      }
+    }
+    return best;
   }
 
   double rate_at(const study::Trend &trend, double x)

@@ -29,6 +29,10 @@ namespace plumbline::report
   const study::Trend *decisive_trend(const study::Results &results, const std::string &method,
                                      const Case &one);
 
+  /// The problem with the most errors above round-off, the first of several: a problem that most
+  /// methods solve exactly tells little about work and rates. Empty without a run.
+  std::string telling_problem(const study::Results &results);
+
   /// The runs of one method on one case, coarse to fine.
   std::vector<const study::Run *> runs_of(const study::Results &results, const std::string &method,
                                           const Case &one);

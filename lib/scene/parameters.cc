@@ -18,17 +18,26 @@ namespace plumbline::scene
       std::string help;
     };
 
-    std::shared_ptr<Patterns::PatternBase> text() { return std::make_shared<Patterns::Anything>(); }
+    std::shared_ptr<Patterns::PatternBase> text()
+    {
+      return std::make_shared<Patterns::Anything>();
+    }
     std::shared_ptr<Patterns::PatternBase> one_of(const std::string &names)
     {
       return std::make_shared<Patterns::Selection>(names);
     }
-    std::shared_ptr<Patterns::PatternBase> yes_or_no() { return std::make_shared<Patterns::Bool>(); }
+    std::shared_ptr<Patterns::PatternBase> yes_or_no()
+    {
+      return std::make_shared<Patterns::Bool>();
+    }
     std::shared_ptr<Patterns::PatternBase> count(int lowest)
     {
       return std::make_shared<Patterns::Integer>(lowest);
     }
-    std::shared_ptr<Patterns::PatternBase> number() { return std::make_shared<Patterns::Double>(); }
+    std::shared_ptr<Patterns::PatternBase> number()
+    {
+      return std::make_shared<Patterns::Double>();
+    }
     std::shared_ptr<Patterns::PatternBase> positive()
     {
       return std::make_shared<Patterns::Double>(1e-300);
@@ -48,18 +57,22 @@ namespace plumbline::scene
           {"", "Purpose", "", text(), "What the scene is for, in one line."},
 
           {"Domain", "boxes", "0, 0 : 1, 1", text(),
-           "The domain Omega: boxes 'x0, y0 : x1, y1' separated by ';'. Every side must be a multiple "
+           "The domain Omega: boxes 'x0, y0 : x1, y1' separated by ';'. Every side must be a "
+           "multiple "
            "of each mesh size from the others. [length]"},
           {"Domain", "holes", "", text(), "Boxes to take out again, written like boxes. [length]"},
           {"Domain", "collar", "auto", text(),
-           "Width of the interaction collar where the volume constraint gives u: auto, or a width of "
+           "Width of the interaction collar where the volume constraint gives u: auto, or a width "
+           "of "
            "at least the largest horizon. [length]"},
 
           {"Kernel", "type", "linear-decay", one_of(kernel_names()),
            "Radial profile of the kernel, scalar or bond tensor; see 'plumbline list kernels'."},
           {"Kernel", "limit", "-1/2 Laplace", one_of("-1/2 Laplace|-Laplace|Navier|none"),
-           "The local operator that the kernel is scaled to as the horizon tends to 0: -1/2 Laplace "
-           "(the moment of xi_1^2 is 1), -Laplace, Navier with 'bulk modulus' (bond tensors), or none: "
+           "The local operator that the kernel is scaled to as the horizon tends to 0: -1/2 "
+           "Laplace "
+           "(the moment of xi_1^2 is 1), -Laplace, Navier with 'bulk modulus' (bond tensors), or "
+           "none: "
            "'constant' is taken as it is."},
           {"Kernel", "bulk modulus", "1", positive(),
            "kappa of bond tensors; lambda = mu = 3 kappa / 5 (plane strain). [force/length^2]"},
@@ -80,7 +93,8 @@ namespace plumbline::scene
           {"Problem", "constraint", "solution", text(),
            "u in the collar: solution, or an expression."},
           {"Problem", "local solution", "solution", text(),
-           "The solution of the local limit: solution (where it does not depend on the horizon), none, "
+           "The solution of the local limit: solution (where it does not depend on the horizon), "
+           "none, "
            "or an expression."},
 
           {"Methods", "names", "", text(),
@@ -108,7 +122,8 @@ namespace plumbline::scene
            "Estimate the reference's own error by h/2 and by degree p+1."},
 
           {"Geometry", "backend", "fast", one_of("fast|cgal"),
-           "Who intersects balls and cells: fast (double precision) or cgal (exact circular kernel)."},
+           "Who intersects balls and cells: fast (double precision) or cgal (exact circular "
+           "kernel)."},
           {"Geometry", "checks", "24", count(0),
            "Cut cells of each reference that are recomputed with the exact backend."},
           {"Geometry", "seed", "1", count(0), "Seed of the sample of checked cells."},
@@ -154,13 +169,14 @@ namespace plumbline::scene
         if (key.section == section || key.name == name)
           similar += (similar.empty() ? "" : ", ") + path(key);
       }
-      throw InputError("key '" + name + "' is not known; write one of: " +
-                       (similar.empty() ? every : similar));
+      throw InputError("key '" + name +
+                       "' is not known; write one of: " + (similar.empty() ? every : similar));
     }
 
     std::string help_of(const Key &key)
     {
-      return path(key) + "\n  " + key.help + "\n  default: " + (key.value.empty() ? "(empty)" : key.value) +
+      return path(key) + "\n  " + key.help +
+             "\n  default: " + (key.value.empty() ? "(empty)" : key.value) +
              "\n  allowed: " + key.pattern->description(Patterns::PatternBase::Text) + "\n";
     }
   } // namespace

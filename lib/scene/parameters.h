@@ -6,7 +6,8 @@
 
 namespace plumbline::scene
 {
-  /// Declare every key of a scene with default, pattern and help. The one place where keys are named.
+  /// Declare every key of a scene with default, pattern and help. The one place where keys are
+  /// named.
   void declare(dealii::ParameterHandler &parameters);
 
   /// A flat list of all keys as "Section/key".

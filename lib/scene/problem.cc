@@ -34,15 +34,17 @@ namespace plumbline::scene
       return field;
     }
 
-    Field expression_field(const std::string &key, const std::string &text, unsigned int n_components,
-                           const geometry::Lattice &lattice, double horizon)
+    Field expression_field(const std::string &key, const std::string &text,
+                           unsigned int n_components, const geometry::Lattice &lattice,
+                           double horizon)
     {
       const Expression expression(key, text, {{"delta", horizon}});
       return with_series(expression, n_components, lattice, 0);
     }
 
     /// The largest value of a field over the cells of Ω, roughly: for noise levels.
-    double magnitude(const Field &field, unsigned int n_components, const geometry::Lattice &lattice)
+    double magnitude(const Field &field, unsigned int n_components,
+                     const geometry::Lattice &lattice)
     {
       const auto &n = lattice.n_cells();
       constexpr int samples = 8;
@@ -51,10 +53,10 @@ namespace plumbline::scene
         for (int i = 0; i <= samples; ++i)
           if (lattice.is_inside(i * (n[0] - 1) / samples, j * (n[1] - 1) / samples))
             for (unsigned int c = 0; c < n_components; ++c)
-              largest = std::max(
-                  largest, std::abs(field.value(lattice.point(i * (n[0] - 1) / samples + .5,
-                                                              j * (n[1] - 1) / samples + .5),
-                                                c)));
+              largest = std::max(largest,
+                                 std::abs(field.value(lattice.point(i * (n[0] - 1) / samples + .5,
+                                                                    j * (n[1] - 1) / samples + .5),
+                                                      c)));
       return largest;
     }
   } // namespace
@@ -65,9 +67,8 @@ namespace plumbline::scene
     const physics::Kernel<2> kernel = scene.kernel(level.horizon);
     const unsigned int n_components = kernel.n_components();
     Problem problem{lattice, kernel, n_components, {}, {}, {}, {}};
-    const auto field = [&](const std::string &key, const std::string &text) {
-      return expression_field(key, text, n_components, lattice, level.horizon);
-    };
+    const auto field = [&](const std::string &key, const std::string &text)
+    { return expression_field(key, text, n_components, lattice, level.horizon); };
 
     if (!scene.solutions.empty())
       problem.solution = field("Problem/solution", scene.solutions[case_index].expression);

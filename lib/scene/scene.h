@@ -14,7 +14,8 @@ namespace plumbline::scene
   enum class Regime
   {
     m,       ///< horizon fixed, h → 0: towards the nonlocal solution
-    delta,   ///< m = horizon / h fixed, h → 0: towards the local limit; decides asymptotic compatibility
+    delta,   ///< m = horizon / h fixed, h → 0: towards the local limit; decides asymptotic
+             ///< compatibility
     delta_m, ///< horizon → 0 and m → ∞ together
     horizon  ///< h fixed, horizon varies: how errors depend on the horizon
   };
@@ -100,7 +101,8 @@ namespace plumbline::scene
   };
 
   /// @param file  .prm or .json
-  /// @throws InputError  file not readable, unknown key, wrong type, or values that do not fit together
+  /// @throws InputError  file not readable, unknown key, wrong type, or values that do not fit
+  /// together
   Scene read_scene(const std::string &file, const std::vector<Override> &overrides = {});
 
   /// The same from a text in .prm syntax.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plumbline::study
 {
@@ -40,9 +41,9 @@ namespace plumbline::study
       static const dealii::QIterated<2> rule(dealii::QGauss<1>(6), 2);
       double mean = 0;
       for (unsigned int q = 0; q < rule.size(); ++q)
-        mean += rule.weight(q) * field.value(lattice.point(s - .5 + rule.point(q)[0],
-                                                           t - .5 + rule.point(q)[1]),
-                                             component);
+        mean += rule.weight(q) *
+                field.value(lattice.point(s - .5 + rule.point(q)[0], t - .5 + rule.point(q)[1]),
+                            component);
       return mean;
     }
 
@@ -60,9 +61,8 @@ namespace plumbline::study
     void enter(std::map<std::string, double> &errors, const scene::Scene &scene,
                const std::string &kind, const std::string &target, const Accumulator &sum)
     {
-      const auto is_wanted = [&](const std::string &norm) {
-        return std::find(scene.norms.begin(), scene.norms.end(), norm) != scene.norms.end();
-      };
+      const auto is_wanted = [&](const std::string &norm)
+      { return std::find(scene.norms.begin(), scene.norms.end(), norm) != scene.norms.end(); };
       if (is_wanted(kind + " Linf"))
         errors[kind + " Linf | " + target] = sum.largest;
       if (is_wanted(kind + " L2"))
@@ -71,9 +71,9 @@ namespace plumbline::study
 
     bool is_wanted(const scene::Scene &scene, const std::string &kind)
     {
-      return std::any_of(scene.norms.begin(), scene.norms.end(), [&](const std::string &norm) {
-        return norm.compare(0, kind.size() + 1, kind + " ") == 0;
-      });
+      return std::any_of(scene.norms.begin(), scene.norms.end(),
+                         [&](const std::string &norm)
+                         { return norm.compare(0, kind.size() + 1, kind + " ") == 0; });
     }
 
     Accumulator nodal_difference(const Solution &solution, const Field &field, double h,
@@ -93,6 +93,18 @@ namespace plumbline::study
       for (std::size_t i = 0; i < a.size(); ++i)
         sum.add(a[i] - b[i], h * h);
       return sum;
+    }
+
+    /// Cells along a side of a block of error maps: a divisor of both extents if there is a near
+    /// one.
+    int cells_per_block(const std::array<int, 2> &n)
+    {
+      constexpr int most_blocks = 32;
+      const int least = (std::max(n[0], n[1]) + most_blocks - 1) / most_blocks;
+      for (int size = least; size <= 2 * least; ++size)
+        if (n[0] % size == 0 && n[1] % size == 0)
+          return size;
+      return least;
     }
 
     Accumulator field_difference(const Solution &solution, const Field &field,
@@ -136,10 +148,9 @@ namespace plumbline::study
     for (int j = 0; j < cells.n[1]; ++j)
       for (int i = 0; i < cells.n[0]; ++i)
         for (unsigned int c = 0; c < cells.n_components && cells.free(0, i, j); ++c)
-          result.push_back(field.series
-                               ? means[c][static_cast<std::size_t>(j) * cells.n[0] + i]
-                               : quadrature_mean(field, lattice, i + cells.axis[0].offset,
-                                                 j + cells.axis[0].offset, c));
+          result.push_back(field.series ? means[c][static_cast<std::size_t>(j) * cells.n[0] + i]
+                                        : quadrature_mean(field, lattice, i + cells.axis[0].offset,
+                                                          j + cells.axis[0].offset, c));
     return result;
   }
 
@@ -161,7 +172,8 @@ namespace plumbline::study
           double sum = 0;
           for (int b = 2 * j + first; b < 2 * j + first + 2; ++b)
             for (int a = 2 * i + first; a < 2 * i + first + 2; ++a)
-              sum += fine[place[static_cast<std::size_t>(b) * fine_cells.n[0] + a] * n_components + c];
+              sum +=
+                  fine[place[static_cast<std::size_t>(b) * fine_cells.n[0] + a] * n_components + c];
           result.push_back(sum / 4);
         }
     return result;
@@ -172,13 +184,67 @@ namespace plumbline::study
     return std::sqrt(averages_difference(a, b, h).squares);
   }
 
+  ErrorMap error_map(const scene::Scene &scene, const scene::Problem &problem,
+                     const Solution &solution, const std::vector<double> &reference)
+  {
+    ErrorMap map;
+    const geometry::Lattice &lattice = problem.lattice;
+    const auto &n = lattice.n_cells();
+    const int per_block = cells_per_block(n);
+    map.h = lattice.h();
+    map.horizon = problem.horizon();
+    map.n_x = (n[0] + per_block - 1) / per_block;
+    map.n_y = (n[1] + per_block - 1) / per_block;
+    map.lower = {lattice.origin()[0], lattice.origin()[1]};
+    map.upper = {map.lower[0] + map.h * per_block * map.n_x,
+                 map.lower[1] + map.h * per_block * map.n_y};
+    map.values.assign(static_cast<std::size_t>(map.n_x) * map.n_y,
+                      std::numeric_limits<double>::quiet_NaN());
+    const auto enter = [&](const dealii::Point<2> &x, double difference)
+    {
+      std::array<std::size_t, 2> block{};
+      for (unsigned int d = 0; d < 2; ++d)
+        // nodes on the upper boundary belong to the last block
+        block[d] = std::min<std::size_t>(
+            static_cast<std::size_t>((x[d] - map.lower[d]) / (map.h * per_block) + 1e-9),
+            (d == 0 ? map.n_x : map.n_y) - 1);
+      double &value = map.values[block[1] * map.n_x + block[0]];
+      value = std::fmax(value, std::abs(difference)); // takes the number where it is still NaN
+    };
+
+    if (problem.solution && scene.decisive_error.compare(0, 5, "nodal") == 0)
+    {
+      map.quantity = "nodal values";
+      for (std::size_t i = 0; i < solution.nodes.size(); ++i)
+        for (unsigned int c = 0; c < problem.n_components; ++c)
+          enter(solution.nodes[i], solution.nodal[i * problem.n_components + c] -
+                                       problem.solution->value(solution.nodes[i], c));
+      return map;
+    }
+    map.quantity = "cell averages";
+    const NodeSet cells = comparison_nodes(scene, lattice, problem.n_components);
+    const std::vector<double> target =
+        problem.solution ? cell_averages(*problem.solution, lattice, cells) : reference;
+    std::size_t index = 0;
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i)
+        for (unsigned int c = 0; c < problem.n_components && cells.free(0, i, j); ++c, ++index)
+        {
+          const auto place = cells.place(0, i, j);
+          if (!target.empty())
+            enter(lattice.point(place[0], place[1]), solution.averages[index] - target[index]);
+        }
+    return map;
+  }
+
   std::map<std::string, double> errors(const scene::Scene &scene, const scene::Problem &problem,
                                        const Solution &solution,
                                        const std::vector<double> &reference)
   {
     const double h = problem.lattice.h();
     std::map<std::string, double> result;
-    const auto compare = [&](const std::string &target, const Field &field) {
+    const auto compare = [&](const std::string &target, const Field &field)
+    {
       if (is_wanted(scene, "nodal"))
         enter(result, scene, "nodal", target,
               nodal_difference(solution, field, h, problem.n_components));

@@ -6,14 +6,15 @@
 
 namespace plumbline::study
 {
-  /// P_κ of a field: its averages over the comparison cells, shape (n_cells, n_components). By exact
-  /// integration of the field's series, or 6 × 6 Gauss points on each quarter of a cell.
+  /// P_κ of a field: its averages over the comparison cells, shape (n_cells, n_components). By
+  /// exact integration of the field's series, or 6 × 6 Gauss points on each quarter of a cell.
   std::vector<double> cell_averages(const scene::Field &field, const geometry::Lattice &lattice,
                                     const geometry::NodeSet &cells);
 
-  /// Averages over the comparison cells at h from averages over the lattice cells at h/2, which each
-  /// square of side h is made of four of.
-  /// @param fine  shape (n_fine_cells, n_components), of the lattice of h/2 with nodes at its centres
+  /// Averages over the comparison cells at h from averages over the lattice cells at h/2, which
+  /// each square of side h is made of four of.
+  /// @param fine  shape (n_fine_cells, n_components), of the lattice of h/2 with nodes at its
+  /// centres
   std::vector<double> coarsen_averages(const std::vector<double> &fine,
                                        const geometry::NodeSet &fine_cells,
                                        const geometry::NodeSet &cells);
@@ -21,9 +22,14 @@ namespace plumbline::study
   /// √(h² Σ |a - b|²): the L2 distance of two piecewise constant fields.
   double averages_l2(const std::vector<double> &a, const std::vector<double> &b, double h);
 
-  /// The errors of a solution in the scene's norms against every target there is, by "norm | target".
-  /// Linf takes the largest component; nodal values are at the method's own nodes; field norms take 3 × 3
-  /// Gauss points on each quarter of a cell.
+  /// The errors of nodal values, if the decisive error is nodal, or else of cell averages against
+  /// the exact solution or the reference: the largest in each of at most 32 × 32 blocks of cells.
+  ErrorMap error_map(const scene::Scene &scene, const scene::Problem &problem,
+                     const Solution &solution, const std::vector<double> &reference);
+
+  /// The errors of a solution in the scene's norms against every target there is, by "norm |
+  /// target". Linf takes the largest component; nodal values are at the method's own nodes; field
+  /// norms take 3 × 3 Gauss points on each quarter of a cell.
   /// @param reference  cell averages of the reference, or empty
   std::map<std::string, double> errors(const scene::Scene &scene, const scene::Problem &problem,
                                        const Solution &solution,

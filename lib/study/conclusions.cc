@@ -69,6 +69,12 @@ namespace plumbline::study
       }
       if (trend.outcome != Outcome::failed)
         judge(trend);
+      if (scene.regime == scene::Regime::horizon && trend.outcome != Outcome::failed)
+      {
+        // no limit is approached: the rate tells how the error depends on the horizon
+        trend.outcome = Outcome::undecided;
+        trend.reason = "error ~ horizon^" + number(trend.rate) + " at the smallest horizons";
+      }
       trend.verdict = verdict(scene.regime, trend);
       return trend;
     }
@@ -113,12 +119,12 @@ namespace plumbline::study
             continue;
           is_found = true;
           Expectation result = check(expected, trend);
-          result.subject =
-              trend.method + ", " + trend.problem + ", " + trend.series + ": " + what;
+          result.subject = trend.method + ", " + trend.problem + ", " + trend.series + ": " + what;
           results.expectations.push_back(result);
         }
         if (!is_found)
-          results.expectations.push_back({expected.text, what, "no such method, case or series was run", false});
+          results.expectations.push_back(
+              {expected.text, what, "no such method, case or series was run", false});
       }
     }
 
@@ -142,24 +148,29 @@ namespace plumbline::study
                                      expected.verdict == trend.verdict};
                 });
       check_all(scene.expected_errors, results, "errors",
-                [&](const scene::Expected &expected, const Trend &trend) {
+                [&](const scene::Expected &expected, const Trend &trend)
+                {
                   // a shortened sweep is checked as far as it goes
-                  bool holds = !trend.values.empty() && trend.values.size() <= expected.values.size();
+                  bool holds =
+                      !trend.values.empty() && trend.values.size() <= expected.values.size();
                   for (std::size_t i = 0; i < trend.values.size() && holds; ++i)
-                    holds = std::abs(trend.values[i] / expected.values[i] - 1) <=
-                            scene.error_tolerance;
+                    holds =
+                        std::abs(trend.values[i] / expected.values[i] - 1) <= scene.error_tolerance;
                   return Expectation{"", join(expected.values), join(trend.values), holds};
                 });
       check_all(scene.expected_rates, results, "rate of the last two levels",
-                [&](const scene::Expected &expected, const Trend &trend) {
+                [&](const scene::Expected &expected, const Trend &trend)
+                {
                   const double rate = trend.rates.empty() ? 0 : trend.rates.back();
-                  return Expectation{"", join(expected.values) + " ± " + number(scene.rate_tolerance),
-                                     number(rate),
-                                     !trend.rates.empty() && expected.values.size() == 1 &&
-                                         std::abs(rate - expected.values[0]) <= scene.rate_tolerance};
+                  return Expectation{
+                      "", join(expected.values) + " ± " + number(scene.rate_tolerance),
+                      number(rate),
+                      !trend.rates.empty() && expected.values.size() == 1 &&
+                          std::abs(rate - expected.values[0]) <= scene.rate_tolerance};
                 });
       check_all(scene.expected_bounds, results, "largest error",
-                [](const scene::Expected &expected, const Trend &trend) {
+                [](const scene::Expected &expected, const Trend &trend)
+                {
                   const double largest =
                       trend.values.empty()
                           ? 0
@@ -192,41 +203,23 @@ namespace plumbline::study
       for (const std::string &problem : scene.case_names())
         for (const auto &series : scene.series)
         {
+          Advice advice{problem, series.name, {}, {}};
           std::set<std::string> good;
-          std::string bad;
-          double reached = 0;
           for (const Trend &trend : results.trends)
             if (trend.error == results.decisive_error && trend.problem == problem &&
                 trend.series == series.name)
             {
               if (trend.outcome == Outcome::converges)
-              {
                 good.insert(trend.method);
-                reached = reached == 0 ? trend.values.back() : std::min(reached, trend.values.back());
-              }
               else if (trend.outcome == Outcome::stalls)
-                bad += (bad.empty() ? "" : ", ") + trend.method;
+                advice.stalling.push_back(trend.method);
             }
-          std::string text;
-          std::string last;
-          for (const double target : {1e-2, 1e-3, 1e-4, 1e-6, 1e-8})
+          for (const double target : {1e-2, 1e-4, 1e-6, 1e-8})
             if (const Run *run = cheapest(results, good, problem, series.name, target))
-            {
-              const std::string choice = run->method + " at h = " + number(run->h) + " (error " +
-                                         number(run->errors.at(results.decisive_error)) + ", " +
-                                         number(run->cost.seconds()) + " CPU s)";
-              if (choice != last)
-                text += (text.empty() ? "" : "; ") + std::string("to ") + number(target) + " " + choice;
-              last = choice;
-            }
-          if (text.empty())
-            text = good.empty() ? "no method of this run is known to converge"
-                                : "no converging method reaches 1e-2 yet; refine";
-          else
-            text = "cheapest " + text;
-          if (!bad.empty())
-            text += ". Do not refine towards the limit with " + bad + ": they stall.";
-          results.advice.push_back({problem, series.name, text});
+              advice.choices.push_back({target, run->method, run->h,
+                                        run->errors.at(results.decisive_error),
+                                        run->cost.seconds()});
+          results.advice.push_back(advice);
         }
     }
 
@@ -246,14 +239,15 @@ namespace plumbline::study
         results.omissions.push_back(
             {"a matrix", "uniform lattice and homogeneous kernel: all rows are one stencil",
              "an assembled matrix would hold " + number(bonds) + " entries, " +
-                 megabytes(12 * bonds) + "; the stencil holds " + number(bonds / rows) +
-                 " a row" + where});
+                 megabytes(12 * bonds) + "; the stencil holds " + number(bonds / rows) + " a row" +
+                 where});
       if (scene.structure == physics::Structure::scalar)
         results.omissions.push_back({"the second component",
                                      "the kernel is scalar, so components do not couple",
                                      "half the unknowns, a quarter of the entries"});
       else
-        results.omissions.push_back({"the dilatation", "bond tensor: lambda = mu, no volumetric term",
+        results.omissions.push_back({"the dilatation",
+                                     "bond tensor: lambda = mu, no volumetric term",
                                      "one unknown a node, and a family pass"});
       results.omissions.push_back({"Newton's method", "the model is linear",
                                    "one solve of " + std::to_string(largest->cost.n_iterations) +

@@ -5,7 +5,7 @@
 
 namespace plumbline::study
 {
-  /// From runs to answers: trends with verdicts, the scene's expectations held against them, advice which
-  /// method to take, and what the scene did not need. Replaces what is there of these.
+  /// From runs to answers: trends with verdicts, the scene's expectations held against them, advice
+  /// which method to take, and what the scene did not need. Replaces what is there of these.
   void conclude(const scene::Scene &scene, Results &results);
 } // namespace plumbline::study

@@ -45,8 +45,7 @@ namespace plumbline::study
     }
     LatticeSolve result;
     base::CpuTimer timer;
-    const auto matrix =
-        make_operator(stencil, nodes, algebra::road_from_name(scene.operator_road));
+    const auto matrix = make_operator(stencil, nodes, algebra::road_from_name(scene.operator_road));
     const algebra::SchwarzPreconditioner preconditioner(stencil, nodes,
                                                         maximal_rectangles(problem.lattice));
     result.cost.setup_seconds = timer.seconds();

@@ -9,7 +9,8 @@ namespace plumbline::study
   struct LatticeSolve
   {
     algebra::Vector solution; ///< over the free nodes, shape of the NodeSet
-    std::vector<double> data; ///< the constraint around them, shape (n_blocks, n[1] + 2 margin, n[0] + 2 margin)
+    std::vector<double>
+        data; ///< the constraint around them, shape (n_blocks, n[1] + 2 margin, n[0] + 2 margin)
     int margin;
     base::Cost cost; ///< operator and solver; what came before is the caller's to add
     Diagnostics diagnostics;

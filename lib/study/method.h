@@ -10,7 +10,8 @@
 
 namespace plumbline::study
 {
-  /// What a method yields for one problem: the same view for both sides, so that they can be compared.
+  /// What a method yields for one problem: the same view for both sides, so that they can be
+  /// compared.
   struct Solution
   {
     std::vector<dealii::Point<2>> nodes; ///< the method's own free nodes in Ω
@@ -43,8 +44,9 @@ namespace plumbline::study
 
   using Methods = std::vector<std::shared_ptr<const Method>>;
 
-  /// The cells that solutions are averaged over, one for each meshfree node: the lattice cells of Ω, or
-  /// squares around its inner vertices. One family of nodes with the given number of components.
+  /// The cells that solutions are averaged over, one for each meshfree node: the lattice cells of
+  /// Ω, or squares around its inner vertices. One family of nodes with the given number of
+  /// components.
   geometry::NodeSet comparison_nodes(const scene::Scene &scene, const geometry::Lattice &lattice,
                                      unsigned int n_components);
 } // namespace plumbline::study

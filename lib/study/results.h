@@ -2,6 +2,7 @@
 
 #include "base/cost.h"
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,8 +12,9 @@ namespace plumbline::study
   /// What a method says about its own solution.
   struct Diagnostics
   {
-    unsigned int n_neighbours = 0;       ///< bonds of one family (meshfree), cells in reach (Galerkin)
-    double smallest_weight_ratio = 1;    ///< min over a family of weight / (ball ∩ cell area or cell)
+    /// Bonds of one family, or entries of a Galerkin row besides the diagonal.
+    unsigned int n_neighbours = 0;
+    double smallest_weight_ratio = 1; ///< min over a family of weight / (ball ∩ cell area or cell)
     unsigned int n_negative_weights = 0; ///< in one family
     double relative_residual = 0;        ///< of the linear system when the solver stopped
     std::string operator_road;           ///< "fft", "direct" or "sparse"
@@ -24,41 +26,41 @@ namespace plumbline::study
   /// One method on one case at one level.
   struct Run
   {
-    std::string method;          ///< e.g. "IPA-AC"
-    std::string family;          ///< "meshfree" or "reference"
-    std::string problem;         ///< case name, e.g. "case1"
-    std::string series;          ///< what is held fixed, e.g. "m = 3"
-    unsigned int level = 0;      ///< from coarse to fine
-    double h = 0, horizon = 0;   ///< [length]
+    std::string method;        ///< e.g. "IPA-AC"
+    std::string family;        ///< "meshfree" or "reference"
+    std::string problem;       ///< case name, e.g. "case1"
+    std::string series;        ///< what is held fixed, e.g. "m = 3"
+    unsigned int level = 0;    ///< from coarse to fine
+    double h = 0, horizon = 0; ///< [length]
     base::Cost cost;
     Diagnostics diagnostics;
     std::map<std::string, double> errors; ///< by "norm | target", e.g. "nodal Linf | exact"
-    std::string failure;         ///< empty, or why there is no solution
+    std::string failure;                  ///< empty, or why there is no solution
   };
 
   /// A convergence study has one of these answers.
   enum class Outcome
   {
-    converges,     ///< plateau statistically nil, rate at least 3/4
-    stalls,        ///< significant plateau, or the error grows again
-    undecided,     ///< neither; one finer level would help
-    failed         ///< no solution at some level
+    converges, ///< plateau statistically nil, rate at least 3/4
+    stalls,    ///< significant plateau, or the error grows again
+    undecided, ///< neither; one finer level would help
+    failed     ///< no solution at some level
   };
 
   /// One error over a sweep, and what it says.
   struct Trend
   {
     std::string method, family, problem, series;
-    std::string error;            ///< "norm | target"
-    std::string parameter;        ///< what varies: "h" or "horizon"
-    std::vector<double> x;        ///< its values, coarse to fine [length]
-    std::vector<double> values;   ///< the errors
-    std::vector<double> rates;    ///< between neighbours, size x.size() - 1
+    std::string error;                           ///< "norm | target"
+    std::string parameter;                       ///< what varies: "h" or "horizon"
+    std::vector<double> x;                       ///< its values, coarse to fine [length]
+    std::vector<double> values;                  ///< the errors
+    std::vector<double> rates;                   ///< between neighbours, size x.size() - 1
     double rate = 0, rate_uncertainty = 0;       ///< slope of the last three levels, log over log
     double plateau = 0, plateau_uncertainty = 0; ///< a of the fit
     Outcome outcome = Outcome::undecided;
-    std::string verdict;          ///< "AC", "not AC", "m-convergent", "not m-convergent", "undecided" ...
-    std::string reason;           ///< one sentence with the numbers
+    std::string verdict; ///< "AC", "not AC", "m-convergent", "not m-convergent", "undecided" ...
+    std::string reason;  ///< one sentence with the numbers
   };
 
   /// The reference's own uncertainty at one level.
@@ -67,9 +69,9 @@ namespace plumbline::study
     std::string problem, series, method; ///< method: of the reference, e.g. "Q2"
     unsigned int level = 0;
     double h = 0, horizon = 0;
-    double h_change = 0;  ///< averages L2: change to h/2
-    double p_change = 0;  ///< averages L2: change to degree p + 1
-    double estimate = 0;  ///< the larger of the two
+    double h_change = 0; ///< averages L2: change to h/2
+    double p_change = 0; ///< averages L2: change to degree p + 1
+    double estimate = 0; ///< the larger of the two
   };
 
   /// Something the scene did not need.
@@ -85,25 +87,48 @@ namespace plumbline::study
     bool holds = false;
   };
 
-  /// Which method to take for one problem and series.
+  /// The cheapest run of a method that converges with an error of at most a target.
+  struct Choice
+  {
+    double target;
+    std::string method;
+    double h, error, seconds; ///< [length], of the decisive error, CPU [s]
+  };
+
+  /// Which method to take for one problem and series, and which not to.
   struct Advice
   {
-    std::string problem, series, text;
+    std::string problem, series;
+    std::vector<Choice> choices;       ///< targets 1e-2, 1e-4, ... as far as a run reaches them
+    std::vector<std::string> stalling; ///< methods that do not converge to this limit
+  };
+
+  /// Where a method errs at the finest level of the last problem and the first series: the largest
+  /// error in each block of cells, of what the decisive error is about.
+  struct ErrorMap
+  {
+    std::string method, problem, series;
+    std::string quantity; ///< "nodal values" or "cell averages"
+    double h = 0, horizon = 0;
+    std::array<double, 2> lower{}, upper{}; ///< corners of the bounding box [length]
+    unsigned int n_x = 0, n_y = 0;          ///< blocks, at most 32 each
+    std::vector<double> values;             ///< shape (n_y, n_x), NaN outside the domain
   };
 
   /// Everything of one run of a scene, as written to results.json.
   struct Results
   {
-    std::string scene_name, purpose, regime; ///< regime: "m", "delta", "delta-m" or "horizon"
-    std::string scene_text;                  ///< the scene as read, all keys
+    std::string scene_name, purpose, regime;       ///< regime: "m", "delta", "delta-m" or "horizon"
+    std::string scene_text;                        ///< the scene as read, all keys
     std::map<std::string, std::string> provenance; ///< version, libraries, machine
-    std::string decisive_error;              ///< the "norm | target" that verdicts rest on
+    std::string decisive_error;                    ///< the "norm | target" that verdicts rest on
     std::vector<Run> runs;
     std::vector<Trend> trends;
     std::vector<ReferenceEstimate> references;
     std::vector<Omission> omissions;
     std::vector<Expectation> expectations;
     std::vector<Advice> advice;
+    std::vector<ErrorMap> maps;
     bool is_complete = false; ///< false while a run is going on, or after an interrupt
   };
 } // namespace plumbline::study

@@ -134,6 +134,9 @@ namespace plumbline::study
         if (known.size() != methods_.size())
           return false;
         results_.runs.insert(results_.runs.end(), known.begin(), known.end());
+        for (const ErrorMap &map : earlier_.maps)
+          if (map.problem == name && map.series == series.name && level + 1 == n_levels(series))
+            results_.maps.push_back(map);
         for (const ReferenceEstimate &estimate : earlier_.references)
           if (estimate.problem == name && estimate.series == series.name && estimate.level == level)
             results_.references.push_back(estimate);
@@ -150,8 +153,9 @@ namespace plumbline::study
         ReferenceAverages reference;
         if (scene_.reference != "none")
         {
-          reference = solve_reference(scene_, problem, case_index, sizes,
-                                      *find_method(available_, scene_.reference, "Reference/method"));
+          reference =
+              solve_reference(scene_, problem, case_index, sizes,
+                              *find_method(available_, scene_.reference, "Reference/method"));
           reference.estimate.problem = name;
           reference.estimate.series = series.name;
           reference.estimate.level = level;
@@ -197,14 +201,29 @@ namespace plumbline::study
           for (const auto &[error, value] : run.errors)
             if (!std::isfinite(value))
               throw NumericalError("the error " + error + " is not a finite number");
-          if (control_.on_finest && level + 1 == n_levels(series))
-            control_.on_finest(solution, run);
+          if (level + 1 == n_levels(series))
+            finish_series(solution, run, problem, reference);
         }
         catch (const NumericalError &error)
         {
           run.failure = error.what();
         }
         results_.runs.push_back(run);
+      }
+
+      /// What is done with a solution of the finest level: stored, and drawn for the first series.
+      void finish_series(const Solution &solution, const Run &run, const scene::Problem &problem,
+                         const std::vector<double> &reference)
+      {
+        if (control_.on_finest)
+          control_.on_finest(solution, run);
+        if (run.problem != scene_.case_names().back() || run.series != scene_.series.front().name)
+          return;
+        ErrorMap map = error_map(scene_, problem, solution, reference);
+        map.method = run.method;
+        map.problem = run.problem;
+        map.series = run.series;
+        results_.maps.push_back(map);
       }
 
       const scene::Scene &scene_;
@@ -234,8 +253,8 @@ namespace plumbline::study
       }
     if (scene.reference != "none")
       (void)find_method(available, scene.reference, "Reference/method");
-    for (const auto *list : {&scene.expected_verdicts, &scene.expected_errors, &scene.expected_rates,
-                             &scene.expected_bounds})
+    for (const auto *list : {&scene.expected_verdicts, &scene.expected_errors,
+                             &scene.expected_rates, &scene.expected_bounds})
       for (const scene::Expected &expected : *list)
         (void)find_method(available, expected.method, "Expected");
     return chosen;

@@ -69,8 +69,10 @@ namespace plumbline::study
     PlateauFit fit = best_fit(x, e);
     if (x.size() == 3)
     {
-      // nothing to leave out: the spread between first and second order extrapolation of the last pair
-      const auto extrapolate = [&](double p) {
+      // nothing to leave out: the spread between first and second order extrapolation of the last
+      // pair
+      const auto extrapolate = [&](double p)
+      {
         const double ratio = std::pow(x[1] / x[2], p);
         return (ratio * e[2] - e[1]) / (ratio - 1);
       };
@@ -104,8 +106,7 @@ namespace plumbline::study
     }
     Slope slope{sxe / sxx, 0};
     for (std::size_t i = 0; i < x.size(); ++i)
-      residual +=
-          std::pow(std::log(e[i]) - mean_e - slope.value * (std::log(x[i]) - mean_x), 2);
+      residual += std::pow(std::log(e[i]) - mean_e - slope.value * (std::log(x[i]) - mean_x), 2);
     slope.uncertainty = n > 2 ? std::sqrt(residual / (n - 2) / sxx) : 0;
     return slope;
   }

@@ -24,8 +24,10 @@ namespace plumbline::study
   /// Rates, plateau and outcome from trend.x and trend.values; the rest of the trend is left alone.
   ///
   /// - converges: the errors are round-off, or the plateau a is statistically nil (within three
-  ///   uncertainties, or under a tenth of the last error) and the last three levels have slope >= 3/4;
-  /// - stalls: a is significant and at least 3/10 of the last error (1/10 if it exceeds ten uncertainties),
+  ///   uncertainties, or under a tenth of the last error) and the last three levels have slope >=
+  ///   3/4;
+  /// - stalls: a is significant and at least 3/10 of the last error (1/10 if it exceeds ten
+  /// uncertainties),
   ///   or the error grew to twice the smallest one;
   /// - undecided: neither, or fewer than three levels.
   void judge(Trend &trend);

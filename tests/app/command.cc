@@ -31,7 +31,8 @@ namespace
 
   fs::path temporary(const std::string &name)
   {
-    const fs::path path = fs::path(::testing::TempDir()) / ("plumbline_" + std::to_string(getpid()) + "_" + name);
+    const fs::path path =
+        fs::path(::testing::TempDir()) / ("plumbline_" + std::to_string(getpid()) + "_" + name);
     fs::remove_all(path);
     return path;
   }
@@ -39,8 +40,8 @@ namespace
   Outcome plumbline(const std::string &arguments)
   {
     const fs::path out = temporary("out"), err = temporary("err");
-    const int status = std::system((std::string(PLUMBLINE_COMMAND) + " " + arguments + " >" + out.string() +
-                                    " 2>" + err.string())
+    const int status = std::system((std::string(PLUMBLINE_COMMAND) + " " + arguments + " >" +
+                                    out.string() + " 2>" + err.string())
                                        .c_str());
     return {WEXITSTATUS(status), read(out), read(err)};
   }
@@ -61,15 +62,15 @@ namespace
 TEST(Command, writes_everything_that_a_report_needs)
 {
   const fs::path folder = temporary("run");
-  const Outcome outcome =
-      plumbline("run " + scene + " -o " + folder.string() +
-                " --levels 3 --methods IPA-AC,IPA-AC-R2,Q1 --set Output/fields=true --set Expected/verdicts=");
+  const Outcome outcome = plumbline("run " + scene + " -o " + folder.string() +
+                                    " --levels 3 --methods IPA-AC,IPA-AC-R2,Q1 --set "
+                                    "Output/fields=true --set Expected/verdicts=");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("not AC"), std::string::npos);
   EXPECT_EQ(outcome.err, "");
-  for (const std::string file : {"results.json", "report.html", "tables/verdicts.csv", "tables/cost.md",
-                                 "charts/work-precision.svg", "fields/case1_m___3_Q1.vtu",
-                                 "fields/case1_m___3_IPA_AC.vtu"})
+  for (const std::string file :
+       {"results.json", "report.html", "tables/verdicts.csv", "tables/cost.md",
+        "charts/work-precision.svg", "fields/case1_m___3_Q1.vtu", "fields/case1_m___3_IPA_AC.vtu"})
     EXPECT_TRUE(fs::exists(folder / file)) << file;
 
   // the page can be made again from results.json alone
@@ -81,7 +82,8 @@ TEST(Command, writes_everything_that_a_report_needs)
 TEST(Command, check_fails_with_1_when_an_expectation_does_not_hold)
 {
   const std::string common = "run " + scene + " -o " + temporary("check").string() +
-                             " --levels 3 --methods IPA-AC --set Study/m=3 --set Expected/errors= ";
+                             " --levels 3 --methods IPA-AC --set Study/m=3 --set Expected/errors= "
+                             "--set Expected/rates= --set Expected/bounds= ";
   EXPECT_EQ(plumbline(common + "--check --set 'Expected/verdicts=IPA-AC: not AC'").exit_code, 0);
   const Outcome wrong = plumbline(common + "--check --set 'Expected/verdicts=IPA-AC: AC'");
   EXPECT_EQ(wrong.exit_code, 1);
@@ -106,6 +108,33 @@ TEST(Command, refuses_bad_input_with_2_and_leaves_nothing)
   EXPECT_EQ(plumbline("report " + temporary("nowhere").string()).exit_code, 2);
 }
 
+TEST(Command, an_unknown_key_in_a_file_is_refused_with_its_line)
+{
+  const fs::path file = temporary("typo.prm"), folder = temporary("typo");
+  std::ofstream(file) << "subsection Study\n set hh = 0.1\nend\n";
+  const Outcome outcome = plumbline("run " + file.string() + " -o " + folder.string());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("hh"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("Line <2>"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder));
+}
+
+TEST(Command, a_run_on_the_exact_geometry_gives_the_same_numbers)
+{
+  for (const std::string backend : {"fast", "cgal"})
+    EXPECT_EQ(
+        plumbline(
+            "run " + scene + " -o " + temporary("geometry").string() +
+            " --check --levels 3 --methods IPA-AC,Q1 --set Study/m=3 --set Expected/rates= --set "
+            "Geometry/backend=" +
+            backend +
+            " --set 'Expected/verdicts=IPA-AC: not AC' --set 'Expected/errors=IPA-AC, case1: "
+            "1.621593e-02 1.421233e-02 1.325684e-02'")
+            .exit_code,
+        0)
+        << backend;
+}
+
 TEST(Command, an_output_folder_that_cannot_be_written_is_refused_before_any_work)
 {
   const fs::path file = temporary("file");
@@ -117,9 +146,9 @@ TEST(Command, an_output_folder_that_cannot_be_written_is_refused_before_any_work
 
 TEST(Command, no_solution_at_all_is_exit_code_3)
 {
-  const Outcome outcome =
-      plumbline("run " + scene + " -o " + temporary("infeasible").string() +
-                " --methods OPT --levels 1 --set Study/m=1.5 --set Expected/verdicts= --set Expected/errors=");
+  const Outcome outcome = plumbline("run " + scene + " -o " + temporary("infeasible").string() +
+                                    " --methods OPT --levels 1 --set Study/m=1.5 --set "
+                                    "Expected/verdicts= --set Expected/errors=");
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_NE(outcome.err.find("infeasible for m = 1.5"), std::string::npos);
 }
@@ -127,17 +156,30 @@ TEST(Command, no_solution_at_all_is_exit_code_3)
 TEST(Command, an_interrupted_run_keeps_what_is_finished_and_goes_on)
 {
   const fs::path folder = temporary("interrupted");
-  const std::string arguments = scene + " -o " + folder.string() + " --methods FA,Q1,Q2,DGQ1";
-  const std::string base = std::string(PLUMBLINE_COMMAND) + " run " + arguments +
-                           " --set Expected/verdicts= --set Expected/errors=";
-  // timeout sends SIGINT once the run has had time to finish some solves, long before it is through
-  const int status = std::system(("timeout -s INT 1.5 " + base + " >/dev/null 2>&1").c_str());
+  const std::string settings = " --methods FA,Q1,Q2,Q3,DGQ1,DGQ2 --set Study/m=3 --set "
+                               "Expected/verdicts= --set Expected/errors=";
+  const std::string arguments = scene + " -o " + folder.string() + settings;
+
+  // interrupt as soon as the first result is stored
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    const std::string command =
+        std::string("exec ") + PLUMBLINE_COMMAND + " run " + arguments + " >/dev/null 2>&1";
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(127);
+  }
+  for (int i = 0; i < 6000 && !fs::exists(folder / "results.json"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
   ASSERT_TRUE(WIFEXITED(status));
-  ASSERT_TRUE(fs::exists(folder / "results.json"));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
   EXPECT_NE(read(folder / "results.json").find("\"is_complete\": false"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder / "report.html"));
 
-  const Outcome rest = plumbline("run " + arguments + " --set Expected/verdicts= --set Expected/errors=");
+  const Outcome rest = plumbline("run " + arguments);
   EXPECT_EQ(rest.exit_code, 0);
   EXPECT_NE(rest.err.find("continuing: "), std::string::npos);
   EXPECT_NE(read(folder / "results.json").find("\"is_complete\": true"), std::string::npos);
@@ -160,8 +202,9 @@ TEST(Command, json_on_standard_output_is_the_results_file)
 {
   const fs::path folder = temporary("json");
   const Outcome outcome =
-      plumbline("run " + scene + " --json --levels 1 --methods FA --set Expected/verdicts= --set "
-                                 "Expected/errors= -o " +
+      plumbline("run " + scene +
+                " --json --levels 1 --methods FA --set Expected/verdicts= --set "
+                "Expected/errors= -o " +
                 folder.string());
   EXPECT_EQ(outcome.out, read(folder / "results.json"));
 }

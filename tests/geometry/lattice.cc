@@ -83,15 +83,16 @@ TEST(MaximalRectangles, are_one_for_a_box_two_for_an_l_and_four_around_a_hole)
 
 TEST(MaximalRectangles, cover_the_domain_and_stay_inside)
 {
-  const Lattice lattice({{unit, {{1, .25}, {1.5, .5}}}, {{{.25, .25}, {.5, .5}}, {{.75, .75}, {1, 1}}}},
-                        .125);
+  const Lattice lattice(
+      {{unit, {{1, .25}, {1.5, .5}}}, {{{.25, .25}, {.5, .5}}, {{.75, .75}, {1, 1}}}}, .125);
   const auto rectangles = maximal_rectangles(lattice);
   for (int j = 0; j < lattice.n_cells()[1]; ++j)
     for (int i = 0; i < lattice.n_cells()[0]; ++i)
     {
       bool is_covered = false;
       for (const CellRange &r : rectangles)
-        is_covered = is_covered || (i >= r.lower[0] && i < r.upper[0] && j >= r.lower[1] && j < r.upper[1]);
+        is_covered =
+            is_covered || (i >= r.lower[0] && i < r.upper[0] && j >= r.lower[1] && j < r.upper[1]);
       EXPECT_EQ(is_covered, lattice.is_inside(i, j)) << i << ' ' << j;
     }
 }

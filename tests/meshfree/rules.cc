@@ -80,7 +80,8 @@ TEST(PartialArea, exact_geometry_gives_the_same_weights_and_centroids)
 TEST(ImprovedPartialArea, has_the_known_neighbours_and_error_constants)
 {
   const std::vector<std::tuple<double, std::size_t, double>> known = {
-      {2, 20, .197213}, {3, 44, .091336}, {4, 68, .051250}, {5, 100, .032889}, {10, 356, .008293}, {32, 3356, .000813}};
+      {2, 20, .197213},  {3, 44, .091336},   {4, 68, .051250},
+      {5, 100, .032889}, {10, 356, .008293}, {32, 3356, .000813}};
   for (const auto &[m, n_neighbours, defect] : known)
   {
     const auto kernel = scalar_kernel(m);
@@ -147,7 +148,8 @@ TEST(Recalibrated, scalar_weights_meet_the_moments_of_their_degree_and_stay_posi
   }
 }
 
-// w = A (1 - λ s |ξ|²), λ = (Σ s A |ξ|² - 2) / Σ A s² |ξ|⁴, derived from the first-order conditions.
+// w = A (1 - λ s |ξ|²), λ = (Σ s A |ξ|² - 2) / Σ A s² |ξ|⁴, derived from the first-order
+// conditions.
 TEST(Recalibrated, scalar_degree_2_is_its_closed_form)
 {
   for (const double m : {1.5, 2., 3.3, 5.})
@@ -231,7 +233,8 @@ TEST(FullArea, counts_nodes_on_the_circle_and_jitters_with_the_ratio)
   // (3, 4, 5): 80 nodes of the disc of radius 5, ties included
   EXPECT_EQ(full_area(scalar_kernel(5), h, Backend::fast).family.size(), 80u);
   // as m grows, the moment of the full area rule jumps with every node that enters the ball
-  const auto variation = [](const auto &rule) {
+  const auto variation = [](const auto &rule)
+  {
     double total = 0, last = NAN;
     for (double m = 3; m <= 12; m += .125)
     {
@@ -277,8 +280,10 @@ TEST(KernelValue, clips_a_negative_profile_beyond_the_horizon_and_says_so)
 
 TEST(LatticeMethods, vertex_nodes_have_the_boundary_among_the_data)
 {
-  const auto text = [](const std::string &nodes) {
-    return "subsection Problem\n set solution = x^3*y^2 + y^4\nend\nsubsection Methods\n set names = all\n "
+  const auto text = [](const std::string &nodes)
+  {
+    return "subsection Problem\n set solution = x^3*y^2 + y^4\nend\nsubsection Methods\n set names "
+           "= all\n "
            "set nodes = " +
            nodes + "\nend\nsubsection Study\n set norms = nodal Linf\nend\n";
   };
@@ -291,9 +296,11 @@ TEST(LatticeMethods, vertex_nodes_have_the_boundary_among_the_data)
         const auto scene = scene::parse_scene("nodes.prm", text(nodes));
         const auto problem = make_problem(scene, 0, {size, .3});
         const auto solution = method->solve(scene, problem);
-        const auto n = static_cast<std::size_t>(std::lround(1 / size)) - (nodes == "vertices" ? 1 : 0);
+        const auto n =
+            static_cast<std::size_t>(std::lround(1 / size)) - (nodes == "vertices" ? 1 : 0);
         EXPECT_EQ(solution.nodes.size(), n * n);
-        errors[nodes].push_back(study::errors(scene, problem, solution, {}).at("nodal Linf | exact"));
+        errors[nodes].push_back(
+            study::errors(scene, problem, solution, {}).at("nodal Linf | exact"));
       }
     // the same rule, the same truncation error: much the same error
     for (unsigned int i = 0; i < 2 && method->name() != "IPA-AC-R4"; ++i)

@@ -65,10 +65,12 @@ TEST(Kernel, moments_in_2d_agree_with_quadrature_for_every_type)
   for (const KernelType &type : kernel_types())
   {
     const Kernel<2> kernel(type.structure, profile_of(type), horizon, 1.7);
-    for (const auto &alpha : {std::array<int, 2>{0, 0}, {2, 0}, {0, 2}, {1, 1}, {2, 2}, {4, 0}, {1, 0}})
+    for (const auto &alpha :
+         {std::array<int, 2>{0, 0}, {2, 0}, {0, 2}, {1, 1}, {2, 2}, {4, 0}, {1, 0}})
       for (unsigned int a = 0; a < kernel.n_components(); ++a)
         for (unsigned int b = 0; b < kernel.n_components(); ++b)
-          EXPECT_NEAR(kernel.moment(alpha, a, b), moment_2d(kernel, alpha, a, b), 1e-13) << type.name;
+          EXPECT_NEAR(kernel.moment(alpha, a, b), moment_2d(kernel, alpha, a, b), 1e-13)
+              << type.name;
   }
 }
 
@@ -77,19 +79,20 @@ TEST(Kernel, moments_in_3d_agree_with_quadrature_for_every_type)
   for (const KernelType &type : kernel_types())
   {
     const Kernel<3> kernel(type.structure, profile_of(type), horizon, 1.7);
-    for (const auto &alpha : {std::array<int, 3>{0, 0, 0}, {2, 0, 0}, {0, 2, 2}, {1, 1, 0}, {0, 0, 4}})
+    for (const auto &alpha :
+         {std::array<int, 3>{0, 0, 0}, {2, 0, 0}, {0, 2, 2}, {1, 1, 0}, {0, 0, 4}})
       for (unsigned int a = 0; a < kernel.n_components(); ++a)
         for (unsigned int b = 0; b < kernel.n_components(); ++b)
-          EXPECT_NEAR(kernel.moment(alpha, a, b), moment_3d(kernel, alpha, a, b), 1e-13) << type.name;
+          EXPECT_NEAR(kernel.moment(alpha, a, b), moment_3d(kernel, alpha, a, b), 1e-13)
+              << type.name;
   }
 }
 
 TEST(Kernel, constants_are_those_of_the_papers)
 {
   const double d = horizon;
-  const auto scalar = [&](const std::string &name) {
-    return Kernel<2>::with_diffusion(kernel_type(name).profile, d, .5);
-  };
+  const auto scalar = [&](const std::string &name)
+  { return Kernel<2>::with_diffusion(kernel_type(name).profile, d, .5); };
   EXPECT_NEAR(scalar("linear-decay").constant() * M_PI * std::pow(d, 4), 20, 1e-12);
   EXPECT_NEAR(scalar("constant").constant() * M_PI * std::pow(d, 4), 4, 1e-12);
   EXPECT_NEAR(scalar("1/r").radial(.1) * M_PI * std::pow(d, 3) * .1, 3, 1e-12);
@@ -115,7 +118,8 @@ TEST(Kernel, limits_are_the_operators_asked_for)
 
 TEST(Kernel, rejects_what_cannot_be_a_kernel)
 {
-  const auto message = [](const auto &make) -> std::string {
+  const auto message = [](const auto &make) -> std::string
+  {
     try
     {
       make();
@@ -126,9 +130,15 @@ TEST(Kernel, rejects_what_cannot_be_a_kernel)
     }
     return "no error";
   };
-  EXPECT_EQ(message([] { Kernel<2>(Structure::scalar, {{1, 0}}, -1, 1); }),
+  EXPECT_EQ(message(
+                [] {
+                  Kernel<2>(Structure::scalar, {{1, 0}}, -1, 1);
+                }),
             "kernel: horizon = -1.000000 is not a positive length; give a horizon > 0");
-  EXPECT_EQ(message([] { Kernel<2>(Structure::scalar, {{1, -2}}, 1, 1); }),
+  EXPECT_EQ(message(
+                [] {
+                  Kernel<2>(Structure::scalar, {{1, -2}}, 1, 1);
+                }),
             "kernel: the profile term r^-2 is not integrable in 2D; use exponents above -2");
   EXPECT_NE(message([] { kernel_type("gauss"); }).find("choose one of: linear-decay, constant"),
             std::string::npos);

@@ -43,9 +43,10 @@ TEST(ManufacturedLoad, agrees_with_closed_forms_for_polynomials)
 {
   expect_load(linear_decay(), "x*(1-x)/2 + y*(1-y)/2", [](double, double) { return 1; });
   expect_load(linear_decay(), "x^3 + 2*y^2", [](double x, double) { return -(3 * x + 2); });
-  expect_load(linear_decay(), "x^3*y^2 + y^4", [](double x, double y) {
-    return -(x * x * x + 3 * x * y * y + 6 * y * y) - 5 * horizon * horizon / 14 * (1 + x);
-  });
+  expect_load(
+      linear_decay(), "x^3*y^2 + y^4",
+      [](double x, double y)
+      { return -(x * x * x + 3 * x * y * y + 6 * y * y) - 5 * horizon * horizon / 14 * (1 + x); });
 }
 
 TEST(ManufacturedLoad, agrees_with_the_closed_form_for_the_bond_tensor)
@@ -55,7 +56,8 @@ TEST(ManufacturedLoad, agrees_with_the_closed_form_for_the_bond_tensor)
       Kernel<2>::with_bulk_modulus(kernel_type("bond-tensor").profile, horizon, kappa);
   const std::string v = "x*(1-x)/2 + y*(1-y)/2";
   for (unsigned int c = 0; c < 2; ++c)
-    expect_load(kernel, v + "," + v, [&](double, double) { return 12 * kappa / 5; }, c);
+    expect_load(
+        kernel, v + "," + v, [&](double, double) { return 12 * kappa / 5; }, c);
 }
 
 // -∫ (u(x+z) - u(x)) over the ball = [πδ² - 2πδ J1(kδ)/k] u for u = sin(k·x).
@@ -63,8 +65,9 @@ TEST(ManufacturedLoad, agrees_with_bessel_functions_for_waves)
 {
   const auto kernel = Kernel<2>::with_diffusion(kernel_type("constant").profile, horizon, 1);
   const double k = std::hypot(5, 3);
-  const double symbol = kernel.constant() * (M_PI * horizon * horizon -
-                                             2 * M_PI * horizon * std::cyl_bessel_j(1, k * horizon) / k);
+  const double symbol =
+      kernel.constant() *
+      (M_PI * horizon * horizon - 2 * M_PI * horizon * std::cyl_bessel_j(1, k * horizon) / k);
   expect_load(kernel, "sin(5*x + 3*y)",
               [&](double x, double y) { return symbol * std::sin(5 * x + 3 * y); });
 }
@@ -117,9 +120,8 @@ TEST(Expression, reports_what_does_not_parse_and_what_is_not_finite)
 
 TEST(ChebyshevField, reproduces_smooth_fields_to_round_off_and_contracts_axis_by_axis)
 {
-  const auto f = [](const Point<2> &x, unsigned int c) {
-    return c == 0 ? std::exp(x[0]) * std::cos(4 * x[1]) : x[0] * x[0] * x[1];
-  };
+  const auto f = [](const Point<2> &x, unsigned int c)
+  { return c == 0 ? std::exp(x[0]) * std::cos(4 * x[1]) : x[0] * x[0] * x[1]; };
   const auto field = ChebyshevField::resolve(f, 2, Point<2>(-1, 0), Point<2>(2, 1));
   ASSERT_TRUE(field);
   std::mt19937 random(2);
@@ -142,7 +144,7 @@ TEST(ChebyshevField, reproduces_smooth_fields_to_round_off_and_contracts_axis_by
 
 TEST(ChebyshevField, does_not_claim_to_resolve_a_kink)
 {
-  EXPECT_FALSE(ChebyshevField::resolve(
-      [](const Point<2> &x, unsigned int) { return std::abs(x[0] - .3); }, 1, Point<2>(),
-      Point<2>(1, 1)));
+  EXPECT_FALSE(ChebyshevField::resolve([](const Point<2> &x, unsigned int)
+                                       { return std::abs(x[0] - .3); },
+                                       1, Point<2>(), Point<2>(1, 1)));
 }

@@ -29,7 +29,8 @@ namespace
   }
 
   /// Σ_k A_st(k) k1^a k2^b for one family.
-  double stencil_moment(const algebra::Stencil &stencil, unsigned int s, unsigned int t, int a, int b)
+  double stencil_moment(const algebra::Stencil &stencil, unsigned int s, unsigned int t, int a,
+                        int b)
   {
     double sum = 0;
     for (int k2 = -stencil.reach(); k2 <= stencil.reach(); ++k2)
@@ -41,9 +42,10 @@ namespace
   scene::Scene make_scene(const std::string &kernel, const std::string &solution,
                           const std::string &more = "")
   {
-    return scene::parse_scene("test.prm", "subsection Kernel\n" + kernel +
-                                              "\nend\nsubsection Problem\n set solution = " + solution +
-                                              "\nend\nsubsection Methods\n set names = Q1\nend\n" + more);
+    return scene::parse_scene("test.prm",
+                              "subsection Kernel\n" + kernel +
+                                  "\nend\nsubsection Problem\n set solution = " + solution +
+                                  "\nend\nsubsection Methods\n set names = Q1\nend\n" + more);
   }
   const std::string scalar_text = "set type = linear-decay";
   const std::string tensor_text = "set type = bond-tensor\nset limit = Navier";
@@ -126,8 +128,9 @@ TEST(GalerkinStencil, is_symmetric_for_every_space_and_kernel)
                   1e-14);
 }
 
-// A_k = -∫_cell |B(x) ∩ cell_k| c dx for piecewise constants and a constant kernel: the outer integral by
-// brute force, the inner by the intersection areas, which share nothing with the correlation formula.
+// A_k = -∫_cell |B(x) ∩ cell_k| c dx for piecewise constants and a constant kernel: the outer
+// integral by brute force, the inner by the intersection areas, which share nothing with the
+// correlation formula.
 TEST(GalerkinStencil, agrees_with_brute_force_over_pairs_of_cells)
 {
   const double delta = .23;
@@ -141,8 +144,7 @@ TEST(GalerkinStencil, agrees_with_brute_force_over_pairs_of_cells)
     for (unsigned int q = 0; q < outer.size(); ++q)
       sum += outer.weight(q) *
              geometry::intersect({h * outer.point(q), delta}, geometry::view(cell)).area;
-    EXPECT_NEAR(stencil(0, 0, k1, k2), -kernel.constant() * h * h * sum,
-                1e-8 * stencil(0, 0, 0, 0))
+    EXPECT_NEAR(stencil(0, 0, k1, k2), -kernel.constant() * h * h * sum, 1e-8 * stencil(0, 0, 0, 0))
         << k1 << ' ' << k2;
   }
 }
@@ -177,7 +179,8 @@ TEST(LatticeField, is_the_deal_ii_field_of_the_same_degrees_of_freedom)
   const auto scene = make_scene(tensor_text, "sin(2*x)*y, x*x + cos(y)",
                                 "subsection Domain\n set holes = 0.4, 0.2 : 0.6, 0.6\nend\n");
   const auto problem = make_problem(scene, 0, {h, horizon});
-  for (const auto &shapes : {AxisShapes(true, 1), AxisShapes(true, 3), AxisShapes(false, 0), AxisShapes(false, 2)})
+  for (const auto &shapes :
+       {AxisShapes(true, 1), AxisShapes(true, 3), AxisShapes(false, 0), AxisShapes(false, 2)})
   {
     const auto solution = solve_lattice(scene, problem, shapes);
     const DealField deal(solution.field);

@@ -39,7 +39,8 @@ namespace
                double h, double horizon)
   {
     const auto problem = make_problem(scene, 0, {h, horizon});
-    return study::errors(scene, problem, method(name)->solve(scene, problem), {}).at(norm + " | exact");
+    return study::errors(scene, problem, method(name)->solve(scene, problem), {})
+        .at(norm + " | exact");
   }
 
   unsigned int n_iterations(const scene::Scene &scene, const AxisShapes &shapes, double h,
@@ -76,10 +77,12 @@ TEST(LatticeGalerkin, q1_converges_at_rate_2_to_the_local_limit_for_a_quintic)
   EXPECT_NEAR(std::log2(coarse / fine), 2, .1);
 }
 
-// Optimal orders of the L2 error at fixed horizon and at fixed m; DGQ0 has order 1 at fixed horizon only.
+// Optimal orders of the L2 error at fixed horizon and at fixed m; DGQ0 has order 1 at fixed horizon
+// only.
 TEST(LatticeGalerkin, every_space_has_its_own_optimal_rate_for_a_smooth_field)
 {
-  const std::map<std::string, double> rates = {{"Q1", 2}, {"Q2", 3}, {"Q3", 4}, {"DGQ1", 2}, {"DGQ2", 3}};
+  const std::map<std::string, double> rates = {
+      {"Q1", 2}, {"Q2", 3}, {"Q3", 4}, {"DGQ1", 2}, {"DGQ2", 3}};
   for (const auto &[name, rate] : rates)
     for (const bool is_tensor : {false, true})
     {
@@ -87,9 +90,8 @@ TEST(LatticeGalerkin, every_space_has_its_own_optimal_rate_for_a_smooth_field)
                                    : make_scene(scalar_kernel, trigonometric);
       for (const double m : {0., 3.})
       {
-        const auto at = [&](double h) {
-          return error(scene, name, "field L2", h, m > 0 ? m * h : .3);
-        };
+        const auto at = [&](double h)
+        { return error(scene, name, "field L2", h, m > 0 ? m * h : .3); };
         EXPECT_NEAR(std::log2(at(1. / 16) / at(1. / 32)), rate, .15) << name << ", m = " << m;
       }
     }
@@ -108,8 +110,8 @@ TEST(LatticeGalerkin, continuous_and_discontinuous_solutions_agree_within_their_
   const auto scene = make_scene(tensor_kernel, trigonometric_vector);
   const auto problem = make_problem(scene, 0, {1. / 24, .2});
   const auto q2 = method("Q2")->solve(scene, problem), dg2 = method("DGQ2")->solve(scene, problem);
-  const auto exact = study::cell_averages(
-      *problem.solution, problem.lattice, study::comparison_nodes(scene, problem.lattice, 2));
+  const auto exact = study::cell_averages(*problem.solution, problem.lattice,
+                                          study::comparison_nodes(scene, problem.lattice, 2));
   const double h = problem.lattice.h();
   EXPECT_LE(study::averages_l2(q2.averages, dg2.averages, h),
             study::averages_l2(q2.averages, exact, h) + study::averages_l2(dg2.averages, exact, h));
@@ -133,7 +135,8 @@ TEST(Preconditioner, iterations_stay_below_16_for_scalar_and_26_for_tensor_kerne
 TEST(Preconditioner, iterations_are_bounded_in_h_for_every_space)
 {
   const auto scene = make_scene(scalar_kernel, trigonometric);
-  for (const auto &shapes : {AxisShapes(true, 2), AxisShapes(true, 3), AxisShapes(false, 0), AxisShapes(false, 1), AxisShapes(false, 2)})
+  for (const auto &shapes : {AxisShapes(true, 2), AxisShapes(true, 3), AxisShapes(false, 0),
+                             AxisShapes(false, 1), AxisShapes(false, 2)})
     for (const int n : {16, 32, 64})
       for (const double horizon : {.2, 3. / n})
         EXPECT_LE(n_iterations(scene, shapes, 1. / n, horizon), 20u)
@@ -157,8 +160,10 @@ TEST(SmallestModel, stencil_and_assembled_matrix_give_the_same_solution)
 {
   for (const std::string holes : {"", "0.5, 0.5 : 1, 1"})
   {
-    const auto text = [&](const std::string &road) {
-      return domain(holes) + "subsection Solver\n set operator = " + road + "\n set tolerance = 1e-14\nend\n";
+    const auto text = [&](const std::string &road)
+    {
+      return domain(holes) + "subsection Solver\n set operator = " + road +
+             "\n set tolerance = 1e-14\nend\n";
     };
     for (const bool is_tensor : {false, true})
       for (const bool is_continuous : {true, false})
@@ -166,9 +171,8 @@ TEST(SmallestModel, stencil_and_assembled_matrix_give_the_same_solution)
         std::vector<double> averages;
         for (const std::string road : {"fft", "sparse"})
         {
-          const auto scene = is_tensor
-                                 ? make_scene(tensor_kernel, trigonometric_vector, text(road))
-                                 : make_scene(scalar_kernel, trigonometric, text(road));
+          const auto scene = is_tensor ? make_scene(tensor_kernel, trigonometric_vector, text(road))
+                                       : make_scene(scalar_kernel, trigonometric, text(road));
           const auto problem = make_problem(scene, 0, {.0625, .2});
           const auto solution = method(is_continuous ? "Q2" : "DGQ1")->solve(scene, problem);
           if (averages.empty())
@@ -183,10 +187,11 @@ TEST(SmallestModel, stencil_and_assembled_matrix_give_the_same_solution)
 TEST(LatticeGalerkin, a_load_that_is_not_smooth_is_integrated_cell_by_cell)
 {
   // a load with a jump along a line of the lattice: the same as the sum of its two smooth halves
-  const auto solve = [](const std::string &load) {
-    const auto scene = make_scene(scalar_kernel, "0*x",
-                                  "subsection Problem\n set load = " + load +
-                                      "\n set constraint = 0\nend\n");
+  const auto solve = [](const std::string &load)
+  {
+    const auto scene =
+        make_scene(scalar_kernel, "0*x",
+                   "subsection Problem\n set load = " + load + "\n set constraint = 0\nend\n");
     const auto problem = make_problem(scene, 0, {.125, .25});
     return method("Q1")->solve(scene, problem).averages;
   };

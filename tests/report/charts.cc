@@ -1,6 +1,7 @@
 #include "report/charts.h"
 
 #include "base/error.h"
+#include "report/maps.h"
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
@@ -25,13 +26,15 @@ namespace plumbline::report
     const fixture::Folder folder;
     const study::Results results = fixture::results();
     const std::vector<Chart> charts = write_charts(results, folder.path());
-    ASSERT_EQ(charts.size(), 1 + 4 * 4u); // overall, and four kinds for four cases
+    ASSERT_EQ(charts.size(), 1 + 4 * 4 + 1u); // overall, four kinds for four cases, error maps
     EXPECT_TRUE(is_overall(charts.front()));
     for (const Chart &chart : charts)
     {
       const std::string svg = fixture::read(folder.path() / "charts" / (chart.name + ".svg"));
       const std::string csv = fixture::read(folder.path() / "charts" / (chart.name + ".csv"));
       EXPECT_TRUE(holds(svg, "</svg>")) << chart.name;
+      if (chart.kind == ChartKind::error_map)
+        continue;
       EXPECT_TRUE(holds(svg, "<text>FA (not AC)</text>")) << chart.name;
       EXPECT_TRUE(holds(svg, "<text>IPA-AC recalibrated</text>")) << chart.name;
       EXPECT_TRUE(holds(svg, "<text>P0 (not AC)</text>")) << chart.name;
@@ -82,8 +85,12 @@ namespace plumbline::report
     study::Results results = fixture::results();
     for (study::Run &run : results.runs)
       run.cost.peak_bytes = 0;
+    results.maps.clear();
     for (const Chart &chart : list_charts(results))
+    {
       EXPECT_NE(chart.kind, ChartKind::memory);
+      EXPECT_NE(chart.kind, ChartKind::error_map);
+    }
     EXPECT_TRUE(list_charts(study::Results()).empty());
     const fixture::Folder folder;
     EXPECT_TRUE(write_charts(study::Results(), folder.path()).empty());
@@ -171,6 +178,118 @@ namespace plumbline::report
     }
     // Over twelve decades a slope of one is too flat to read.
     EXPECT_FALSE(place_slope(1, lines, {.1, .2}, {1e-14, 1e-2}, {}));
+  }
+
+  TEST(ReportCharts, PutRoundOffIntoAStripOfRows)
+  {
+    Line exact_one, exact_two, other;
+    exact_one.style = style_of(0, false);
+    exact_two.style = style_of(1, false);
+    other.style = style_of(2, false);
+    exact_one.points = {{.1, 1e-13}, {.2, 3e-15}};
+    exact_two.points = {{.1, 2e-16}, {.2, 5e-3}};
+    other.points = {{.1, 1e-3}, {.2, 1e-2}};
+    const Strip strip = make_strip({exact_one, other, exact_two}, {1e-3, 1e-1});
+    ASSERT_EQ(strip.rows.size(), 2u);
+    EXPECT_EQ(strip.range.high, 1e-3);
+    EXPECT_GT(strip.range.low, 1e-3 / 100); // less than half of the picture
+    const std::vector<Vertex> one = strip.enter(exact_one), two = strip.enter(exact_two);
+    EXPECT_EQ(one[0].y, one[1].y);
+    EXPECT_LT(one[0].y, strip.range.high);
+    EXPECT_LT(two[0].y, one[0].y);
+    EXPECT_GT(two[0].y, strip.range.low);
+    EXPECT_EQ(two[1].y, 5e-3);
+    EXPECT_EQ(strip.enter(other)[0].y, 1e-3);
+    const std::vector<Vertex> best = strip.cut({{.1, 1e-3}, {.3, 1e-13}});
+    ASSERT_EQ(best.size(), 3u);
+    EXPECT_EQ(best[1].y, strip.range.high);
+    EXPECT_EQ(best[2].y, strip.range.low);
+    EXPECT_EQ(best[2].x, .3);
+
+    // The axis is of the other errors; there is no strip where all or none are of rounding.
+    Plot plot;
+    plot.shows_round_off = true;
+    plot.lines = {exact_one, other, exact_two};
+    EXPECT_TRUE(holds(gnuplot_script({plot}), "'round-off'"));
+    EXPECT_TRUE(holds(gnuplot_script({plot}), "set ytics nomirror 1e-3,"));
+    EXPECT_TRUE(holds(gnuplot_script({plot}), "\n\n0.20000000000000001 0.0050000000000000001\n"))
+        << "the way out of the strip has no line";
+    plot.lines = {other};
+    EXPECT_FALSE(holds(gnuplot_script({plot}), "'round-off'"));
+    plot.lines = {exact_one};
+    EXPECT_FALSE(holds(gnuplot_script({plot}), "'round-off'"));
+    EXPECT_TRUE(holds(gnuplot_script({plot}), " 3.0000000000000002e-15\n") ||
+                holds(gnuplot_script({plot}), " 2.9999999999999998e-15\n"))
+        << "drawn where it is";
+  }
+
+  TEST(ReportCharts, ShowWorkOfTheProblemThatIsNotSolvedExactly)
+  {
+    study::Results results = fixture::results();
+    EXPECT_EQ(telling_problem(results), "case_2 δ"); // case1 has a zero, a NaN, a failure
+    for (study::Run &run : results.runs)
+      if (run.problem != "case1" && run.method != "FA")
+        run.errors[results.decisive_error] = 1e-14;
+    EXPECT_EQ(telling_problem(results), "case1");
+    EXPECT_EQ(list_charts(results).front().problem, "case1");
+    EXPECT_TRUE(holds(list_charts(results).front().title, "the best of m = 3, m = 4"));
+    EXPECT_EQ(telling_problem(study::Results()), "");
+  }
+
+  TEST(ReportCharts, DrawErrorMapsOnOneScaleWithTheirDataBeside)
+  {
+    const fixture::Folder folder;
+    const study::Results results = fixture::results();
+    write_charts(results, folder.path());
+    const std::string svg = fixture::read(folder.path() / "charts" / "error-maps.svg");
+    const std::string csv = fixture::read(folder.path() / "charts" / "error-maps.csv");
+    EXPECT_EQ(fixture::count(svg, "<image style='image-rendering:pixelated'"), 5u);
+    EXPECT_TRUE(holds(svg, ">|error of cell averages| [unit of the solution]<"));
+    EXPECT_TRUE(holds(svg, ">case1, m = 3, h = 0.1: where the error sits<"));
+    for (const fixture::Model &model : fixture::models())
+      EXPECT_TRUE(holds(svg, ">" + model.method + "<")) << model.method;
+    // A head, and 12 blocks of which one lies outside: the upper right of the lowest row.
+    EXPECT_EQ(fixture::count(csv, "\n"), 1 + 5 * 11u);
+    EXPECT_TRUE(holds(csv, "\nFA,case1,m = 3,0.10000000000000001,0.25,-0.66666666666666"));
+    EXPECT_FALSE(holds(csv, ",1.75,-0.6666"));
+    EXPECT_TRUE(holds(csv, ",1.75,0.6666"));
+    EXPECT_EQ(fixture::count(csv, ",0\n"), 5u) << "a zero stays a zero";
+  }
+
+  TEST(ReportCharts, ScaleErrorMapsByWhatIsPositiveAndAboveRounding)
+  {
+    const auto scale = [](const std::vector<double> &values)
+    {
+      study::ErrorMap map;
+      map.values = values;
+      return colour_scale({map});
+    };
+    const double nan = std::nan("");
+    // Many decades: from the least to the largest; few: whole decades.
+    EXPECT_EQ(scale({2e-7, nan, 0, 5e-2}).low, 2e-7);
+    EXPECT_EQ(scale({2e-7, nan, 0, 5e-2}).high, 5e-2);
+    EXPECT_NEAR(scale({2e-3, 5e-2}).low, 1e-3, 1e-12);
+    EXPECT_NEAR(scale({2e-3, 5e-2}).high, 1e-1, 1e-12);
+    // Round-off beside real errors has one colour; alone it has a scale of its own.
+    EXPECT_EQ(scale({2e-15, 5e-2}).low, round_off);
+    EXPECT_NEAR(scale({2e-15, 3e-14}).low, 1e-15, 1e-24);
+    EXPECT_NEAR(scale({2e-19, 2e-18}).low, 1e-16, 1e-25);
+    for (const std::vector<double> &values : std::vector<std::vector<double>>{{}, {nan, 0}, {1e-3}})
+      EXPECT_GE(scale(values).high, 9.9 * scale(values).low);
+  }
+
+  TEST(ReportCharts, DrawZeroAsTheLowEndAndNothingOutsideTheDomain)
+  {
+    study::ErrorMap map;
+    map.method = "it's";
+    map.quantity = "nodal values";
+    map.n_x = map.n_y = 2;
+    map.upper = {1, 1};
+    map.values = {0, 1e-3, std::nan(""), 1e-6};
+    const std::string script = map_script({map}, "a.svg");
+    EXPECT_TRUE(holds(script, "$m0 << EOD\n1.000e-6 1.000e-3\nNaN 1.000e-6\nEOD\n")) << script;
+    EXPECT_TRUE(holds(script, "set title 'it''s' noenhanced"));
+    EXPECT_TRUE(holds(script, "'|error of nodal values| [unit of the solution]'"));
   }
 
   TEST(ReportCharts, HaveRangesWithTwoPowersOfTen)

@@ -110,13 +110,33 @@ namespace plumbline::report::fixture
         for (unsigned int level = 0; level < n_levels; ++level)
           results.references.push_back({problem, series, "Q2", level, .1 / std::pow(2., level),
                                         m * .1 / std::pow(2., level), 3e-5, 1e-5, 3e-5});
-        results.advice.push_back({problem, series,
-                                  "Take IPA-AC recalibrated: error 1.2e-" +
-                                      std::to_string(static_cast<int>(m)) +
-                                      " in 0.3 CPU s; Q1 needs 9 "
-                                      "CPU s for the same."});
+        results.advice.push_back({problem,
+                                  series,
+                                  {{1e-2, "IPA-AC recalibrated", .1, 6.2e-3, 5.1e-4},
+                                   {1e-4, "IPA-AC recalibrated", .0125, 9.7e-5, 3.2},
+                                   {1e-6, "Q1", .003125, 4.4e-7, 77}},
+                                  {"FA", "IPA-AC", "P0"}});
       }
       scale *= .4;
+    }
+    for (const Model &model : models)
+    {
+      study::ErrorMap map{model.method,
+                          problems.front(),
+                          "m = 3",
+                          "cell averages",
+                          .1,
+                          .3,
+                          {0, -1},
+                          {2, 1},
+                          4,
+                          3,
+                          {}};
+      for (unsigned int i = 0; i < 12; ++i)
+        map.values.push_back(model.factor * std::pow(.1, i));
+      map.values[3] = std::numeric_limits<double>::quiet_NaN(); // a corner outside the domain
+      map.values[8] = 0;
+      results.maps.push_back(map);
     }
     results.omissions = {{"outer quadrature", "the lattice has exact entries", "9 of 10 CPU s"},
                          {"the matrix", "one stencil <serves> all nodes", "memory of 1e6 bonds"}};

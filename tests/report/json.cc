@@ -74,7 +74,34 @@ namespace plumbline::report
     EXPECT_EQ(back.references.size(), results.references.size());
     EXPECT_EQ(back.omissions.at(1).what, results.omissions.at(1).what);
     EXPECT_EQ(back.expectations.at(1).holds, false);
-    EXPECT_EQ(back.advice.at(3).text, results.advice.at(3).text);
+    ASSERT_EQ(back.advice.size(), results.advice.size());
+    const study::Advice &advice = back.advice.at(3);
+    EXPECT_EQ(advice.series, "m = 4");
+    EXPECT_EQ(advice.stalling, results.advice.at(3).stalling);
+    ASSERT_EQ(advice.choices.size(), 3u);
+    EXPECT_EQ(advice.choices[1].target, 1e-4);
+    EXPECT_EQ(advice.choices[1].method, "IPA-AC recalibrated");
+    EXPECT_EQ(advice.choices[1].h, .0125);
+    EXPECT_EQ(advice.choices[1].error, 9.7e-5);
+    EXPECT_EQ(advice.choices[1].seconds, 3.2);
+    ASSERT_EQ(back.maps.size(), results.maps.size());
+    for (std::size_t i = 0; i < back.maps.size(); ++i)
+    {
+      const study::ErrorMap &map = back.maps[i], &written = results.maps[i];
+      EXPECT_EQ(map.method, written.method);
+      EXPECT_EQ(map.quantity, "cell averages");
+      EXPECT_EQ(map.horizon, written.horizon);
+      EXPECT_EQ(map.lower, written.lower);
+      EXPECT_EQ(map.upper, written.upper);
+      EXPECT_EQ(map.n_x, 4u);
+      EXPECT_EQ(map.n_y, 3u);
+      ASSERT_EQ(map.values.size(), written.values.size());
+      for (std::size_t j = 0; j < map.values.size(); ++j)
+        if (std::isfinite(written.values[j]))
+          EXPECT_EQ(map.values[j], written.values[j]);
+        else
+          EXPECT_TRUE(std::isnan(map.values[j]));
+    }
   }
 
   TEST(ReportJson, KeepsTheExtremesOfNumbers)
@@ -155,15 +182,15 @@ namespace plumbline::report
       EXPECT_NE(message.find("; "), std::string::npos) << "no remedy in: " << message;
     };
     expect("cannot be read");
-    write(file, "{\"schema\": 1, ");
+    write(file, "{\"schema\": 2, ");
     expect("is not JSON");
     write(file, "[1]");
     expect("is not an object");
     write(file, "{}");
     expect("schema is missing");
-    write(file, "{\"schema\": 2}");
-    expect("schema = 2");
     write(file, "{\"schema\": 1}");
+    expect("schema = 1");
+    write(file, "{\"schema\": 2}");
     expect("scene_name is missing");
 
     const auto damaged = [&](const std::string &from, const std::string &to)
@@ -180,6 +207,10 @@ namespace plumbline::report
     expect("runs[0].cost.n_unknowns is not a whole number");
     damaged("\"peak_bytes\":", "\"bytes\":");
     expect("runs[0].cost.peak_bytes is missing");
+    damaged("\"n_x\": 4", "\"n_x\": 5");
+    expect("maps[0].values has 12 numbers, not n_x * n_y = 15");
+    damaged("\"lower\": [", "\"lower\": [3,");
+    expect("maps[0].lower is not an array of two numbers");
     damaged("\"h\": 0.1", "\"h\": \"0.1\"");
     expect(".h is not a number");
   }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "report/page_parts.h"
 #include "report/report.h"
+#include "study/trend.h"
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
@@ -47,16 +48,120 @@ namespace plumbline::report
   {
     const std::string html = page_of(fixture::results());
     for (const char *part :
-         {"Which quadrature rules stay right as the horizon δ", "Take IPA-AC recalibrated",
+         {"Which quadrature rules stay right as the horizon δ", "✗ stalls: FA, IPA-AC, P0",
           "✗ does not hold", "family of node 17 is singular",
           "one stencil &lt;serves&gt; all nodes", "differences are less than ten times",
           "cut cells in", "kernel clipped at &lt;0&gt;", "deal.II 9.4.1, FFTW 3.3.10",
           "Cost of each run", "case_2 δ"})
       EXPECT_TRUE(holds(html, part)) << part;
-    EXPECT_EQ(fixture::count(html, "role=\"img\""), 17u);
+    EXPECT_EQ(fixture::count(html, "role=\"img\""), 18u);
     EXPECT_EQ(fixture::count(html, "<section"), fixture::count(html, "</section>"));
     EXPECT_EQ(fixture::count(html, "<details"), fixture::count(html, "</details>"));
     EXPECT_EQ(fixture::count(html, "<svg"), fixture::count(html, "</svg>"));
+  }
+
+  TEST(ReportPage, AnswersWhichMethodInOneSentenceAndACardForEachCase)
+  {
+    study::Results results = fixture::results();
+    results.advice[0].choices = {{1e-2, "Q1", .1, 3e-5, 5.1e-4},
+                                 {1e-4, "Q1", .1, 3e-5, 5.1e-4},
+                                 {1e-6, "Q1", .025, 4e-7, 3.21}};
+    results.advice[1].choices.clear();
+    results.advice[1].stalling.clear();
+    std::string html = page_of(results);
+    EXPECT_TRUE(holds(html, "<b>✓ Converge everywhere: IPA-AC recalibrated, Q1.</b> <b "
+                            "class=\"no\">✗ Stall everywhere, however fine the mesh: FA, IPA-AC, "
+                            "P0.</b></p>"));
+    // Targets that the same run serves share a row; another mesh size is another run.
+    EXPECT_TRUE(holds(html, "<td>error ≤ 1e-2 … 1e-4</td>"));
+    EXPECT_TRUE(holds(html,
+                      "<b>Q1</b></td><td>h = 0.1</td><td title=\"its error is 3.000e-5\">0.51 "
+                      "ms</td>"));
+    EXPECT_TRUE(holds(html, "<td>error ≤ 1e-6</td>"));
+    EXPECT_TRUE(holds(html, "<td>h = 0.025</td><td title=\"its error is 4.000e-7\">3.2 s</td>"));
+    EXPECT_EQ(fixture::count(html, "No converging method is accurate enough yet"), 1u);
+    EXPECT_EQ(fixture::count(html, "✗ stalls: "), 3u);
+
+    for (study::Trend &trend : results.trends)
+    {
+      if (trend.method == "P0" && trend.series == "m = 4")
+        trend.outcome = study::Outcome::converges;
+      if (trend.method == "IPA-AC")
+        trend.outcome = study::Outcome::undecided;
+      if (trend.method == "Q1")
+        trend.outcome = study::Outcome::failed;
+    }
+    html = page_of(results);
+    EXPECT_TRUE(holds(html, "everywhere: IPA-AC recalibrated.</b>"));
+    EXPECT_TRUE(holds(html, "✗ Stall everywhere, however fine the mesh: FA.</b>"));
+    EXPECT_TRUE(holds(html, "✗ Stall in some cases: P0 (2 of 4).</b>"));
+    EXPECT_TRUE(holds(html, "No solution at some level: Q1."));
+    EXPECT_TRUE(holds(html, "one finer level would help: IPA-AC."));
+    for (study::Trend &trend : results.trends)
+      trend.outcome = study::Outcome::stalls;
+    html = page_of(results);
+    EXPECT_TRUE(holds(html, "<b>No method converges in all 4 cases.</b>"));
+    EXPECT_TRUE(holds(html, "No method of this run is known to converge."));
+  }
+
+  TEST(ReportPage, RanksByTheLargestErrorWhereNothingIsRefined)
+  {
+    study::Results results = fixture::results();
+    results.regime = "horizon";
+    for (study::Run &run : results.runs)
+      run.errors[results.decisive_error] = run.method == "Q1" ? 1e-4 : 2e-3;
+    results.runs.front().errors[results.decisive_error] = 3e-2; // of FA
+    const std::string html = page_of(results);
+    EXPECT_TRUE(holds(html, "the best method first: Q1 (1.000e-4), IPA-AC (2.000e-3), IPA-AC "
+                            "recalibrated (2.000e-3), P0 (2.000e-3), FA (3.000e-2).</b>"));
+    EXPECT_FALSE(holds(html, "Converge everywhere"));
+    EXPECT_FALSE(holds(html, "✗ stalls: "));
+  }
+
+  TEST(ReportPage, FoldsTheCardsAfterTheSixth)
+  {
+    EXPECT_FALSE(holds(page_of(fixture::results()), "more cases"));
+    const std::string html =
+        page_of(fixture::make({"a", "b", "c", "d"}, {3, 4}, fixture::models(), 2));
+    EXPECT_EQ(fixture::count(html, "<div class=\"card\">"), 8u);
+    const std::string open = html.substr(0, html.find("2 more cases"));
+    EXPECT_EQ(fixture::count(open, "<div class=\"card\">"), 6u);
+  }
+
+  TEST(ReportPage, ShowsTheExpectationsThatDoNotHoldAndFoldsTheOthers)
+  {
+    study::Results results = fixture::results();
+    std::string html = page_of(results);
+    const std::size_t head = html.find("1 of 2 hold; these do not:");
+    ASSERT_NE(head, std::string::npos);
+    const std::size_t fold = html.find("<details><summary>✓ Those that hold", head);
+    const std::size_t bad = html.find("✗ does not hold", head), good = html.find("✓ holds", head);
+    EXPECT_LT(bad, fold);
+    EXPECT_GT(good, fold);
+    for (study::Expectation &one : results.expectations)
+      one.holds = true;
+    html = page_of(results);
+    EXPECT_TRUE(holds(html, "<h2>What the scene expects</h2>\n<details><summary>✓ 2 of 2 hold<"));
+    for (study::Expectation &one : results.expectations)
+      one.holds = false;
+    html = page_of(results);
+    EXPECT_TRUE(holds(html, "0 of 2 hold; these do not:"));
+    EXPECT_FALSE(holds(html, "Those that hold"));
+  }
+
+  TEST(ReportPage, ShowsTheErrorMapsAfterTheConvergenceCharts)
+  {
+    study::Results results = fixture::results();
+    const std::string html = page_of(results);
+    const std::size_t head = html.find("<h2>Where the error sits");
+    EXPECT_LT(html.find("<h2>Convergence"), head);
+    EXPECT_TRUE(holds(html, "href=\"#maps\""));
+    const std::size_t image = html.find("<image style='image-rendering:pixelated'", head);
+    ASSERT_NE(image, std::string::npos);
+    EXPECT_LT(image, html.find("</section>", head));
+    results.maps.clear();
+    EXPECT_FALSE(holds(page_of(results), "#maps"));
+    EXPECT_FALSE(holds(page_of(results), "Where the error sits"));
   }
 
   TEST(ReportPage, NeedsNothingFromOutside)
@@ -95,6 +200,18 @@ namespace plumbline::report
     trend.values = {1e-3, 2e-3, 0};
     trend.rates = {-1, -INFINITY};
     EXPECT_TRUE(holds(page_of(results), "<b>✓ AC</b><small>0</small></td>"));
+  }
+
+  TEST(ReportPage, CallsRoundingWhatTheStudyCallsRounding)
+  {
+    for (const double factor : {.99, 1.01})
+    {
+      study::Trend trend;
+      trend.x = {.4, .2, .1};
+      trend.values = std::vector<double>(3, factor * round_off);
+      study::judge(trend);
+      EXPECT_EQ(holds(trend.reason, "exact to round-off"), factor < 1) << trend.reason;
+    }
   }
 
   TEST(ReportPage, DoesNotTrustAReferenceWithoutEstimate)

@@ -59,6 +59,17 @@ namespace plumbline::report
     EXPECT_EQ(rounded(std::nan("")), "–");
     EXPECT_EQ(rounded_error(.0123456), "1.235e-2");
     EXPECT_EQ(rounded_error(0), "0");
+    EXPECT_EQ(short_power(1e-2), "1e-2");
+    EXPECT_EQ(short_power(2.5e-10), "2.5e-10");
+    EXPECT_EQ(short_power(100), "1e2");
+    EXPECT_EQ(short_power(std::nan("")), "–");
+    EXPECT_EQ(rounded_seconds(8.54e-5), "85 µs");
+    EXPECT_EQ(rounded_seconds(5.1e-4), "0.51 ms");
+    EXPECT_EQ(rounded_seconds(.0996), "100 ms");
+    EXPECT_EQ(rounded_seconds(.123), "0.12 s");
+    EXPECT_EQ(rounded_seconds(3.21), "3.2 s");
+    EXPECT_EQ(rounded_seconds(412), "410 s");
+    EXPECT_EQ(rounded_seconds(std::nan("")), "–");
     EXPECT_EQ(exact(.1), "0.10000000000000001");
     EXPECT_EQ(exact(std::numeric_limits<double>::infinity()), "");
     EXPECT_EQ(rounded_with_uncertainty(2.0134, .0312), "2.013 ± 0.031");

@@ -11,10 +11,14 @@ using namespace plumbline::scene;
 
 namespace
 {
-  const std::string minimal = "subsection Problem\n set solution = x^2\nend\nsubsection Methods\n set names = "
-                              "Q1\nend\n";
+  const std::string minimal =
+      "subsection Problem\n set solution = x^2\nend\nsubsection Methods\n set names = "
+      "Q1\nend\n";
 
-  Scene parse(const std::string &more) { return parse_scene("test.prm", minimal + more); }
+  Scene parse(const std::string &more)
+  {
+    return parse_scene("test.prm", minimal + more);
+  }
 
   std::string section(const std::string &name, const std::string &setting)
   {
@@ -51,8 +55,9 @@ TEST(Scene, defaults_make_a_delta_convergence_study)
 
 TEST(Scene, printed_back_parses_to_the_same_scene)
 {
-  const Scene scene = parse(section("Study", "m = 2.5, 3") + section("Expected", "verdicts = Q1: AC") +
-                            section("Domain", "holes = 0.5, 0.5 : 1, 1"));
+  const Scene scene =
+      parse(section("Study", "m = 2.5, 3") + section("Expected", "verdicts = Q1: AC") +
+            section("Domain", "holes = 0.5, 0.5 : 1, 1"));
   const Scene again = parse_scene("test.prm", scene.text);
   EXPECT_EQ(again.text, scene.text);
   EXPECT_EQ(again.series.size(), 2u);
@@ -62,9 +67,10 @@ TEST(Scene, printed_back_parses_to_the_same_scene)
 
 TEST(Scene, cases_have_names_and_components)
 {
-  const Scene scene = parse_scene(
-      "t.prm", "subsection Kernel\n set type = bond-tensor\n set limit = Navier\nend\nsubsection Problem\n set "
-               "solution = a: max(x, y), y; b: x > 0 ? 1 : 2, x\nend\nsubsection Methods\n set names = Q1\nend\n");
+  const Scene scene = parse_scene("t.prm", "subsection Kernel\n set type = bond-tensor\n set limit "
+                                           "= Navier\nend\nsubsection Problem\n set "
+                                           "solution = a: max(x, y), y; b: x > 0 ? 1 : 2, "
+                                           "x\nend\nsubsection Methods\n set names = Q1\nend\n");
   ASSERT_EQ(scene.solutions.size(), 2u);
   EXPECT_EQ(scene.solutions[0].name, "a");
   EXPECT_EQ(scene.solutions[0].expression, "max(x, y), y");
@@ -75,7 +81,8 @@ TEST(Scene, overrides_win_over_the_file_and_json_is_read_too)
 {
   EXPECT_EQ(parse_scene("t.prm", minimal, {{"Study/m", "5"}}).series[0].name, "m = 5");
   const std::string file = ::testing::TempDir() + "scene_test.json";
-  std::ofstream(file) << R"({"Problem": {"solution": "x"}, "Methods": {"names": "Q1"}, "Study": {"m": "4"}})";
+  std::ofstream(file)
+      << R"({"Problem": {"solution": "x"}, "Methods": {"names": "Q1"}, "Study": {"m": "4"}})";
   EXPECT_EQ(read_scene(file).series[0].name, "m = 4");
 }
 
@@ -104,7 +111,8 @@ TEST(SceneErrors, unknown_keys_and_wrong_types)
   expect_error(section("Geometry", "checks = many"), "checks");
   expect_error(section("Kernel", "type = gauss"), "linear-decay");
   expect_error(section("Study", "h = 0.1, fine"), "Study/h: 'fine' is not a number");
-  expect_error("", "key 'Study/hh' is not known; write one of: Study/regime, Study/h", {{"Study/hh", "1"}});
+  expect_error("", "key 'Study/hh' is not known; write one of: Study/regime, Study/h",
+               {{"Study/hh", "1"}});
   expect_error("", "Solver/tolerance = 'small' is not allowed", {{"Solver/tolerance", "small"}});
 }
 
@@ -113,7 +121,8 @@ TEST(SceneErrors, levels_that_do_not_fit)
   expect_error(section("Study", "m = 0.5"), "the horizon 0.05 is smaller than the mesh size 0.1");
   expect_error(section("Study", "h = 0.3"), "h = 0.3 does not divide the box");
   expect_error(section("Study", "h = -0.1"), "must be a positive length");
-  expect_error(section("Domain", "collar = 0.1"), "Domain/collar = 0.1 is thinner than the horizon 0.3");
+  expect_error(section("Domain", "collar = 0.1"),
+               "Domain/collar = 0.1 is thinner than the horizon 0.3");
   expect_error(section("Study", "regime = delta-m"), "Study/m has 1 values and Study/h has 3");
   expect_error(section("Domain", "boxes = 0, 0 : 1"), "'0, 0 : 1' is not a box");
   expect_error(section("Domain", "boxes = 1, 1 : 0, 2"), "is empty; its second corner");
@@ -121,26 +130,32 @@ TEST(SceneErrors, levels_that_do_not_fit)
 
 TEST(SceneErrors, kernels_and_models_that_do_not_fit)
 {
-  expect_error(section("Kernel", "limit = Navier"), "Navier does not fit the scalar kernel 'linear-decay'");
+  expect_error(section("Kernel", "limit = Navier"),
+               "Navier does not fit the scalar kernel 'linear-decay'");
   expect_error(section("Kernel", "type = bond-tensor"), "does not fit the bond tensor");
   expect_error("subsection Kernel\n set type = bond-tensor\n set limit = Navier\nend\n",
                "has 1 component(s), but the bond tensor needs 2");
-  expect_error(section("Problem", "solution = x, y"), "has 2 component(s), but the scalar kernel needs 1");
-  expect_error(section("Kernel", "type = polynomial"), "needs its polynomial; give Kernel/coefficients");
+  expect_error(section("Problem", "solution = x, y"),
+               "has 2 component(s), but the scalar kernel needs 1");
+  expect_error(section("Kernel", "type = polynomial"),
+               "needs its polynomial; give Kernel/coefficients");
   expect_error(section("Kernel", "coefficients = 1, 2"), "is for polynomial kernels");
 }
 
 TEST(SceneErrors, expressions_and_targets)
 {
   expect_error(section("Problem", "solution = x^^2"), "Problem/solution = 'x^^2' does not parse");
-  expect_error(section("Problem", "solution = sin(z)"), "Write a muParser expression in x, y, pi, delta");
+  expect_error(section("Problem", "solution = sin(z)"),
+               "Write a muParser expression in x, y, pi, delta");
   expect_error(section("Problem", "solution ="), "needs Problem/solution");
   expect_error(section("Study", "norms = H1"), "'H1' is not a norm");
   expect_error(section("Study", "decisive error = nodal Linf"), "must be 'norm | target'");
-  expect_error(section("Study", "decisive error = averages L2 | reference"), "Reference/method, which is none");
+  expect_error(section("Study", "decisive error = averages L2 | reference"),
+               "Reference/method, which is none");
   expect_error(section("Methods", "names ="), "Methods/names is empty");
   expect_error(section("Expected", "verdicts = Q1 AC"), "has no ':'");
-  expect_error(section("Expected", "errors = Q1, case9: 1"), "'case9' in 'Q1, case9: 1' is neither a case");
+  expect_error(section("Expected", "errors = Q1, case9: 1"),
+               "'case9' in 'Q1, case9: 1' is neither a case");
 }
 
 TEST(SceneErrors, a_file_that_is_not_there)
@@ -152,6 +167,7 @@ TEST(SceneErrors, a_file_that_is_not_there)
   }
   catch (const InputError &error)
   {
-    EXPECT_STREQ(error.what(), "scene 'no/such/scene.prm' cannot be read; give a .prm or .json file");
+    EXPECT_STREQ(error.what(),
+                 "scene 'no/such/scene.prm' cannot be read; give a .prm or .json file");
   }
 }

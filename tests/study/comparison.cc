@@ -11,7 +11,8 @@ using namespace plumbline::study;
 
 namespace
 {
-  scene::Scene make_scene(const std::string &more = "", const std::string &solution = "x^3*y^2 + y^4")
+  scene::Scene make_scene(const std::string &more = "",
+                          const std::string &solution = "x^3*y^2 + y^4")
   {
     return scene::parse_scene("test.prm",
                               "subsection Problem\n set solution = " + solution +
@@ -45,9 +46,8 @@ namespace
       for (double &average : solution.averages)
         average -= error;
       const auto exact = problem.solution->value;
-      solution.value = [exact, error](const dealii::Point<2> &x, unsigned int c) {
-        return exact(x, c) + error;
-      };
+      solution.value = [exact, error](const dealii::Point<2> &x, unsigned int c)
+      { return exact(x, c) + error; };
       return solution;
     }
     mutable unsigned int n_solves = 0;
@@ -66,16 +66,16 @@ TEST(CellAverages, are_exact_for_polynomials_at_centres_and_vertices)
     const auto cells = comparison_nodes(scene, problem.lattice, 1);
     const auto averages = cell_averages(*problem.solution, problem.lattice, cells);
     std::size_t index = 0;
-    const auto mean = [](int power, double a, double b) {
-      return (std::pow(b, power + 1) - std::pow(a, power + 1)) / (power + 1) / (b - a);
-    };
+    const auto mean = [](int power, double a, double b)
+    { return (std::pow(b, power + 1) - std::pow(a, power + 1)) / (power + 1) / (b - a); };
     for (int j = 0; j < cells.n[1]; ++j)
       for (int i = 0; i < cells.n[0]; ++i)
         if (cells.free(0, i, j))
         {
           const double x = .125 * (i + cells.axis[0].offset), y = .125 * (j + cells.axis[0].offset);
           const double x0 = x - .0625, x1 = x + .0625, y0 = y - .0625, y1 = y + .0625;
-          EXPECT_NEAR(averages[index++], mean(3, x0, x1) * mean(2, y0, y1) + mean(4, y0, y1), 1e-14);
+          EXPECT_NEAR(averages[index++], mean(3, x0, x1) * mean(2, y0, y1) + mean(4, y0, y1),
+                      1e-14);
         }
     EXPECT_EQ(index, averages.size());
   }
@@ -100,35 +100,62 @@ TEST(CoarsenAverages, of_exact_fine_averages_are_exact_coarse_averages)
     const std::string holes = "subsection Domain\n set holes = 0.5, 0.5 : 1, 1\nend\n";
     const auto scene = make_scene(holes + "subsection Methods\n set nodes = " + nodes + "\nend\n");
     const auto fine_scene = make_scene(holes);
-    const auto coarse = make_problem(scene, 0, {.125, .25}), fine = make_problem(fine_scene, 0, {.0625, .25});
+    const auto coarse = make_problem(scene, 0, {.125, .25}),
+               fine = make_problem(fine_scene, 0, {.0625, .25});
     const auto cells = comparison_nodes(scene, coarse.lattice, 1);
     const auto fine_cells = comparison_nodes(fine_scene, fine.lattice, 1);
-    const auto coarsened = coarsen_averages(
-        cell_averages(*fine.solution, fine.lattice, fine_cells), fine_cells, cells);
-    EXPECT_LT(averages_l2(coarsened, cell_averages(*coarse.solution, coarse.lattice, cells), 1), 1e-14);
+    const auto coarsened = coarsen_averages(cell_averages(*fine.solution, fine.lattice, fine_cells),
+                                            fine_cells, cells);
+    EXPECT_LT(averages_l2(coarsened, cell_averages(*coarse.solution, coarse.lattice, cells), 1),
+              1e-14);
   }
 }
 
 TEST(Errors, are_those_put_in)
 {
-  const auto scene = make_scene("subsection Study\n set norms = nodal Linf, nodal L2, averages Linf, averages "
-                                "L2, field Linf, field L2\nend\n");
+  const auto scene =
+      make_scene("subsection Study\n set norms = nodal Linf, nodal L2, averages Linf, averages "
+                 "L2, field Linf, field L2\nend\n");
   const auto problem = make_problem(scene, 0, {.1, .3});
   const auto solution = FakeMethod(2).solve(scene, problem);
   const auto reference = std::vector<double>(solution.averages.size(), 0.);
   const auto found = errors(scene, problem, solution, reference);
-  for (const std::string norm : {"nodal Linf", "nodal L2", "averages Linf", "averages L2", "field Linf", "field L2"})
+  for (const std::string norm :
+       {"nodal Linf", "nodal L2", "averages Linf", "averages L2", "field Linf", "field L2"})
     EXPECT_NEAR(found.at(norm + " | exact"), .01, 1e-13) << norm;
-  EXPECT_NEAR(found.at("averages L2 | reference"), averages_l2(solution.averages, reference, .1), 1e-15);
+  EXPECT_NEAR(found.at("averages L2 | reference"), averages_l2(solution.averages, reference, .1),
+              1e-15);
   EXPECT_EQ(found.count("nodal Linf | reference"), 0u);
+}
+
+TEST(ErrorMap, shows_each_error_in_its_block_and_nothing_outside)
+{
+  const std::string holes = "subsection Domain\n set holes = 0.5, 0.5 : 1, 1\nend\n";
+  for (const std::string decisive : {"nodal Linf | exact", "averages L2 | exact"})
+  {
+    const auto scene = make_scene(
+        holes + "subsection Study\n set h = 0.125\n set decisive error = " + decisive + "\nend\n");
+    const auto problem = make_problem(scene, 0, {.125, .25});
+    auto solution = FakeMethod(2).solve(scene, problem);
+    const bool is_nodal = decisive[0] == 'n';
+    (is_nodal ? solution.nodal : solution.averages)[8 + 2] += 7; // cell (2, 1)
+    const auto map = error_map(scene, problem, solution, {});
+    EXPECT_EQ(map.quantity, is_nodal ? "nodal values" : "cell averages");
+    ASSERT_EQ(map.n_x, 8u);
+    ASSERT_EQ(map.values.size(), 64u);
+    EXPECT_NEAR(map.values[8 + 2], is_nodal ? 7 + 1. / 64 : 7 - 1. / 64, 1e-12);
+    EXPECT_NEAR(map.values[8 + 3], 1. / 64, 1e-12);
+    EXPECT_TRUE(std::isnan(map.values[63]));
+  }
 }
 
 TEST(Sweep, judges_checks_and_resumes)
 {
-  const std::string study = "subsection Study\n set regime = delta\n set m = 2, 3\n set h = 0.2, 0.1, 0.05, "
-                            "0.025\n set norms = nodal Linf\nend\nsubsection Expected\n set verdicts = fake: "
-                            "AC\n set rates = fake, m = 2: 2\n set errors = fake, m = 3: 4e-2 1e-2 2.5e-3 "
-                            "6.25e-4\n set bounds = fake: 1e-2\nend\n";
+  const std::string study =
+      "subsection Study\n set regime = delta\n set m = 2, 3\n set h = 0.2, 0.1, 0.05, "
+      "0.025\n set norms = nodal Linf\nend\nsubsection Expected\n set verdicts = fake: "
+      "AC\n set rates = fake, m = 2: 2\n set errors = fake, m = 3: 4e-2 1e-2 2.5e-3 "
+      "6.25e-4\n set bounds = fake: 1e-2\nend\n";
   const auto scene = make_scene(study);
   const auto good = std::make_shared<FakeMethod>(2);
   const Methods methods = {good};

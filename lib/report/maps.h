@@ -1,0 +1,36 @@
+#pragma once
+
+#include "report/formats.h"
+#include "study/results.h"
+
+#include <string>
+#include <vector>
+
+namespace plumbline::report
+{
+  /// Errors below this are drawn like it: a number of size one is rounded to as much.
+  constexpr double smallest_drawn_error = 1e-16;
+
+  /// Of the colours of all maps together: from the smallest positive value, though not below
+  /// round-off if anything is above that, to the largest; at least one decade, and whole ones if
+  /// there are few. What lies below, zero too, has the colour of the lower end.
+  struct ColourScale
+  {
+    double low = smallest_drawn_error, high = 10 * smallest_drawn_error;
+  };
+  ColourScale colour_scale(const std::vector<study::ErrorMap> &maps);
+
+  /// "case1, m = 3, h = 0.05: ..."; without h if the maps differ in it.
+  std::string map_title(const std::vector<study::ErrorMap> &maps);
+
+  /// The commands that draw all maps into one picture, side by side on one colour scale.
+  /// @pre  at least one map
+  std::string map_script(const std::vector<study::ErrorMap> &maps, const std::string &file);
+
+  /// One row for each block inside the domain, at its centre.
+  Table map_table(const std::vector<study::ErrorMap> &maps);
+
+  /// The blocks of a heat map with sharp edges: a viewer that smooths would show errors where there
+  /// are none, and hide the edge of the domain.
+  std::string with_sharp_blocks(std::string svg);
+} // namespace plumbline::report

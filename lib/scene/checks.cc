@@ -1,0 +1,109 @@
+#include "scene/checks.h"
+
+#include "base/error.h"
+#include "physics/expression.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace plumbline::scene
+{
+  using physics::split_outside_brackets;
+
+  void check_levels(const Scene &scene)
+  {
+    for (const Series &series : scene.series)
+      for (const Level &level : series.levels)
+      {
+        std::ostringstream message;
+        if (!(level.h > 0))
+          message << "Study/h = " << level.h << " must be a positive length";
+        else if (level.horizon < level.h * (1 - 1e-12))
+          message << "the horizon " << level.horizon << " is smaller than the mesh size " << level.h
+                  << " (m = " << level.horizon / level.h
+                  << "), so a node has no neighbours; use m = horizon / h >= 1 "
+                     "(Study/m, Study/horizon, Study/h)";
+        else if (scene.collar && *scene.collar < level.horizon * (1 - 1e-12))
+          message << "Domain/collar = " << *scene.collar << " is thinner than the horizon "
+                  << level.horizon
+                  << ", so balls would reach points without data; widen it or write auto";
+        else
+        {
+          (void)geometry::Lattice(scene.domain, level.h);
+          continue;
+        }
+        throw InputError(message.str());
+      }
+  }
+
+  void check_kernel_and_problem(const Scene &scene)
+  {
+    const bool is_tensor = scene.structure == physics::Structure::tensor;
+    if (scene.limit == "Navier" && !is_tensor)
+      throw InputError("Kernel/limit = Navier does not fit the scalar kernel '" +
+                       scene.kernel_type +
+                       "'; choose a bond tensor (Kernel/type) or a Laplace limit");
+    if (is_tensor && scene.limit.find("Laplace") != std::string::npos)
+      throw InputError("Kernel/limit = '" + scene.limit + "' does not fit the bond tensor '" +
+                       scene.kernel_type + "'; write Kernel/limit = Navier, or none");
+    const unsigned int n_components = is_tensor ? 2 : 1;
+    const auto check = [&](const std::string &key, const std::string &expression)
+    {
+      const physics::Expression parsed(key, expression, {{"delta", 1.}});
+      if (parsed.n_components() != n_components)
+        throw InputError(
+            key + " = '" + expression + "' has " + std::to_string(parsed.n_components()) +
+            " component(s), but the " + (is_tensor ? "bond tensor" : "scalar kernel") + " needs " +
+            std::to_string(n_components) + "; give one expression a component, separated by ','");
+    };
+    for (const Case &solution : scene.solutions)
+      check("Problem/solution", solution.expression);
+    for (const Case &load : scene.loads)
+      check("Problem/load", load.expression);
+    if (scene.constraint != "solution")
+      check("Problem/constraint", scene.constraint);
+    if (scene.local_solution != "solution" && scene.local_solution != "none")
+      check("Problem/local solution", scene.local_solution);
+
+    if (scene.solutions.empty() && scene.loads.empty())
+      throw InputError("Problem/load = manufactured needs Problem/solution; give the solution, or "
+                       "the load itself");
+    if (scene.solutions.empty() && scene.constraint == "solution")
+      throw InputError("Problem/constraint = solution, but Problem/solution is empty; give the "
+                       "constraint as an expression");
+    if (!scene.loads.empty() && !scene.solutions.empty() &&
+        scene.loads.size() != scene.solutions.size())
+      throw InputError("Problem/load has " + std::to_string(scene.loads.size()) +
+                       " cases and Problem/solution has " + std::to_string(scene.solutions.size()) +
+                       "; give one load a solution");
+  }
+
+  void check_norms(const Scene &scene)
+  {
+    static const std::vector<std::string> known = {"nodal Linf",  "nodal L2",   "averages Linf",
+                                                   "averages L2", "field Linf", "field L2"};
+    for (const std::string &norm : scene.norms)
+      if (std::find(known.begin(), known.end(), norm) == known.end())
+        throw InputError("Study/norms: '" + norm +
+                         "' is not a norm; choose of nodal Linf, nodal L2, averages Linf, "
+                         "averages L2, field Linf, field L2");
+    const auto parts = split_outside_brackets(scene.decisive_error, '|');
+    const bool is_known_target = parts.size() == 2 && (parts[1] == "exact" || parts[1] == "local" ||
+                                                       parts[1] == "reference");
+    if (!is_known_target ||
+        std::find(scene.norms.begin(), scene.norms.end(), parts[0]) == scene.norms.end())
+      throw InputError("Study/decisive error = '" + scene.decisive_error +
+                       "' must be 'norm | target' with a norm of Study/norms and a target of "
+                       "exact, local, reference");
+    if (parts[1] == "exact" && scene.solutions.empty())
+      throw InputError("Study/decisive error = '" + scene.decisive_error +
+                       "' needs Problem/solution, which is empty; use the target reference");
+    if (parts[1] == "reference" && scene.reference == "none")
+      throw InputError("Study/decisive error = '" + scene.decisive_error +
+                       "' needs Reference/method, which is none");
+    if (parts[1] == "reference" && parts[0].compare(0, 8, "averages") != 0)
+      throw InputError("Study/decisive error = '" + scene.decisive_error +
+                       "': solutions are held against a reference by cell averages; use averages "
+                       "L2 or averages Linf");
+  }
+} // namespace plumbline::scene

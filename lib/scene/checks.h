@@ -1,0 +1,18 @@
+#pragma once
+
+#include "scene/scene.h"
+
+namespace plumbline::scene
+{
+  // Whether the values of a scene fit together. Each throws InputError naming keys, values and the
+  // remedy.
+
+  /// Mesh sizes divide the domain, horizons reach a neighbour, the collar holds the ball.
+  void check_levels(const Scene &scene);
+
+  /// Kernel, limit, and the number of components of every expression.
+  void check_kernel_and_problem(const Scene &scene);
+
+  /// Norms and targets are known, and what they need is given.
+  void check_norms(const Scene &scene);
+} // namespace plumbline::scene

@@ -1,0 +1,137 @@
+#include "scene/values.h"
+
+#include "base/error.h"
+#include "physics/expression.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace plumbline::scene
+{
+  using physics::split_outside_brackets;
+
+  std::string trim(const std::string &text)
+  {
+    return split_outside_brackets(text, '\0')[0];
+  }
+
+  double to_number(const std::string &key, const std::string &text)
+  {
+    std::size_t used = 0;
+    double value = 0;
+    try
+    {
+      value = std::stod(text, &used);
+    }
+    catch (const std::exception &)
+    {
+    }
+    if (used == 0 || used != text.size() || !std::isfinite(value))
+      throw InputError(key + ": '" + text + "' is not a number");
+    return value;
+  }
+
+  std::vector<double> to_numbers(const std::string &key, const std::string &text, char separator)
+  {
+    std::vector<double> values;
+    for (const std::string &part : split_outside_brackets(text, separator))
+      if (!part.empty())
+        values.push_back(to_number(key, part));
+    return values;
+  }
+
+  std::vector<std::string> to_names(const std::string &text)
+  {
+    std::vector<std::string> names;
+    for (const std::string &part : split_outside_brackets(text, ','))
+      if (!part.empty())
+        names.push_back(part);
+    return names;
+  }
+
+  std::vector<geometry::Box> to_boxes(const std::string &key, const std::string &text)
+  {
+    std::vector<geometry::Box> boxes;
+    for (const std::string &part : split_outside_brackets(text, ';'))
+    {
+      if (part.empty())
+        continue;
+      const auto corners = split_outside_brackets(part, ':');
+      std::vector<double> numbers;
+      for (const std::string &corner : corners)
+        for (const double x : to_numbers(key, corner, ','))
+          numbers.push_back(x);
+      if (corners.size() != 2 || numbers.size() != 4)
+        throw InputError(key + ": '" + part + "' is not a box; write 'x0, y0 : x1, y1'");
+      if (!(numbers[0] < numbers[2]) || !(numbers[1] < numbers[3]))
+        throw InputError(key + ": the box '" + part +
+                         "' is empty; its second corner must be above and right of its first");
+      boxes.push_back({{numbers[0], numbers[1]}, {numbers[2], numbers[3]}});
+    }
+    return boxes;
+  }
+
+  std::vector<Case> to_cases(const std::string &text)
+  {
+    std::vector<Case> cases;
+    for (const std::string &part : split_outside_brackets(text, ';'))
+    {
+      if (part.empty())
+        continue;
+      const auto colon = part.find(':');
+      const std::string name = trim(part.substr(0, colon));
+      const bool is_named =
+          colon != std::string::npos && part.find('?') > colon && !name.empty() &&
+          std::all_of(name.begin(), name.end(),
+                      [](unsigned char c)
+                      { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == ' '; });
+      if (is_named)
+        cases.push_back({name, trim(part.substr(colon + 1))});
+      else
+        cases.push_back({"u", part});
+    }
+    return cases;
+  }
+
+  std::string short_number(double value)
+  {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+  }
+
+  std::vector<Expected> to_expected(const std::string &key, const std::string &text,
+                                    const std::vector<std::string> &cases, bool is_verdict)
+  {
+    std::vector<Expected> list;
+    for (const std::string &part : split_outside_brackets(text, ';'))
+    {
+      if (part.empty())
+        continue;
+      const auto colon = part.rfind(':');
+      if (colon == std::string::npos)
+        throw InputError(key + ": '" + part + "' has no ':'; write 'method[, case][, series]: " +
+                         (is_verdict ? "verdict'" : "numbers'"));
+      Expected expected;
+      expected.text = part;
+      const auto subject = to_names(part.substr(0, colon));
+      for (std::size_t i = 0; i < subject.size(); ++i)
+        if (i == 0)
+          expected.method = subject[i];
+        else if (subject[i].find('=') != std::string::npos)
+          expected.series = subject[i];
+        else if (std::find(cases.begin(), cases.end(), subject[i]) != cases.end())
+          expected.problem = subject[i];
+        else
+          throw InputError(key + ": '" + subject[i] + "' in '" + part +
+                           "' is neither a case of Problem nor a series like 'm = 3'");
+      if (is_verdict)
+        expected.verdict = trim(part.substr(colon + 1));
+      else
+        expected.values = to_numbers(key, part.substr(colon + 1), ' ');
+      list.push_back(expected);
+    }
+    return list;
+  }
+} // namespace plumbline::scene

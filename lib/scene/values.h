@@ -1,0 +1,29 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace plumbline::scene
+{
+  // From the text of a key to its value. Each throws InputError naming the key and what is allowed.
+
+  std::string trim(const std::string &text);
+  double to_number(const std::string &key, const std::string &text);
+  std::vector<double> to_numbers(const std::string &key, const std::string &text, char separator);
+  std::vector<std::string> to_names(const std::string &text); ///< separated by commas
+
+  /// "x0, y0 : x1, y1; ..."
+  std::vector<geometry::Box> to_boxes(const std::string &key, const std::string &text);
+
+  /// "name: expression; ..." or a single expression, whose case is called "u".
+  std::vector<Case> to_cases(const std::string &text);
+
+  /// "method[, case][, series]: value; ..."; the series is the part with '='.
+  std::vector<Expected> to_expected(const std::string &key, const std::string &text,
+                                    const std::vector<std::string> &cases, bool is_verdict);
+
+  /// A short decimal text, as in series names: 3, 0.4, 2.5.
+  std::string short_number(double value);
+} // namespace plumbline::scene
