@@ -22,7 +22,7 @@ namespace plumbline::report
     /// The grid of panels, in pixels from the upper left corner.
     struct Layout
     {
-      static constexpr double width = 820, left = 74, right = 136, top = 52, bottom = 58;
+      static constexpr double width = 820, left = 74, right = 136, top = 52, bottom = 86;
       static constexpr double column_gap = 24, row_gap = 34, tallest = 380;
       unsigned int n_columns, n_rows;
       double panel_width, panel_height, height;
