@@ -17,9 +17,9 @@ namespace plumbline::app
   };
 
   /// Run a scene, write its report, print the verdicts.
-  /// @return exit code: 0, 1 (an expectation does not hold, with check), 3 (no method gave a
-  /// solution,
-  ///         or charts could not be drawn), 130 (interrupted; what is finished is written)
+  /// @return exit code: 0, 1 (an expectation does not hold, with check), 3 (a method fails that the
+  ///         scene does not expect to, or charts could not be drawn), 130 (interrupted; what is
+  ///         finished is written)
   int run(const RunOptions &options);
 
   /// Rebuild tables, charts and page of a folder from its results.json.

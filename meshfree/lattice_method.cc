@@ -1,13 +1,11 @@
 #include "meshfree/lattice_method.h"
 
-#include "base/error.h"
 #include "meshfree/lattice_operator.h"
+#include "meshfree/nodal_field.h"
 #include "meshfree/rules.h"
 #include "study/lattice_solve.h"
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
 #include <utility>
 
 namespace plumbline::meshfree
@@ -55,67 +53,6 @@ namespace plumbline::meshfree
       return load;
     }
 
-    /// Values on nodes as the piecewise constant function K_κ u on the squares around them.
-    struct NodalField
-    {
-      geometry::Lattice lattice;
-      NodeSet nodes;
-      Vector values;
-
-      double value(const Point<2> &x, unsigned int component) const
-      {
-        std::array<int, 2> i{};
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          const double s = (x[d] - lattice.origin()[d]) / lattice.h() - nodes.axis[0].offset;
-          i[d] = std::clamp(static_cast<int>(std::floor(s + .5)), 0, nodes.n[d] - 1);
-        }
-        return values[component * nodes.n_positions() +
-                      static_cast<std::size_t>(i[1]) * nodes.n[0] + i[0]];
-      }
-      void write_vtu(const std::string &file) const;
-    };
-
-    /// A point cloud: one vertex a node, u as point data. VTU in ASCII.
-    void NodalField::write_vtu(const std::string &file) const
-    {
-      std::ofstream out(file);
-      if (!out)
-        throw InputError("cannot write '" + file + "'; give a writable output folder (-o)");
-      const std::size_t n = nodes.n_unknowns() / nodes.n_components;
-      out.precision(17);
-      out << "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n<UnstructuredGrid>\n<Piece "
-             "NumberOfPoints=\""
-          << n << "\" NumberOfCells=\"" << n
-          << "\">\n<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\">\n";
-      for (int j = 0; j < nodes.n[1]; ++j)
-        for (int i = 0; i < nodes.n[0]; ++i)
-          if (nodes.free(0, i, j))
-          {
-            const auto place = nodes.place(0, i, j);
-            out << lattice.point(place[0], place[1]) << " 0\n";
-          }
-      out << "</DataArray></Points>\n<PointData><DataArray type=\"Float64\" Name=\"u\" "
-             "NumberOfComponents=\""
-          << nodes.n_components << "\">\n";
-      for (std::size_t i = 0; i < nodes.n_positions(); ++i)
-        if (nodes.is_free[i] != 0)
-          for (unsigned int c = 0; c < nodes.n_components; ++c)
-            out << values[c * nodes.n_positions() + i] << (c + 1 < nodes.n_components ? ' ' : '\n');
-      const auto list = [&](const std::string &name, const std::string &type, const auto &entry)
-      {
-        out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\">\n";
-        for (std::size_t i = 0; i < n; ++i)
-          out << entry(i) << '\n';
-        out << "</DataArray>\n";
-      };
-      out << "</DataArray></PointData>\n<Cells>\n";
-      list("connectivity", "Int64", [](std::size_t i) { return i; });
-      list("offsets", "Int64", [](std::size_t i) { return i + 1; });
-      list("types", "UInt8", [](std::size_t) { return 1; });
-      out << "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-    }
-
     void describe_weights(const Bonds &bonds, study::Diagnostics &diagnostics)
     {
       diagnostics.n_neighbours = static_cast<unsigned int>(bonds.family.size());
@@ -155,6 +92,8 @@ namespace plumbline::meshfree
         solution.cost.peak_bytes = memory.peak_bytes();
         solution.diagnostics = solved.diagnostics;
         describe_weights(bonds, solution.diagnostics);
+        const auto field = std::make_shared<const NodalField>(
+            NodalField{lattice, nodes, std::move(solved.values)});
         for (int j = 0; j < nodes.n[1]; ++j)
           for (int i = 0; i < nodes.n[0]; ++i)
             if (nodes.free(0, i, j))
@@ -162,13 +101,9 @@ namespace plumbline::meshfree
               const auto place = nodes.place(0, i, j);
               solution.nodes.push_back(lattice.point(place[0], place[1]));
               for (unsigned int c = 0; c < nodes.n_components; ++c)
-                solution.nodal.push_back(
-                    solved.solution[c * nodes.n_positions() +
-                                    static_cast<std::size_t>(j) * nodes.n[0] + i]);
+                solution.nodal.push_back(field->at(c, i, j));
             }
         solution.averages = solution.nodal;
-        const auto field = std::make_shared<const NodalField>(
-            NodalField{lattice, nodes, std::move(solved.solution)});
         solution.value = [field](const Point<2> &x, unsigned int c) { return field->value(x, c); };
         solution.write_vtu = [field](const std::string &file) { field->write_vtu(file); };
         return solution;

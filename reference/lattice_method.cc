@@ -92,25 +92,6 @@ namespace plumbline::reference
       return load;
     }
 
-    /// Data and solution together on positions -1 ... n, for the field.
-    std::vector<double> merge(const NodeSet &nodes, const Vector &solution,
-                              const std::vector<double> &data, int margin)
-    {
-      std::vector<double> values;
-      const std::size_t width = nodes.n[0] + 2 * margin, height = nodes.n[1] + 2 * margin;
-      values.reserve(nodes.n_blocks() * (nodes.n[0] + 2) * (nodes.n[1] + 2));
-      for (std::size_t s = 0; s < nodes.n_blocks(); ++s)
-        for (int j = -1; j <= nodes.n[1]; ++j)
-          for (int i = -1; i <= nodes.n[0]; ++i)
-          {
-            double value = data[(s * height + j + margin) * width + i + margin];
-            if (i >= 0 && j >= 0 && i < nodes.n[0] && j < nodes.n[1])
-              value += solution[(s * nodes.n[1] + j) * nodes.n[0] + i];
-            values.push_back(value);
-          }
-      return values;
-    }
-
     class LatticeMethod : public study::Method
     {
     public:
@@ -193,8 +174,7 @@ namespace plumbline::reference
     const double stencil_seconds = timer.seconds();
     study::LatticeSolve solved = study::solve_on_lattice(
         scene, problem, nodes, stencil, [&] { return load_vector(problem, shapes, nodes); });
-    LatticeField field(problem.lattice, shapes, problem.n_components,
-                       merge(nodes, solved.solution, solved.data, solved.margin));
+    LatticeField field(problem.lattice, shapes, problem.n_components, std::move(solved.values));
     solved.cost.setup_seconds += stencil_seconds;
     solved.cost.peak_bytes = memory.peak_bytes();
     return {std::move(field), nodes, solved.cost, solved.diagnostics};

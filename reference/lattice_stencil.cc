@@ -15,6 +15,16 @@ namespace plumbline::reference
     /// 1], for (a,b) = (0,0), (0,1), (1,1): index (ab n_modes + p) n_modes + q.
     using CellMoments = std::vector<double>;
 
+    /// Gauss points in the radius, exact for the profile times r times the shape functions'
+    /// products.
+    unsigned int n_radii(const physics::Kernel<2> &kernel, unsigned int n_modes)
+    {
+      int exponent = 0;
+      for (const physics::PowerTerm &term : kernel.profile())
+        exponent = std::max(exponent, term.exponent);
+      return std::max(10u, (static_cast<unsigned int>(exponent) + 2 * n_modes) / 2 + 1);
+    }
+
     class MomentTable
     {
     public:
@@ -62,7 +72,7 @@ namespace plumbline::reference
       const Ball ball{Point<2>(), kernel.horizon()};
       const auto cell = geometry::square(Point<2>(i * h, j * h), h);
       const geometry::CutRule rule =
-          geometry::polar_rule(ball, geometry::view(cell), 16, 10, backend);
+          geometry::polar_rule(ball, geometry::view(cell), 16, n_radii(kernel, n_modes_), backend);
 
       CellMoments moments(n_pairs_ * n_modes_ * n_modes_);
       std::vector<double> x(n_modes_), y(n_modes_);

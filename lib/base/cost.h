@@ -6,8 +6,8 @@
 namespace plumbline::base
 {
   /// What one solve cost. CPU seconds are summed over threads; they, not wall time, are compared.
-  /// Not in it: manufacturing the load from a given solution, and comparing with it, which all
-  /// methods share.
+  /// Not in it: comparing, and manufacturing the load from a solution that is smooth, which all
+  /// methods share; a load that is not smooth is evaluated point by point, in the solve.
   struct Cost
   {
     double setup_seconds = 0;   ///< stencil or matrix entries, transforms planned [CPU s]

@@ -15,6 +15,9 @@ namespace plumbline::geometry
     /// A length counts as a whole number of cells if it is one to this fraction of a cell.
     constexpr double whole = 1e-6;
 
+    /// A lattice of this side has 1e8 cells: vectors of gigabytes, and days beyond it.
+    constexpr double most_cells = 10000;
+
     int whole_cells(double length, double h, const Box &box)
     {
       const double cells = length / h;
@@ -24,6 +27,13 @@ namespace plumbline::geometry
         message << "mesh size h = " << h << " does not divide the box [" << box.lower << "; "
                 << box.upper << "] of Domain into whole cells (" << cells
                 << " cells); choose h so that every side is a multiple of it";
+        throw InputError(message.str());
+      }
+      if (cells > most_cells)
+      {
+        std::ostringstream message;
+        message << "mesh size h = " << h << " makes " << cells << " cells along a side, more than "
+                << most_cells << "; choose a larger h (Study/h)";
         throw InputError(message.str());
       }
       return static_cast<int>(std::round(cells));

@@ -10,6 +10,20 @@
 
 namespace plumbline::physics
 {
+  namespace
+  {
+    /// muParser would take 'y = x' for an assignment to y.
+    bool has_assignment(const std::string &text)
+    {
+      const auto is_one_of = [&](std::size_t i, const std::string &set)
+      { return i < text.size() && set.find(text[i]) != std::string::npos; };
+      for (std::size_t i = 0; i < text.size(); ++i)
+        if (text[i] == '=' && !is_one_of(i + 1, "=") && !(i > 0 && is_one_of(i - 1, "=<>!")))
+          return true;
+      return false;
+    }
+  } // namespace
+
   struct Expression::Parsers
   {
     double x = 0, y = 0;
@@ -23,6 +37,9 @@ namespace plumbline::physics
     for (const std::string &part : split_outside_brackets(text_, ','))
       try
       {
+        if (has_assignment(part))
+          throw InputError(key_ + " = '" + part +
+                           "' has a single '='; give the expression alone, and compare by '=='");
         mu::Parser parser;
         parser.DefineVar("x", &parsers_->x);
         parser.DefineVar("y", &parsers_->y);
@@ -39,7 +56,7 @@ namespace plumbline::physics
         for (const auto &constant : constants_)
           names += ", " + constant.first;
         throw InputError(key_ + " = '" + part + "' does not parse: " + error.GetMsg() +
-                         " Write a muParser expression in " + names + ".");
+                         "; write a muParser expression in " + names + ".");
       }
   }
 

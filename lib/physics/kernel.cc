@@ -91,13 +91,26 @@ namespace plumbline::physics
                          "D; use exponents above " + std::to_string(-dim));
   }
 
+  namespace
+  {
+    /// What a unit kernel's limit must be scaled by.
+    double scaling(double wanted, double of_unit_kernel)
+    {
+      if (!(std::abs(of_unit_kernel) > 1e-300))
+        throw InputError(
+            "Kernel/coefficients: the kernel's second moment is 0, so it has no local "
+            "limit to be scaled to; change the coefficients, or write Kernel/limit = none");
+      return wanted / of_unit_kernel;
+    }
+  } // namespace
+
   template <int dim>
   Kernel<dim> Kernel<dim>::with_diffusion(std::vector<PowerTerm> profile, double horizon,
                                           double diffusion)
   {
     const Kernel unit(Structure::scalar, profile, horizon, 1);
     return Kernel(Structure::scalar, std::move(profile), horizon,
-                  diffusion / unit.limit().diffusion);
+                  scaling(diffusion, unit.limit().diffusion));
   }
 
   template <int dim>
@@ -105,7 +118,8 @@ namespace plumbline::physics
                                              double kappa)
   {
     const Kernel unit(Structure::tensor, profile, horizon, 1);
-    return Kernel(Structure::tensor, std::move(profile), horizon, .6 * kappa / unit.limit().mu);
+    return Kernel(Structure::tensor, std::move(profile), horizon,
+                  scaling(.6 * kappa, unit.limit().mu));
   }
 
   template <int dim>

@@ -73,7 +73,7 @@ namespace plumbline::physics
 
   double ManufacturedLoad::operator()(const Point<2> &x, unsigned int component) const
   {
-    constexpr double settled = 1e-14, acceptable = 1e-9;
+    constexpr double settled = 1e-14, acceptable = 1e-12;
     Integral coarse = integrate(kernel_, u_, x, component, 6, 12);
     double change = 0, scale = 0;
     for (unsigned int n = 12; n <= 192; n *= 2)

@@ -15,7 +15,7 @@ namespace plumbline::physics
     /// @throws InputError  u has too few components for the kernel
     ManufacturedLoad(Kernel<2> kernel, Expression u);
 
-    /// @throws NumericalError  the quadrature does not settle to 1e-9
+    /// @throws NumericalError  the quadrature does not settle to 1e-12
     double operator()(const Point<2> &x, unsigned int component) const;
 
   private:

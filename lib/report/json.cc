@@ -61,6 +61,7 @@ namespace plumbline::report
       a("horizon", run.horizon);
       a("cost", run.cost);
       a("diagnostics", run.diagnostics);
+      a("size", run.size);
       a("errors", run.errors);
       a("failure", run.failure);
     }
@@ -76,6 +77,7 @@ namespace plumbline::report
       a("parameter", trend.parameter);
       a("x", trend.x);
       a("values", trend.values);
+      a("size", trend.size);
       a("rates", trend.rates);
       a("rate", trend.rate);
       a("rate_uncertainty", trend.rate_uncertainty);

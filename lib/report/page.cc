@@ -49,7 +49,8 @@ namespace plumbline::report
           text += "<small>" + rounded_error(trend->values.back()) + "</small>";
         // Between errors of the size of rounding a rate is noise.
         const std::size_t n = trend->values.size();
-        if (n > 0 && std::max(trend->values[n - 1], trend->values[n < 2 ? 0 : n - 2]) < round_off)
+        if (n > 0 && std::max(trend->values[n - 1], trend->values[n < 2 ? 0 : n - 2]) <
+                         round_off * trend->size)
           text += "<small>round-off</small>";
         else if (!trend->rates.empty() && std::isfinite(trend->rates.back()))
         {

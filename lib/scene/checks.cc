@@ -4,20 +4,56 @@
 #include "physics/expression.h"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 namespace plumbline::scene
 {
   using physics::split_outside_brackets;
 
+  namespace
+  {
+    /// Beyond this ratio a stencil alone takes gigabytes.
+    constexpr double most_ratio = 2000;
+
+    /// Coarse to fine and nothing twice: rates and names rest on it.
+    void check_order(const Scene &scene)
+    {
+      const bool is_h = scene.regime != Regime::horizon;
+      std::set<std::string> names;
+      for (const Series &series : scene.series)
+      {
+        if (!names.insert(series.name).second)
+          throw InputError("Study: the series '" + series.name +
+                           "' comes twice; give each ratio, horizon or mesh size once");
+        for (std::size_t i = 1; i < series.levels.size(); ++i)
+          if (!(is_h ? series.levels[i].h < series.levels[i - 1].h
+                     : series.levels[i].horizon < series.levels[i - 1].horizon))
+            throw InputError(std::string(is_h ? "Study/h" : "Study/horizon") +
+                             " must run from large to small without repetition (series '" +
+                             series.name + "')");
+      }
+      std::set<std::string> cases;
+      for (const std::string &name : scene.case_names())
+        if (!cases.insert(name).second)
+          throw InputError("Problem: two cases are called '" + name +
+                           "'; write 'name: expression; name: expression' with different names");
+    }
+  } // namespace
+
   void check_levels(const Scene &scene)
   {
+    check_order(scene);
     for (const Series &series : scene.series)
       for (const Level &level : series.levels)
       {
         std::ostringstream message;
         if (!(level.h > 0))
           message << "Study/h = " << level.h << " must be a positive length";
+        else if (level.horizon > most_ratio * level.h)
+          message << "the horizon " << level.horizon << " is " << level.horizon / level.h
+                  << " mesh sizes, more than " << most_ratio
+                  << "; choose a larger h or a smaller horizon (Study)";
         else if (level.horizon < level.h * (1 - 1e-12))
           message << "the horizon " << level.horizon << " is smaller than the mesh size " << level.h
                   << " (m = " << level.horizon / level.h
@@ -98,6 +134,12 @@ namespace plumbline::scene
     if (parts[1] == "exact" && scene.solutions.empty())
       throw InputError("Study/decisive error = '" + scene.decisive_error +
                        "' needs Problem/solution, which is empty; use the target reference");
+    if (parts[1] == "local" &&
+        (scene.local_solution == "solution" || scene.local_solution == "none"))
+      throw InputError(
+          "Study/decisive error = '" + scene.decisive_error +
+          "' needs Problem/local solution as an expression; where it is the solution itself, "
+          "take the target exact");
     if (parts[1] == "reference" && scene.reference == "none")
       throw InputError("Study/decisive error = '" + scene.decisive_error +
                        "' needs Reference/method, which is none");

@@ -106,7 +106,7 @@ namespace plumbline::scene
           {"Study", "regime", "delta", one_of("m|delta|delta-m|horizon"),
            "m: horizon fixed, h to 0. delta: m = horizon / h fixed, h to 0 (decides asymptotic "
            "compatibility). delta-m: pairs of h and m. horizon: h fixed, horizon varies."},
-          {"Study", "h", "0.1, 0.05, 0.025", text(),
+          {"Study", "h", "0.1, 0.05, 0.025, 0.0125", text(),
            "Mesh sizes, separated by ',', coarse to fine. [length]"},
           {"Study", "m", "3", text(), "Ratios horizon / h, real numbers >= 1 (delta, delta-m)."},
           {"Study", "horizon", "0.4", text(), "Horizons (m, horizon). [length]"},
@@ -131,7 +131,8 @@ namespace plumbline::scene
           {"Solver", "operator", "automatic", one_of("automatic|fft|direct|sparse"),
            "How the operator is applied: by Fourier transforms, by the shared stencil, by a sparse "
            "Trilinos matrix, or whichever of the first two is faster."},
-          {"Solver", "tolerance", "1e-12", positive(), "Relative residual of the linear system."},
+          {"Solver", "tolerance", "1e-12", std::make_shared<Patterns::Double>(1e-15, 1e-3),
+           "Relative residual of the linear system."},
           {"Solver", "max iterations", "1000", count(1), "Most iterations of conjugate gradients."},
 
           {"Output", "fields", "false", yes_or_no(),
@@ -191,14 +192,6 @@ namespace plumbline::scene
       if (!key.section.empty())
         parameters.leave_subsection();
     }
-  }
-
-  std::vector<std::string> all_keys()
-  {
-    std::vector<std::string> names;
-    for (const Key &key : keys())
-      names.push_back(path(key));
-    return names;
   }
 
   std::string get(dealii::ParameterHandler &parameters, const std::string &name)

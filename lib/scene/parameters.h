@@ -10,9 +10,6 @@ namespace plumbline::scene
   /// named.
   void declare(dealii::ParameterHandler &parameters);
 
-  /// A flat list of all keys as "Section/key".
-  std::vector<std::string> all_keys();
-
   /// The value of "Section/key" (or of a key outside sections).
   std::string get(dealii::ParameterHandler &parameters, const std::string &key);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 namespace plumbline::scene
@@ -130,6 +131,21 @@ namespace plumbline::scene
         expected.verdict = trim(part.substr(colon + 1));
       else
         expected.values = to_numbers(key, part.substr(colon + 1), ' ');
+      if (!is_verdict && expected.values.empty())
+        throw InputError(key + ": '" + part + "' has no numbers after the ':'");
+      static const std::set<std::string> verdicts = {"AC",
+                                                     "not AC",
+                                                     "m-convergent",
+                                                     "not m-convergent",
+                                                     "delta-m-convergent",
+                                                     "not delta-m-convergent",
+                                                     "undecided",
+                                                     "failed"};
+      if (is_verdict && verdicts.count(expected.verdict) == 0)
+        throw InputError(
+            key + ": '" + expected.verdict +
+            "' is not a verdict; write AC, m-convergent or delta-m-convergent, each with or "
+            "without 'not', undecided, or failed");
       list.push_back(expected);
     }
     return list;

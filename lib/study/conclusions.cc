@@ -41,6 +41,33 @@ namespace plumbline::study
       }
     }
 
+    bool is_against_reference(const std::string &error)
+    {
+      const std::string target = "| reference";
+      return error.size() >= target.size() &&
+             error.compare(error.size() - target.size(), target.size(), target) == 0;
+    }
+
+    /// A difference to the reference that is not ten times the reference's own estimate decides
+    /// nothing.
+    void doubt_reference(const Results &results, Trend &trend)
+    {
+      if (!is_against_reference(trend.error) || trend.values.empty() ||
+          trend.outcome == Outcome::failed)
+        return;
+      double estimate = 0;
+      for (const ReferenceEstimate &one : results.references)
+        if (one.problem == trend.problem && one.series == trend.series)
+          estimate = one.estimate; // of the finest level, the last one
+      if (trend.values.back() < 10 * estimate)
+      {
+        trend.outcome = Outcome::undecided;
+        trend.reason = "the last difference " + number(trend.values.back()) +
+                       " is not ten times the reference's own estimate " + number(estimate) +
+                       ": take a better reference (Reference/method)";
+      }
+    }
+
     /// The errors of one method, case and series over its levels.
     Trend collect(const scene::Scene &scene, const Results &results, const Run &first,
                   const std::string &error)
@@ -58,17 +85,20 @@ namespace plumbline::study
             run.series != first.series)
           continue;
         const auto value = run.errors.find(error);
-        if (!run.failure.empty() || value == run.errors.end())
+        if (!run.failure.empty())
         {
           trend.outcome = Outcome::failed;
           trend.reason = run.failure;
-          continue;
         }
+        if (value == run.errors.end())
+          continue;
+        trend.size = std::max(trend.size, run.size);
         trend.x.push_back(trend.parameter == "h" ? run.h : run.horizon);
         trend.values.push_back(value->second);
       }
       if (trend.outcome != Outcome::failed)
         judge(trend);
+      doubt_reference(results, trend);
       if (scene.regime == scene::Regime::horizon && trend.outcome != Outcome::failed)
       {
         // no limit is approached: the rate tells how the error depends on the horizon
@@ -92,7 +122,10 @@ namespace plumbline::study
             for (const auto &entry : other.errors)
               errors.insert(entry.first);
         for (const std::string &error : errors)
-          results.trends.push_back(collect(scene, results, run, error));
+          // the reference held against itself says nothing
+          if (!is_against_reference(error) || results.references.empty() ||
+              run.method != results.references.front().method)
+            results.trends.push_back(collect(scene, results, run, error));
       }
     }
 

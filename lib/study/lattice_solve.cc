@@ -30,6 +30,26 @@ namespace plumbline::study
               }
       return data;
     }
+
+    /// Solution and data together on positions -1 ... n.
+    std::vector<double> merge(const geometry::NodeSet &nodes, const algebra::Vector &solution,
+                              const std::vector<double> &data, int margin)
+    {
+      std::vector<double> values;
+      const std::size_t width = nodes.n[0] + 2 * margin, height = nodes.n[1] + 2 * margin;
+      values.reserve(static_cast<std::size_t>(nodes.n_blocks()) * (nodes.n[0] + 2) *
+                     (nodes.n[1] + 2));
+      for (std::size_t s = 0; s < nodes.n_blocks(); ++s)
+        for (int j = -1; j <= nodes.n[1]; ++j)
+          for (int i = -1; i <= nodes.n[0]; ++i)
+          {
+            double value = data[(s * height + j + margin) * width + i + margin];
+            if (i >= 0 && j >= 0 && i < nodes.n[0] && j < nodes.n[1])
+              value += solution[(s * nodes.n[1] + j) * nodes.n[0] + i];
+            values.push_back(value);
+          }
+      return values;
+    }
   } // namespace
 
   LatticeSolve solve_on_lattice(const scene::Scene &scene, const scene::Problem &problem,
@@ -51,13 +71,14 @@ namespace plumbline::study
     result.cost.setup_seconds = timer.seconds();
 
     timer.restart();
-    result.margin = stencil.reach();
-    result.data = collar_data(problem, nodes, result.margin);
+    const int margin = stencil.reach();
+    const auto data = collar_data(problem, nodes, margin);
     algebra::Vector right_hand_side = load();
-    right_hand_side -= collar_action(stencil, nodes, result.data);
-    result.solution.reinit(nodes.size());
-    const auto solved = algebra::solve(*matrix, preconditioner, result.solution, right_hand_side,
+    right_hand_side -= collar_action(stencil, nodes, data);
+    algebra::Vector solution(nodes.size());
+    const auto solved = algebra::solve(*matrix, preconditioner, solution, right_hand_side,
                                        scene.tolerance, scene.max_iterations);
+    result.values = merge(nodes, solution, data, margin);
     result.cost.solve_seconds = timer.seconds();
     result.cost.n_unknowns = nodes.n_unknowns();
     result.cost.n_bonds = matrix->n_bonds();

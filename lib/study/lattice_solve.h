@@ -8,10 +8,9 @@ namespace plumbline::study
   /// The solution of a translation-invariant problem on a lattice, as both sides need it.
   struct LatticeSolve
   {
-    algebra::Vector solution; ///< over the free nodes, shape of the NodeSet
-    std::vector<double>
-        data; ///< the constraint around them, shape (n_blocks, n[1] + 2 margin, n[0] + 2 margin)
-    int margin;
+    /// Solution and, around it, the constraint, at positions -1 ... n of each axis: shape
+    /// (n_blocks, n[1] + 2, n[0] + 2).
+    std::vector<double> values;
     base::Cost cost; ///< operator and solver; what came before is the caller's to add
     Diagnostics diagnostics;
   };

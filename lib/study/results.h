@@ -34,6 +34,7 @@ namespace plumbline::study
     double h = 0, horizon = 0; ///< [length]
     base::Cost cost;
     Diagnostics diagnostics;
+    double size = 0;                      ///< of the solution: max |cell average|
     std::map<std::string, double> errors; ///< by "norm | target", e.g. "nodal Linf | exact"
     std::string failure;                  ///< empty, or why there is no solution
   };
@@ -51,11 +52,12 @@ namespace plumbline::study
   struct Trend
   {
     std::string method, family, problem, series;
-    std::string error;                           ///< "norm | target"
-    std::string parameter;                       ///< what varies: "h" or "horizon"
-    std::vector<double> x;                       ///< its values, coarse to fine [length]
-    std::vector<double> values;                  ///< the errors
-    std::vector<double> rates;                   ///< between neighbours, size x.size() - 1
+    std::string error;          ///< "norm | target"
+    std::string parameter;      ///< what varies: "h" or "horizon"
+    std::vector<double> x;      ///< its values, coarse to fine [length]
+    std::vector<double> values; ///< the errors
+    double size = 0;            ///< of the solution, max |u|: what round-off is relative to
+    std::vector<double> rates;  ///< between neighbours, size x.size() - 1
     double rate = 0, rate_uncertainty = 0;       ///< slope of the last three levels, log over log
     double plateau = 0, plateau_uncertainty = 0; ///< a of the fit
     Outcome outcome = Outcome::undecided;

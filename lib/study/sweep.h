@@ -21,8 +21,8 @@ namespace plumbline::study
   /// @throws InputError  unknown name, or a named method that cannot do the scene, with the reason
   Methods choose_methods(const scene::Scene &scene, const Methods &available);
 
-  /// Check that expressions are finite in Ω and its collar on a grid of samples, for all cases and
-  /// levels.
+  /// Check that expressions are finite in Ω and its collar on a grid of samples: for all cases and
+  /// series, at the level whose ball reaches farthest.
   /// @throws InputError  naming key and place
   void check_data(const scene::Scene &scene);
 

@@ -9,7 +9,7 @@ namespace plumbline::study
 {
   namespace
   {
-    /// Errors of fields of size one are round-off of entries, loads and solver below this.
+    /// Errors below this, relative to the solution, are round-off of entries, loads and solver.
     constexpr double round_off = 1e-10;
 
     struct LinearFit
@@ -67,18 +67,6 @@ namespace plumbline::study
   PlateauFit fit_plateau(const std::vector<double> &x, const std::vector<double> &e)
   {
     PlateauFit fit = best_fit(x, e);
-    if (x.size() == 3)
-    {
-      // nothing to leave out: the spread between first and second order extrapolation of the last
-      // pair
-      const auto extrapolate = [&](double p)
-      {
-        const double ratio = std::pow(x[1] / x[2], p);
-        return (ratio * e[2] - e[1]) / (ratio - 1);
-      };
-      fit.a_uncertainty = std::abs(extrapolate(1) - extrapolate(2));
-      return fit;
-    }
     for (std::size_t left_out = 0; left_out < x.size(); ++left_out)
     {
       auto fewer_x = x, fewer_e = e;
@@ -117,28 +105,35 @@ namespace plumbline::study
     for (std::size_t i = 1; i < trend.x.size(); ++i)
       trend.rates.push_back(std::log(trend.values[i] / trend.values[i - 1]) /
                             std::log(trend.x[i] / trend.x[i - 1]));
-    const double largest =
-        trend.values.empty() ? 0 : *std::max_element(trend.values.begin(), trend.values.end());
-    if (!trend.values.empty() && largest < round_off)
+    trend.outcome = Outcome::undecided;
+    if (trend.x.size() < 4)
     {
-      trend.outcome = Outcome::converges;
-      trend.reason = "exact to round-off, largest error " + number(largest);
+      trend.reason = "fewer than four levels: run more (Study/h, --levels)";
       return;
     }
 
+    const double floor = round_off * trend.size;
     std::vector<double> x, e;
     for (std::size_t i = 0; i < trend.x.size(); ++i)
-      if (trend.values[i] > round_off)
+      if (trend.values[i] > floor)
       {
         x.push_back(trend.x[i]);
         e.push_back(trend.values[i]);
       }
-    if (x.size() < 3)
+    if (trend.values.back() <= floor)
     {
-      trend.outcome = Outcome::undecided;
-      trend.reason = "fewer than three levels above round-off";
+      trend.outcome = Outcome::converges;
+      trend.reason =
+          (e.empty() ? "exact to round-off, largest error " : "reaches round-off, from ") +
+          number(*std::max_element(trend.values.begin(), trend.values.end()));
       return;
     }
+    if (x.size() < 4)
+    {
+      trend.reason = "fewer than four levels above round-off";
+      return;
+    }
+
     const PlateauFit fit = fit_plateau(x, e);
     const Slope slope = fit_slope({x.end() - 3, x.end()}, {e.end() - 3, e.end()});
     const double last = e.back(), smallest = *std::min_element(e.begin(), e.end());
@@ -147,8 +142,12 @@ namespace plumbline::study
     trend.rate = slope.value;
     trend.rate_uncertainty = slope.uncertainty;
 
+    // a plateau is nil if it is small beside the last error, or not so small but not significant
+    // either
     const bool is_significant = fit.a > 3 * fit.a_uncertainty;
-    const bool is_nil = !is_significant || fit.a < .1 * last;
+    const bool is_nil =
+        std::abs(fit.a) < .1 * last || (!is_significant && std::abs(fit.a) < .3 * last);
+    const bool is_certain = fit.a > 10 * fit.a_uncertainty;
     const std::string numbers = "plateau " + number(fit.a) + " ± " + number(fit.a_uncertainty) +
                                 ", last error " + number(last) + ", rate " + number(slope.value) +
                                 " ± " + number(slope.uncertainty);
@@ -157,21 +156,19 @@ namespace plumbline::study
       trend.outcome = Outcome::stalls;
       trend.reason = "the error grows again, from " + number(smallest) + " to " + number(last);
     }
-    else if (is_nil && slope.value >= .75)
+    else if (is_nil && slope.value - 2 * slope.uncertainty >= .75)
     {
       trend.outcome = Outcome::converges;
       trend.reason = "no plateau: " + numbers;
     }
-    else if ((is_significant && fit.a >= .3 * last) ||
-             (fit.a > 10 * fit.a_uncertainty && fit.a >= .1 * last))
+    else if (fit.a >= .3 * last ? is_significant : is_certain && fit.a >= .1 * last)
     {
       trend.outcome = Outcome::stalls;
       trend.reason = "significant plateau: " + numbers;
     }
     else
-    {
-      trend.outcome = Outcome::undecided;
-      trend.reason = "run one finer level: " + numbers;
-    }
+      trend.reason = (is_nil ? "no plateau, but a rate that is not surely 3/4: "
+                             : "neither nil nor significant, run a finer level: ") +
+                     numbers;
   }
 } // namespace plumbline::study

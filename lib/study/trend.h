@@ -11,7 +11,7 @@ namespace plumbline::study
     double a_uncertainty = 0; ///< how far a moves when one level is left out
   };
 
-  /// @pre at least three levels, x decreasing, e > 0
+  /// @pre at least four levels, x decreasing, e > 0
   PlateauFit fit_plateau(const std::vector<double> &x, const std::vector<double> &e);
 
   /// Slope of log e over log x by least squares, with its standard error.
@@ -21,14 +21,16 @@ namespace plumbline::study
   };
   Slope fit_slope(const std::vector<double> &x, const std::vector<double> &e);
 
-  /// Rates, plateau and outcome from trend.x and trend.values; the rest of the trend is left alone.
+  /// Rates, plateau and outcome from trend.x, trend.values and trend.size; the rest is left alone.
   ///
-  /// - converges: the errors are round-off, or the plateau a is statistically nil (within three
-  ///   uncertainties, or under a tenth of the last error) and the last three levels have slope >=
-  ///   3/4;
-  /// - stalls: a is significant and at least 3/10 of the last error (1/10 if it exceeds ten
-  /// uncertainties),
-  ///   or the error grew to twice the smallest one;
-  /// - undecided: neither, or fewer than three levels.
+  /// - converges: the last error is round-off (1e-10 of the solution's size); or the plateau a is
+  /// nil, under
+  ///   1/10 of the last error, or under 3/10 and within three uncertainties, and the slope of the
+  ///   last three levels is at least 3/4 with two standard errors to spare;
+  /// - stalls: a is at least 3/10 of the last error and exceeds three uncertainties, or 1/10 and
+  /// ten; or the
+  ///   error grew to twice the smallest one;
+  /// - undecided: neither, or fewer than four levels.
+  /// The answer is about the given solution: a method may do better for one than for another.
   void judge(Trend &trend);
 } // namespace plumbline::study

@@ -63,7 +63,7 @@ TEST(Command, writes_everything_that_a_report_needs)
 {
   const fs::path folder = temporary("run");
   const Outcome outcome = plumbline("run " + scene + " -o " + folder.string() +
-                                    " --levels 3 --methods IPA-AC,IPA-AC-R2,Q1 --set "
+                                    " --levels 4 --methods IPA-AC,IPA-AC-R2,Q1 --set "
                                     "Output/fields=true --set Expected/verdicts=");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("not AC"), std::string::npos);
@@ -82,7 +82,7 @@ TEST(Command, writes_everything_that_a_report_needs)
 TEST(Command, check_fails_with_1_when_an_expectation_does_not_hold)
 {
   const std::string common = "run " + scene + " -o " + temporary("check").string() +
-                             " --levels 3 --methods IPA-AC --set Study/m=3 --set Expected/errors= "
+                             " --levels 4 --methods IPA-AC --set Study/m=3 --set Expected/errors= "
                              "--set Expected/rates= --set Expected/bounds= ";
   EXPECT_EQ(plumbline(common + "--check --set 'Expected/verdicts=IPA-AC: not AC'").exit_code, 0);
   const Outcome wrong = plumbline(common + "--check --set 'Expected/verdicts=IPA-AC: AC'");
@@ -125,11 +125,11 @@ TEST(Command, a_run_on_the_exact_geometry_gives_the_same_numbers)
     EXPECT_EQ(
         plumbline(
             "run " + scene + " -o " + temporary("geometry").string() +
-            " --check --levels 3 --methods IPA-AC,Q1 --set Study/m=3 --set Expected/rates= --set "
+            " --check --levels 4 --methods IPA-AC,Q1 --set Study/m=3 --set Expected/rates= --set "
             "Geometry/backend=" +
             backend +
             " --set 'Expected/verdicts=IPA-AC: not AC' --set 'Expected/errors=IPA-AC, case1: "
-            "1.621593e-02 1.421233e-02 1.325684e-02'")
+            "1.621593e-02 1.421233e-02 1.325684e-02 1.279041e-02'")
             .exit_code,
         0)
         << backend;
@@ -142,6 +142,19 @@ TEST(Command, an_output_folder_that_cannot_be_written_is_refused_before_any_work
   const Outcome outcome = plumbline("run " + scene + " -o " + (file / "results").string());
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("cannot be written; give a writable one with -o"), std::string::npos);
+}
+
+TEST(Command, data_that_are_not_finite_at_a_later_level_only_are_found_before_any_work)
+{
+  const fs::path folder = temporary("later"), file = temporary("later.prm");
+  std::ofstream(file) << "subsection Problem\n set solution = sqrt(x + 0.35)\nend\nsubsection "
+                         "Methods\n set names = "
+                         "FA\nend\nsubsection Study\n set regime = delta-m\n set h = 0.1, 0.05\n "
+                         "set m = 2, 10\nend\n";
+  const Outcome outcome = plumbline("run " + file.string() + " -o " + folder.string());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("must be a finite number"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder));
 }
 
 TEST(Command, no_solution_at_all_is_exit_code_3)

@@ -278,6 +278,34 @@ TEST(KernelValue, clips_a_negative_profile_beyond_the_horizon_and_says_so)
   EXPECT_EQ(partial_area(scalar_kernel(2.6, "constant"), h, Backend::fast).notes.size(), 0u);
 }
 
+// K_κ u is piecewise constant: order 1 everywhere, next to the boundary and to a hole as well.
+TEST(LatticeMethods, fields_converge_at_rate_1_up_to_the_boundary)
+{
+  for (const std::string nodes : {"centres", "vertices"})
+    for (const std::string holes : {"", "0.25, 0.25 : 0.5, 0.75"})
+    {
+      const auto scene = scene::parse_scene(
+          "field.prm",
+          "subsection Domain\n set holes = " + holes +
+              "\nend\nsubsection Problem\n set solution = 2 + x + y*y\nend\n"
+              "subsection Methods\n set names = IPA-AC-R2\n set nodes = " +
+              nodes +
+              "\nend\nsubsection Study\n set h = 0.125\n set norms = nodal Linf, field "
+              "Linf\nend\n");
+      for (const auto &method : lattice_methods())
+        if (method->name() == "IPA-AC-R2")
+        {
+          const auto error = [&](double size)
+          {
+            const auto problem = make_problem(scene, 0, {size, 3 * size});
+            return study::errors(scene, problem, method->solve(scene, problem), {})
+                .at("field Linf | exact");
+          };
+          EXPECT_NEAR(std::log2(error(.0625) / error(.03125)), 1, .1) << nodes << ' ' << holes;
+        }
+    }
+}
+
 TEST(LatticeMethods, vertex_nodes_have_the_boundary_among_the_data)
 {
   const auto text = [](const std::string &nodes)

@@ -140,6 +140,13 @@ TEST(Kernel, rejects_what_cannot_be_a_kernel)
                   Kernel<2>(Structure::scalar, {{1, -2}}, 1, 1);
                 }),
             "kernel: the profile term r^-2 is not integrable in 2D; use exponents above -2");
+  // ∫ (4 - 5 t) t³ dt = 0
+  EXPECT_NE(message(
+                [] {
+                  Kernel<2>::with_diffusion({{4, 0}, {-5, 1}}, 1, 1);
+                })
+                .find("second moment is 0"),
+            std::string::npos);
   EXPECT_NE(message([] { kernel_type("gauss"); }).find("choose one of: linear-decay, constant"),
             std::string::npos);
 }

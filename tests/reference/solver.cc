@@ -105,16 +105,12 @@ TEST(LatticeGalerkin, every_space_has_its_own_optimal_rate_for_a_smooth_field)
             .2);
 }
 
-TEST(LatticeGalerkin, continuous_and_discontinuous_solutions_agree_within_their_errors)
+TEST(LatticeGalerkin, continuous_and_discontinuous_solutions_agree)
 {
   const auto scene = make_scene(tensor_kernel, trigonometric_vector);
   const auto problem = make_problem(scene, 0, {1. / 24, .2});
   const auto q2 = method("Q2")->solve(scene, problem), dg2 = method("DGQ2")->solve(scene, problem);
-  const auto exact = study::cell_averages(*problem.solution, problem.lattice,
-                                          study::comparison_nodes(scene, problem.lattice, 2));
   const double h = problem.lattice.h();
-  EXPECT_LE(study::averages_l2(q2.averages, dg2.averages, h),
-            study::averages_l2(q2.averages, exact, h) + study::averages_l2(dg2.averages, exact, h));
   EXPECT_LT(study::averages_l2(q2.averages, dg2.averages, h), 1e-5);
 }
 
@@ -125,7 +121,7 @@ TEST(Preconditioner, iterations_stay_below_16_for_scalar_and_26_for_tensor_kerne
     const auto scene = is_tensor ? make_scene(tensor_kernel, trigonometric_vector)
                                  : make_scene(scalar_kernel, trigonometric);
     const unsigned int bound = is_tensor ? 26 : 16;
-    for (const int n : {32, 64, 128, 256})
+    for (const int n : {32, 64, 128, 256, 1024})
       for (const double horizon : {.1, 3. / n})
         EXPECT_LE(n_iterations(scene, AxisShapes(true, 1), 1. / n, horizon), bound)
             << "n = " << n << ", horizon = " << horizon;

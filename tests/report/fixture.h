@@ -65,6 +65,7 @@ namespace plumbline::report::fixture
                              "horizon",
                              {},
                              {},
+                             1,
                              {},
                              model.rate,
                              .03,

@@ -207,8 +207,9 @@ namespace plumbline::report
     for (const double factor : {.99, 1.01})
     {
       study::Trend trend;
-      trend.x = {.4, .2, .1};
-      trend.values = std::vector<double>(3, factor * round_off);
+      trend.x = {.8, .4, .2, .1};
+      trend.size = 3;
+      trend.values = std::vector<double>(4, factor * round_off * trend.size);
       study::judge(trend);
       EXPECT_EQ(holds(trend.reason, "exact to round-off"), factor < 1) << trend.reason;
     }

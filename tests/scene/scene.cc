@@ -47,7 +47,7 @@ TEST(Scene, defaults_make_a_delta_convergence_study)
   EXPECT_EQ(scene.name, "test");
   ASSERT_EQ(scene.series.size(), 1u);
   EXPECT_EQ(scene.series[0].name, "m = 3");
-  ASSERT_EQ(scene.series[0].levels.size(), 3u);
+  ASSERT_EQ(scene.series[0].levels.size(), 4u);
   EXPECT_DOUBLE_EQ(scene.series[0].levels[1].horizon, .15);
   EXPECT_EQ(scene.case_names(), std::vector<std::string>{"u"});
   EXPECT_NEAR(scene.kernel(.3).limit().diffusion, .5, 1e-14);
@@ -123,7 +123,7 @@ TEST(SceneErrors, levels_that_do_not_fit)
   expect_error(section("Study", "h = -0.1"), "must be a positive length");
   expect_error(section("Domain", "collar = 0.1"),
                "Domain/collar = 0.1 is thinner than the horizon 0.3");
-  expect_error(section("Study", "regime = delta-m"), "Study/m has 1 values and Study/h has 3");
+  expect_error(section("Study", "regime = delta-m"), "Study/m has 1 values and Study/h has 4");
   expect_error(section("Domain", "boxes = 0, 0 : 1"), "'0, 0 : 1' is not a box");
   expect_error(section("Domain", "boxes = 1, 1 : 0, 2"), "is empty; its second corner");
 }
@@ -146,7 +146,7 @@ TEST(SceneErrors, expressions_and_targets)
 {
   expect_error(section("Problem", "solution = x^^2"), "Problem/solution = 'x^^2' does not parse");
   expect_error(section("Problem", "solution = sin(z)"),
-               "Write a muParser expression in x, y, pi, delta");
+               "write a muParser expression in x, y, pi, delta");
   expect_error(section("Problem", "solution ="), "needs Problem/solution");
   expect_error(section("Study", "norms = H1"), "'H1' is not a norm");
   expect_error(section("Study", "decisive error = nodal Linf"), "must be 'norm | target'");
@@ -156,6 +156,25 @@ TEST(SceneErrors, expressions_and_targets)
   expect_error(section("Expected", "verdicts = Q1 AC"), "has no ':'");
   expect_error(section("Expected", "errors = Q1, case9: 1"),
                "'case9' in 'Q1, case9: 1' is neither a case");
+}
+
+TEST(SceneErrors, what_would_merge_or_mislead_silently)
+{
+  expect_error(section("Study", "h = 0.05, 0.1"), "Study/h must run from large to small");
+  expect_error(section("Study", "h = 0.1, 0.1, 0.05"), "without repetition");
+  expect_error(section("Study", "m = 3, 3"), "the series 'm = 3' comes twice");
+  expect_error(
+      "subsection Study\n set regime = horizon\n set h = 0.1\n set horizon = 0.2, 0.4\nend\n",
+      "Study/horizon must run from large to small");
+  expect_error(section("Problem", "solution = x; y"), "two cases are called 'u'");
+  expect_error(section("Problem", "solution = y = x"), "has a single '='");
+  expect_error(section("Study", "decisive error = nodal Linf | local"),
+               "needs Problem/local solution");
+  expect_error(section("Study", "h = 1e-6"), "cells along a side, more than 10000");
+  expect_error(section("Expected", "verdicts = Q1: fine"), "'fine' is not a verdict");
+  expect_error(section("Expected", "errors = Q1:"), "has no numbers");
+  expect_error("", "Solver/tolerance = '2' is not allowed", {{"Solver/tolerance", "2"}});
+  EXPECT_NO_THROW(parse(section("Problem", "solution = x >= 0.5 ? 1 : y")));
 }
 
 TEST(SceneErrors, a_file_that_is_not_there)

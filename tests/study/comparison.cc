@@ -34,6 +34,7 @@ namespace
       const double error = plateau_ + std::pow(problem.lattice.h(), rate_);
       const auto cells = comparison_nodes(scene, problem.lattice, problem.n_components);
       Solution solution;
+      solution.cost.solve_seconds = 1; // long enough not to be repeated for its time
       for (int j = 0; j < cells.n[1]; ++j)
         for (int i = 0; i < cells.n[0]; ++i)
           if (cells.free(0, i, j))

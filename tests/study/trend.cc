@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 using namespace plumbline::study;
 
@@ -14,6 +15,7 @@ namespace
   {
     Trend trend;
     trend.x = x;
+    trend.size = 1;
     trend.values = errors;
     judge(trend);
     return trend;
@@ -77,7 +79,7 @@ TEST(Judge, a_ragged_error_is_not_called_either_way)
 {
   const Trend trend = judged(h, {1e-2, 6e-3, 5e-3, 2.4e-3, 2.1e-3});
   EXPECT_EQ(trend.outcome, Outcome::undecided);
-  EXPECT_NE(trend.reason.find("one finer level"), std::string::npos);
+  EXPECT_NE(trend.reason.find("not surely 3/4"), std::string::npos) << trend.reason;
 }
 
 TEST(Judge, round_off_converges_and_levels_at_round_off_do_not_count)
@@ -86,8 +88,45 @@ TEST(Judge, round_off_converges_and_levels_at_round_off_do_not_count)
   EXPECT_EQ(judged(h, {1e-3, 6.25e-5, 3.9e-6, 2.4e-7, 2e-11}).outcome, Outcome::converges);
 }
 
-TEST(Judge, two_levels_are_not_enough)
+TEST(Judge, fewer_than_four_levels_are_not_enough)
 {
-  EXPECT_EQ(judged({.1, .05}, {1e-2, 2.5e-3}).outcome, Outcome::undecided);
+  EXPECT_EQ(judged({.1, .05, .025}, {1e-2, 2.5e-3, 6.25e-4}).outcome, Outcome::undecided);
   EXPECT_EQ(judged({}, {}).outcome, Outcome::undecided);
+}
+
+TEST(Judge, the_unit_of_the_solution_does_not_matter)
+{
+  const std::vector<std::vector<double>> sequences = {{1.62e-2, 1.42e-2, 1.32e-2, 1.27e-2, 1.25e-2},
+                                                      {1e-2, 2.5e-3, 6.2e-4, 1.6e-4, 4e-5},
+                                                      {1e-14, 3e-14, 1e-13, 4e-13, 2e-12},
+                                                      {5e-2, 1.4e-2, 2.9e-3, 1e-2, 1.5e-2}};
+  for (const auto &errors : sequences)
+    for (const double scale : {1e-9, 1e6})
+    {
+      Trend trend;
+      trend.x = h;
+      trend.size = scale;
+      for (const double error : errors)
+        trend.values.push_back(scale * error);
+      judge(trend);
+      EXPECT_EQ(trend.outcome, judged(h, errors).outcome) << scale;
+    }
+}
+
+TEST(Judge, a_plateau_that_noise_hides_is_not_called_convergence)
+{
+  const std::vector<double> four = {.1, .05, .025, .0125};
+  unsigned int n_converges = 0;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> noise(-.2, .2);
+  for (int trial = 0; trial < 200; ++trial)
+  {
+    std::vector<double> errors;
+    for (const double size : four)
+      errors.push_back((.01 + size) * (1 + noise(random)));
+    n_converges += judged(four, errors).outcome == Outcome::converges ? 1 : 0;
+  }
+  EXPECT_LT(n_converges, 10u);
+  // the errors of a rule for a load with a jump: a rate, but no certainty
+  EXPECT_NE(judged(four, {4.9e-3, 8.2e-3, 2.3e-3, 1.66e-3}).outcome, Outcome::converges);
 }
