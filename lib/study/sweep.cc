@@ -149,6 +149,10 @@ namespace plumbline::study
         if (take_earlier(name, series, level))
           return;
         const scene::Level &sizes = series.levels[level];
+        if (control_.on_progress)
+          control_.on_progress(name + ", " + series.name + ", level " + std::to_string(level + 1) +
+                                   ": load and reference",
+                               static_cast<double>(n_done) / static_cast<double>(n_all));
         const scene::Problem problem = make_problem(scene_, case_index, sizes);
         ReferenceAverages reference;
         if (scene_.reference != "none")
