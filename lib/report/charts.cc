@@ -189,7 +189,8 @@ namespace plumbline::report
       plot.y_label = is_iterations ? "iterations [1]"
                                    : "error: " + error_words(results.decisive_error) +
                                          " [unit of the solution]";
-      plot.has_slopes = chart.kind == ChartKind::convergence;
+      // with a fixed mesh errors fall as the horizon grows: no order to compare with
+      plot.has_slopes = chart.kind == ChartKind::convergence && !is_horizon;
       plot.shows_round_off = !is_iterations;
 
       double least = std::numeric_limits<double>::max(), most = 0;
