@@ -100,6 +100,8 @@ namespace plumbline::report
       a("h_change", reference.h_change);
       a("p_change", reference.p_change);
       a("estimate", reference.estimate);
+      a("n_geometry_checks", reference.n_geometry_checks);
+      a("geometry_difference", reference.geometry_difference);
     }
 
     template <typename Archive>

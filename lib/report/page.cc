@@ -235,6 +235,13 @@ namespace plumbline::report
           worst = std::max(worst, run.diagnostics.geometry_difference);
           ++n_runs;
         }
+      for (const study::ReferenceEstimate &reference : results.references)
+        if (reference.n_geometry_checks > 0)
+        {
+          n_checks += reference.n_geometry_checks;
+          worst = std::max(worst, reference.geometry_difference);
+          ++n_runs;
+        }
       std::string text;
       if (results.omissions.empty())
         text = paragraph("Nothing that the scene asks for was left out.");

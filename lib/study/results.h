@@ -71,9 +71,11 @@ namespace plumbline::study
     std::string problem, series, method; ///< method: of the reference, e.g. "Q2"
     unsigned int level = 0;
     double h = 0, horizon = 0;
-    double h_change = 0; ///< averages L2: change to h/2
-    double p_change = 0; ///< averages L2: change to degree p + 1
-    double estimate = 0; ///< the larger of the two
+    double h_change = 0;                ///< averages L2: change to h/2
+    double p_change = 0;                ///< averages L2: change to degree p + 1
+    double estimate = 0;                ///< the larger of the two
+    unsigned int n_geometry_checks = 0; ///< cut cells recomputed with the exact backend
+    double geometry_difference = 0;     ///< worst difference among them, relative to the cell
   };
 
   /// Something the scene did not need.

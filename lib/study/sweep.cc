@@ -59,8 +59,11 @@ namespace plumbline::study
                                       const Method &method)
     {
       ReferenceAverages result;
-      result.averages = method.solve(scene, problem).averages;
+      const Solution solution = method.solve(scene, problem);
+      result.averages = solution.averages;
       result.estimate.method = method.name();
+      result.estimate.n_geometry_checks = solution.diagnostics.n_geometry_checks;
+      result.estimate.geometry_difference = solution.diagnostics.geometry_difference;
       if (!scene.estimate_reference)
         return result;
 

@@ -135,6 +135,19 @@ TEST(Command, a_run_on_the_exact_geometry_gives_the_same_numbers)
         << backend;
 }
 
+TEST(Command, a_reference_that_is_no_method_of_the_scene_shows_its_geometry_check_too)
+{
+  const fs::path folder = temporary("reference");
+  const Outcome outcome = plumbline(
+      "run " + scene + " -o " + folder.string() +
+      " --quiet --levels 1 --methods FA --set Reference/method=Q1 --set Expected/verdicts= "
+      "--set Expected/errors= --set Expected/rates= --set Expected/bounds=");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string page = read(folder / "report.html");
+  EXPECT_NE(page.find("runs were recomputed with exact geometry"), std::string::npos);
+  EXPECT_EQ(page.find("no cut cell was recomputed"), std::string::npos);
+}
+
 TEST(Command, an_output_folder_that_cannot_be_written_is_refused_before_any_work)
 {
   const fs::path file = temporary("file");
