@@ -1,6 +1,8 @@
 // plumbline: Galerkin reference solutions for nonlocal models, and verification of meshfree rules.
 
 #include "base/error.h"
+#include "base/team.h"
+#include "check.h"
 #include "run.h"
 
 #include <deal.II/base/mpi.h>
@@ -25,10 +27,17 @@ namespace
     }
     return overrides;
   }
+
+  /// On several ranks one of them says what all of them found.
+  int fail(const std::string &message, int exit_code)
+  {
+    if (plumbline::base::Team::all().rank() == 0)
+      std::cerr << "plumbline: " << message << '\n';
+    return exit_code;
+  }
 } // namespace
 
 int main(int argc, char **argv)
-try
 {
   CLI::App app(
       "Plumbline: reference solutions for nonlocal models, and which meshfree rule to trust.");
@@ -48,6 +57,16 @@ try
   run->add_flag("--check", options.check, "Exit with 1 if the Expected section does not hold");
   run->add_flag("--quiet", options.quiet, "Print nothing but errors");
   run->add_flag("--json", options.json, "Print results.json instead of the verdict table");
+
+  plumbline::app::CheckOptions weights;
+  auto *check = app.add_subcommand("check", "Check quadrature weights of another code");
+  check->add_option("NODES", weights.nodes_file, "Its nodes: CSV with id,x,y,volume")->required();
+  check->add_option("BONDS", weights.bonds_file, "Its bonds: CSV with i,j,weight[,qx,qy]")
+      ->required();
+  check->add_option("--scene", weights.scene_file, "Scene file (.prm or .json)")->required();
+  check->add_option("--set", settings, "Section/key=value, instead of what the file says");
+  check->add_flag("--quiet", weights.quiet, "Print nothing but errors");
+  check->add_flag("--json", weights.json, "Print a JSON object instead of text");
 
   std::string folder, subject, model, key;
   auto *report = app.add_subcommand("report", "Rebuild tables, charts and page from results.json");
@@ -71,31 +90,33 @@ try
 
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(
       argc, argv, n_threads == 0 ? dealii::numbers::invalid_unsigned_int : n_threads);
-  options.overrides = to_overrides(settings);
-  if (*run)
-    return plumbline::app::run(options);
-  if (*report)
-    return plumbline::app::rebuild_report(folder);
-  if (*list)
-    plumbline::app::list(subject);
-  if (*make_template)
-    std::cout << plumbline::scene::scene_template(model);
-  if (*describe)
-    std::cout << plumbline::scene::describe(key);
-  return 0;
-}
-catch (const plumbline::InputError &error)
-{
-  std::cerr << "plumbline: " << error.what() << '\n';
-  return 2;
-}
-catch (const plumbline::NumericalError &error)
-{
-  std::cerr << "plumbline: " << error.what() << '\n';
-  return 3;
-}
-catch (const std::exception &error)
-{
-  std::cerr << "plumbline: unexpected error: " << error.what() << '\n';
-  return 3;
+  try
+  {
+    options.overrides = weights.overrides = to_overrides(settings);
+    if (*run)
+      return plumbline::app::run(options);
+    if (*check)
+      return plumbline::app::check(weights);
+    if (*report)
+      return plumbline::app::rebuild_report(folder);
+    if (*list)
+      plumbline::app::list(subject);
+    if (*make_template)
+      std::cout << plumbline::scene::scene_template(model);
+    if (*describe)
+      std::cout << plumbline::scene::describe(key);
+    return 0;
+  }
+  catch (const plumbline::InputError &error)
+  {
+    return fail(error.what(), 2);
+  }
+  catch (const plumbline::NumericalError &error)
+  {
+    return fail(error.what(), 3);
+  }
+  catch (const std::exception &error)
+  {
+    return fail(std::string("unexpected error: ") + error.what(), 3);
+  }
 }

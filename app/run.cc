@@ -1,8 +1,9 @@
 #include "run.h"
 
 #include "base/error.h"
-#include "meshfree/lattice_method.h"
-#include "reference/lattice_method.h"
+#include "base/team.h"
+#include "meshfree/method.h"
+#include "reference/method.h"
 #include "report/json.h"
 #include "report/report.h"
 #include "study/conclusions.h"
@@ -40,8 +41,8 @@ namespace plumbline::app
     /// The one place that knows both sides.
     study::Methods all_methods()
     {
-      study::Methods methods = meshfree::lattice_methods();
-      for (const auto &method : reference::lattice_methods())
+      study::Methods methods = meshfree::methods();
+      for (const auto &method : reference::methods())
         methods.push_back(method);
       return methods;
     }
@@ -61,18 +62,23 @@ namespace plumbline::app
               {"deal.II", DEAL_II_PACKAGE_VERSION},
               {"compiler", __VERSION__},
               {"processor", processor()},
-              {"threads", std::to_string(dealii::MultithreadInfo::n_threads())}};
+              {"threads", std::to_string(dealii::MultithreadInfo::n_threads())},
+              {"ranks", std::to_string(base::Team::all().n_ranks())}};
     }
 
-    /// Make the folder and try it, so that no work is lost at the end.
+    /// Make the folder and try it, so that no work is lost at the end. @note Collective.
     void prepare_folder(const fs::path &folder)
     {
-      std::error_code error;
-      fs::create_directories(folder, error);
-      const fs::path probe = folder / ".write-test";
-      const bool is_writable = !error && (std::ofstream(probe) << "x").flush().good();
-      fs::remove(probe, error);
-      if (!is_writable)
+      bool is_writable = true;
+      if (base::Team::all().rank() == 0)
+      {
+        std::error_code error;
+        fs::create_directories(folder, error);
+        const fs::path probe = folder / ".write-test";
+        is_writable = !error && (std::ofstream(probe) << "x").flush().good();
+        fs::remove(probe, error);
+      }
+      if (base::Team::all().any(!is_writable))
         throw InputError("output folder '" + folder.string() +
                          "' cannot be written; give a writable one with -o");
     }
@@ -202,6 +208,9 @@ namespace plumbline::app
 
   int run(const RunOptions &options)
   {
+    // every rank runs the scene, and they share the work on meshes; the first one talks and writes
+    const base::Team team = base::Team::all();
+    const bool is_first = team.rank() == 0, is_quiet = options.quiet || !is_first;
     auto overrides = options.overrides;
     if (!options.methods.empty())
       overrides.push_back({"Methods/names", options.methods});
@@ -214,7 +223,8 @@ namespace plumbline::app
         options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
     prepare_folder(folder);
     study::Results earlier = earlier_results(folder, scene);
-    if (!earlier.runs.empty() && !options.quiet)
+    team.wait(); // all have read before the first one writes
+    if (!earlier.runs.empty() && !is_quiet)
       std::cerr << "continuing: " << earlier.runs.size() << " solves are in '" << folder.string()
                 << "' already\n";
     earlier.provenance = provenance();
@@ -223,14 +233,15 @@ namespace plumbline::app
     std::signal(SIGTERM, on_interrupt);
     study::Results results;
     {
-      ProgressLine progress(!options.quiet);
+      ProgressLine progress(!is_quiet);
       study::SweepControl control;
       control.n_levels = options.n_levels;
       control.on_progress = [&](const std::string &what, double f) { progress.show(what, f); };
-      control.on_result = [&](const study::Results &r)
-      { report::write_json(r, folder / "results.json"); };
-      control.should_stop = [] { return is_interrupted != 0; };
-      if (scene.write_fields)
+      if (is_first)
+        control.on_result = [&](const study::Results &r)
+        { report::write_json(r, folder / "results.json"); };
+      control.should_stop = [&] { return team.any(is_interrupted != 0); };
+      if (scene.write_fields && is_first)
         control.on_finest = [&](const study::Solution &solution, const study::Run &run)
         {
           fs::create_directories(folder / "fields");
@@ -238,6 +249,8 @@ namespace plumbline::app
         };
       results = study::run_sweep(scene, methods, available, control, earlier);
     }
+    if (!is_first)
+      return exit_code(results, options.check);
     report::write_report(results, folder);
 
     if (options.json)

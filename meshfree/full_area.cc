@@ -1,18 +1,20 @@
 #include "meshfree/rules.h"
 
-#include <cmath>
-
 namespace plumbline::meshfree
 {
-  Bonds full_area(const Kernel<2> &kernel, double h, Backend)
+  Bond full_area_bond(const Kernel<2> &kernel, const Candidate &candidate)
   {
-    Bonds bonds;
-    for_each_offset(kernel.horizon(), h,
-                    [&](int k1, int k2)
-                    {
-                      if (h * std::hypot(k1, k2) <= kernel.horizon() * (1 + tie_tolerance))
-                        bonds.family.push_back({k1, k2, h * h, Point<2>(k1 * h, k2 * h), h * h});
-                    });
-    return bonds;
+    const bool is_inside = candidate.xi.norm() <= kernel.horizon() * (1 + tie_tolerance);
+    return {candidate.xi, is_inside ? candidate.area : 0, candidate.xi, candidate.area};
+  }
+
+  Bonds full_area(const Kernel<2> &kernel, double h, Backend backend)
+  {
+    return lattice_bonds({full_area_bond}, kernel, h, backend);
+  }
+
+  Families full_area(const Kernel<2> &kernel, const NodeCells &cells, Backend backend)
+  {
+    return {{full_area_bond}, kernel, cells, backend};
   }
 } // namespace plumbline::meshfree

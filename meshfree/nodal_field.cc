@@ -1,12 +1,9 @@
 #include "meshfree/nodal_field.h"
 
-#include "base/error.h"
-
-#include <deal.II/base/data_out_base.h>
+#include "meshfree/vtu.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 namespace plumbline::meshfree
 {
@@ -29,9 +26,6 @@ namespace plumbline::meshfree
 
   void NodalField::write_vtu(const std::string &file) const
   {
-    std::ofstream out(file);
-    if (!out)
-      throw InputError("cannot write '" + file + "'; give a writable output folder (-o)");
     std::vector<dealii::DataOutBase::Patch<0, 2>> points;
     for (int j = 0; j < nodes.n[1]; ++j)
       for (int i = 0; i < nodes.n[0]; ++i)
@@ -46,13 +40,6 @@ namespace plumbline::meshfree
             point.data(c, 0) = static_cast<float>(at(c, i, j));
           points.push_back(point);
         }
-    using dealii::DataComponentInterpretation::component_is_part_of_vector;
-    std::vector<std::tuple<unsigned int, unsigned int, std::string,
-                           dealii::DataComponentInterpretation::DataComponentInterpretation>>
-        vectors;
-    if (nodes.n_components == 2)
-      vectors.emplace_back(0, 1, "u", component_is_part_of_vector);
-    dealii::DataOutBase::write_vtu(points, std::vector<std::string>(nodes.n_components, "u"),
-                                   vectors, dealii::DataOutBase::VtkFlags(), out);
+    meshfree::write_vtu(points, nodes.n_components, file);
   }
 } // namespace plumbline::meshfree

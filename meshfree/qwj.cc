@@ -1,29 +1,24 @@
 #include "meshfree/rules.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace plumbline::meshfree
 {
-  Bonds qwj(const Kernel<2> &kernel, double h, Backend)
+  namespace
   {
-    const double horizon = kernel.horizon();
-    Bonds bonds;
-    bool is_clipped = false;
-    for_each_offset(
-        horizon, h,
-        [&](int k1, int k2)
-        {
-          const double r = h * std::hypot(k1, k2);
-          const double ramp = std::min(1., (horizon + .5 * h - r) / h);
-          if (ramp > tie_tolerance)
-          {
-            bonds.family.push_back({k1, k2, h * h * ramp, Point<2>(k1 * h, k2 * h), h * h});
-            is_clipped = is_clipped || (r > horizon && kernel.radial(r) < 0);
-          }
-        });
-    if (is_clipped)
-      bonds.notes.push_back("kernel negative at nodes beyond the horizon, clipped at 0");
-    return bonds;
+    Bond bond(const Kernel<2> &kernel, const Candidate &candidate)
+    {
+      const double share = ramp(kernel, candidate);
+      return {candidate.xi, share > tie_tolerance ? share * candidate.area : 0, candidate.xi,
+              candidate.area};
+    }
+  } // namespace
+
+  Bonds qwj(const Kernel<2> &kernel, double h, Backend backend)
+  {
+    return lattice_bonds({bond}, kernel, h, backend);
+  }
+
+  Families qwj(const Kernel<2> &kernel, const NodeCells &cells, Backend backend)
+  {
+    return {{bond}, kernel, cells, backend};
   }
 } // namespace plumbline::meshfree

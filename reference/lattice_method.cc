@@ -1,5 +1,6 @@
 #include "reference/lattice_method.h"
 
+#include "reference/geometry_check.h"
 #include "reference/lattice_stencil.h"
 #include "study/lattice_solve.h"
 
@@ -47,19 +48,19 @@ namespace plumbline::reference
     void test_by_cells(const scene::Problem &problem, const AxisShapes &shapes, unsigned int family,
                        unsigned int component, double *block)
     {
-      const auto &n = problem.lattice.n_cells();
-      const double h = problem.lattice.h();
+      const auto &n = problem.lattice->n_cells();
+      const double h = problem.lattice->h();
       const dealii::QGauss<2> gauss(shapes.degree() + 4);
       const auto n_axis = static_cast<unsigned int>(shapes.families().size());
       for (int j = 0; j < n[1]; ++j)
         for (int i = 0; i < n[0]; ++i)
-          if (problem.lattice.is_inside(i, j))
+          if (problem.lattice->is_inside(i, j))
             for (unsigned int q = 0; q < gauss.size(); ++q)
             {
               const Point<2> x = gauss.point(q);
               const double value =
                   h * h * gauss.weight(q) *
-                  problem.load.value(problem.lattice.point(i + x[0], j + x[1]), component);
+                  problem.load.value(problem.lattice->point(i + x[0], j + x[1]), component);
               for (const auto &a : shapes.restrictions(family % n_axis))
                 for (const auto &b : shapes.restrictions(family / n_axis))
                   if (i - a.cell >= 0 && i - a.cell < n[0] && j - b.cell >= 0 && j - b.cell < n[1])
@@ -80,8 +81,8 @@ namespace plumbline::reference
           {
             const auto &series = *problem.load.series;
             const auto values =
-                series.contract(c, test_basis(series, 0, problem.lattice, shapes, s % n_axis),
-                                test_basis(series, 1, problem.lattice, shapes, s / n_axis));
+                series.contract(c, test_basis(series, 0, *problem.lattice, shapes, s % n_axis),
+                                test_basis(series, 1, *problem.lattice, shapes, s / n_axis));
             std::copy(values.begin(), values.end(), load.begin() + block);
           }
           else
@@ -91,76 +92,6 @@ namespace plumbline::reference
           load[i] = 0;
       return load;
     }
-
-    class LatticeMethod : public study::Method
-    {
-    public:
-      LatticeMethod(bool is_continuous, unsigned int degree)
-          : is_continuous_(is_continuous), degree_(degree)
-      {
-      }
-      std::string name() const override
-      {
-        return (is_continuous_ ? "Q" : "DGQ") + std::to_string(degree_);
-      }
-      std::string family() const override { return "reference"; }
-      std::string help() const override
-      {
-        return std::string(is_continuous_ ? "continuous" : "discontinuous") +
-               " Galerkin of degree " + std::to_string(degree_) +
-               " on the lattice, entries exact to round-off" +
-               (degree_ == 0 ? " (not asymptotically compatible)" : "");
-      }
-      std::string why_not(const scene::Scene &) const override { return {}; }
-      std::shared_ptr<const study::Method> higher_degree() const override
-      {
-        return std::make_shared<LatticeMethod>(is_continuous_, degree_ + 1);
-      }
-      study::Solution solve(const scene::Scene &scene,
-                            const scene::Problem &problem) const override;
-
-    private:
-      bool is_continuous_;
-      unsigned int degree_;
-    };
-
-    study::Solution LatticeMethod::solve(const scene::Scene &scene,
-                                         const scene::Problem &problem) const
-    {
-      auto result = std::make_shared<const LatticeSolution>(
-          solve_lattice(scene, problem, AxisShapes(is_continuous_, degree_)));
-      const LatticeField &field = result->field;
-      const NodeSet &nodes = result->nodes;
-
-      study::Solution solution;
-      solution.cost = result->cost;
-      solution.diagnostics = result->diagnostics;
-      const auto check = check_geometry(problem.horizon(), problem.lattice.h(),
-                                        scene.n_geometry_checks, scene.seed);
-      solution.diagnostics.n_geometry_checks = check.n_checked;
-      solution.diagnostics.geometry_difference = check.worst_difference;
-
-      for (unsigned int s = 0; s < nodes.n_families(); ++s)
-        for (int j = 0; j < nodes.n[1]; ++j)
-          for (int i = 0; i < nodes.n[0]; ++i)
-            if (nodes.free(s, i, j))
-            {
-              const Point<2> place = nodes.place(s, i, j);
-              solution.nodes.push_back(problem.lattice.point(place[0], place[1]));
-              const auto local = [&](unsigned int family)
-              { return field.shapes().is_continuous() && family == 0 ? 0 : family; };
-              const auto n_axis = static_cast<unsigned int>(nodes.axis.size());
-              for (unsigned int c = 0; c < nodes.n_components; ++c)
-                solution.nodal.push_back(
-                    field.local(c, i, j, local(s % n_axis), local(s / n_axis)));
-            }
-      solution.averages =
-          field.averages(study::comparison_nodes(scene, problem.lattice, problem.n_components));
-      solution.value = [result](const Point<2> &x, unsigned int c)
-      { return result->field.value(x, c); };
-      solution.write_vtu = [result](const std::string &file) { write_vtu(result->field, file); };
-      return solution;
-    }
   } // namespace
 
   LatticeSolution solve_lattice(const scene::Scene &scene, const scene::Problem &problem,
@@ -168,25 +99,51 @@ namespace plumbline::reference
   {
     const base::MemoryGauge memory;
     const base::CpuTimer timer;
-    const NodeSet nodes = free_nodes(problem.lattice, shapes.families(), problem.n_components);
+    const NodeSet nodes = free_nodes(*problem.lattice, shapes.families(), problem.n_components);
     const auto stencil =
-        galerkin_stencil(problem.kernel, problem.lattice.h(), shapes, scene.backend);
+        galerkin_stencil(problem.kernel, problem.lattice->h(), shapes, scene.backend);
     const double stencil_seconds = timer.seconds();
     study::LatticeSolve solved = study::solve_on_lattice(
         scene, problem, nodes, stencil, [&] { return load_vector(problem, shapes, nodes); });
-    LatticeField field(problem.lattice, shapes, problem.n_components, std::move(solved.values));
+    LatticeField field(*problem.lattice, shapes, problem.n_components, std::move(solved.values));
     solved.cost.setup_seconds += stencil_seconds;
     solved.cost.peak_bytes = memory.peak_bytes();
     return {std::move(field), nodes, solved.cost, solved.diagnostics};
   }
 
-  study::Methods lattice_methods()
+  study::Solution lattice_solution(const scene::Scene &scene, const scene::Problem &problem,
+                                   const AxisShapes &shapes)
   {
-    study::Methods methods;
-    for (unsigned int degree = 1; degree <= 3; ++degree)
-      methods.push_back(std::make_shared<LatticeMethod>(true, degree));
-    for (unsigned int degree = 0; degree <= 2; ++degree)
-      methods.push_back(std::make_shared<LatticeMethod>(false, degree));
-    return methods;
+    auto result = std::make_shared<const LatticeSolution>(solve_lattice(scene, problem, shapes));
+    const LatticeField &field = result->field;
+    const NodeSet &nodes = result->nodes;
+
+    study::Solution solution;
+    solution.cost = result->cost;
+    solution.diagnostics = result->diagnostics;
+    const auto check = check_geometry(problem.horizon(), problem.lattice->h(),
+                                      scene.n_geometry_checks, scene.seed);
+    solution.diagnostics.n_geometry_checks = check.n_checked;
+    solution.diagnostics.geometry_difference = check.worst_difference;
+
+    for (unsigned int s = 0; s < nodes.n_families(); ++s)
+      for (int j = 0; j < nodes.n[1]; ++j)
+        for (int i = 0; i < nodes.n[0]; ++i)
+          if (nodes.free(s, i, j))
+          {
+            const Point<2> place = nodes.place(s, i, j);
+            solution.nodes.push_back(problem.lattice->point(place[0], place[1]));
+            const auto local = [&](unsigned int family)
+            { return field.shapes().is_continuous() && family == 0 ? 0 : family; };
+            const auto n_axis = static_cast<unsigned int>(nodes.axis.size());
+            for (unsigned int c = 0; c < nodes.n_components; ++c)
+              solution.nodal.push_back(field.local(c, i, j, local(s % n_axis), local(s / n_axis)));
+          }
+    solution.averages =
+        field.averages(study::comparison_nodes(scene, *problem.lattice, problem.n_components));
+    solution.value = [result](const Point<2> &x, unsigned int c)
+    { return result->field.value(x, c); };
+    solution.write_vtu = [result](const std::string &file) { write_vtu(result->field, file); };
+    return solution;
   }
 } // namespace plumbline::reference

@@ -5,9 +5,6 @@
 
 namespace plumbline::reference
 {
-  /// Q1, Q2, Q3 (continuous) and DGQ0, DGQ1, DGQ2 (discontinuous) on the scene's lattice.
-  study::Methods lattice_methods();
-
   /// A lattice Galerkin solution with what led to it, for tests and benchmarks.
   struct LatticeSolution
   {
@@ -22,4 +19,8 @@ namespace plumbline::reference
   /// @throws NumericalError  the solver does not converge
   LatticeSolution solve_lattice(const scene::Scene &scene, const scene::Problem &problem,
                                 const AxisShapes &shapes);
+
+  /// The same, as the study compares it, with the geometry checked on a sample of cut cells.
+  study::Solution lattice_solution(const scene::Scene &scene, const scene::Problem &problem,
+                                   const AxisShapes &shapes);
 } // namespace plumbline::reference

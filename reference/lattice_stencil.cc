@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace plumbline::reference
 {
@@ -185,30 +184,5 @@ namespace plumbline::reference
                     mass * r(s % n_axis, t % n_axis, -k1) * r(s / n_axis, t / n_axis, -k2);
       }
     return stencil;
-  }
-
-  GeometryCheck check_geometry(double horizon, double h, unsigned int n_checks, unsigned int seed)
-  {
-    std::vector<std::array<int, 2>> cut;
-    const int n = static_cast<int>(std::ceil(horizon / h));
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i)
-        if (h * std::hypot(i, j) < horizon && h * std::hypot(i + 1, j + 1) > horizon)
-          cut.push_back({i, j});
-    std::shuffle(cut.begin(), cut.end(), std::mt19937(seed));
-    cut.resize(std::min<std::size_t>(cut.size(), n_checks));
-
-    GeometryCheck check{static_cast<unsigned int>(cut.size()), 0};
-    const Ball ball{Point<2>(), horizon};
-    for (const auto &[i, j] : cut)
-    {
-      const auto cell = geometry::square(Point<2>(i * h, j * h), h);
-      const auto fast = geometry::intersect(ball, geometry::view(cell));
-      const auto exact = geometry::intersect(ball, geometry::view(cell), geometry::Backend::cgal);
-      check.worst_difference = std::max(
-          {check.worst_difference, std::abs(fast.area - exact.area) / (h * h),
-           (fast.area * fast.centroid - exact.area * exact.centroid).norm() / (h * h * horizon)});
-    }
-    return check;
   }
 } // namespace plumbline::reference

@@ -15,13 +15,4 @@ namespace plumbline::reference
   /// round-off.
   algebra::Stencil galerkin_stencil(const physics::Kernel<2> &kernel, double h,
                                     const AxisShapes &shapes, geometry::Backend backend);
-
-  /// How far the fast geometry is from the exact one on a sample of the lattice cells that the ball
-  /// around the origin cuts.
-  struct GeometryCheck
-  {
-    unsigned int n_checked;
-    double worst_difference; ///< of area and first moments, relative to the cell
-  };
-  GeometryCheck check_geometry(double horizon, double h, unsigned int n_checks, unsigned int seed);
 } // namespace plumbline::reference

@@ -2,13 +2,14 @@
 
 #include "base/error.h"
 #include "geometry/ball_cell_exact.h"
+#include "geometry/ball_cell_fan.h"
 #include "geometry/ball_cell_moments.h"
+#include "geometry/ball_cell_plane.h"
 #include "geometry/ball_cell_polar.h"
 #include "geometry/ball_cell_walk.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <string>
 
@@ -17,18 +18,6 @@ namespace plumbline::geometry
   namespace
   {
     using namespace detail;
-
-    constexpr double eps = std::numeric_limits<double>::epsilon();
-
-    // ---- what is allowed ------------------------------------------------------------------------
-
-    /// What every algorithm below needs to know about a polygon.
-    struct Shape
-    {
-      double area;
-      Vec lower, upper; ///< bounding box
-      double diagonal_square() const { return dot(upper - lower, upper - lower); }
-    };
 
     /// A polygon whose area is below this fraction of its bounding box's diagonal squared is
     /// degenerate: its area is then rounding.
@@ -48,12 +37,12 @@ namespace plumbline::geometry
     /// Why a polygon that failed the quick test is no convex one; returns if only rounding is to
     /// blame, as with corners on a straight side that are off it by the rounding of their
     /// coordinates.
-    void examine(ArrayView<const Point<2>> vertices, const Shape &shape)
+    void examine(ArrayView<const Point<2>> vertices, double area, double diagonal_square)
     {
-      if (std::abs(shape.area) <= flat * shape.diagonal_square())
+      if (std::abs(area) <= flat * diagonal_square)
         reject(vertices, "is degenerate, its area is zero; give corners that span an area");
-      if (shape.area < 0)
-        reject(vertices, "is clockwise, area " + std::to_string(shape.area) +
+      if (area < 0)
+        reject(vertices, "is clockwise, area " + std::to_string(area) +
                              "; reverse the order of the vertices");
       const unsigned int n = vertices.size();
       std::vector<Vec> edges;
@@ -75,181 +64,222 @@ namespace plumbline::geometry
         reject(vertices, "is not convex; split it into convex cells");
     }
 
-    Shape check(const Ball &ball, ArrayView<const Point<2>> vertices)
+    [[noreturn]] void reject(const Ball &ball)
     {
-      const unsigned int n = vertices.size();
+      std::ostringstream message;
+      message << "ball of radius " << ball.radius << " at (" << ball.centre[0] << ", "
+              << ball.centre[1]
+              << ") cannot be used; the radius must be a finite length > 0, the centre finite";
+      throw InputError(message.str());
+    }
+
+    void check(const Ball &ball)
+    {
       if (!(ball.radius > 0) || !std::isfinite(ball.radius + ball.centre[0] + ball.centre[1]))
-      {
-        std::ostringstream message;
-        message << "ball of radius " << ball.radius << " at (" << ball.centre[0] << ", "
-                << ball.centre[1]
-                << ") cannot be used; the radius must be a finite length > 0, the centre finite";
-        throw InputError(message.str());
-      }
-      if (n < 3)
-        reject(vertices, "has " + std::to_string(n) + " of them; give at least 3");
-
-      Shape shape{0, vec(vertices[0]), vec(vertices[0])};
-      double finite = 0, least_turn = 0;
-      unsigned int flips = 0; // of edges between the upper and the lower half plane: 2 if convex
-      const auto is_upper = [](Vec e) { return e.y > 0 || (e.y == 0 && e.x > 0); };
-      Vec a = vec(vertices[n - 1]), last{0, 0}; // the edge that ends in a
-      for (unsigned int i = n - 1; i > 0 && same(last, {0, 0}); --i)
-        last = relative(vertices[i], vertices[i - 1]);
-      for (unsigned int i = 0; i < n; ++i)
-      {
-        const Vec b = vec(vertices[i]), e = b - a;
-        finite += (b.x - b.x) + (b.y - b.y); // NaN if a coordinate is NaN or infinite
-        shape.lower = {std::min(shape.lower.x, b.x), std::min(shape.lower.y, b.y)};
-        shape.upper = {std::max(shape.upper.x, b.x), std::max(shape.upper.y, b.y)};
-        shape.area += .5 * cross(a - vec(vertices[0]), e);
-        if (!same(e, {0, 0}))
-        {
-          least_turn = std::min(least_turn, cross(last, e));
-          flips += is_upper(last) != is_upper(e);
-          last = e;
-        }
-        a = b;
-      }
-      if (finite != 0)
-        reject(vertices, "has a coordinate that is not finite; give finite coordinates");
-      if (!(least_turn >= 0 && flips == 2 && shape.area > flat * shape.diagonal_square()))
-        examine(vertices, shape);
-      return shape;
+        reject(ball);
     }
 
-    /// A cell whose diagonal is below the radius is described relative to its first vertex, any
-    /// other relative to the ball's centre: the smaller of the two sets the size of the rounding.
-    bool is_small_cell(const Ball &ball, const Shape &shape)
+    Moments moments(const PolygonSum &sum, const Point<2> &origin, const Box &box)
     {
-      return shape.diagonal_square() <= ball.radius * ball.radius;
+      const Vec c = vec(absolute(sum.centroid(), origin)), lower = vec(box.lower),
+                upper = vec(box.upper);
+      // a sliver of rounding's size may have its centroid anywhere: keep it in the cell
+      return {sum.area(),
+              Point<2>(std::clamp(c.x, lower.x, upper.x), std::clamp(c.y, lower.y, upper.y)),
+              sum.second()};
     }
 
-    const Point<2> &frame_origin(const Ball &ball, ArrayView<const Point<2>> vertices,
-                                 const Shape &shape)
+    // ---- where ball and cell meet ---------------------------------------------------------------
+
+    /// Whether ball and cell are apart by more than rounding.
+    bool is_apart(const Ball &ball, const Box &box)
     {
-      return is_small_cell(ball, shape) ? vertices[0] : ball.centre;
+      const Vec below = relative(box.lower, ball.centre), above = relative(ball.centre, box.upper);
+      const Vec d{std::max({below.x, above.x, 0.}), std::max({below.y, above.y, 0.})};
+      return dot(d, d) > (1 + 8 * eps) * ball.radius * ball.radius;
     }
 
-    /// Keeps the pieces.
-    struct Pieces
+    /// Whether the ball covers the cell by more than rounding.
+    bool is_covered(const Ball &ball, const ConvexCell &cell)
     {
-      Vec centre;
-      std::vector<Piece> pieces;
+      const double allowed = (1 - 8 * eps) * ball.radius * ball.radius;
+      const auto is_inside = [&](const Point<2> &v)
+      {
+        const Vec x = relative(v, ball.centre);
+        return dot(x, x) < allowed;
+      };
+      return std::all_of(cell.vertices().begin(), cell.vertices().end(), is_inside);
+    }
 
-      void segment(Vec p, Vec q)
-      {
-        if (!same(p, q))
-          pieces.push_back({absolute(p, {}), absolute(q, {}), false, 0});
-      }
-      void arc(Vec p, Vec q, bool is_major)
-      {
-        if (is_major || !same(p, q))
-          pieces.push_back({absolute(p, {}), absolute(q, {}), true,
-                            arc_angle(p - centre, q - centre, is_major)});
-      }
-    };
+    /// A small cell is described relative to its first vertex, any other relative to the ball's
+    /// centre: the smaller of the two sets the size of the rounding.
+    bool is_small(const ConvexCell &cell, const Ball &ball)
+    {
+      const Vec diagonal = relative(cell.box().upper, cell.box().lower);
+      return dot(diagonal, diagonal) <= 3 * ball.radius * ball.radius;
+    }
+
+    const Point<2> &frame_origin(const Ball &ball, const ConvexCell &cell)
+    {
+      return is_small(cell, ball) ? cell.vertices()[0] : ball.centre;
+    }
 
     /// Hands the boundary relative to the frame's origin to `sink`.
     template <class Sink>
-    void find(const Ball &ball, ArrayView<const Point<2>> vertices, const Shape &shape,
-              Backend backend, Sink &sink)
+    void find(const Ball &ball, const ConvexCell &cell, Backend backend, Sink &sink)
     {
       if (backend == Backend::cgal)
-        for (const Piece &p : exact_boundary(ball, vertices, frame_origin(ball, vertices, shape)))
+        for (const Piece &p : exact_boundary(ball, cell.vertices(), frame_origin(ball, cell)))
           if (p.is_arc)
             sink.arc(vec(p.from), vec(p.to), p.angle > pi);
           else
             sink.segment(vec(p.from), vec(p.to));
-      else if (is_small_cell(ball, shape))
-        walk(SmallCell(ball, vertices), sink);
+      else if (is_apart(ball, cell.box()))
+        return;
+      else if (is_small(cell, ball))
+        walk(SmallCell(ball, cell.vertices()), sink);
       else
-        walk(SmallBall(ball, vertices), sink);
+        walk(SmallBall(ball, cell.vertices()), sink);
     }
 
-    std::vector<Piece> pieces(const Ball &ball, ArrayView<const Point<2>> vertices,
-                              const Shape &shape, Backend backend)
+    Sides sides(const Ball &ball, const ConvexCell &cell, Backend backend)
     {
-      Pieces sink{relative(ball.centre, frame_origin(ball, vertices, shape)), {}};
-      find(ball, vertices, shape, backend, sink);
-      return sink.pieces;
+      check(ball);
+      Sides result;
+      find(ball, cell, backend, result);
+      return result;
     }
 
     /// Whether a point lies to the right of a segment by more than rounding.
-    bool is_beyond(const Piece &side, Vec point)
+    bool is_beyond(const Side &side, Vec point)
     {
-      const Vec a = vec(side.from) - point, e = vec(side.to) - vec(side.from);
+      const Vec a = side.from - point, e = side.to - side.from;
       const double rounding = 4 * eps * (std::sqrt(dot(a, a) * dot(e, e)) + dot(e, e));
       return !side.is_arc && cross(a, e) < -rounding;
     }
   } // namespace
 
-  Moments intersect(const Ball &ball, ArrayView<const Point<2>> vertices, Backend backend)
+  ConvexCell::ConvexCell(ArrayView<const Point<2>> vertices) : vertices_(vertices)
   {
-    const Shape shape = check(ball, vertices);
-    const Point<2> &origin = frame_origin(ball, vertices, shape);
-    MomentSum sum(ball.radius, relative(ball.centre, origin));
-    find(ball, vertices, shape, backend, sum);
+    const unsigned int n = vertices.size();
+    if (n < 3)
+      reject(vertices, "has " + std::to_string(n) + " of them; give at least 3");
+    box_ = {vertices[0], vertices[0]};
+    PolygonSum sum;
+    double finite = 0, least_turn = 0;
+    unsigned int flips = 0; // of edges between the upper and the lower half plane: 2 if convex
+    const auto is_upper = [](Vec e) { return e.y > 0 || (e.y == 0 && e.x > 0); };
+    Vec a = vec(vertices[n - 1]), last{0, 0}; // the edge that ends in a
+    for (unsigned int i = n - 1; i > 0 && same(last, {0, 0}); --i)
+      last = relative(vertices[i], vertices[i - 1]);
+    for (const Point<2> &vertex : vertices)
+    {
+      const Vec b = vec(vertex), e = b - a;
+      for (int k = 0; k < 2; ++k)
+      {
+        finite += vertex[k] - vertex[k]; // NaN if a coordinate is NaN or infinite
+        box_.lower[k] = std::min(box_.lower[k], vertex[k]);
+        box_.upper[k] = std::max(box_.upper[k], vertex[k]);
+      }
+      sum.segment(a - vec(vertices[0]), b - vec(vertices[0]));
+      if (!same(e, {0, 0}))
+      {
+        least_turn = std::min(least_turn, cross(last, e));
+        flips += is_upper(last) != is_upper(e);
+        last = e;
+      }
+      a = b;
+    }
+    if (finite != 0)
+      reject(vertices, "has a coordinate that is not finite; give finite coordinates");
+    const double diagonal_square = (box_.upper - box_.lower).norm_square();
+    if (!(least_turn >= 0 && flips == 2 && sum.area() > flat * diagonal_square))
+      examine(vertices, sum.area(), diagonal_square);
+    moments_ = geometry::moments(sum, vertices[0], box_);
+  }
 
-    Moments result;
-    result.centroid = vertices[0];
+  Moments intersect(const Ball &ball, const ConvexCell &cell, Backend backend)
+  {
+    check(ball);
+    if (backend == Backend::fast && is_covered(ball, cell))
+      return cell.moments();
+    const Point<2> &origin = frame_origin(ball, cell);
+    MomentSum sum(ball.radius, relative(ball.centre, origin));
+    find(ball, cell, backend, sum);
     if (!(sum.area() > 0))
-      return result;
-    result.area = std::min({sum.area(), shape.area, pi * ball.radius * ball.radius});
-    result.second = sum.second();
-    // a sliver of rounding's size may have its centroid anywhere: keep it in the cell and the ball
-    Vec c = vec(absolute(sum.centroid(), origin));
-    c = {std::clamp(c.x, shape.lower.x, shape.upper.x),
-         std::clamp(c.y, shape.lower.y, shape.upper.y)};
-    const Vec r = c - vec(ball.centre);
+      return {0, cell.vertices()[0], {}};
+
+    Moments result = moments(sum, origin, cell.box());
+    result.area = std::min({result.area, cell.moments().area, pi * ball.radius * ball.radius});
+    const Vec r = relative(result.centroid, ball.centre); // of slivers, likewise
     const double square = dot(r, r), allowed = ball.radius * (1 - 2 * eps);
     if (square > allowed * allowed)
-      c = vec(ball.centre) + (allowed / std::sqrt(square)) * r;
-    result.centroid = Point<2>(c.x, c.y);
+      result.centroid = absolute((allowed / std::sqrt(square)) * r, ball.centre);
     return result;
   }
 
-  std::vector<Piece> boundary(const Ball &ball, ArrayView<const Point<2>> vertices, Backend backend)
+  std::vector<Piece> boundary(const Ball &ball, const ConvexCell &cell, Backend backend)
   {
-    const Shape shape = check(ball, vertices);
-    const Point<2> &origin = frame_origin(ball, vertices, shape);
+    const Point<2> &origin = frame_origin(ball, cell);
+    const Vec centre = relative(ball.centre, origin);
     std::vector<Piece> result;
-    for (Piece &p : pieces(ball, vertices, shape, backend))
+    for (const Side &s : sides(ball, cell, backend))
     {
-      p.from += origin;
-      p.to += origin;
+      const double angle = s.is_arc ? arc_angle(s.from - centre, s.to - centre, s.is_major) : 0;
+      const Piece p{absolute(s.from, origin), absolute(s.to, origin), s.is_arc, angle};
       if (p.from != p.to || p.angle > pi)
         result.push_back(p);
     }
     return result;
   }
 
-  CutRule polar_rule(const Ball &ball, ArrayView<const Point<2>> vertices, unsigned int n_angles,
-                     unsigned int n_radii, Backend backend)
+  void cut_rule(const Ball &ball, const ConvexCell &cell, unsigned int degree, CutRule &rule,
+                Backend backend)
+  {
+    const Point<2> &origin = frame_origin(ball, cell);
+    Fan fan(ball.radius, relative(ball.centre, origin), origin, degree, rule);
+    fan.fill(sides(ball, cell, backend));
+  }
+
+  CutRule cut_rule(const Ball &ball, const ConvexCell &cell, unsigned int degree, Backend backend)
+  {
+    CutRule rule;
+    cut_rule(ball, cell, degree, rule, backend);
+    return rule;
+  }
+
+  void polar_rule(const Ball &ball, const ConvexCell &cell, unsigned int n_angles,
+                  unsigned int n_radii, CutRule &rule, Backend backend)
   {
     if (n_angles == 0 || n_radii == 0)
       throw InputError("polar rule with " + std::to_string(n_angles) + " angles and " +
                        std::to_string(n_radii) + " radii; give at least 1 of each");
-    const Shape shape = check(ball, vertices);
-    const Vec centre = relative(ball.centre, frame_origin(ball, vertices, shape));
-    const std::vector<Piece> sides = pieces(ball, vertices, shape, backend);
-    const bool is_outside = std::any_of(sides.begin(), sides.end(),
-                                        [&](const Piece &side) { return is_beyond(side, centre); });
-    PolarRule polar(ball, centre, n_angles, n_radii);
-    if (is_outside)
-      polar.add_band(sides);
+    const Vec centre = relative(ball.centre, frame_origin(ball, cell));
+    const Sides all = sides(ball, cell, backend);
+    rule.points.clear();
+    rule.weights.clear();
+    PolarRule polar(ball, centre, n_angles, n_radii, rule);
+    if (std::any_of(all.begin(), all.end(), [&](const Side &s) { return is_beyond(s, centre); }))
+      polar.add_band(all);
     else
-      for (const Piece &p : sides)
-        polar.add_from_centre(p);
-    return std::move(polar.rule);
+      for (const Side &s : all)
+        polar.add_from_centre(s);
   }
 
-  std::vector<double> weighted_moments(const Ball &ball, ArrayView<const Point<2>> vertices,
+  CutRule polar_rule(const Ball &ball, const ConvexCell &cell, unsigned int n_angles,
+                     unsigned int n_radii, Backend backend)
+  {
+    CutRule rule;
+    polar_rule(ball, cell, n_angles, n_radii, rule, backend);
+    return rule;
+  }
+
+  std::vector<double> weighted_moments(const Ball &ball, const ConvexCell &cell,
                                        const std::function<double(double)> &f, unsigned int degree,
                                        Backend backend)
   {
-    const CutRule rule = polar_rule(ball, vertices, std::max(16u, degree + 8),
-                                    std::max(10u, degree / 2 + 6), backend);
+    const CutRule rule =
+        polar_rule(ball, cell, std::max(16u, degree + 8), std::max(10u, degree / 2 + 6), backend);
     std::vector<double> result((degree + 1) * (degree + 2) / 2, 0.);
     for (std::size_t q = 0; q < rule.points.size(); ++q)
     {

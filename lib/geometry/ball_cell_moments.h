@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/ball_cell_walk.h"
+#include "geometry/ball_cell_plane.h"
 
 #include <algorithm>
 #include <array>
@@ -17,95 +17,75 @@ namespace plumbline::geometry::detail
     return angle < least ? angle + 2 * pi : std::max(angle, 0.);
   }
 
-  /// Area and moments of the circular segment of the unit circle with half angle α, x = sin α, in
-  /// the frame (t, n) with t along the chord, n outwards and the chord's middle as origin.
+  /// Area of a circular segment and its moments about the chord's middle: first moment n N, second
+  /// moments nn N⊗N + tt T⊗T, with N an outward normal of the chord and T square to it, as long.
   struct Segment
   {
-    double area, n, tt, nn;
+    double area, n, nn, tt;
   };
 
-  inline Segment large_segment(double alpha, double x, double y)
+  /// N of length 1, sine and cosine x, y of half the angle.
+  inline Segment large_segment(double radius, double x, double y)
   {
-    const double area = alpha - x * y, cube = x * x * x;
-    return {area, 2. / 3 * cube - y * area, area / 4 - cube * y / 6,
-            area * (.25 + y * y) - 5. / 6 * cube * y};
+    const double RR = radius * radius, area = std::atan2(x, y) - x * y, cube = x * x * x;
+    return {RR * area, RR * radius * (2. / 3 * cube - y * area),
+            RR * RR * (area * (.25 + y * y) - 5. / 6 * cube * y),
+            RR * RR * (area / 4 - cube * y / 6)};
   }
 
-  /// Coefficients of the same four as power series in x², after x³, x⁵, x⁵ and x⁷.
-  struct SegmentSeries
-  {
-    static constexpr int n_terms = 9; // 64^-9 is below rounding
-    double area[n_terms]{}, n[n_terms]{}, tt[n_terms]{}, nn[n_terms]{};
-    constexpr SegmentSeries()
-    {
-      double c = 1, g = 2. / 3; // of 1/sqrt(1-x²), and of asin(x)/sqrt(1-x²) from x³ on
-      for (int k = 0; k < n_terms; ++k)
-      {
-        area[k] = 2 * c / (2 * k + 3);
-        tt[k] = 2 * c / (3 * (2 * k + 5));
-        n[k] = g / (2 * k + 5);
-        c *= (2 * k + 1) / (2. * k + 2);
-        g *= (2 * k + 4) / (2. * k + 5);
-        nn[k] = 8 * (k + 1) * c / (3. * (2 * k + 5) * (2 * k + 7));
-      }
-    }
-  };
-  inline constexpr SegmentSeries series;
-
-  inline Segment small_segment(double x)
-  {
-    const double z = x * x;
-    Segment s{};
-    for (int k = z < 1e-4 ? 3 : SegmentSeries::n_terms - 1; k >= 0; --k)
-      s = {s.area * z + series.area[k], s.n * z + series.n[k], s.tt * z + series.tt[k],
-           s.nn * z + series.nn[k]};
-    return {x * z * s.area, x * z * z * s.n, x * z * z * s.tt, x * z * z * z * s.nn};
-  }
-
-  /// Green's theorem on the pieces, relative to the first corner; an arc is its chord and a
-  /// circular segment, so that nothing is ever taken from the whole disc.
-  class MomentSum
+  /// The same for k = (1 - y) / 2 <= 1/36, free of differences of large numbers: with T a power
+  /// series in k the area is R² x³ (2/3 + k T).
+  class SmallSegment
   {
   public:
-    MomentSum(double radius, Vec centre) : radius_(radius), centre_(centre) {}
+    static constexpr double largest = 1. / 36; // its 12th power is below rounding
 
-    void segment(Vec p, Vec q)
+    constexpr SmallSegment()
     {
-      if (!has_origin_)
-        origin_ = p, has_origin_ = true;
-      add_chord(p - origin_, q - origin_);
+      double s = 2. / 3;
+      for (int j = 0; j < 12; ++j)
+        coefficient_[j] = s *= (2 * j + 6) / (2. * j + 5);
     }
 
-    void arc(Vec p, Vec q, bool is_major)
+    /// N as long as the chord.
+    Segment operator()(double radius, double x, double k) const
     {
-      segment(p, q);
-      const Vec e = q - p, middle = p + .5 * e - centre_;
-      const double R = radius_, chord = std::sqrt(dot(e, e)), x = chord / (2 * R);
-      Segment s;
-      if (!is_major && x < .125)
+      const double *c = coefficient_, kk = k * k, k4 = kk * kk;
+      double part[4]; // every fourth power: a quarter of the wait
+      for (int j = 0; j < 4; ++j)
+        part[j] = (c[8 + j] * k4 + c[4 + j]) * k4 + c[j];
+      const double T = (part[0] + k * part[1]) + kk * (part[2] + k * part[3]);
+      const double s = radius * radius * x, kT = k * T;
+      return {s * x * x * (2. / 3 + kT), .5 * s * x * k * (4. / 3 - T + 2 * kT),
+              .25 * s * k * (1.25 * T - 1 + k * (8. / 3 - 4 * T + 4 * kT)),
+              .25 * s * k * (1. / 3 + .25 * T)};
+    }
+
+  private:
+    double coefficient_[12]{};
+  };
+  inline constexpr SmallSegment small_segment;
+
+  /// Green's theorem on a polygon's edges, relative to the first corner.
+  class PolygonSum
+  {
+  public:
+    void segment(Vec p, Vec q)
+    {
+      if (!has_origin_) // seen from there, the first one spans no area
       {
-        if (x == 0)
-          return;
-        s = small_segment(x);
+        origin_ = p;
+        has_origin_ = true;
+        return;
       }
-      else if (!is_major && x < .5)
-        s = large_segment(std::asin(x), x, std::sqrt(1 - x * x));
-      else
-      {
-        const double alpha = .5 * arc_angle(p - centre_, q - centre_, is_major);
-        s = large_segment(alpha, std::sin(alpha), std::cos(alpha));
-      }
-      // outwards: from the chord, or, where that is too short to tell, opposite to it
-      const Vec n = is_major && x < .5 ? (-1 / std::sqrt(dot(middle, middle))) * middle
-                                       : (1 / chord) * Vec{e.y, -e.x};
-      const double RR = R * R, a = RR * s.area, f = RR * R * s.n;
-      const Vec m = p + .5 * e - origin_;
-      area_ += a;
-      first_ = first_ + a * m + f * n;
-      const double tt = RR * RR * s.tt, nn = RR * RR * s.nn;
-      second_[0] += a * m.x * m.x + 2 * f * m.x * n.x + tt * n.y * n.y + nn * n.x * n.x;
-      second_[1] += a * m.x * m.y + f * (m.x * n.y + m.y * n.x) + (nn - tt) * n.x * n.y;
-      second_[2] += a * m.y * m.y + 2 * f * m.y * n.y + tt * n.x * n.x + nn * n.y * n.y;
+      p = p - origin_, q = q - origin_;
+      const Vec s = p + q;
+      const double w = cross(p, q);
+      area_ += w / 2;
+      first_ = first_ + (w * (1. / 6)) * s;
+      second_[0] += w * (1. / 12) * (s.x * s.x - p.x * q.x);
+      second_[1] += w * (1. / 24) * (s.x * s.y + p.x * p.y + q.x * q.y);
+      second_[2] += w * (1. / 12) * (s.y * s.y - p.y * q.y);
     }
 
     /// Of the pieces handed over so far, about the centroid; the latter two need area > 0.
@@ -118,23 +98,51 @@ namespace plumbline::geometry::detail
               std::max(second_[2] - area_ * g.y * g.y, 0.)};
     }
 
-  private:
-    void add_chord(Vec p, Vec q)
-    {
-      const double w = cross(p, q);
-      area_ += w / 2;
-      first_ = first_ + (w * (1. / 6)) * (p + q);
-      second_[0] += w * (1. / 12) * (p.x * p.x + p.x * q.x + q.x * q.x);
-      second_[1] += w * (1. / 24) * (2 * (p.x * p.y + q.x * q.y) + p.x * q.y + q.x * p.y);
-      second_[2] += w * (1. / 12) * (p.y * p.y + p.y * q.y + q.y * q.y);
-    }
-
-    const double radius_;
-    const Vec centre_;
+  protected:
     bool has_origin_ = false;
     Vec origin_{};
     double area_ = 0;
     Vec first_{};
     std::array<double, 3> second_{};
+  };
+
+  /// The same with arcs: each is its chord and a circular segment, so that nothing is ever taken
+  /// from the whole disc.
+  class MomentSum : public PolygonSum
+  {
+  public:
+    MomentSum(double radius, Vec centre) : radius_(radius), centre_(centre) {}
+
+    void arc(Vec p, Vec q, bool is_major)
+    {
+      segment(p, q);
+      const Vec e = q - p, middle = p + .5 * e;
+      const double xx = dot(e, e) * (1 / (4 * radius_ * radius_)), x = std::sqrt(xx);
+      const double root = std::sqrt(std::max(0., 1 - xx)), k = .5 * xx / (1 + root);
+      if (k < small_segment.largest && !is_major)
+      {
+        add(small_segment(radius_, x, k), {e.y, -e.x}, middle - origin_);
+        return;
+      }
+      const Vec n = outward({p, q, true, is_major}, centre_);
+      const double y = root < .4 ? dot(n, middle - centre_) / radius_ : // it has lost digits
+                           is_major ? -root
+                                    : root;
+      add(large_segment(radius_, x, y), n, middle - origin_);
+    }
+
+  private:
+    void add(const Segment &s, Vec n, Vec middle)
+    {
+      const Vec f = s.n * n, g = s.area * middle + f;
+      area_ += s.area;
+      first_ = first_ + g;
+      second_[0] += middle.x * (g.x + f.x) + s.nn * n.x * n.x + s.tt * n.y * n.y;
+      second_[1] += middle.x * g.y + middle.y * f.x + (s.nn - s.tt) * n.x * n.y;
+      second_[2] += middle.y * (g.y + f.y) + s.nn * n.y * n.y + s.tt * n.x * n.x;
+    }
+
+    const double radius_;
+    const Vec centre_;
   };
 } // namespace plumbline::geometry::detail

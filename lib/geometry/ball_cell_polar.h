@@ -1,69 +1,36 @@
 #pragma once
 
-#include "geometry/ball_cell_walk.h"
+#include "geometry/ball_cell_moments.h"
+#include "geometry/ball_cell_plane.h"
+#include "geometry/ball_cell_tables.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <vector>
 
 /// The rule of polar_rule, private to ball_cell.cc.
 namespace plumbline::geometry::detail
 {
-  /// Gauss's rule on [0, 1].
-  struct Gauss
-  {
-    std::vector<double> at, weight;
-  };
-
-  inline Gauss make_gauss(unsigned int n)
-  {
-    Gauss rule{std::vector<double>(n), std::vector<double>(n)};
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      double x = std::cos(pi * (i + .75) / (n + .5)), slope = 1;
-      for (int step = 0; step < 8; ++step) // Newton, from a guess good to two digits or more
-      {
-        double last = 1, value = x;
-        for (unsigned int k = 2; k <= n; ++k)
-        {
-          const double next = ((2 * k - 1) * x * value - (k - 1) * last) / k;
-          last = value;
-          value = next;
-        }
-        slope = n * (x * value - last) / (x * x - 1);
-        x -= value / slope;
-      }
-      rule.at[i] = .5 * (1 - x);
-      rule.weight[i] = 1 / ((1 - x * x) * slope * slope);
-    }
-    return rule;
-  }
-
-  inline const Gauss &gauss(unsigned int n)
-  {
-    thread_local std::map<unsigned int, Gauss> known;
-    const auto place = known.find(n);
-    return place != known.end() ? place->second : known.emplace(n, make_gauss(n)).first->second;
-  }
-
   /// Collects the points of the polar rule.
   class PolarRule
   {
   public:
-    PolarRule(const Ball &ball, Vec centre, unsigned int n_angles, unsigned int n_radii)
-        : ball_(ball), centre_(centre), angles_(gauss(n_angles)), radii_(gauss(n_radii))
+    PolarRule(const Ball &ball, Vec centre, unsigned int n_angles, unsigned int n_radii,
+              CutRule &rule)
+        : ball_(ball), centre_(centre), angles_(table<Gauss>(n_angles)),
+          radii_(table<Gauss>(n_radii)), rule_(rule)
     {
     }
 
-    /// The triangle or sector between the centre and a piece.
-    void add_from_centre(const Piece &piece)
+    /// The triangle or sector between the centre and a side.
+    void add_from_centre(const Side &side)
     {
-      const Vec p = vec(piece.from) - centre_, q = vec(piece.to) - centre_;
-      if (piece.is_arc)
+      const Vec p = side.from - centre_, q = side.to - centre_;
+      if (side.is_arc)
       {
-        const unsigned int n_parts = 1 + static_cast<unsigned int>(piece.angle / widest_angle);
-        const double part = piece.angle / n_parts, start = std::atan2(p.y, p.x);
+        const double whole = arc_angle(p, q, side.is_major);
+        const unsigned int n_parts = 1 + static_cast<unsigned int>(whole / widest_angle);
+        const double part = whole / n_parts, start = std::atan2(p.y, p.x);
         for (unsigned int k = 0; k < n_parts; ++k)
           for (std::size_t i = 0; i < angles_.at.size(); ++i)
           {
@@ -95,52 +62,53 @@ namespace plumbline::geometry::detail
     /// The region of a ball whose centre is outside of it, seen in a half plane: angles relative to
     /// one corner, radii relative to that corner's, so that a small region far from the centre
     /// loses no digits.
-    void add_band(const std::vector<Piece> &pieces)
+    void add_band(const Sides &sides)
     {
       const auto arc =
-          std::find_if(pieces.begin(), pieces.end(), [](const Piece &p) { return p.is_arc; });
-      const auto square = [&](const Piece &p)
+          std::find_if(sides.begin(), sides.end(), [](const Side &s) { return s.is_arc; });
+      const auto square = [&](const Side &side)
       {
-        const Vec x = vec(p.from) - centre_;
+        const Vec x = side.from - centre_;
         return dot(x, x);
       };
       const auto farthest =
-          std::max_element(pieces.begin(), pieces.end(),
-                           [&](const Piece &p, const Piece &q) { return square(p) < square(q); });
-      const Vec corner = vec((arc != pieces.end() ? arc : farthest)->from);
+          std::max_element(sides.begin(), sides.end(),
+                           [&](const Side &a, const Side &b) { return square(a) < square(b); });
+      const Vec corner = (arc != sides.end() ? arc : farthest)->from;
       const Vec g = corner - centre_;
       const double distance = std::sqrt(dot(g, g));
       base_ = (1 / distance) * g;
-      base_radius_ = arc != pieces.end() ? ball_.radius : distance;
+      base_radius_ = arc != sides.end() ? ball_.radius : distance;
 
-      const auto angle = [&](const Point<2> &point)
+      const auto angle = [&](Vec point)
       {
-        const Vec x = vec(point) - corner;
+        const Vec x = point - corner;
         return std::atan2(cross(base_, x), base_radius_ + dot(base_, x));
       };
-      std::vector<Side> sides;
+      std::vector<Seen> all;
       std::vector<double> breaks;
-      for (const Piece &p : pieces)
+      for (const Side &side : sides)
       {
-        const Vec e = vec(p.to) - vec(p.from), x = vec(p.from) - corner;
-        Side side{angle(p.from), angle(p.to), p.is_arc};
-        if (!p.is_arc)
+        const Vec e = side.to - side.from, x = side.from - corner;
+        depth_ = std::max(depth_, std::sqrt(dot(x, x)));
+        Seen seen{angle(side.from), angle(side.to), side.is_arc};
+        if (!side.is_arc)
         {
-          side.normal = (1 / std::sqrt(dot(e, e))) * Vec{e.y, -e.x};
-          side.along = dot(side.normal, base_);
-          side.across = cross(base_, side.normal);
-          side.shift = dot(side.normal, x);
+          const Vec normal = (1 / std::sqrt(dot(e, e))) * Vec{e.y, -e.x};
+          seen.along = dot(normal, base_);
+          seen.across = cross(base_, normal);
+          seen.shift = dot(normal, x);
         }
-        sides.push_back(side);
-        breaks.push_back(side.from);
+        all.push_back(seen);
+        breaks.push_back(seen.from);
       }
       std::sort(breaks.begin(), breaks.end());
       const double tiny = negligible * (breaks.back() - breaks.front());
       for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
       {
         const double a = breaks[i], b = breaks[i + 1], middle = a + .5 * (b - a);
-        const Side *entry = nullptr, *exit = nullptr;
-        for (const Side &side : sides)
+        const Seen *entry = nullptr, *exit = nullptr;
+        for (const Seen &side : all)
           if (side.from < middle && middle < side.to)
             exit = &side;
           else if (side.to < middle && middle < side.from)
@@ -150,20 +118,18 @@ namespace plumbline::geometry::detail
       }
     }
 
-    CutRule rule;
-
   private:
-    struct Side
+    /// A side as the centre sees it.
+    struct Seen
     {
       double from, to; ///< angles relative to the corner's
       bool is_arc;
-      Vec normal{0, 0};
       double along = 0, across = 0; ///< components of the normal, with respect to the corner
       double shift = 0;             ///< of the side's line, from the corner
     };
 
     /// How far the angles between which the ray meets the side's line reach beyond [a, b].
-    static double room(const Side &side, double a, double b)
+    static double room(const Seen &side, double a, double b)
     {
       if (side.is_arc)
         return pi;
@@ -174,7 +140,7 @@ namespace plumbline::geometry::detail
       return std::min(a - normal, normal - b) + .5 * pi;
     }
 
-    void add_between(const Side &entry, const Side &exit, double a, double b, int depth = 0)
+    void add_between(const Seen &entry, const Seen &exit, double a, double b, int depth = 0)
     {
       constexpr int deepest = 50; // halvings: then the interval is rounding
       const double widest = std::min(
@@ -190,13 +156,14 @@ namespace plumbline::geometry::detail
       {
         const double angle = a + (b - a) * angles_.at[i];
         const double s = std::sin(angle), c = std::cos(angle), half = std::sin(.5 * angle);
-        // radius relative to the corner's
-        const auto radius = [&](const Side &side)
+        // relative to the corner's, which is the largest; a side seen edge-on is rounding
+        const auto radius = [&](const Seen &side)
         {
-          return side.is_arc ? 0
-                             : (side.shift +
-                                base_radius_ * (2 * half * half * side.along - s * side.across)) /
-                                   (c * side.along + s * side.across);
+          if (side.is_arc)
+            return 0.;
+          const double shift =
+              side.shift + base_radius_ * (2 * half * half * side.along - s * side.across);
+          return std::clamp(shift / (c * side.along + s * side.across), -depth_, 0.);
         };
         const double in = std::max(radius(entry), -base_radius_), out = radius(exit);
         add_ray({c * base_.x - s * base_.y, s * base_.x + c * base_.y}, (b - a) * angles_.weight[i],
@@ -208,19 +175,19 @@ namespace plumbline::geometry::detail
     {
       if (!(angle > 0 && length > 0))
         return;
-      std::size_t k = rule.points.size();
-      rule.points.resize(k + radii_.at.size());
-      rule.weights.resize(k + radii_.at.size());
+      std::size_t k = rule_.points.size();
+      rule_.points.resize(k + radii_.at.size());
+      rule_.weights.resize(k + radii_.at.size());
       for (std::size_t j = 0; j < radii_.at.size(); ++j)
       {
         const double r = from + length * radii_.at[j];
-        rule.points[k] = absolute(r * direction, ball_.centre);
-        rule.weights[k] = angle * length * radii_.weight[j] * r;
+        rule_.points[k] = absolute(r * direction, ball_.centre);
+        rule_.weights[k] = angle * length * radii_.weight[j] * r;
         // where rounding puts a point on the centre it has no weight to speak of: keep 1/r finite
-        k += rule.points[k] != ball_.centre;
+        k += rule_.points[k] != ball_.centre;
       }
-      rule.points.resize(k);
-      rule.weights.resize(k);
+      rule_.points.resize(k);
+      rule_.weights.resize(k);
     }
 
     /// Of a length or an angle: what rounding leaves of a zero.
@@ -233,7 +200,9 @@ namespace plumbline::geometry::detail
     const Ball &ball_;
     const Vec centre_;
     const Gauss &angles_, &radii_;
+    CutRule &rule_;
     Vec base_{};
     double base_radius_ = 0;
+    double depth_ = 0; ///< distance from the corner within which the region lies
   };
 } // namespace plumbline::geometry::detail

@@ -1,117 +1,24 @@
 #pragma once
 
-#include "geometry/ball_cell.h"
+#include "geometry/ball_cell_plane.h"
 
 #include <algorithm>
 #include <cmath>
 
-/// The fast backend of ball ∩ convex polygon, private to ball_cell.cc.
+/// The fast backend of ball ∩ convex polygon: walk the edges, split each at the circle. Private to
+/// ball_cell.cc.
 namespace plumbline::geometry::detail
 {
-  constexpr double pi = 3.14159265358979323846;
-
-  struct Vec
-  {
-    double x, y;
-  };
-
-  inline Vec operator+(Vec a, Vec b)
-  {
-    return {a.x + b.x, a.y + b.y};
-  }
-  inline Vec operator-(Vec a, Vec b)
-  {
-    return {a.x - b.x, a.y - b.y};
-  }
-  inline Vec operator*(double s, Vec a)
-  {
-    return {s * a.x, s * a.y};
-  }
-  inline double dot(Vec a, Vec b)
-  {
-    return a.x * b.x + a.y * b.y;
-  }
-  inline double cross(Vec a, Vec b)
-  {
-    return a.x * b.y - a.y * b.x;
-  }
-  inline bool same(Vec a, Vec b)
-  {
-    return a.x == b.x && a.y == b.y;
-  }
-  inline Vec vec(const Point<2> &p)
-  {
-    return {p[0], p[1]};
-  }
-  inline Vec relative(const Point<2> &p, const Point<2> &origin)
-  {
-    return {p[0] - origin[0], p[1] - origin[1]};
-  }
-  inline Point<2> absolute(Vec a, const Point<2> &origin)
-  {
-    return Point<2>(origin[0] + a.x, origin[1] + a.y);
-  }
-
-  // ---- twice the working precision, where a difference of large numbers decides ---------------
-
-  /// hi + lo, |lo| <= eps |hi| / 2.
-  struct Twofold
-  {
-    double hi, lo;
-  };
-
-  inline Twofold difference(double a, double b)
-  {
-    const double s = a - b, t = s - a;
-    return {s, (a - (s - t)) - (b + t)};
-  }
-
-  inline Twofold product(double a, double b) // Dekker
-  {
-    constexpr double split = 134217729; // 2^27 + 1
-    const double p = a * b, ca = split * a, cb = split * b;
-    const double ah = ca - (ca - a), al = a - ah, bh = cb - (cb - b), bl = b - bh;
-    return {p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
-  }
-
-  /// |p - centre|² - radius², to about eps² radius² + eps |result|.
-  inline double power(const Point<2> &p, const Ball &ball)
-  {
-    const Twofold x = difference(p[0], ball.centre[0]), y = difference(p[1], ball.centre[1]);
-    const Twofold xx = product(x.hi, x.hi), yy = product(y.hi, y.hi);
-    const Twofold rr = product(ball.radius, ball.radius);
-    const Twofold s = difference(xx.hi, rr.hi), t = difference(s.hi, -yy.hi);
-    return t.hi + (t.lo + s.lo + xx.lo + yy.lo - rr.lo + 2 * (x.hi * x.lo + y.hi * y.lo));
-  }
-
-  /// (a - centre) × (b - a), likewise.
-  inline double edge_cross(const Point<2> &a, const Point<2> &b, const Point<2> &centre)
-  {
-    const Twofold x = difference(a[0], centre[0]), y = difference(a[1], centre[1]);
-    const Twofold u = difference(b[0], a[0]), v = difference(b[1], a[1]);
-    const Twofold xv = product(x.hi, v.hi), yu = product(y.hi, u.hi);
-    return (xv.hi - yu.hi) +
-           (xv.lo - yu.lo + (x.hi * v.lo + x.lo * v.hi) - (y.hi * u.lo + y.lo * u.hi));
-  }
-
-  // ---- the fast backend: walk the edges, split each at the circle -----------------------------
-
   struct Vertex
   {
     Vec at;       ///< relative to the frame's origin
     double power; ///< |.|² - radius²; inside if <= 0
   };
 
-  struct Cut
-  {
-    bool crosses; ///< whether an edge with both ends outside enters the ball
-    Vec entry, exit;
-    double offset; ///< of the edge's line from the centre, > 0 if the centre is to its left
-  };
-
-  /// Positions relative to the first vertex, for a cell whose diagonal is below the radius. The
-  /// first vertex's power is taken in twofold precision; from there on all roundings are relative
-  /// to the cell, and a circle far larger than the cell costs no digits.
+  /// Positions relative to the first vertex, for a cell whose diagonal is below √3 radii: no arc in
+  /// it is as long as a half circle. The first vertex's power is taken in twofold precision; from
+  /// there on all roundings are relative to the cell, and a circle far larger than the cell costs
+  /// no digits.
   struct SmallCell
   {
     const Ball &ball;
@@ -130,17 +37,27 @@ namespace plumbline::geometry::detail
       return {x, power_0 + (2 * dot(from_centre, x) + dot(x, x))};
     }
 
-    Cut cut(const Vertex &a, const Vertex &b, unsigned int)
+    /// An edge against the circle; the power along it is power + 2 p t + q t², t in [0, 1].
+    struct Cut
     {
-      // power along the edge: a.power + 2 p t + q t², t in [0, 1]
+      Vec from, e;
+      double power, p, q;
+      double offset = 0; ///< not needed: no arc is longer than a half circle
+
+      double discriminant() const { return p * p - q * power; }
+      double root() const { return std::sqrt(std::max(discriminant(), 0.)); }
+      Vec at(double t) const { return from + std::clamp(t, 0., 1.) * e; }
+
+      /// Whether an edge with both ends outside enters the ball.
+      bool crosses() const { return p < 0 && p + q > 0 && discriminant() > 0; }
+      Vec entry() const { return at(p < 0 ? power / (root() - p) : 1); }
+      Vec exit() const { return at(p > 0 ? -power / (p + root()) : (root() - p) / q); }
+    };
+
+    Cut cut(const Vertex &a, const Vertex &b, unsigned int) const
+    {
       const Vec e = b.at - a.at;
-      const double q = dot(e, e), p = dot(from_centre + a.at, e);
-      const double discriminant = p * p - q * a.power;
-      const double root = std::sqrt(std::max(discriminant, 0.));
-      const double entry = p < 0 ? a.power / (root - p) : 1;
-      const double exit = p > 0 ? -a.power / (p + root) : (root - p) / q;
-      const auto at = [&](double t) { return a.at + std::clamp(t, 0., 1.) * e; };
-      return {discriminant > 0 && p < 0 && p + q > 0, at(entry), at(exit), 0};
+      return {a.at, e, a.power, dot(from_centre + a.at, e), dot(e, e)};
     }
 
     bool is_major(Vec, unsigned int, double, Vec, unsigned int, double) const { return false; }
@@ -153,7 +70,6 @@ namespace plumbline::geometry::detail
   {
     const Ball &ball;
     const ArrayView<const Point<2>> vertices;
-    bool centre_is_inside = true;
 
     SmallBall(const Ball &b, ArrayView<const Point<2>> v) : ball(b), vertices(v) {}
 
@@ -168,23 +84,39 @@ namespace plumbline::geometry::detail
       return relative(vertices[(i + 1) % vertices.size()], vertices[i % vertices.size()]);
     }
 
-    Cut cut(const Vertex &a, const Vertex &b, unsigned int i)
+    /// An edge against the circle, by lengths along it from the foot of the centre.
+    struct Cut
     {
-      const Vec e = edge(i);
-      const double length = std::sqrt(dot(e, e));
-      const Vec t = (1 / length) * e;
-      const double d =
-          edge_cross(vertices[i], vertices[(i + 1) % vertices.size()], ball.centre) / length;
-      const double from = dot(a.at, t), to = dot(b.at, t);
-      const double square = (ball.radius - d) * (ball.radius + d);
-      const double half_chord = std::sqrt(std::max(square, 0.));
-      centre_is_inside = centre_is_inside && d > 0;
-      const auto at = [&](double s)
+      Vec t;
+      double from, to;
+      double offset; ///< of the edge's line from the centre, > 0 if the centre is to its left
+      double square; ///< of half the chord; crosses if > 0
+
+      double half_chord() const { return std::sqrt(std::max(square, 0.)); }
+      Vec at(double s) const
       {
         s = std::max(from, std::min(s, to));
-        return Vec{d * t.y + s * t.x, -d * t.x + s * t.y};
-      };
-      return {square > 0 && from < 0 && to > 0, at(-half_chord), at(half_chord), d};
+        return {offset * t.y + s * t.x, -offset * t.x + s * t.y};
+      }
+      bool crosses() const { return square > 0; }
+      Vec entry() const { return at(-half_chord()); }
+      Vec exit() const { return at(half_chord()); }
+    };
+
+    Cut cut(const Vertex &a, const Vertex &b, unsigned int i) const
+    {
+      const Vec e = edge(i);
+      if (a.power > 0 && b.power > 0 && !(dot(a.at, e) < 0 && dot(b.at, e) > 0))
+        return {}; // an end is nearest to the centre
+      const double scale = 1 / std::sqrt(dot(e, e)), d = scale * turn(i);
+      const Vec t = scale * e;
+      return {t, dot(a.at, t), dot(b.at, t), d, (ball.radius - d) * (ball.radius + d)};
+    }
+
+    /// How far the centre is to the left of an edge, times its length.
+    double turn(unsigned int i) const
+    {
+      return edge_cross(vertices[i], vertices[(i + 1) % vertices.size()], ball.centre);
     }
 
     /// Whether the arc from q (on edge i) to p (on edge j) is longer than a half circle.
@@ -202,12 +134,19 @@ namespace plumbline::geometry::detail
       return turns_back && offset_i + offset_j > 0;
     }
 
-    bool contains_ball() const { return centre_is_inside; }
+    /// Whether the polygon contains the ball, given that no edge meets it.
+    bool contains_ball() const
+    {
+      for (unsigned int i = 0; i < vertices.size(); ++i)
+        if (turn(i) < 0)
+          return false;
+      return true;
+    }
   };
 
   /// Hands the boundary, piece by piece and counter-clockwise, to `sink`.
   template <class Frame, class Sink>
-  void walk(Frame frame, Sink &sink)
+  void walk(const Frame &frame, Sink &sink)
   {
     struct Crossing
     {
@@ -238,15 +177,16 @@ namespace plumbline::geometry::detail
         sink.segment(a.at, b.at), is_empty = false;
       else if (!same(a.at, b.at))
       {
-        const Cut cut = frame.cut(a, b, i);
-        if (a_in || b_in || cut.crosses)
+        const auto cut = frame.cut(a, b, i);
+        if (a_in || b_in || cut.crosses())
         {
           is_empty = false;
+          const Vec from = a_in ? a.at : cut.entry(), to = b_in ? b.at : cut.exit();
           if (!a_in)
-            enter({cut.entry, i, cut.offset});
-          sink.segment(a_in ? a.at : cut.entry, b_in ? b.at : cut.exit);
+            enter({from, i, cut.offset});
+          sink.segment(from, to);
           if (!b_in)
-            last = {cut.exit, i, cut.offset}, has_last = true;
+            last = {to, i, cut.offset}, has_last = true;
         }
       }
       a = b;

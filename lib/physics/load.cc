@@ -29,7 +29,8 @@ namespace plumbline::physics
       double largest_difference; ///< max |u(x+ξ) - u(x)| over the points
     };
 
-    Integral integrate(const Kernel<2> &kernel, const Expression &u, const Point<2> &x,
+    Integral integrate(const Kernel<2> &kernel, const Expression &u,
+                       const std::optional<Coefficient> &a, const Point<2> &x,
                        unsigned int component, unsigned int n_radii, unsigned int n_angles)
     {
       const unsigned int n_components = kernel.n_components();
@@ -38,6 +39,7 @@ namespace plumbline::physics
       for (unsigned int b = 0; b < n_components; ++b)
         u0[b] = u(x, is_scalar ? component : b);
 
+      const double a0 = a ? a->at(x) : 1;
       Integral result{0, 0};
       for (unsigned int q = 0; q < n_radii; ++q)
       {
@@ -47,10 +49,12 @@ namespace plumbline::physics
         {
           const double angle = 2 * M_PI * (k + .5) / n_angles;
           const Point<2> xi(r * std::cos(angle), r * std::sin(angle));
+          const double factor = a ? a->mean(a0, a->at(x + xi)) : 1;
           for (unsigned int b = 0; b < n_components; ++b)
           {
             const double difference = u(x + xi, is_scalar ? component : b) - u0[b];
-            ring += difference * (is_scalar ? 1. : kernel.direction_factor(component, b, xi));
+            ring +=
+                factor * difference * (is_scalar ? 1. : kernel.direction_factor(component, b, xi));
             result.largest_difference = std::max(result.largest_difference, std::abs(difference));
           }
         }
@@ -61,8 +65,8 @@ namespace plumbline::physics
     }
   } // namespace
 
-  ManufacturedLoad::ManufacturedLoad(Kernel<2> kernel, Expression u)
-      : kernel_(std::move(kernel)), u_(std::move(u))
+  ManufacturedLoad::ManufacturedLoad(Kernel<2> kernel, Expression u, std::optional<Coefficient> a)
+      : kernel_(std::move(kernel)), u_(std::move(u)), a_(std::move(a))
   {
     if (u_.n_components() < kernel_.n_components())
       throw InputError("the field '" + u_.text() + "' has " + std::to_string(u_.n_components()) +
@@ -74,11 +78,11 @@ namespace plumbline::physics
   double ManufacturedLoad::operator()(const Point<2> &x, unsigned int component) const
   {
     constexpr double settled = 1e-14, acceptable = 1e-12;
-    Integral coarse = integrate(kernel_, u_, x, component, 6, 12);
+    Integral coarse = integrate(kernel_, u_, a_, x, component, 6, 12);
     double change = 0, scale = 0;
     for (unsigned int n = 12; n <= 192; n *= 2)
     {
-      const Integral fine = integrate(kernel_, u_, x, component, n, 2 * n);
+      const Integral fine = integrate(kernel_, u_, a_, x, component, n, 2 * n);
       change = std::abs(fine.value - coarse.value);
       scale = std::abs(fine.value) + operator_scale(kernel_) * fine.largest_difference;
       if (change <= settled * scale)

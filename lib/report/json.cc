@@ -46,6 +46,8 @@ namespace plumbline::report
       a("operator_road", diagnostics.operator_road);
       a("n_geometry_checks", diagnostics.n_geometry_checks);
       a("geometry_difference", diagnostics.geometry_difference);
+      a("outer_change", diagnostics.outer_change);
+      a("n_refinements", diagnostics.n_refinements);
       a("notes", diagnostics.notes);
     }
 
@@ -99,7 +101,9 @@ namespace plumbline::report
       a("horizon", reference.horizon);
       a("h_change", reference.h_change);
       a("p_change", reference.p_change);
+      a("outer_change", reference.outer_change);
       a("estimate", reference.estimate);
+      a("certified_digits", reference.certified_digits);
       a("n_geometry_checks", reference.n_geometry_checks);
       a("geometry_difference", reference.geometry_difference);
     }

@@ -199,9 +199,11 @@ namespace plumbline::report
                        paragraph("No estimate: errors here are against an exact solution, or the "
                                  "scene did not ask for one."));
       const Table doubtful = doubtful_differences(results);
-      std::string text = paragraph("How much the reference’s cell averages change when h is halved "
-                                   "and when the degree is raised by one; the larger is its "
-                                   "estimate.");
+      std::string text = paragraph(
+          "How much the reference’s cell averages change when h is halved and when the degree is "
+          "raised by one, and how much its outer quadrature moved last; the largest is its "
+          "estimate, "
+          "and the digits of the solution that this leaves certain are certified.");
       text += folded("Estimates (" + std::to_string(results.references.size()) + " levels)",
                      to_html(reference_table(results)), results.references.size() <= 12);
       const bool is_estimated =

@@ -175,14 +175,24 @@ namespace plumbline::report
   Table reference_table(const study::Results &results)
   {
     Table table;
-    table.columns = {"reference", "problem",       "series",          "level",   "h",
-                     "δ",         "change to h/2", "change to p + 1", "estimate"};
+    table.columns = {"reference",
+                     "problem",
+                     "series",
+                     "level",
+                     "h",
+                     "δ",
+                     "change to h/2",
+                     "change to p + 1",
+                     "outer quadrature",
+                     "estimate",
+                     "certified digits"};
     for (const study::ReferenceEstimate &estimate : results.references)
       table.rows.push_back({text_cell(estimate.method), text_cell(estimate.problem),
                             text_cell(estimate.series), count_cell(estimate.level),
                             number_cell(estimate.h), number_cell(estimate.horizon),
                             error_cell(estimate.h_change), error_cell(estimate.p_change),
-                            error_cell(estimate.estimate)});
+                            error_cell(estimate.outer_change), error_cell(estimate.estimate),
+                            count_cell(estimate.certified_digits)});
     return table;
   }
 

@@ -65,7 +65,8 @@ namespace plumbline::scene
                   << ", so balls would reach points without data; widen it or write auto";
         else
         {
-          (void)geometry::Lattice(scene.domain, level.h);
+          if (scene.mesh.is_of_boxes())
+            (void)geometry::Lattice(scene.domain, level.h);
           continue;
         }
         throw InputError(message.str());
@@ -98,7 +99,8 @@ namespace plumbline::scene
       check("Problem/load", load.expression);
     if (scene.constraint != "solution")
       check("Problem/constraint", scene.constraint);
-    if (scene.local_solution != "solution" && scene.local_solution != "none")
+    if (scene.local_solution != "solution" && scene.local_solution != "none" &&
+        scene.local_solution != "computed")
       check("Problem/local solution", scene.local_solution);
 
     if (scene.solutions.empty() && scene.loads.empty())
@@ -112,6 +114,58 @@ namespace plumbline::scene
       throw InputError("Problem/load has " + std::to_string(scene.loads.size()) +
                        " cases and Problem/solution has " + std::to_string(scene.solutions.size()) +
                        "; give one load a solution");
+  }
+
+  void check_mesh_and_nodes(const Scene &scene)
+  {
+    const MeshSource &mesh = scene.mesh;
+    const auto needs = [&](bool is_good, const std::string &what, const std::string &remedy)
+    {
+      if (!is_good)
+        throw InputError(what + " with Domain/mesh = " + mesh.kind + ": " + remedy);
+    };
+    const std::string mesh_remedy = "a lattice is uniform; write Domain/mesh = squares, triangles, "
+                                    "a .msh or .geo file, or a generator";
+    const bool is_generator = !mesh.is_of_boxes() && !mesh.is_file();
+    needs(mesh.map.empty() || mesh.kind == "squares" || mesh.kind == "triangles",
+          "Domain/map is given", "maps move squares and triangles; clear it or choose one of them");
+    needs(is_generator || (mesh.arguments.empty() && mesh.inside.empty()),
+          "Domain/arguments or Domain/inside is given",
+          "they belong to deal.II's generators; clear them");
+    needs(!is_generator || !mesh.inside.empty(), "Domain/inside is empty",
+          "tell which cells of the generator are in Omega, the others being the collar: an "
+          "expression that is positive there");
+    needs(!mesh.is_lattice() || scene.coefficient.empty(),
+          "Kernel/coefficient = '" + scene.coefficient + "'", mesh_remedy);
+    needs(!mesh.is_lattice() || scene.nodes.perturbation == 0, "Methods/perturbation > 0",
+          mesh_remedy);
+    needs(!mesh.is_lattice() || scene.local_solution != "computed",
+          "Problem/local solution = computed", mesh_remedy);
+    const std::string &nodes = scene.nodes.kind;
+    const bool is_csv = nodes.size() > 4 && nodes.substr(nodes.size() - 4) == ".csv";
+    if (nodes != "centres" && nodes != "vertices" && nodes != "mesh" && !is_csv)
+      throw InputError("Methods/nodes = '" + nodes +
+                       "' is not known; write centres, vertices, mesh, or a file .csv");
+    needs(!mesh.is_lattice() || nodes == "centres" || nodes == "vertices",
+          "Methods/nodes = " + nodes, mesh_remedy);
+    needs(mesh.is_lattice() || nodes != "vertices", "Methods/nodes = vertices",
+          "vertices are for lattices; write centres, mesh, or a file .csv");
+    if (scene.nodes.perturbation > 0 && nodes != "centres")
+      throw InputError("Methods/perturbation moves centres, but Methods/nodes = " + nodes +
+                       "; write Methods/nodes = centres, or set the perturbation to 0");
+    const auto expression = [&](const std::string &key, const std::string &text, unsigned int n)
+    {
+      const physics::Expression parsed(key, text, {{"delta", 1.}});
+      if (!text.empty() && parsed.n_components() != n)
+        throw InputError(key + " = '" + text + "' has " + std::to_string(parsed.n_components()) +
+                         " component(s), not " + std::to_string(n));
+    };
+    if (!scene.coefficient.empty())
+      expression("Kernel/coefficient", scene.coefficient, 1);
+    if (!mesh.inside.empty())
+      expression("Domain/inside", mesh.inside, 1);
+    if (!mesh.map.empty())
+      expression("Domain/map", mesh.map, 2);
   }
 
   void check_norms(const Scene &scene)
@@ -134,6 +188,11 @@ namespace plumbline::scene
     if (parts[1] == "exact" && scene.solutions.empty())
       throw InputError("Study/decisive error = '" + scene.decisive_error +
                        "' needs Problem/solution, which is empty; use the target reference");
+    if (parts[1] == "local" && scene.local_solution == "computed" &&
+        parts[0].compare(0, 8, "averages") != 0)
+      throw InputError("Study/decisive error = '" + scene.decisive_error +
+                       "': a computed local solution is compared by cell averages; use averages L2 "
+                       "or averages Linf");
     if (parts[1] == "local" &&
         (scene.local_solution == "solution" || scene.local_solution == "none"))
       throw InputError(

@@ -13,6 +13,9 @@ namespace plumbline::scene
   /// Kernel, limit, and the number of components of every expression.
   void check_kernel_and_problem(const Scene &scene);
 
+  /// Keys of Domain/mesh, Kernel/coefficient and Methods/nodes fit together.
+  void check_mesh_and_nodes(const Scene &scene);
+
   /// Norms and targets are known, and what they need is given.
   void check_norms(const Scene &scene);
 } // namespace plumbline::scene

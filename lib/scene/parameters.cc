@@ -61,6 +61,22 @@ namespace plumbline::scene
            "multiple "
            "of each mesh size from the others. [length]"},
           {"Domain", "holes", "", text(), "Boxes to take out again, written like boxes. [length]"},
+          {"Domain", "mesh", "lattice", text(),
+           "lattice: the boxes in uniform squares, one stencil for all. squares, triangles: the "
+           "same "
+           "as a mesh with entries of its own. A file .msh, or .geo with the constants h and "
+           "delta, "
+           "and physical surfaces omega... and collar...; or one of deal.II's generators by name, "
+           "e.g. hyper_ball_balanced."},
+          {"Domain", "arguments", "", text(),
+           "Of a generator, as deal.II takes them, e.g. '0, 0 : 1'. Its cells must reach over the "
+           "collar."},
+          {"Domain", "inside", "", text(),
+           "Of a generator: an expression in x, y and delta that is positive in Omega, e.g. "
+           "'(1 - delta)^2 - x^2 - y^2'."},
+          {"Domain", "map", "", text(),
+           "Of squares and triangles: where their vertices go, 'x, y' as expressions; e.g. "
+           "'sign(x)*abs(x)^1.5, y' grades the mesh. Empty: they stay."},
           {"Domain", "collar", "auto", text(),
            "Width of the interaction collar where the volume constraint gives u: auto, or a width "
            "of "
@@ -82,6 +98,10 @@ namespace plumbline::scene
            "kernels."},
           {"Kernel", "singularity", "0", std::make_shared<Patterns::Integer>(0, 1),
            "a of the polynomial profile p(t) / t^a."},
+          {"Kernel", "coefficient", "", text(),
+           "a > 0 of a kernel a C: an expression in x and y. Empty: homogeneous. Needs a mesh."},
+          {"Kernel", "symmetrisation", "arithmetic", one_of("arithmetic|harmonic"),
+           "The mean of the coefficients at both ends of a bond."},
 
           {"Problem", "solution", "", text(),
            "The exact nonlocal solution: a muParser expression in x, y and delta (the horizon), "
@@ -94,14 +114,19 @@ namespace plumbline::scene
            "u in the collar: solution, or an expression."},
           {"Problem", "local solution", "solution", text(),
            "The solution of the local limit: solution (where it does not depend on the horizon), "
-           "none, "
-           "or an expression."},
+           "none, computed (by classical finite elements; needs a mesh), or an expression."},
 
           {"Methods", "names", "", text(),
            "Methods to compare, separated by ','; 'all' takes those that can do the scene. See "
            "'plumbline list methods'."},
-          {"Methods", "nodes", "centres", one_of("centres|vertices"),
-           "Meshfree nodes at the cell centres, or at the vertices (the boundary among the data)."},
+          {"Methods", "nodes", "centres", text(),
+           "Meshfree nodes: centres of lattice cells, vertices (of a lattice, the boundary among "
+           "the "
+           "data), mesh (centroids of its cells), or a file .csv with columns x and y. On meshes "
+           "their cells are Voronoi cells."},
+          {"Methods", "perturbation", "0", std::make_shared<Patterns::Double>(0, .49),
+           "Centres are moved at random by up to so many h in x and in y (Geometry/seed). Needs a "
+           "mesh."},
 
           {"Study", "regime", "delta", one_of("m|delta|delta-m|horizon"),
            "m: horizon fixed, h to 0. delta: m = horizon / h fixed, h to 0 (decides asymptotic "
@@ -120,6 +145,21 @@ namespace plumbline::scene
            "Galerkin method whose cell averages are the reference: none, Q1, Q2, Q3, ..."},
           {"Reference", "estimate", "true", yes_or_no(),
            "Estimate the reference's own error by h/2 and by degree p+1."},
+          {"Reference", "tolerance", "0", std::make_shared<Patterns::Double>(0, 1),
+           "Largest estimate of the reference's own error, relative to the solution; where it is "
+           "not "
+           "met the run ends with exit code 3. 0: the estimate is only reported."},
+
+          {"Quadrature", "rectangles", "correlation", one_of("correlation|quadrature"),
+           "Entries of axis-aligned rectangles of a mesh: exact by correlation, or by quadrature "
+           "as "
+           "all other cells."},
+          {"Quadrature", "tolerance", "1e-5", std::make_shared<Patterns::Double>(0, 1),
+           "Outer quadrature on meshes is refined until the solution changes by less, relative to "
+           "it. 0: the first rule is taken as it is, and nothing is known of its error."},
+          {"Quadrature", "max refinements", "4", std::make_shared<Patterns::Integer>(0, 8),
+           "Most refinements; where the tolerance is not met by then the run ends with exit code "
+           "3."},
 
           {"Geometry", "backend", "fast", one_of("fast|cgal"),
            "Who intersects balls and cells: fast (double precision) or cgal (exact circular "
@@ -131,6 +171,10 @@ namespace plumbline::scene
           {"Solver", "operator", "automatic", one_of("automatic|fft|direct|sparse"),
            "How the operator is applied: by Fourier transforms, by the shared stencil, by a sparse "
            "Trilinos matrix, or whichever of the first two is faster."},
+          {"Solver", "linear solver", "automatic", one_of("automatic|direct|amg|jacobi"),
+           "Of sparse systems, on meshes and scattered nodes: direct, or conjugate gradients "
+           "(GMRES "
+           "where not symmetric) with algebraic multigrid or Jacobi."},
           {"Solver", "tolerance", "1e-12", std::make_shared<Patterns::Double>(1e-15, 1e-3),
            "Relative residual of the linear system."},
           {"Solver", "max iterations", "1000", count(1), "Most iterations of conjugate gradients."},

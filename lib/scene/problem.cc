@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "physics/load.h"
+#include "scene/mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,64 +12,97 @@ namespace plumbline::scene
 {
   namespace
   {
+    using dealii::Point;
     using physics::ChebyshevField;
     using physics::Expression;
 
+    /// Where Ω is: its bounding box, whether it fills it, and some points of it.
+    struct Extent
+    {
+      geometry::Box box;
+      bool is_rectangle;
+      std::vector<Point<2>> samples;
+    };
+
+    Extent extent(const geometry::Lattice &lattice)
+    {
+      constexpr int n_samples = 8;
+      const auto &n = lattice.n_cells();
+      Extent result{{lattice.origin(), lattice.point(n[0], n[1])}, lattice.is_rectangle(), {}};
+      for (int j = 0; j <= n_samples; ++j)
+        for (int i = 0; i <= n_samples; ++i)
+        {
+          const int k = i * (n[0] - 1) / n_samples, l = j * (n[1] - 1) / n_samples;
+          if (lattice.is_inside(k, l))
+            result.samples.push_back(lattice.point(k + .5, l + .5));
+        }
+      return result;
+    }
+
+    Extent extent(const geometry::Mesh &mesh)
+    {
+      constexpr std::size_t n_samples = 80;
+      Extent result{geometry::bounding_box(mesh), false, {}};
+      const std::size_t step = std::max<std::size_t>(1, mesh.cells.size() / n_samples);
+      for (std::size_t i = 0; i < mesh.cells.size(); i += step)
+        if (mesh.cells[i].is_inside)
+          result.samples.push_back(geometry::centroid(geometry::view(mesh.polygon(i))));
+      return result;
+    }
+
     /// Add the series to a field, if it is smooth on the bounding box of Ω.
     Field with_series(ChebyshevField::Function value, unsigned int n_components,
-                      const geometry::Lattice &lattice, double noise)
+                      const Extent &extent, double noise)
     {
       Field field{std::move(value), std::nullopt};
-      const auto &n = lattice.n_cells();
       try
       {
-        field.series = ChebyshevField::resolve(field.value, n_components, lattice.origin(),
-                                               lattice.point(n[0], n[1]), noise);
+        field.series = ChebyshevField::resolve(field.value, n_components, extent.box.lower,
+                                               extent.box.upper, noise);
       }
       catch (const std::runtime_error &)
       {
         // the bounding box of Ω may hold points, in a hole, where the field has no value
-        if (lattice.is_rectangle())
+        if (extent.is_rectangle)
           throw;
       }
       return field;
     }
 
-    Field expression_field(const std::string &key, const std::string &text,
-                           unsigned int n_components, const geometry::Lattice &lattice,
-                           double horizon)
+    /// The largest value of a field over the samples: for noise levels.
+    double magnitude(const Field &field, unsigned int n_components, const Extent &extent)
     {
-      const Expression expression(key, text, {{"delta", horizon}});
-      return with_series(expression, n_components, lattice, 0);
-    }
-
-    /// The largest value of a field over the cells of Ω, roughly: for noise levels.
-    double magnitude(const Field &field, unsigned int n_components,
-                     const geometry::Lattice &lattice)
-    {
-      const auto &n = lattice.n_cells();
-      constexpr int samples = 8;
       double largest = 0;
-      for (int j = 0; j <= samples; ++j)
-        for (int i = 0; i <= samples; ++i)
-          if (lattice.is_inside(i * (n[0] - 1) / samples, j * (n[1] - 1) / samples))
-            for (unsigned int c = 0; c < n_components; ++c)
-              largest = std::max(largest,
-                                 std::abs(field.value(lattice.point(i * (n[0] - 1) / samples + .5,
-                                                                    j * (n[1] - 1) / samples + .5),
-                                                      c)));
+      for (const Point<2> &x : extent.samples)
+        for (unsigned int c = 0; c < n_components; ++c)
+          largest = std::max(largest, std::abs(field.value(x, c)));
       return largest;
     }
   } // namespace
 
   Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level)
   {
-    const geometry::Lattice lattice(scene.domain, level.h);
     const physics::Kernel<2> kernel = scene.kernel(level.horizon);
     const unsigned int n_components = kernel.n_components();
-    Problem problem{lattice, kernel, n_components, {}, {}, {}, {}};
+    Problem problem{{}, {}, {}, level.h, kernel, {}, n_components, {}, {}, {}, {}};
+    if (scene.mesh.is_lattice())
+      problem.lattice.emplace(scene.domain, level.h);
+    else
+    {
+      problem.mesh = std::make_shared<const geometry::Mesh>(make_mesh(scene, level));
+      problem.cells =
+          std::make_shared<const geometry::NodeCells>(make_node_cells(scene, level, *problem.mesh));
+    }
+    if (!scene.coefficient.empty())
+      problem.coefficient.emplace(Expression("Kernel/coefficient", scene.coefficient),
+                                  scene.symmetrisation);
+
+    const Extent omega = problem.lattice ? extent(*problem.lattice) : extent(*problem.mesh);
+    const auto expression = [&](const std::string &key, const std::string &text) {
+      return Expression(key, text, {{"delta", level.horizon}});
+    };
     const auto field = [&](const std::string &key, const std::string &text)
-    { return expression_field(key, text, n_components, lattice, level.horizon); };
+    { return with_series(expression(key, text), n_components, omega, 0); };
 
     if (!scene.solutions.empty())
       problem.solution = field("Problem/solution", scene.solutions[case_index].expression);
@@ -77,7 +111,7 @@ namespace plumbline::scene
                              : field("Problem/constraint", scene.constraint);
     if (scene.local_solution == "solution")
       problem.local_solution = problem.solution;
-    else if (scene.local_solution != "none")
+    else if (scene.local_solution != "none" && scene.local_solution != "computed")
       problem.local_solution = field("Problem/local solution", scene.local_solution);
 
     if (!scene.loads.empty())
@@ -85,12 +119,12 @@ namespace plumbline::scene
     else
     {
       const physics::ManufacturedLoad load(
-          kernel, Expression("Problem/solution", scene.solutions[case_index].expression,
-                             {{"delta", level.horizon}}));
+          kernel, expression("Problem/solution", scene.solutions[case_index].expression),
+          problem.coefficient);
       const double noise = 2 * std::numeric_limits<double>::epsilon() *
                            physics::operator_scale(kernel) *
-                           magnitude(*problem.solution, n_components, lattice);
-      problem.load = with_series(load, n_components, lattice, noise);
+                           magnitude(*problem.solution, n_components, omega);
+      problem.load = with_series(load, n_components, omega, noise);
     }
     return problem;
   }

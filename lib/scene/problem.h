@@ -1,11 +1,13 @@
 #pragma once
 
+#include "geometry/node_cells.h"
 #include "physics/chebyshev.h"
-#include "physics/expression.h"
+#include "physics/coefficient.h"
 #include "physics/kernel.h"
 #include "scene/scene.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 namespace plumbline::scene
@@ -17,11 +19,16 @@ namespace plumbline::scene
     std::optional<physics::ChebyshevField> series; ///< on the bounding box of Ω
   };
 
-  /// One case of a scene at one level: what a method needs to know, and nothing of other levels.
+  /// One case of a scene at one level: what a method needs to know, and nothing of other levels. It
+  /// stands either on a lattice or on a mesh with the cells of its nodes.
   struct Problem
   {
-    geometry::Lattice lattice;
+    std::optional<geometry::Lattice> lattice;
+    std::shared_ptr<const geometry::Mesh> mesh;       ///< of Ω and its collar; empty on a lattice
+    std::shared_ptr<const geometry::NodeCells> cells; ///< of the nodes; empty on a lattice
+    double h;                                         ///< of the level [length]
     physics::Kernel<2> kernel;
+    std::optional<physics::Coefficient> coefficient; ///< empty: homogeneous
     unsigned int n_components;
     Field load;                          ///< b on Ω
     Field constraint;                    ///< u in the collar
@@ -31,6 +38,7 @@ namespace plumbline::scene
   };
 
   /// @param case_index  into Scene::case_names()
-  /// @throws InputError  an expression that is not finite somewhere in Ω or its collar
+  /// @throws InputError  an expression that is not finite somewhere in Ω or its collar, a mesh or
+  /// nodes that cannot be used
   Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level);
 } // namespace plumbline::scene

@@ -79,12 +79,12 @@ namespace plumbline::scene
       return profile;
     }
 
-    Scene build(const std::string &name, dealii::ParameterHandler &parameters)
+    Scene build(const std::string &file, dealii::ParameterHandler &parameters)
     {
       const auto value = [&](const std::string &key) { return get(parameters, key); };
       const auto numbers = [&](const std::string &key) { return to_numbers(key, value(key), ','); };
       Scene scene;
-      scene.name = name;
+      scene.name = std::filesystem::path(file).stem().string();
       scene.purpose = value("Purpose");
       std::ostringstream text;
       parameters.print_parameters(text, dealii::ParameterHandler::ShortText);
@@ -92,6 +92,9 @@ namespace plumbline::scene
 
       scene.domain.include = to_boxes("Domain/boxes", value("Domain/boxes"));
       scene.domain.exclude = to_boxes("Domain/holes", value("Domain/holes"));
+      scene.folder = std::filesystem::path(file).parent_path().string();
+      scene.mesh = {value("Domain/mesh"), value("Domain/arguments"), value("Domain/inside"),
+                    value("Domain/map")};
       if (value("Domain/collar") != "auto")
         scene.collar = to_number("Domain/collar", value("Domain/collar"));
 
@@ -104,6 +107,11 @@ namespace plumbline::scene
       scene.profile = make_profile(type, numbers("Kernel/coefficients"),
                                    std::stoi(value("Kernel/singularity")));
 
+      scene.coefficient = value("Kernel/coefficient");
+      scene.symmetrisation = value("Kernel/symmetrisation") == "harmonic"
+                                 ? physics::Mean::harmonic
+                                 : physics::Mean::arithmetic;
+
       scene.solutions = to_cases(value("Problem/solution"));
       if (value("Problem/load") != "manufactured")
         scene.loads = to_cases(value("Problem/load"));
@@ -114,7 +122,9 @@ namespace plumbline::scene
       scene.methods = to_names(value("Methods/names"));
       if (scene.methods.empty())
         throw InputError("Methods/names is empty; name methods ('plumbline list methods'), or all");
-      scene.nodes_at_vertices = value("Methods/nodes") == "vertices";
+      scene.nodes = {value("Methods/nodes"),
+                     to_number("Methods/perturbation", value("Methods/perturbation"))};
+      check_mesh_and_nodes(scene);
 
       const std::string regime = value("Study/regime");
       scene.regime = regime == "m"         ? Regime::m
@@ -129,15 +139,20 @@ namespace plumbline::scene
 
       scene.reference = value("Reference/method");
       scene.estimate_reference = value("Reference/estimate") == "true";
+      scene.reference_tolerance = to_number("Reference/tolerance", value("Reference/tolerance"));
       scene.norms = to_names(value("Study/norms"));
       scene.decisive_error = value("Study/decisive error");
       check_norms(scene);
 
+      scene.exact_rectangles = value("Quadrature/rectangles") == "correlation";
+      scene.outer_tolerance = to_number("Quadrature/tolerance", value("Quadrature/tolerance"));
+      scene.max_refinements = std::stoi(value("Quadrature/max refinements"));
       scene.backend =
           value("Geometry/backend") == "cgal" ? geometry::Backend::cgal : geometry::Backend::fast;
       scene.n_geometry_checks = std::stoi(value("Geometry/checks"));
       scene.seed = std::stoi(value("Geometry/seed"));
       scene.operator_road = value("Solver/operator");
+      scene.linear_solver = value("Solver/linear solver");
       scene.tolerance = to_number("Solver/tolerance", value("Solver/tolerance"));
       scene.max_iterations = std::stoi(value("Solver/max iterations"));
       scene.write_fields = value("Output/fields") == "true";
@@ -184,13 +199,19 @@ namespace plumbline::scene
       }
       for (const Override &change : overrides)
         set(parameters, change.key, change.value);
-      return build(std::filesystem::path(name).stem().string(), parameters);
+      return build(name, parameters);
     }
     catch (const InputError &error)
     {
       throw InputError("scene '" + name + "': " + error.what());
     }
   } // namespace
+
+  bool MeshSource::is_file() const
+  {
+    const std::string ending = std::filesystem::path(kind).extension().string();
+    return ending == ".msh" || ending == ".geo";
+  }
 
   std::vector<std::string> Scene::case_names() const
   {

@@ -2,6 +2,7 @@
 
 #include "geometry/ball_cell.h"
 #include "geometry/lattice.h"
+#include "physics/coefficient.h"
 #include "physics/kernel.h"
 
 #include <optional>
@@ -18,6 +19,26 @@ namespace plumbline::scene
              ///< compatibility
     delta_m, ///< horizon → 0 and m → ∞ together
     horizon  ///< h fixed, horizon varies: how errors depend on the horizon
+  };
+
+  /// How Ω and its collar are cut into cells.
+  struct MeshSource
+  {
+    std::string kind; ///< lattice, squares, triangles, a .msh or .geo file, or a deal.II generator
+    std::string arguments; ///< of a generator
+    std::string inside;    ///< of a generator: an expression, positive in Ω
+    std::string map;       ///< of squares and triangles: where their vertices go; empty: they stay
+
+    bool is_lattice() const { return kind == "lattice"; }
+    bool is_of_boxes() const { return is_lattice() || kind == "squares" || kind == "triangles"; }
+    bool is_file() const;
+  };
+
+  /// Where meshfree nodes are.
+  struct NodeSource
+  {
+    std::string kind;        ///< centres, vertices, mesh (centroids of its cells), or a .csv file
+    double perturbation = 0; ///< of centres, by up to so many h in x and in y
   };
 
   /// A named field to solve for, or a named load.
@@ -53,20 +74,27 @@ namespace plumbline::scene
     std::string name, purpose;
     std::string text; ///< all keys and values; parses to the same scene
 
+    std::string folder; ///< of the scene's file: other files are named from there
+
     geometry::Domain domain;
+    MeshSource mesh;
     std::optional<double> collar; ///< width; empty: as wide as the ball needs
 
     std::string kernel_type, limit;
     std::vector<physics::PowerTerm> profile;
     physics::Structure structure;
     double bulk_modulus, kernel_constant;
+    std::string coefficient; ///< an expression; empty: homogeneous
+    physics::Mean symmetrisation;
 
-    std::vector<Case> solutions;            ///< exact nonlocal solutions, empty if not known
-    std::vector<Case> loads;                ///< empty: manufactured from the solutions
-    std::string constraint, local_solution; ///< "solution" or expressions
+    std::vector<Case> solutions; ///< exact nonlocal solutions, empty if not known
+    std::vector<Case> loads;     ///< empty: manufactured from the solutions
+    std::string constraint;      ///< "solution" or an expression
+    std::string local_solution;  ///< "solution", "none", "computed" or an expression
 
     std::vector<std::string> methods;
-    bool nodes_at_vertices;
+    NodeSource nodes;
+    bool nodes_at_vertices() const { return nodes.kind == "vertices"; }
 
     Regime regime;
     std::vector<Series> series;
@@ -75,11 +103,16 @@ namespace plumbline::scene
 
     std::string reference; ///< a method's name, or "none"
     bool estimate_reference;
+    double reference_tolerance; ///< relative; 0: only reported
+
+    bool exact_rectangles;  ///< axis-aligned rectangles by correlation, not by quadrature
+    double outer_tolerance; ///< relative, of the solution
+    unsigned int max_refinements;
 
     geometry::Backend backend;
     unsigned int n_geometry_checks, seed;
 
-    std::string operator_road;
+    std::string operator_road, linear_solver;
     double tolerance;
     unsigned int max_iterations;
 

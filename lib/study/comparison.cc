@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace plumbline::study
 {
@@ -76,22 +77,42 @@ namespace plumbline::study
                          { return norm.compare(0, kind.size() + 1, kind + " ") == 0; });
     }
 
-    Accumulator nodal_difference(const Solution &solution, const Field &field, double h,
-                                 unsigned int n_components)
+    /// Area of a comparison cell.
+    double cell_area(const scene::Problem &problem, std::size_t cell)
     {
+      return problem.cells ? problem.cells->area[cell] : problem.h * problem.h;
+    }
+
+    /// Every node stands for an equal part of Ω.
+    double node_area(const scene::Problem &problem, const Solution &solution)
+    {
+      if (problem.lattice)
+        return problem.h * problem.h;
+      const auto &area = problem.cells->area;
+      return std::accumulate(area.begin(),
+                             area.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free),
+                             0.) /
+             static_cast<double>(std::max<std::size_t>(1, solution.nodes.size()));
+    }
+
+    Accumulator nodal_difference(const scene::Problem &problem, const Solution &solution,
+                                 const Field &field)
+    {
+      const double area = node_area(problem, solution);
+      const unsigned int n = problem.n_components;
       Accumulator sum;
       for (std::size_t i = 0; i < solution.nodes.size(); ++i)
-        for (unsigned int c = 0; c < n_components; ++c)
-          sum.add(solution.nodal[i * n_components + c] - field.value(solution.nodes[i], c), h * h);
+        for (unsigned int c = 0; c < n; ++c)
+          sum.add(solution.nodal[i * n + c] - field.value(solution.nodes[i], c), area);
       return sum;
     }
 
-    Accumulator averages_difference(const std::vector<double> &a, const std::vector<double> &b,
-                                    double h)
+    Accumulator averages_difference(const scene::Problem &problem, const std::vector<double> &a,
+                                    const std::vector<double> &b)
     {
       Accumulator sum;
       for (std::size_t i = 0; i < a.size(); ++i)
-        sum.add(a[i] - b[i], h * h);
+        sum.add(a[i] - b[i], cell_area(problem, i / problem.n_components));
       return sum;
     }
 
@@ -107,29 +128,51 @@ namespace plumbline::study
       return least;
     }
 
-    Accumulator field_difference(const Solution &solution, const Field &field,
-                                 const geometry::Lattice &lattice, unsigned int n_components)
+    Accumulator field_difference(const scene::Problem &problem, const Solution &solution,
+                                 const Field &field)
     {
-      static const dealii::QIterated<2> rule(dealii::QGauss<1>(3), 2);
       Accumulator sum;
-      const double area = lattice.h() * lattice.h();
-      for (int j = 0; j < lattice.n_cells()[1]; ++j)
-        for (int i = 0; i < lattice.n_cells()[0]; ++i)
-          if (lattice.is_inside(i, j))
-            for (unsigned int q = 0; q < rule.size(); ++q)
-            {
-              const auto x = lattice.point(i + rule.point(q)[0], j + rule.point(q)[1]);
-              for (unsigned int c = 0; c < n_components; ++c)
-                sum.add(solution.value(x, c) - field.value(x, c), area * rule.weight(q));
-            }
+      const auto add = [&](const dealii::Point<2> &x, double weight)
+      {
+        for (unsigned int c = 0; c < problem.n_components; ++c)
+          sum.add(solution.value(x, c) - field.value(x, c), weight);
+      };
+      if (problem.lattice)
+      {
+        static const dealii::QIterated<2> rule(dealii::QGauss<1>(3), 2);
+        const geometry::Lattice &lattice = *problem.lattice;
+        const double area = lattice.h() * lattice.h();
+        for (int j = 0; j < lattice.n_cells()[1]; ++j)
+          for (int i = 0; i < lattice.n_cells()[0]; ++i)
+            for (unsigned int q = 0; q < rule.size() && lattice.is_inside(i, j); ++q)
+              add(lattice.point(i + rule.point(q)[0], j + rule.point(q)[1]), area * rule.weight(q));
+        return sum;
+      }
+      const geometry::Mesh &mesh = *problem.mesh;
+      for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+        if (mesh.cells[cell].is_inside)
+        {
+          const auto rule = geometry::polygon_rule(geometry::view(mesh.polygon(cell)), 9);
+          for (std::size_t q = 0; q < rule.points.size(); ++q)
+            add(rule.points[q], rule.weights[q]);
+        }
       return sum;
+    }
+
+    /// Bounding box of Ω.
+    geometry::Box bounding_box(const scene::Problem &problem)
+    {
+      if (problem.mesh)
+        return geometry::bounding_box(*problem.mesh);
+      const auto &n = problem.lattice->n_cells();
+      return {problem.lattice->origin(), problem.lattice->point(n[0], n[1])};
     }
   } // namespace
 
   geometry::NodeSet comparison_nodes(const scene::Scene &scene, const geometry::Lattice &lattice,
                                      unsigned int n_components)
   {
-    const geometry::AxisSpecies nodes = scene.nodes_at_vertices
+    const geometry::AxisSpecies nodes = scene.nodes_at_vertices()
                                             ? geometry::AxisSpecies{0, true, 0}
                                             : geometry::AxisSpecies{.5, false, 0};
     return free_nodes(lattice, {nodes}, n_components);
@@ -152,6 +195,52 @@ namespace plumbline::study
                                         : quadrature_mean(field, lattice, i + cells.axis[0].offset,
                                                           j + cells.axis[0].offset, c));
     return result;
+  }
+
+  std::vector<double> cell_averages(const Field &field, const geometry::NodeCells &cells,
+                                    unsigned int n_components)
+  {
+    constexpr unsigned int degree = 9;
+    std::vector<double> result(cells.n_free * n_components);
+    for (std::size_t cell = 0; cell < cells.n_free; ++cell)
+      for (std::size_t piece = cells.first_piece[cell]; piece < cells.first_piece[cell + 1];
+           ++piece)
+      {
+        const auto rule = geometry::polygon_rule(geometry::view(cells.pieces[piece]), degree);
+        for (std::size_t q = 0; q < rule.points.size(); ++q)
+          for (unsigned int c = 0; c < n_components; ++c)
+            result[cell * n_components + c] += rule.weights[q] / cells.area[cell] *
+                                               (field.series ? (*field.series)(rule.points[q], c)
+                                                             : field.value(rule.points[q], c));
+      }
+    return result;
+  }
+
+  std::vector<double> cell_averages(const Field &field, const scene::Scene &scene,
+                                    const scene::Problem &problem)
+  {
+    if (problem.cells)
+      return cell_averages(field, *problem.cells, problem.n_components);
+    return cell_averages(field, *problem.lattice,
+                         comparison_nodes(scene, *problem.lattice, problem.n_components));
+  }
+
+  std::vector<dealii::Point<2>> comparison_points(const scene::Scene &scene,
+                                                  const scene::Problem &problem)
+  {
+    if (problem.cells)
+      return {problem.cells->nodes.begin(),
+              problem.cells->nodes.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free)};
+    std::vector<dealii::Point<2>> points;
+    const NodeSet cells = comparison_nodes(scene, *problem.lattice, 1);
+    for (int j = 0; j < cells.n[1]; ++j)
+      for (int i = 0; i < cells.n[0]; ++i)
+        if (cells.free(0, i, j))
+        {
+          const auto place = cells.place(0, i, j);
+          points.push_back(problem.lattice->point(place[0], place[1]));
+        }
+    return points;
   }
 
   std::vector<double> coarsen_averages(const std::vector<double> &fine, const NodeSet &fine_cells,
@@ -179,23 +268,26 @@ namespace plumbline::study
     return result;
   }
 
-  double averages_l2(const std::vector<double> &a, const std::vector<double> &b, double h)
+  double averages_l2(const scene::Problem &problem, const std::vector<double> &a,
+                     const std::vector<double> &b)
   {
-    return std::sqrt(averages_difference(a, b, h).squares);
+    return std::sqrt(averages_difference(problem, a, b).squares);
   }
 
   ErrorMap error_map(const scene::Scene &scene, const scene::Problem &problem,
                      const Solution &solution, const std::vector<double> &reference)
   {
     ErrorMap map;
-    const geometry::Lattice &lattice = problem.lattice;
-    const auto &n = lattice.n_cells();
-    const int per_block = cells_per_block(n);
-    map.h = lattice.h();
+    const auto box = bounding_box(problem);
+    const std::array<int, 2> n = {
+        static_cast<int>(std::lround((box.upper[0] - box.lower[0]) / problem.h)),
+        static_cast<int>(std::lround((box.upper[1] - box.lower[1]) / problem.h))};
+    const int per_block = cells_per_block({std::max(1, n[0]), std::max(1, n[1])});
+    map.h = problem.h;
     map.horizon = problem.horizon();
-    map.n_x = (n[0] + per_block - 1) / per_block;
-    map.n_y = (n[1] + per_block - 1) / per_block;
-    map.lower = {lattice.origin()[0], lattice.origin()[1]};
+    map.n_x = std::max(1, (n[0] + per_block - 1) / per_block);
+    map.n_y = std::max(1, (n[1] + per_block - 1) / per_block);
+    map.lower = {box.lower[0], box.lower[1]};
     map.upper = {map.lower[0] + map.h * per_block * map.n_x,
                  map.lower[1] + map.h * per_block * map.n_y};
     map.values.assign(static_cast<std::size_t>(map.n_x) * map.n_y,
@@ -222,50 +314,39 @@ namespace plumbline::study
       return map;
     }
     map.quantity = "cell averages";
-    const NodeSet cells = comparison_nodes(scene, lattice, problem.n_components);
     const std::vector<double> target =
-        problem.solution ? cell_averages(*problem.solution, lattice, cells) : reference;
-    std::size_t index = 0;
-    for (int j = 0; j < n[1]; ++j)
-      for (int i = 0; i < n[0]; ++i)
-        for (unsigned int c = 0; c < problem.n_components && cells.free(0, i, j); ++c, ++index)
-        {
-          const auto place = cells.place(0, i, j);
-          if (!target.empty())
-            enter(lattice.point(place[0], place[1]), solution.averages[index] - target[index]);
-        }
+        problem.solution ? cell_averages(*problem.solution, scene, problem) : reference;
+    const auto points = comparison_points(scene, problem);
+    for (std::size_t i = 0; i < target.size(); ++i)
+      enter(points[i / problem.n_components], solution.averages[i] - target[i]);
     return map;
   }
 
   std::map<std::string, double> errors(const scene::Scene &scene, const scene::Problem &problem,
-                                       const Solution &solution,
-                                       const std::vector<double> &reference)
+                                       const Solution &solution, const Targets &targets)
   {
-    const double h = problem.lattice.h();
     std::map<std::string, double> result;
     const auto compare = [&](const std::string &target, const Field &field)
     {
       if (is_wanted(scene, "nodal"))
-        enter(result, scene, "nodal", target,
-              nodal_difference(solution, field, h, problem.n_components));
+        enter(result, scene, "nodal", target, nodal_difference(problem, solution, field));
       if (is_wanted(scene, "averages"))
-        enter(result, scene, "averages", target,
-              averages_difference(
-                  solution.averages,
-                  cell_averages(field, problem.lattice,
-                                comparison_nodes(scene, problem.lattice, problem.n_components)),
-                  h));
+        enter(
+            result, scene, "averages", target,
+            averages_difference(problem, solution.averages, cell_averages(field, scene, problem)));
       if (is_wanted(scene, "field"))
-        enter(result, scene, "field", target,
-              field_difference(solution, field, problem.lattice, problem.n_components));
+        enter(result, scene, "field", target, field_difference(problem, solution, field));
     };
     if (problem.solution)
       compare("exact", *problem.solution);
     if (problem.local_solution && scene.local_solution != "solution")
       compare("local", *problem.local_solution);
-    if (!reference.empty())
+    if (!targets.local.empty())
+      enter(result, scene, "averages", "local",
+            averages_difference(problem, solution.averages, targets.local));
+    if (!targets.reference.empty())
       enter(result, scene, "averages", "reference",
-            averages_difference(solution.averages, reference, h));
+            averages_difference(problem, solution.averages, targets.reference));
     return result;
   }
 } // namespace plumbline::study

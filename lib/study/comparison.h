@@ -11,6 +11,18 @@ namespace plumbline::study
   std::vector<double> cell_averages(const scene::Field &field, const geometry::Lattice &lattice,
                                     const geometry::NodeSet &cells);
 
+  /// The same over the cells of scattered nodes: by a rule of degree 9 on each piece.
+  std::vector<double> cell_averages(const scene::Field &field, const geometry::NodeCells &cells,
+                                    unsigned int n_components);
+
+  /// Over whichever cells the problem is compared on.
+  std::vector<double> cell_averages(const scene::Field &field, const scene::Scene &scene,
+                                    const scene::Problem &problem);
+
+  /// The node of each comparison cell.
+  std::vector<dealii::Point<2>> comparison_points(const scene::Scene &scene,
+                                                  const scene::Problem &problem);
+
   /// Averages over the comparison cells at h from averages over the lattice cells at h/2, which
   /// each square of side h is made of four of.
   /// @param fine  shape (n_fine_cells, n_components), of the lattice of h/2 with nodes at its
@@ -19,8 +31,16 @@ namespace plumbline::study
                                        const geometry::NodeSet &fine_cells,
                                        const geometry::NodeSet &cells);
 
-  /// √(h² Σ |a - b|²): the L2 distance of two piecewise constant fields.
-  double averages_l2(const std::vector<double> &a, const std::vector<double> &b, double h);
+  /// √(Σ area |a - b|²): the L2 distance of two fields that are constant on the comparison cells.
+  double averages_l2(const scene::Problem &problem, const std::vector<double> &a,
+                     const std::vector<double> &b);
+
+  /// Cell averages that solutions are held against, each empty if there is none.
+  struct Targets
+  {
+    std::vector<double> reference;
+    std::vector<double> local; ///< of the local limit where it is computed
+  };
 
   /// The errors of nodal values, if the decisive error is nodal, or else of cell averages against
   /// the exact solution or the reference: the largest in each of at most 32 × 32 blocks of cells.
@@ -29,9 +49,8 @@ namespace plumbline::study
 
   /// The errors of a solution in the scene's norms against every target there is, by "norm |
   /// target". Linf takes the largest component; nodal values are at the method's own nodes; field
-  /// norms take 3 × 3 Gauss points on each quarter of a cell.
-  /// @param reference  cell averages of the reference, or empty
+  /// norms take 3 × 3 Gauss points on each quarter of a lattice cell, a rule of degree 9 on a cell
+  /// of a mesh.
   std::map<std::string, double> errors(const scene::Scene &scene, const scene::Problem &problem,
-                                       const Solution &solution,
-                                       const std::vector<double> &reference);
+                                       const Solution &solution, const Targets &targets);
 } // namespace plumbline::study

@@ -268,7 +268,16 @@ namespace plumbline::study
       const double rows = std::max<double>(1., static_cast<double>(largest->cost.n_unknowns));
       const std::string where = " (" + largest->method + ", h = " + number(largest->h) + ")";
       const auto megabytes = [](double bytes) { return number(bytes / 1e6) + " MB"; };
-      if (scene.operator_road != "sparse")
+      if (!scene.mesh.is_lattice())
+      {
+        results.omissions.push_back({"exact geometry in every cell",
+                                     "circles are cut in double precision, good to round-off",
+                                     "a sample of cells is recomputed with exact geometry"});
+        if (scene.coefficient.empty())
+          results.omissions.push_back({"a coefficient at every bond", "the material is homogeneous",
+                                       "one evaluation a quadrature point"});
+      }
+      else if (scene.operator_road != "sparse")
         results.omissions.push_back(
             {"a matrix", "uniform lattice and homogeneous kernel: all rows are one stencil",
              "an assembled matrix would hold " + number(bonds) + " entries, " +

@@ -26,7 +26,7 @@ namespace plumbline::study
               {
                 const auto place = nodes.place(s, i, j);
                 data.push_back(
-                    problem.constraint.value(problem.lattice.point(place[0], place[1]), c));
+                    problem.constraint.value(problem.lattice->point(place[0], place[1]), c));
               }
       return data;
     }
@@ -67,7 +67,7 @@ namespace plumbline::study
     base::CpuTimer timer;
     const auto matrix = make_operator(stencil, nodes, algebra::road_from_name(scene.operator_road));
     const algebra::SchwarzPreconditioner preconditioner(stencil, nodes,
-                                                        maximal_rectangles(problem.lattice));
+                                                        maximal_rectangles(*problem.lattice));
     result.cost.setup_seconds = timer.seconds();
 
     timer.restart();

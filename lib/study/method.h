@@ -29,11 +29,12 @@ namespace plumbline::study
   public:
     virtual ~Method() = default;
     virtual std::string name() const = 0;
-    virtual std::string family() const = 0; ///< "meshfree" or "reference"
+    virtual std::string family() const = 0; ///< "meshfree", "reference" or "local"
     virtual std::string help() const = 0;
 
     /// Empty if the method can do the scene, else the reason.
-    virtual std::string why_not(const scene::Scene &scene) const = 0;
+    /// @param problem  of any case and level
+    virtual std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const = 0;
 
     /// @throws NumericalError  no solution; @throws InputError  data that is not finite
     virtual Solution solve(const scene::Scene &scene, const scene::Problem &problem) const = 0;

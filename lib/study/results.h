@@ -15,11 +15,13 @@ namespace plumbline::study
     /// Bonds of one family, or entries of a Galerkin row besides the diagonal.
     unsigned int n_neighbours = 0;
     double smallest_weight_ratio = 1; ///< min over a family of weight / (ball ∩ cell area or cell)
-    unsigned int n_negative_weights = 0; ///< in one family
+    unsigned int n_negative_weights = 0; ///< in the family of a lattice, or in all families
     double relative_residual = 0;        ///< of the linear system when the solver stopped
-    std::string operator_road;           ///< "fft", "direct" or "sparse"
+    std::string operator_road;           ///< "fft", "direct", "sparse" or "sparse, <solver>"
     unsigned int n_geometry_checks = 0;  ///< cut cells recomputed with the exact backend
     double geometry_difference = 0;      ///< worst difference among them, relative to the cell
+    double outer_change = 0;             ///< L2, relative: the last refinement of outer quadrature
+    unsigned int n_refinements = 0;      ///< of outer quadrature
     std::vector<std::string> notes;      ///< what the method had to do, e.g. clip a negative kernel
   };
 
@@ -27,7 +29,7 @@ namespace plumbline::study
   struct Run
   {
     std::string method;        ///< e.g. "IPA-AC"
-    std::string family;        ///< "meshfree" or "reference"
+    std::string family;        ///< "meshfree", "reference" or "local"
     std::string problem;       ///< case name, e.g. "case1"
     std::string series;        ///< what is held fixed, e.g. "m = 3"
     unsigned int level = 0;    ///< from coarse to fine
@@ -71,9 +73,11 @@ namespace plumbline::study
     std::string problem, series, method; ///< method: of the reference, e.g. "Q2"
     unsigned int level = 0;
     double h = 0, horizon = 0;
-    double h_change = 0;                ///< averages L2: change to h/2
-    double p_change = 0;                ///< averages L2: change to degree p + 1
-    double estimate = 0;                ///< the larger of the two
+    double h_change = 0;      ///< averages L2: change to h/2
+    double p_change = 0;      ///< averages L2: change to degree p + 1
+    double outer_change = 0;  ///< averages L2, of outer quadrature; 0 if entries are exact
+    double estimate = 0;      ///< the largest of the three
+    unsigned int certified_digits = 0; ///< floor(-log10(estimate / size of the solution))
     unsigned int n_geometry_checks = 0; ///< cut cells recomputed with the exact backend
     double geometry_difference = 0;     ///< worst difference among them, relative to the cell
   };

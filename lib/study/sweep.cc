@@ -1,11 +1,13 @@
 #include "study/sweep.h"
 
 #include "base/error.h"
+#include "base/team.h"
 #include "study/comparison.h"
 #include "study/conclusions.h"
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace plumbline::study
 {
@@ -54,33 +56,61 @@ namespace plumbline::study
       ReferenceEstimate estimate;
     };
 
+    /// Averages of the same method at h/2 over the cells of h.
+    std::vector<double> halved(const scene::Scene &scene, const scene::Problem &problem,
+                               unsigned int case_index, const Method &method)
+    {
+      if (problem.mesh)
+      {
+        scene::Problem fine = problem;
+        fine.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh));
+        return method.solve(scene, fine).averages;
+      }
+      scene::Scene fine_scene = scene;
+      fine_scene.nodes.kind = "centres";
+      fine_scene.n_geometry_checks = 0;
+      const scene::Problem fine =
+          make_problem(fine_scene, case_index, {problem.h / 2, problem.horizon()});
+      return coarsen_averages(method.solve(fine_scene, fine).averages,
+                              comparison_nodes(fine_scene, *fine.lattice, fine.n_components),
+                              comparison_nodes(scene, *problem.lattice, problem.n_components));
+    }
+
     ReferenceAverages solve_reference(const scene::Scene &scene, const scene::Problem &problem,
-                                      unsigned int case_index, const scene::Level &level,
-                                      const Method &method)
+                                      unsigned int case_index, const Method &method)
     {
       ReferenceAverages result;
       const Solution solution = method.solve(scene, problem);
       result.averages = solution.averages;
-      result.estimate.method = method.name();
-      result.estimate.n_geometry_checks = solution.diagnostics.n_geometry_checks;
-      result.estimate.geometry_difference = solution.diagnostics.geometry_difference;
+      ReferenceEstimate &estimate = result.estimate;
+      estimate.method = method.name();
+      estimate.h = problem.h;
+      estimate.horizon = problem.horizon();
+      estimate.n_geometry_checks = solution.diagnostics.n_geometry_checks;
+      estimate.geometry_difference = solution.diagnostics.geometry_difference;
+      const double size =
+          averages_l2(problem, solution.averages, std::vector<double>(solution.averages.size()));
+      estimate.outer_change = solution.diagnostics.outer_change * size;
       if (!scene.estimate_reference)
         return result;
 
-      scene::Scene fine_scene = scene;
-      fine_scene.nodes_at_vertices = false;
-      fine_scene.n_geometry_checks = 0;
-      const scene::Problem fine =
-          make_problem(fine_scene, case_index, {level.h / 2, level.horizon});
-      const auto fine_averages =
-          coarsen_averages(method.solve(fine_scene, fine).averages,
-                           comparison_nodes(fine_scene, fine.lattice, fine.n_components),
-                           comparison_nodes(scene, problem.lattice, problem.n_components));
-      result.estimate.h_change = averages_l2(result.averages, fine_averages, level.h);
+      estimate.h_change =
+          averages_l2(problem, result.averages, halved(scene, problem, case_index, method));
       if (const auto higher = method.higher_degree())
-        result.estimate.p_change =
-            averages_l2(result.averages, higher->solve(scene, problem).averages, level.h);
-      result.estimate.estimate = std::max(result.estimate.h_change, result.estimate.p_change);
+        estimate.p_change =
+            averages_l2(problem, result.averages, higher->solve(scene, problem).averages);
+      estimate.estimate = std::max({estimate.h_change, estimate.p_change, estimate.outer_change});
+      estimate.certified_digits = certified_digits(estimate.estimate, size);
+      if (scene.reference_tolerance > 0 && !(estimate.estimate <= scene.reference_tolerance * size))
+      {
+        std::ostringstream message;
+        message << "the reference " << method.name() << " at h = " << problem.h
+                << " has an estimated error of " << estimate.estimate / size
+                << " relative to the solution, more than Reference/tolerance = "
+                << scene.reference_tolerance
+                << "; take a higher degree (Reference/method), a smaller h, or a larger tolerance";
+        throw NumericalError(message.str());
+      }
       return result;
     }
 
@@ -157,19 +187,20 @@ namespace plumbline::study
                                    ": load and reference",
                                static_cast<double>(n_done) / static_cast<double>(n_all));
         const scene::Problem problem = make_problem(scene_, case_index, sizes);
-        ReferenceAverages reference;
+        Targets targets;
         if (scene_.reference != "none")
         {
-          reference =
-              solve_reference(scene_, problem, case_index, sizes,
+          ReferenceAverages reference =
+              solve_reference(scene_, problem, case_index,
                               *find_method(available_, scene_.reference, "Reference/method"));
           reference.estimate.problem = name;
           reference.estimate.series = series.name;
           reference.estimate.level = level;
-          reference.estimate.h = sizes.h;
-          reference.estimate.horizon = sizes.horizon;
           results_.references.push_back(reference.estimate);
+          targets.reference = std::move(reference.averages);
         }
+        if (scene_.local_solution == "computed")
+          targets.local = local_averages(problem);
         for (const auto &method : methods_)
         {
           if (control_.should_stop && control_.should_stop())
@@ -181,15 +212,14 @@ namespace plumbline::study
             control_.on_progress(name + ", " + series.name + ", level " +
                                      std::to_string(level + 1) + ": " + method->name(),
                                  static_cast<double>(n_done++) / static_cast<double>(n_all));
-          run_method(*method, name, series, level, problem, reference.averages);
+          run_method(*method, name, series, level, problem, targets);
           if (control_.on_result)
             control_.on_result(results_);
         }
       }
 
       void run_method(const Method &method, const std::string &name, const scene::Series &series,
-                      unsigned int level, const scene::Problem &problem,
-                      const std::vector<double> &reference)
+                      unsigned int level, const scene::Problem &problem, const Targets &targets)
       {
         Run run;
         run.method = method.name();
@@ -206,12 +236,12 @@ namespace plumbline::study
           for (const double average : solution.averages)
             run.size = std::max(run.size, std::abs(average));
           run.diagnostics = solution.diagnostics;
-          run.errors = errors(scene_, problem, solution, reference);
+          run.errors = errors(scene_, problem, solution, targets);
           for (const auto &[error, value] : run.errors)
             if (!std::isfinite(value))
               throw NumericalError("the error " + error + " is not a finite number");
           if (level + 1 == n_levels(series))
-            finish_series(solution, run, problem, reference);
+            finish_series(solution, run, problem, targets.reference);
         }
         catch (const NumericalError &error)
         {
@@ -220,12 +250,24 @@ namespace plumbline::study
         results_.runs.push_back(run);
       }
 
+      /// Averages of the local limit, by classical finite elements on the mesh refined once.
+      std::vector<double> local_averages(const scene::Problem &problem) const
+      {
+        scene::Problem fine = problem;
+        fine.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh));
+        return find_method(available_, "LOCAL", "Problem/local solution")
+            ->solve(scene_, fine)
+            .averages;
+      }
+
       /// Short solves are repeated and the fastest counts: their times are mostly noise.
       Solution solve_and_time(const Method &method, const scene::Problem &problem) const
       {
         constexpr double short_seconds = .02;
         Solution solution = method.solve(scene_, problem);
-        for (int repeat = 0; repeat < 2 && solution.cost.seconds() < short_seconds; ++repeat)
+        const int n_repeats = base::Team::all().n_ranks() == 1 ? 2 : 0; // ranks must agree
+        for (int repeat = 0; repeat < n_repeats && solution.cost.seconds() < short_seconds;
+             ++repeat)
         {
           const base::Cost again = method.solve(scene_, problem).cost;
           if (again.seconds() < solution.cost.seconds())
@@ -261,8 +303,18 @@ namespace plumbline::study
     };
   } // namespace
 
+  unsigned int certified_digits(double estimate, double size)
+  {
+    constexpr int most = 15;
+    if (!(estimate > 0) || !(size > 0))
+      return 0;
+    return static_cast<unsigned int>(
+        std::clamp(static_cast<int>(std::floor(-std::log10(estimate / size))), 0, most));
+  }
+
   Methods choose_methods(const scene::Scene &scene, const Methods &available)
   {
+    const scene::Problem problem = make_problem(scene, 0, scene.series.front().levels.front());
     Methods chosen;
     const auto add = [&](const std::shared_ptr<const Method> &method)
     {
@@ -273,18 +325,23 @@ namespace plumbline::study
       if (name == "all")
       {
         for (const auto &method : available)
-          if (method->why_not(scene).empty())
+          if (method->why_not(scene, problem).empty())
             add(method);
       }
       else
       {
         const auto method = find_method(available, name, "Methods/names");
         add(method);
-        if (const std::string reason = method->why_not(scene); !reason.empty())
+        if (const std::string reason = method->why_not(scene, problem); !reason.empty())
           throw InputError("Methods/names: '" + name + "' cannot do this scene: " + reason);
       }
     if (scene.reference != "none")
-      (void)find_method(available, scene.reference, "Reference/method");
+    {
+      const auto reference = find_method(available, scene.reference, "Reference/method");
+      if (const std::string reason = reference->why_not(scene, problem); !reason.empty())
+        throw InputError("Reference/method: '" + scene.reference +
+                         "' cannot do this scene: " + reason);
+    }
     for (const auto *list : {&scene.expected_verdicts, &scene.expected_errors,
                              &scene.expected_rates, &scene.expected_bounds})
       for (const scene::Expected &expected : *list)
@@ -292,9 +349,50 @@ namespace plumbline::study
     return chosen;
   }
 
+  namespace
+  {
+    /// The constraint is finite around Ω and the load in it, on a grid of samples.
+    void check_lattice_data(const scene::Problem &problem)
+    {
+      constexpr int n_samples = 24;
+      const geometry::Lattice &lattice = *problem.lattice;
+      const auto &n = lattice.n_cells();
+      const double margin = problem.horizon() / problem.h + 1;
+      for (int j = 0; j <= n_samples; ++j)
+        for (int i = 0; i <= n_samples; ++i)
+        {
+          const double s = -margin + i * (n[0] + 2 * margin) / n_samples;
+          const double t = -margin + j * (n[1] + 2 * margin) / n_samples;
+          const bool is_inside =
+              lattice.is_inside(static_cast<int>(std::floor(s)), static_cast<int>(std::floor(t)));
+          for (unsigned int component = 0; component < problem.n_components; ++component)
+          {
+            (void)problem.constraint.value(lattice.point(s, t), component);
+            if (is_inside)
+              (void)problem.load.value(lattice.point(s, t), component);
+          }
+        }
+    }
+
+    /// The same at nodes of a mesh problem.
+    void check_node_data(const scene::Problem &problem)
+    {
+      constexpr std::size_t n_samples = 600;
+      const auto &cells = *problem.cells;
+      const std::size_t step = std::max<std::size_t>(1, cells.size() / n_samples);
+      for (std::size_t i = 0; i < cells.size(); i += step)
+        for (unsigned int component = 0; component < problem.n_components; ++component)
+        {
+          const auto &field = i < cells.n_free ? problem.load : problem.constraint;
+          (void)field.value(cells.nodes[i], component);
+          if (problem.coefficient)
+            (void)problem.coefficient->at(cells.nodes[i]);
+        }
+    }
+  } // namespace
+
   void check_data(const scene::Scene &scene)
   {
-    constexpr int n_samples = 24;
     const auto names = scene.case_names();
     for (unsigned int c = 0; c < names.size(); ++c)
       for (const auto &series : scene.series)
@@ -304,22 +402,10 @@ namespace plumbline::study
                               [](const scene::Level &a, const scene::Level &b)
                               { return a.horizon + a.h < b.horizon + b.h; });
         const scene::Problem problem = make_problem(scene, c, level);
-        const auto &n = problem.lattice.n_cells();
-        const double margin = level.horizon / level.h + 1;
-        for (int j = 0; j <= n_samples; ++j)
-          for (int i = 0; i <= n_samples; ++i)
-          {
-            const double s = -margin + i * (n[0] + 2 * margin) / n_samples;
-            const double t = -margin + j * (n[1] + 2 * margin) / n_samples;
-            const bool is_inside = problem.lattice.is_inside(static_cast<int>(std::floor(s)),
-                                                             static_cast<int>(std::floor(t)));
-            for (unsigned int component = 0; component < problem.n_components; ++component)
-            {
-              (void)problem.constraint.value(problem.lattice.point(s, t), component);
-              if (is_inside)
-                (void)problem.load.value(problem.lattice.point(s, t), component);
-            }
-          }
+        if (problem.lattice)
+          check_lattice_data(problem);
+        else
+          check_node_data(problem);
       }
   }
 

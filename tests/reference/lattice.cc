@@ -1,4 +1,5 @@
 #include "reference/deal_field.h"
+#include "reference/geometry_check.h"
 #include "reference/lattice_method.h"
 #include "reference/lattice_stencil.h"
 
@@ -211,7 +212,7 @@ TEST(LatticeField, averages_are_the_integrals_of_the_field)
   for (const bool at_vertices : {false, true})
   {
     const geometry::AxisSpecies nodes{at_vertices ? 0. : .5, at_vertices, 0};
-    const auto cells = free_nodes(problem.lattice, {nodes}, 1);
+    const auto cells = free_nodes(*problem.lattice, {nodes}, 1);
     const auto averages = solution.field.averages(cells);
     const dealii::QIterated<2> rule(dealii::QGauss<1>(3), 2);
     std::size_t index = 0;
@@ -223,8 +224,8 @@ TEST(LatticeField, averages_are_the_integrals_of_the_field)
           const auto place = cells.place(0, i, j);
           for (unsigned int q = 0; q < rule.size(); ++q)
             mean += rule.weight(q) *
-                    solution.field.value(problem.lattice.point(place[0] - .5 + rule.point(q)[0],
-                                                               place[1] - .5 + rule.point(q)[1]),
+                    solution.field.value(problem.lattice->point(place[0] - .5 + rule.point(q)[0],
+                                                                place[1] - .5 + rule.point(q)[1]),
                                          0);
           EXPECT_NEAR(averages[index++], mean, 1e-14);
         }

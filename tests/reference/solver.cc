@@ -1,4 +1,5 @@
 #include "reference/lattice_method.h"
+#include "reference/method.h"
 #include "study/comparison.h"
 
 #include <deal.II/base/mpi.h>
@@ -29,7 +30,7 @@ namespace
 
   std::shared_ptr<const study::Method> method(const std::string &name)
   {
-    for (const auto &candidate : lattice_methods())
+    for (const auto &candidate : methods())
       if (candidate->name() == name)
         return candidate;
     throw std::logic_error(name);
@@ -110,8 +111,7 @@ TEST(LatticeGalerkin, continuous_and_discontinuous_solutions_agree)
   const auto scene = make_scene(tensor_kernel, trigonometric_vector);
   const auto problem = make_problem(scene, 0, {1. / 24, .2});
   const auto q2 = method("Q2")->solve(scene, problem), dg2 = method("DGQ2")->solve(scene, problem);
-  const double h = problem.lattice.h();
-  EXPECT_LT(study::averages_l2(q2.averages, dg2.averages, h), 1e-5);
+  EXPECT_LT(study::averages_l2(problem, q2.averages, dg2.averages), 1e-5);
 }
 
 TEST(Preconditioner, iterations_stay_below_16_for_scalar_and_26_for_tensor_kernels_whatever_h)
@@ -174,7 +174,7 @@ TEST(SmallestModel, stencil_and_assembled_matrix_give_the_same_solution)
           if (averages.empty())
             averages = solution.averages;
           else
-            EXPECT_LT(study::averages_l2(averages, solution.averages, 1), 1e-11);
+            EXPECT_LT(study::averages_l2(problem, averages, solution.averages), 1e-11);
         }
       }
   }

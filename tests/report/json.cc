@@ -182,15 +182,15 @@ namespace plumbline::report
       EXPECT_NE(message.find("; "), std::string::npos) << "no remedy in: " << message;
     };
     expect("cannot be read");
-    write(file, "{\"schema\": 2, ");
+    write(file, "{\"schema\": 3, ");
     expect("is not JSON");
     write(file, "[1]");
     expect("is not an object");
     write(file, "{}");
     expect("schema is missing");
-    write(file, "{\"schema\": 1}");
-    expect("schema = 1");
     write(file, "{\"schema\": 2}");
+    expect("schema = 2");
+    write(file, "{\"schema\": 3}");
     expect("scene_name is missing");
 
     const auto damaged = [&](const std::string &from, const std::string &to)

@@ -148,7 +148,7 @@ namespace plumbline::report
   TEST(ReportTables, FindDifferencesThatAreTooSmallForTheReference)
   {
     study::Results results = fixture::results();
-    results.references = {{"case1", "m = 3", "Q2", 3, .0125, .0375, 3e-5, 1e-5, 3e-5}};
+    results.references = {{"case1", "m = 3", "Q2", 3, .0125, .0375, 3e-5, 1e-5, 2e-6, 3e-5, 4}};
     const Table table = doubtful_differences(results);
     // Of level 3: recalibrated .6 × 1.453e-4 and Q1 .6 × 9.375e-5 are below 3e-4, the others above;
     // errors against the exact solution do not count.

@@ -4,6 +4,6 @@
 
 namespace plumbline::meshfree
 {
-  /// Every rule of the table as a method on the scene's lattice.
-  study::Methods lattice_methods();
+  /// Every rule of the table as a method, on lattices and on scattered nodes.
+  study::Methods methods();
 } // namespace plumbline::meshfree

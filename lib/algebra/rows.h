@@ -1,0 +1,20 @@
+#pragma once
+
+#include "base/team.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace plumbline::algebra
+{
+  /// A sparse matrix by rows: columns of row i are column[start[i]] ... column[start[i + 1] - 1],
+  /// ascending, each once.
+  struct Rows
+  {
+    std::vector<std::size_t> start; ///< shape (n_rows + 1)
+    std::vector<unsigned int> column;
+    std::vector<double> value;
+
+    std::size_t n_rows() const { return start.empty() ? 0 : start.size() - 1; }
+  };
+} // namespace plumbline::algebra

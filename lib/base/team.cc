@@ -1,0 +1,69 @@
+#include "base/team.h"
+
+namespace plumbline::base
+{
+  namespace
+  {
+    /// A program that has not started MPI is one rank.
+    bool is_parallel()
+    {
+      int is_started = 0;
+      MPI_Initialized(&is_started);
+      return is_started != 0;
+    }
+
+    double reduce(double value, MPI_Op operation, MPI_Comm communicator)
+    {
+      if (is_parallel())
+        MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, operation, communicator);
+      return value;
+    }
+  } // namespace
+
+  unsigned int Team::rank() const
+  {
+    int rank = 0;
+    if (is_parallel())
+      MPI_Comm_rank(communicator, &rank);
+    return static_cast<unsigned int>(rank);
+  }
+
+  unsigned int Team::n_ranks() const
+  {
+    int n_ranks = 1;
+    if (is_parallel())
+      MPI_Comm_size(communicator, &n_ranks);
+    return static_cast<unsigned int>(n_ranks);
+  }
+
+  std::pair<std::size_t, std::size_t> Team::share(std::size_t n) const
+  {
+    return share(n, rank());
+  }
+
+  std::pair<std::size_t, std::size_t> Team::share(std::size_t n, unsigned int rank) const
+  {
+    return {n * rank / n_ranks(), n * (rank + 1) / n_ranks()};
+  }
+
+  bool Team::any(bool value) const
+  {
+    return largest(value ? 1 : 0) > 0;
+  }
+
+  double Team::sum(double value) const
+  {
+    return reduce(value, MPI_SUM, communicator);
+  }
+
+  double Team::largest(double value) const
+  {
+    return reduce(value, MPI_MAX, communicator);
+  }
+
+  void Team::wait() const
+  {
+    if (is_parallel())
+      MPI_Barrier(communicator);
+  }
+} // namespace plumbline::base

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "geometry/lattice.h"
+#include "geometry/mesh.h"
+
+#include <functional>
+
+namespace plumbline::geometry
+{
+  /// A mesh from a gmsh file. .msh (2.2 or 4.1): as it is, first-order triangles and
+  /// quadrilaterals. .geo: run through gmsh in two dimensions with the constants h and delta set,
+  /// for DefineConstant[ h = .1, delta = .3 ]. Physical surfaces whose name begins with 'omega'
+  /// make up Ω, those that begin with 'collar' the collar, in small letters or capitals; surfaces
+  /// that are not physical are left out. A surface seen from behind, all cells clockwise, is turned
+  /// around.
+  /// @throws InputError  file not readable, gmsh's own error, physical surfaces missing or others
+  /// than these, cells of higher order, cells that are no triangles or quadrilaterals, a mesh out
+  /// of the plane z = 0, and as `check` Not for: two threads at a time, gmsh being global.
+  Mesh read_mesh(const std::string &file, double h, double delta);
+
+  /// One of deal.II's GridGenerator functions by name, e.g. "hyper_ball_balanced" with "0, 0 : 1",
+  /// refined until no side is longer than h, vertices on curved boundaries, sides straight. Ω: the
+  /// cells whose centre, the mean of their vertices, satisfies is_inside.
+  /// @throws InputError  unknown generator or arguments, with deal.II's words, h <= 0 or so small
+  /// that there are more than 1e7 cells, and as `check`
+  Mesh generate_mesh(const std::string &generator, const std::string &arguments, double h,
+                     const std::function<bool(const Point<2> &)> &is_inside);
+
+  /// The squares of a lattice, or their halves (cut from lower left to upper right), with all
+  /// squares of the collar that reach within delta of Ω, vertices moved by a map (the identity if
+  /// empty). Layers are added to the collar until it is delta wide after the map.
+  /// @throws InputError  as `Lattice`, a map that inverts cells or does not widen the collar, and
+  /// as `check`
+  Mesh lattice_mesh(const Domain &domain, double h, double delta, bool is_triangles,
+                    const std::function<Point<2>(const Point<2> &)> &map = {});
+} // namespace plumbline::geometry

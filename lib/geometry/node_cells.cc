@@ -1,0 +1,325 @@
+#include "geometry/node_cells.h"
+
+#include "base/error.h"
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <sstream>
+
+namespace plumbline::geometry
+{
+  namespace
+  {
+    using dealii::Tensor;
+    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+    using Delaunay = CGAL::Delaunay_triangulation_2<
+        Kernel, CGAL::Triangulation_data_structure_2<
+                    CGAL::Triangulation_vertex_base_with_info_2<std::size_t, Kernel>>>;
+
+    /// A Voronoi cell of which the mesh covers all but this fraction is cut by no boundary.
+    constexpr double uncut = 1e-12;
+
+    [[noreturn]] void reject(std::size_t node, const Point<2> &at, const std::string &why)
+    {
+      std::ostringstream message;
+      message << "node " << node << " at (" << at[0] << ", " << at[1] << ") " << why;
+      throw InputError(message.str());
+    }
+
+    /// The cells of a mesh on one side of the boundary of Ω, to search in.
+    class Side
+    {
+    public:
+      Side(const Mesh &mesh, bool is_inside)
+          : cells_(polygons(mesh, is_inside)), search_(boxes(cells_))
+      {
+      }
+
+      bool is_empty() const { return cells_.empty(); }
+
+      /// The boundary belongs to it, to rounding.
+      bool contains(const Point<2> &point) const
+      {
+        constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
+        Box box{point, point};
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          box.lower[d] -= slack * std::abs(point[d]);
+          box.upper[d] += slack * std::abs(point[d]);
+        }
+        std::vector<unsigned int> found;
+        search_.find(box, found);
+        return std::any_of(found.begin(), found.end(),
+                           [&](unsigned int cell)
+                           { return geometry::contains(view(cells_[cell]), point); });
+      }
+
+      /// Of a convex polygon with the cells.
+      std::vector<Polygon> overlaps(const Polygon &polygon) const
+      {
+        std::vector<unsigned int> found;
+        search_.find(bounding_box(view(polygon)), found);
+        std::vector<Polygon> result;
+        for (const unsigned int cell : found)
+        {
+          Polygon part = overlap(view(polygon), view(cells_[cell]));
+          if (!part.empty())
+            result.push_back(std::move(part));
+        }
+        return result;
+      }
+
+    private:
+      static std::vector<Polygon> polygons(const Mesh &mesh, bool is_inside)
+      {
+        std::vector<Polygon> result;
+        for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+          if (mesh.cells[c].is_inside == is_inside)
+            result.push_back(mesh.polygon(c));
+        return result;
+      }
+
+      static std::vector<Box> boxes(const std::vector<Polygon> &cells)
+      {
+        std::vector<Box> result;
+        for (const Polygon &cell : cells)
+          result.push_back(bounding_box(view(cell)));
+        return result;
+      }
+
+      std::vector<Polygon> cells_;
+      BoxSearch search_;
+    };
+
+    double total_area(const std::vector<Polygon> &pieces)
+    {
+      return std::accumulate(pieces.begin(), pieces.end(), 0.,
+                             [](double sum, const Polygon &piece)
+                             { return sum + area(view(piece)); });
+    }
+
+    /// The part of a frame that is nearer to a node than to its neighbours in the Delaunay
+    /// triangulation.
+    Polygon voronoi_polygon(const Delaunay &delaunay, const Delaunay::Vertex_handle &node,
+                            const Polygon &frame)
+    {
+      const auto place = [](const Delaunay::Vertex_handle &vertex)
+      { return Point<2>(vertex->point().x(), vertex->point().y()); };
+      const Point<2> p = place(node);
+      // from one point of a bisector to the next: for any shorter way the direction would drown in
+      // the rounding of the points where nodes are very near
+      const double far = frame[0].distance(frame[2]);
+      Polygon polygon = frame;
+      const auto first = delaunay.incident_vertices(node);
+      if (auto neighbour = first; !first.is_empty())
+        do
+          if (!delaunay.is_infinite(neighbour))
+          {
+            const Tensor<1, 2> d = place(neighbour) - p;
+            const Point<2> middle = p + .5 * d;
+            polygon =
+                left_of(view(polygon), middle, middle + far / d.norm() * Point<2>(-d[1], d[0]));
+          }
+        while (++neighbour != first);
+      return polygon;
+    }
+
+    /// Adds the cells of nodes[first ... last - 1], which lie on that side.
+    void add_cells(NodeCells &result, std::size_t first, std::size_t last, const Side &side,
+                   const Polygon &frame)
+    {
+      std::vector<std::pair<Delaunay::Point, std::size_t>> points;
+      for (std::size_t i = first; i < last; ++i)
+        points.push_back({{result.nodes[i][0], result.nodes[i][1]}, i - first});
+      const Delaunay delaunay(points.begin(), points.end());
+      std::vector<Delaunay::Vertex_handle> vertices(last - first);
+      for (const auto &vertex : delaunay.finite_vertex_handles())
+        vertices[vertex->info()] = vertex;
+
+      for (const auto &vertex : vertices)
+      {
+        const Polygon whole = voronoi_polygon(delaunay, vertex, frame);
+        std::vector<Polygon> pieces = side.overlaps(whole);
+        if (std::abs(total_area(pieces) - area(view(whole))) <= uncut * area(view(whole)))
+          pieces = {whole};
+        const double cell_area = total_area(pieces);
+        Point<2> cell_centroid;
+        for (const Polygon &piece : pieces)
+          cell_centroid += area(view(piece)) / cell_area * centroid(view(piece));
+        result.area.push_back(cell_area);
+        result.centroid.push_back(cell_centroid);
+        std::move(pieces.begin(), pieces.end(), std::back_inserter(result.pieces));
+        result.first_piece.push_back(result.pieces.size());
+      }
+    }
+
+    void check_distinct(const NodeCells &cells)
+    {
+      std::vector<std::size_t> order(cells.size());
+      std::iota(order.begin(), order.end(), 0);
+      const auto key = [&](std::size_t i)
+      { return std::make_tuple(cells.nodes[i][0], cells.nodes[i][1], cells.source[i]); };
+      std::sort(order.begin(), order.end(),
+                [&](std::size_t i, std::size_t j) { return key(i) < key(j); });
+      const auto twin = std::adjacent_find(order.begin(), order.end(),
+                                           [&](std::size_t i, std::size_t j)
+                                           { return cells.nodes[i] == cells.nodes[j]; });
+      if (twin != order.end())
+        reject(cells.source[twin[1]], cells.nodes[twin[1]],
+               "lies where node " + std::to_string(cells.source[twin[0]]) +
+                   " is; take one of them out");
+    }
+  } // namespace
+
+  Box NodeCells::bounding_box(std::size_t cell) const
+  {
+    Polygon vertices;
+    for (std::size_t piece = first_piece[cell]; piece < first_piece[cell + 1]; ++piece)
+      vertices.insert(vertices.end(), pieces[piece].begin(), pieces[piece].end());
+    return geometry::bounding_box(view(vertices));
+  }
+
+  NodeCells voronoi_cells(const std::vector<Point<2>> &nodes, const Mesh &mesh)
+  {
+    const Side omega(mesh, true), collar(mesh, false);
+    NodeCells result;
+    std::vector<std::size_t> in_collar;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (!std::isfinite(nodes[i][0]) || !std::isfinite(nodes[i][1]))
+        reject(i, nodes[i], "is not finite; give finite coordinates");
+      else if (omega.contains(nodes[i]))
+        result.source.push_back(i);
+      else if (collar.contains(nodes[i]))
+        in_collar.push_back(i);
+      else
+        reject(i, nodes[i],
+               "lies outside of the domain and its collar; take it out, or move it in");
+    if (result.source.empty())
+      throw InputError("none of the " + std::to_string(nodes.size()) +
+                       " nodes lies in the domain; add nodes there");
+    if (in_collar.empty() && !collar.is_empty())
+      throw InputError("none of the " + std::to_string(nodes.size()) +
+                       " nodes lies in the collar; add nodes there, they carry the data");
+
+    result.n_free = result.source.size();
+    result.source.insert(result.source.end(), in_collar.begin(), in_collar.end());
+    for (const std::size_t i : result.source)
+      result.nodes.push_back(nodes[i]);
+    check_distinct(result);
+
+    const Box box = bounding_box(view(mesh.vertices));
+    const Polygon frame{box.lower, Point<2>(box.upper[0], box.lower[1]), box.upper,
+                        Point<2>(box.lower[0], box.upper[1])};
+    result.first_piece = {0};
+    add_cells(result, 0, result.n_free, omega, frame);
+    add_cells(result, result.n_free, result.size(), collar, frame);
+    return result;
+  }
+
+  std::vector<Point<2>> centroids(const Mesh &mesh)
+  {
+    std::vector<Point<2>> result;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      result.push_back(centroid(view(mesh.polygon(c))));
+    return result;
+  }
+
+  std::vector<Point<2>> lattice_nodes(const Mesh &mesh, double h, double perturbation,
+                                      unsigned int seed)
+  {
+    if (!(h > 0))
+      throw InputError("lattice of nodes with h = " + std::to_string(h) +
+                       "; give a positive length");
+    const Side omega(mesh, true), collar(mesh, false);
+    const Box box = bounding_box(view(mesh.vertices));
+    const Point<2> origin = bounding_box(mesh).lower;
+    std::array<int, 2> from{}, to{};
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      from[d] = static_cast<int>(std::floor((box.lower[d] - origin[d]) / h));
+      to[d] = static_cast<int>(std::ceil((box.upper[d] - origin[d]) / h));
+    }
+    std::mt19937 random(seed);
+    const auto draw = [&] { return perturbation * h * (2 * (random() * 0x1p-32) - 1); };
+    std::vector<Point<2>> nodes;
+    for (int j = from[1]; j < to[1]; ++j)
+      for (int i = from[0]; i < to[0]; ++i)
+      {
+        const Point<2> centre = origin + h * Point<2>(i + .5, j + .5);
+        const bool is_inside = omega.contains(centre);
+        const auto stays = [&](const Point<2> &node)
+        { return omega.contains(node) == is_inside && (is_inside || collar.contains(node)); };
+        if (!stays(centre))
+          continue;
+        Point<2> move;
+        move[0] = draw();
+        move[1] = draw();
+        while (!stays(centre + move))
+          move *= .5;
+        nodes.push_back(centre + move);
+      }
+    return nodes;
+  }
+
+  std::vector<Point<2>> read_nodes(const std::string &file)
+  {
+    const std::string source = "node file '" + file + "'";
+    std::ifstream in(file);
+    if (!in)
+      throw InputError(source + " cannot be read; check its name and folder");
+    std::string line;
+    const auto fields = [&]
+    {
+      std::vector<std::string> result;
+      std::istringstream rest(line);
+      for (std::string field; std::getline(rest, field, ',');)
+      {
+        constexpr auto blank = " \t\r";
+        field.erase(0, field.find_first_not_of(blank));
+        field.erase(field.find_last_not_of(blank) + 1);
+        result.push_back(field);
+      }
+      return result;
+    };
+
+    std::getline(in, line);
+    const std::vector<std::string> header = fields();
+    std::array<std::size_t, 2> column{};
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      const std::string wanted = d == 0 ? "x" : "y";
+      column[d] = std::find(header.begin(), header.end(), wanted) - header.begin();
+      if (column[d] == header.size())
+        throw InputError(source + " has no column " + wanted + " in its first line '" + line +
+                         "'; name the columns there, e.g. 'x,y'");
+    }
+    std::vector<Point<2>> nodes;
+    for (std::size_t number = 2; std::getline(in, line); ++number)
+    {
+      const std::vector<std::string> row = fields();
+      if (row.empty() || (row.size() == 1 && row[0].empty()))
+        continue;
+      Point<2> node;
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const std::string value = column[d] < row.size() ? row[column[d]] : "";
+        const char *const end = value.data() + value.size();
+        const auto parsed = std::from_chars(value.data(), end, node[d]);
+        if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(node[d]))
+          throw InputError(source + ", line " + std::to_string(number) + ": " + header[column[d]] +
+                           " = '" + value + "' is not a finite number");
+      }
+      nodes.push_back(node);
+    }
+    return nodes;
+  }
+} // namespace plumbline::geometry

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "geometry/mesh.h"
+#include "geometry/search.h"
+
+#include <string>
+
+namespace plumbline::geometry
+{
+  /// Nodes anywhere in Ω and its collar, each with a cell: a union of convex pieces. Nodes of Ω
+  /// (free) come first, each kind in the order given.
+  struct NodeCells
+  {
+    std::vector<Point<2>> nodes;          ///< [length]
+    std::size_t n_free = 0;               ///< nodes[0 ... n_free - 1] lie in Ω
+    std::vector<std::size_t> source;      ///< the index each node was given with
+    std::vector<double> area;             ///< of each cell [length^2]
+    std::vector<Point<2>> centroid;       ///< of each cell
+    std::vector<Polygon> pieces;          ///< of all cells
+    std::vector<std::size_t> first_piece; ///< of each cell, shape (n_nodes + 1)
+
+    std::size_t size() const { return nodes.size(); }
+    Box bounding_box(std::size_t cell) const;
+  };
+
+  /// Voronoi cells of the nodes of Ω clipped to Ω, and of the nodes of the collar clipped to the
+  /// collar, so that the cells tile both: the areas add up to those of the mesh to 1e-12, where
+  /// coordinates are no larger than the domain. A cell that no boundary cuts is one piece; else its
+  /// pieces are its overlaps with the mesh's cells. A node on the boundary of Ω lies in Ω.
+  /// @param mesh  of Ω and collar; decides which nodes are free
+  /// @throws InputError  two nodes in one place, a node outside Ω and collar, a coordinate that is
+  /// not finite, naming the node by its index; no node in Ω, or none in a collar that has cells
+  /// Cost: .3 s for 1e5 nodes.
+  NodeCells voronoi_cells(const std::vector<Point<2>> &nodes, const Mesh &mesh);
+
+  /// The centroids of a mesh's cells.
+  std::vector<Point<2>> centroids(const Mesh &mesh);
+
+  /// Centres of the cells, of side h, of a lattice that begins at the lower corner of Ω's bounding
+  /// box, as far as they lie in a cell of the mesh, row by row; each moved by up to perturbation h
+  /// in x and in y, uniformly, with a seed, the same on every machine. A node stays on its side of
+  /// the boundary of Ω and in the mesh: where the move would take it out, it is halved until it
+  /// does not.
+  /// @throws InputError  h <= 0
+  std::vector<Point<2>> lattice_nodes(const Mesh &mesh, double h, double perturbation,
+                                      unsigned int seed);
+
+  /// Nodes from a CSV file with the columns x and y (others are ignored) and a header line.
+  /// @throws InputError  file not readable, missing columns, a value that is not a finite number;
+  /// naming the line
+  std::vector<Point<2>> read_nodes(const std::string &file);
+} // namespace plumbline::geometry

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "geometry/node_cells.h"
+#include "scene/scene.h"
+
+namespace plumbline::scene
+{
+  /// The mesh of a scene at a level, checked; its collar holds the ball.
+  /// @throws InputError  a mesh that cannot be used, or a collar thinner than the horizon
+  geometry::Mesh make_mesh(const Scene &scene, const Level &level);
+
+  /// The nodes of a scene at a level and their cells.
+  /// @throws InputError  nodes that cannot be used
+  geometry::NodeCells make_node_cells(const Scene &scene, const Level &level,
+                                      const geometry::Mesh &mesh);
+} // namespace plumbline::scene

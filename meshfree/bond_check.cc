@@ -1,0 +1,270 @@
+#include "meshfree/bond_check.h"
+
+#include "base/error.h"
+#include "meshfree/moments.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    using SparseMatrix = Eigen::SparseMatrix<double>;
+
+    /// ∫ |C| |ξ|^degree over the ball, where |C| is the radial factor's.
+    double kernel_size(const Kernel<2> &kernel, int degree)
+    {
+      static const dealii::QIterated<1> rule(dealii::QGauss<1>(8), 32);
+      double sum = 0;
+      for (unsigned int q = 0; q < rule.size(); ++q)
+      {
+        const double r = kernel.horizon() * rule.point(q)[0];
+        sum += rule.weight(q) * std::abs(kernel.radial(r)) * std::pow(r, degree + 1);
+      }
+      return 2 * M_PI * kernel.horizon() * sum;
+    }
+
+    /// Σ w C_ab(kernel_point) ξ^α.
+    double discrete_moment(const Family &family, const Kernel<2> &kernel, const Exponents &alpha,
+                           unsigned int a, unsigned int b)
+    {
+      double sum = 0;
+      for (const Bond &bond : family.bonds)
+        sum += bond.weight * kernel_value(kernel, bond, a, b) * std::pow(bond.xi[0], alpha[0]) *
+               std::pow(bond.xi[1], alpha[1]);
+      return sum;
+    }
+
+    double moment_defect(const Family &family, const Kernel<2> &kernel, int degree)
+    {
+      double worst = 0;
+      for (const Exponents &alpha : exponents(degree, degree))
+        for (unsigned int a = 0; a < kernel.n_components(); ++a)
+          for (unsigned int b = a; b < kernel.n_components(); ++b)
+            worst = std::max(worst, std::abs(discrete_moment(family, kernel, alpha, a, b) -
+                                             kernel.moment(alpha, a, b)));
+      return worst;
+    }
+
+    /// Of Σ w tr C |ξ|² to its exact value.
+    double second_moment_ratio(const Family &family, const Kernel<2> &kernel)
+    {
+      double exact = 0, sum = 0;
+      for (unsigned int a = 0; a < kernel.n_components(); ++a)
+        for (const Exponents &alpha : {Exponents{2, 0}, Exponents{0, 2}})
+        {
+          exact += kernel.moment(alpha, a, a);
+          sum += discrete_moment(family, kernel, alpha, a, a);
+        }
+      return sum / exact;
+    }
+
+    Worst largest(const std::vector<double> &values)
+    {
+      const auto at = std::max_element(values.begin(), values.end());
+      return {*at, static_cast<std::size_t>(at - values.begin())};
+    }
+
+    double median(std::vector<double> values)
+    {
+      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+      std::nth_element(values.begin(), middle, values.end());
+      return *middle;
+    }
+
+    /// Triangular factors of a symmetric matrix minus a shift.
+    struct Factors
+    {
+      Eigen::SimplicialLDLT<SparseMatrix> ldlt;
+
+      Factors(const SparseMatrix &matrix, double shift)
+      {
+        ldlt.setShift(-shift);
+        ldlt.compute(matrix);
+        if (ldlt.info() != Eigen::Success)
+          throw NumericalError("the symmetric part of the matrix has no factors L D L^T; look for "
+                               "nodes whose weights are all zero");
+      }
+
+      /// Eigenvalues below the shift, by Sylvester's law of inertia.
+      std::size_t n_below() const
+      {
+        return static_cast<std::size_t>((ldlt.vectorD().array() < 0).count());
+      }
+
+      /// The eigenvalue nearest to the shift.
+      double nearest_eigenvalue(const SparseMatrix &matrix) const
+      {
+        constexpr int most_iterations = 2000;
+        constexpr double tolerance = 1e-12; // of the change in one iteration
+        Eigen::VectorXd x(matrix.rows());
+        for (Eigen::Index i = 0; i < x.size(); ++i) // orthogonal to no eigenvector, most likely
+          x[i] = 1 + .5 * std::sin(1. + static_cast<double>(i) * static_cast<double>(i));
+        double value = std::numeric_limits<double>::infinity();
+        for (int iteration = 0; iteration < most_iterations; ++iteration)
+        {
+          x = ldlt.solve(x).eval();
+          x.normalize();
+          const double before = value;
+          value = x.dot(matrix * x);
+          if (std::abs(value - before) <= tolerance * std::abs(value))
+            break;
+        }
+        return value;
+      }
+    };
+  } // namespace
+
+  MomentCheck check_moments(const std::vector<Family> &families, const Kernel<2> &kernel)
+  {
+    constexpr int highest = 4;
+    constexpr double isolated = .05, times_median = 10;
+    const double second_moment = kernel.moment({2, 0}), second_size = kernel_size(kernel, 2);
+    if (!(std::abs(second_moment) > 1e-12 * second_size))
+      throw InputError("the kernel's second moment is 0, so it has no local limit that weights "
+                       "could be checked for; choose another kernel (Kernel)");
+    MomentCheck check;
+    std::vector<double> values(families.size()), second;
+    for (int degree = 1; degree <= highest; ++degree)
+    {
+      const double size = kernel_size(kernel, degree);
+      for (std::size_t i = 0; i < families.size(); ++i)
+        values[i] = moment_defect(families[i], kernel, degree) / size;
+      check.defects.push_back({degree, largest(values), median(values)});
+      if (check.exact_degree == degree - 1 &&
+          check.defects.back().worst.value < MomentCheck::tolerance)
+        check.exact_degree = degree;
+      if (degree == 2)
+        second = values;
+    }
+
+    double sum = 0;
+    for (std::size_t i = 0; i < families.size(); ++i)
+    {
+      const double ratio = second_moment_ratio(families[i], kernel);
+      sum += ratio;
+      second[i] = std::max(second[i] * second_size / std::abs(second_moment), std::abs(ratio - 1));
+    }
+    check.mean_ratio = sum / static_cast<double>(families.size());
+    check.second = largest(second);
+    const double limit = std::max(isolated, times_median * median(second));
+    for (std::size_t i = 0; i < families.size(); ++i)
+      if (second[i] > limit)
+        check.out_of_line.push_back({second[i], i});
+    std::sort(check.out_of_line.begin(), check.out_of_line.end(),
+              [](const Worst &a, const Worst &b) { return a.value > b.value; });
+    return check;
+  }
+
+  WeightCheck check_weights(const std::vector<Family> &families, const Kernel<2> &kernel,
+                            const std::vector<double> &volumes)
+  {
+    const double ball = M_PI * kernel.horizon() * kernel.horizon();
+    WeightCheck check;
+    check.smallest_ratio = std::numeric_limits<double>::infinity();
+    check.largest_ratio = -check.smallest_ratio;
+    std::vector<double> defects;
+    for (std::size_t i = 0; i < families.size(); ++i)
+    {
+      const std::vector<Bond> &bonds = families[i].bonds;
+      double sum = volumes[i];
+      for (const Bond &bond : bonds)
+      {
+        sum += bond.weight;
+        check.n_negative += bond.weight < 0 ? 1 : 0;
+        check.smallest_ratio = std::min(check.smallest_ratio, bond.weight / bond.area);
+        check.largest_ratio = std::max(check.largest_ratio, bond.weight / bond.area);
+      }
+      check.n_bonds += bonds.size();
+      check.largest_family =
+          std::max(check.largest_family, static_cast<unsigned int>(bonds.size()));
+      defects.push_back(std::abs(sum - ball) / ball);
+    }
+    check.area = largest(defects);
+    return check;
+  }
+
+  SymmetryCheck check_symmetry(const std::vector<Family> &families, const Kernel<2> &kernel)
+  {
+    SymmetryCheck check;
+    double scale = 0;
+    for (std::size_t i = 0; i < families.size(); ++i)
+      for (std::size_t k = 0; k < families[i].bonds.size(); ++k)
+      {
+        const Bond &bond = families[i].bonds[k];
+        scale = std::max(scale, std::abs(bond.weight * radial_value(kernel, bond)));
+        const std::size_t j = families[i].neighbours[k];
+        if (j >= families.size())
+          continue;
+        const auto &others = families[j].neighbours;
+        const auto partner = std::lower_bound(others.begin(), others.end(), i);
+        const Bond *back = nullptr;
+        if (partner != others.end() && *partner == i)
+          back = &families[j].bonds[partner - others.begin()];
+        else
+          ++check.n_unpaired;
+        for (unsigned int a = 0; a < kernel.n_components(); ++a)
+          for (unsigned int b = a; b < kernel.n_components(); ++b)
+          {
+            const double there = bond.weight * kernel_value(kernel, bond, a, b);
+            const double difference =
+                std::abs(there - (back ? back->weight * kernel_value(kernel, *back, a, b) : 0));
+            if (difference > check.asymmetry)
+            {
+              check.asymmetry = difference;
+              check.nodes = {i, j};
+            }
+          }
+      }
+    check.asymmetry /= scale > 0 ? scale : 1;
+    return check;
+  }
+
+  MatrixCheck check_matrix(const algebra::Rows &rows)
+  {
+    constexpr double rounding = 1e-12; // of a row's sum
+    MatrixCheck check;
+    double largest_sum = 0;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (unsigned int i = 0; i < rows.n_rows(); ++i)
+    {
+      double diagonal = 0, others = 0, largest_other = 0;
+      for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+      {
+        const auto j = rows.column[k];
+        const double value = rows.value[k];
+        entries.emplace_back(i, j, value);
+        if (j == i)
+          diagonal = value;
+        else
+        {
+          others += std::abs(value);
+          largest_other = std::max(largest_other, value);
+        }
+      }
+      const double sum = std::abs(diagonal) + others;
+      check.n_positive += largest_other > rounding * sum ? 1 : 0;
+      check.n_weak += diagonal < others - rounding * sum ? 1 : 0;
+      largest_sum = std::max(largest_sum, sum);
+    }
+    const auto n = static_cast<Eigen::Index>(rows.n_rows());
+    SparseMatrix matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    matrix = (.5 * (matrix + SparseMatrix(matrix.transpose()))).eval();
+
+    // the smallest eigenvalue is the one nearest to a shift that none is below
+    auto factors = std::make_unique<Factors>(matrix, 1e-14 * largest_sum);
+    check.n_negative_eigenvalues = factors->n_below();
+    for (double shift = -1e-6 * largest_sum; factors->n_below() > 0; shift *= 4)
+      factors = std::make_unique<Factors>(matrix, shift);
+    check.smallest_eigenvalue = factors->nearest_eigenvalue(matrix);
+    return check;
+  }
+} // namespace plumbline::meshfree

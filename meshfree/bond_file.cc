@@ -1,0 +1,300 @@
+#include "meshfree/bond_file.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <unordered_map>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    std::string to_text(const Point<2> &x)
+    {
+      std::ostringstream text;
+      text << '(' << x[0] << ", " << x[1] << ')';
+      return text.str();
+    }
+
+    /// A CSV file with a header, read row by row.
+    class Csv
+    {
+    public:
+      Csv(const std::string &file, const std::vector<std::string> &required)
+          : file_(file), in_(file)
+      {
+        if (!in_ || !std::getline(in_, text_))
+          throw InputError("'" + file + "' cannot be read; check its name and folder");
+        header_ = fields();
+        std::string names;
+        for (const std::string &name : required)
+          names += (names.empty() ? "" : ",") + name;
+        for (const std::string &name : required)
+          if (!has(name))
+            throw InputError("'" + file + "' has no column " + name + " in its first line '" +
+                             text_ + "'; name the columns there: " + names);
+      }
+
+      bool has(const std::string &name) const { return column(name) < header_.size(); }
+
+      /// Go to the next row that is not empty.
+      bool next()
+      {
+        while (std::getline(in_, text_))
+        {
+          ++line_;
+          row_ = fields();
+          if (std::any_of(row_.begin(), row_.end(), [](auto &field) { return !field.empty(); }))
+            return true;
+        }
+        return false;
+      }
+
+      std::size_t line() const { return line_; }
+
+      bool is_empty(const std::string &name) const { return field(name).empty(); }
+
+      double number(const std::string &name) const
+      {
+        const auto value = parse<double>(name, "a finite number");
+        if (!std::isfinite(value))
+          fail(name + " = " + field(name) + " is not a finite number");
+        return value;
+      }
+
+      std::int64_t integer(const std::string &name) const
+      {
+        return parse<std::int64_t>(name, "an integer");
+      }
+
+      [[noreturn]] void fail(const std::string &what) const { fail(line_, what); }
+      [[noreturn]] void fail(std::size_t line, const std::string &what) const
+      {
+        throw InputError("'" + file_ + "', line " + std::to_string(line) + ": " + what);
+      }
+
+    private:
+      std::vector<std::string> fields() const
+      {
+        std::vector<std::string> result;
+        std::istringstream rest(text_);
+        for (std::string field; std::getline(rest, field, ',');)
+        {
+          constexpr auto blank = " \t\r";
+          field.erase(0, field.find_first_not_of(blank));
+          field.erase(field.find_last_not_of(blank) + 1);
+          result.push_back(field);
+        }
+        return result;
+      }
+
+      std::size_t column(const std::string &name) const
+      {
+        return std::find(header_.begin(), header_.end(), name) - header_.begin();
+      }
+
+      std::string field(const std::string &name) const
+      {
+        const std::size_t c = column(name);
+        return c < row_.size() ? row_[c] : "";
+      }
+
+      template <class Number>
+      Number parse(const std::string &name, const std::string &wanted) const
+      {
+        const std::string text = field(name);
+        Number value{};
+        const char *const end = text.data() + text.size();
+        const auto parsed = std::from_chars(text.data(), end, value);
+        if (parsed.ec != std::errc() || parsed.ptr != end)
+          fail(name + " = '" + text + "' is not " + wanted);
+        return value;
+      }
+
+      std::string file_, text_;
+      std::ifstream in_;
+      std::size_t line_ = 1;
+      std::vector<std::string> header_, row_;
+    };
+
+    /// The cells of a mesh, or those of Ω alone, to find points in.
+    class Region
+    {
+    public:
+      Region(const geometry::Mesh &mesh, bool with_collar)
+          : cells_(polygons(mesh, with_collar)), search_(boxes(cells_))
+      {
+      }
+
+      bool contains(const Point<2> &x) const
+      {
+        constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
+        const dealii::Tensor<1, 2> margin({slack * std::abs(x[0]), slack * std::abs(x[1])});
+        std::vector<unsigned int> found;
+        search_.find({x - margin, x + margin}, found);
+        return std::any_of(found.begin(), found.end(),
+                           [&](unsigned int cell)
+                           { return geometry::contains(geometry::view(cells_[cell]), x); });
+      }
+
+    private:
+      static std::vector<geometry::Polygon> polygons(const geometry::Mesh &mesh, bool with_collar)
+      {
+        std::vector<geometry::Polygon> result;
+        for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+          if (with_collar || mesh.cells[c].is_inside)
+            result.push_back(mesh.polygon(c));
+        return result;
+      }
+
+      static std::vector<geometry::Box> boxes(const std::vector<geometry::Polygon> &cells)
+      {
+        std::vector<geometry::Box> result;
+        for (const geometry::Polygon &cell : cells)
+          result.push_back(geometry::bounding_box(geometry::view(cell)));
+        return result;
+      }
+
+      std::vector<geometry::Polygon> cells_;
+      geometry::BoxSearch search_;
+    };
+
+    /// A bond as it stands in the file.
+    struct Row
+    {
+      unsigned int neighbour;
+      Bond bond;
+      std::size_t line;
+    };
+  } // namespace
+
+  GivenNodes read_given_nodes(const std::string &file)
+  {
+    Csv csv(file, {"id", "x", "y", "volume"});
+    GivenNodes nodes;
+    nodes.file = file;
+    std::unordered_map<std::int64_t, std::size_t> line_of_id;
+    std::map<std::pair<double, double>, std::size_t> line_of_place;
+    while (csv.next())
+    {
+      const std::int64_t id = csv.integer("id");
+      const Point<2> x(csv.number("x"), csv.number("y"));
+      const double volume = csv.number("volume");
+      if (!(volume > 0))
+        csv.fail("the volume " + std::to_string(volume) + " of node " + std::to_string(id) +
+                 " is not positive; give the area of its cell");
+      if (const auto [other, is_new] = line_of_id.emplace(id, csv.line()); !is_new)
+        csv.fail("id " + std::to_string(id) + " is that of line " + std::to_string(other->second) +
+                 " already; give every node an id of its own");
+      if (const auto [other, is_new] = line_of_place.emplace(std::pair(x[0], x[1]), csv.line());
+          !is_new)
+        csv.fail("node " + std::to_string(id) + " lies at " + to_text(x) + ", where that of line " +
+                 std::to_string(other->second) + " is; take one of them out");
+      nodes.id.push_back(id);
+      nodes.places.push_back(x);
+      nodes.volume.push_back(volume);
+      nodes.line.push_back(csv.line());
+    }
+    return nodes;
+  }
+
+  std::vector<std::size_t> nodes_inside(const GivenNodes &nodes, const geometry::Mesh &mesh)
+  {
+    const Region omega(mesh, false);
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (omega.contains(nodes.places[i]))
+        result.push_back(i);
+    if (result.empty())
+      throw InputError("'" + nodes.file + "': none of the " + std::to_string(nodes.size()) +
+                       " nodes lies in the domain of the scene; check units and Domain/boxes");
+    return result;
+  }
+
+  void check_places(const GivenNodes &nodes, const geometry::Mesh &mesh, const std::string &level)
+  {
+    const Region region(mesh, true);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (!region.contains(nodes.places[i]))
+        throw InputError("'" + nodes.file + "', line " + std::to_string(nodes.line[i]) + ": node " +
+                         std::to_string(nodes.id[i]) + " at " + to_text(nodes.places[i]) +
+                         " lies outside of the domain and its collar at the level " + level +
+                         "; take it out, move it in, or choose another level (Study)");
+  }
+
+  GivenFamilies read_given_families(const std::string &file, const GivenNodes &nodes,
+                                    const geometry::NodeCells &cells)
+  {
+    Csv csv(file, {"i", "j", "weight"});
+    if (csv.has("qx") != csv.has("qy"))
+      csv.fail("one of the columns qx and qy is missing; give both or none");
+    std::unordered_map<std::int64_t, unsigned int> node_of_id;
+    for (unsigned int k = 0; k < cells.size(); ++k)
+      node_of_id[nodes.id[cells.source[k]]] = k;
+    const auto node = [&](const std::string &name)
+    {
+      const std::int64_t id = csv.integer(name);
+      const auto found = node_of_id.find(id);
+      if (found == node_of_id.end())
+        csv.fail(name + " = " + std::to_string(id) + " is no node of '" + nodes.file +
+                 "'; take the bond out, or add the node");
+      return found->second;
+    };
+
+    std::vector<std::vector<Row>> rows(cells.size());
+    while (csv.next())
+    {
+      const unsigned int i = node("i"), j = node("j");
+      if (i == j)
+        csv.fail("a bond of node " + std::to_string(csv.integer("i")) +
+                 " with itself; take it out, it has no part in the operator");
+      const Point<2> xi(cells.nodes[j] - cells.nodes[i]);
+      Bond bond{xi, csv.number("weight"), xi, nodes.volume[cells.source[j]]};
+      if (csv.has("qx") && !(csv.is_empty("qx") && csv.is_empty("qy")))
+        bond.kernel_point = Point<2>(csv.number("qx"), csv.number("qy"));
+      if (bond.kernel_point.square() == 0)
+        csv.fail("the kernel point (qx, qy) is 0, the place of node i itself, where kernels may be "
+                 "infinite; give a point of the neighbour's cell");
+      rows[i].push_back({j, bond, csv.line()});
+    }
+
+    GivenFamilies result{std::vector<Family>(cells.n_free), 0};
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      std::sort(rows[i].begin(), rows[i].end(),
+                [](const Row &a, const Row &b)
+                { return std::pair(a.neighbour, a.line) < std::pair(b.neighbour, b.line); });
+      const auto twin =
+          std::adjacent_find(rows[i].begin(), rows[i].end(),
+                             [](const Row &a, const Row &b) { return a.neighbour == b.neighbour; });
+      if (twin != rows[i].end())
+        csv.fail(twin[1].line, "the bond from node " + std::to_string(nodes.id[cells.source[i]]) +
+                                   " to node " +
+                                   std::to_string(nodes.id[cells.source[twin->neighbour]]) +
+                                   " is that of line " + std::to_string(twin->line) +
+                                   " already; take one of them out, or add their weights");
+      if (i >= cells.n_free)
+      {
+        result.n_ignored += rows[i].size();
+        continue;
+      }
+      if (rows[i].empty())
+        throw InputError("'" + nodes.file + "', line " +
+                         std::to_string(nodes.line[cells.source[i]]) + ": node " +
+                         std::to_string(nodes.id[cells.source[i]]) +
+                         " lies in the domain but has no bonds in '" + file + "'; add them");
+      for (const Row &row : rows[i])
+      {
+        result.families[i].neighbours.push_back(row.neighbour);
+        result.families[i].bonds.push_back(row.bond);
+      }
+    }
+    return result;
+  }
+} // namespace plumbline::meshfree

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "base/team.h"
+#include "meshfree/recipe.h"
+#include "study/results.h"
+
+namespace plumbline::meshfree
+{
+  /// Add a family to what a method says of its weights.
+  void describe_weights(const std::vector<Bond> &family, study::Diagnostics &diagnostics);
+
+  /// What the families of scattered nodes are like.
+  class FamilyStatistics
+  {
+  public:
+    void add(const Kernel<2> &kernel, const Family &family);
+
+    /// The largest family, the smallest weight and the number of negative ones, with notes on how
+    /// many families are concerned; over all ranks.
+    /// @note Collective.
+    study::Diagnostics diagnostics(const base::Team &team) const;
+
+  private:
+    study::Diagnostics weights_;
+    double n_families_ = 0, n_negative_ = 0, n_unstable_ = 0, n_dependent_ = 0, n_clipped_ = 0;
+  };
+} // namespace plumbline::meshfree

@@ -1,0 +1,41 @@
+#include "meshfree/method.h"
+
+#include "meshfree/roads.h"
+
+#include <utility>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    class RuleMethod : public study::Method
+    {
+    public:
+      explicit RuleMethod(Rule rule) : rule_(std::move(rule)) {}
+      std::string name() const override { return rule_.name; }
+      std::string family() const override { return "meshfree"; }
+      std::string help() const override { return rule_.help; }
+      std::string why_not(const scene::Scene &, const scene::Problem &) const override
+      {
+        return {};
+      }
+
+      study::Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
+      {
+        return problem.lattice ? lattice_road(rule_, scene, problem)
+                               : scattered_road(rule_, scene, problem);
+      }
+
+    private:
+      Rule rule_;
+    };
+  } // namespace
+
+  study::Methods methods()
+  {
+    study::Methods methods;
+    for (const Rule &rule : rules())
+      methods.push_back(std::make_shared<RuleMethod>(rule));
+    return methods;
+  }
+} // namespace plumbline::meshfree

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "meshfree/rules.h"
+#include "study/method.h"
+
+namespace plumbline::meshfree
+{
+  /// Solve on the problem's lattice, by one stencil for all nodes.
+  study::Solution lattice_road(const Rule &rule, const scene::Scene &scene,
+                               const scene::Problem &problem);
+
+  /// Solve on the problem's scattered nodes, by a sparse matrix whose rows all ranks build.
+  /// @note Collective.
+  study::Solution scattered_road(const Rule &rule, const scene::Scene &scene,
+                                 const scene::Problem &problem);
+} // namespace plumbline::meshfree

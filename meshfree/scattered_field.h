@@ -1,0 +1,30 @@
+#pragma once
+
+#include "geometry/node_cells.h"
+
+#include <memory>
+#include <string>
+
+namespace plumbline::meshfree
+{
+  /// Nodal values as the piecewise constant function K_κ u on the cells of Ω.
+  class ScatteredField
+  {
+  public:
+    /// @param values  shape (n_free, n_components)
+    ScatteredField(std::shared_ptr<const geometry::NodeCells> cells, std::vector<double> values,
+                   unsigned int n_components);
+
+    /// The value of the cell that holds x in Ω: of the nearest node of Ω. Thread safe.
+    double value(const geometry::Point<2> &x, unsigned int component) const;
+
+    /// The cells in triangles with u as data.
+    void write_vtu(const std::string &file) const;
+
+  private:
+    std::shared_ptr<const geometry::NodeCells> cells_;
+    std::vector<double> values_;
+    unsigned int n_components_;
+    geometry::BoxSearch search_; ///< over the bounding boxes of the cells of Ω
+  };
+} // namespace plumbline::meshfree

@@ -1,0 +1,200 @@
+#include "reference/mesh_method.h"
+
+#include "algebra/sparse_system.h"
+#include "base/error.h"
+#include "reference/geometry_check.h"
+#include "reference/mesh_assembly.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace plumbline::reference
+{
+  namespace
+  {
+    /// ∫ b φ over this rank's share of the cells of Ω, shape (n_free n_components).
+    std::vector<double> load_vector(const scene::Problem &problem, const MeshSpace &space,
+                                    const base::Team &team)
+    {
+      const CellShapes &shapes = space.shapes();
+      const unsigned int n_points = std::min(7u, shapes.degree() + 4), nc = problem.n_components;
+      dealii::Quadrature<2> gauss = dealii::QGauss<2>(n_points);
+      if (shapes.n_vertices() == 3)
+        gauss = dealii::QWitherdenVincentSimplex<2>(n_points);
+      std::vector<double> phi(gauss.size() * shapes.size());
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+        shapes.values(gauss.point(q), &phi[q * shapes.size()]);
+
+      std::vector<double> load(space.n_free() * nc);
+      const auto [first, last] = team.share(space.mesh().cells.size());
+      for (std::size_t cell = first; cell < last; ++cell)
+        for (unsigned int q = 0; q < gauss.size() && space.mesh().cells[cell].is_inside; ++q)
+        {
+          const Point<2> x = space.map(cell).point(gauss.point(q));
+          const double weight = gauss.weight(q) * space.map(cell).determinant(gauss.point(q));
+          for (unsigned int c = 0; c < nc; ++c)
+          {
+            const double b = weight * (problem.load.series ? (*problem.load.series)(x, c)
+                                                           : problem.load.value(x, c));
+            for (unsigned int a = 0; a < shapes.size(); ++a)
+              if (const unsigned int dof = space.dofs(cell)[a]; dof < space.n_free())
+                load[dof * nc + c] += b * phi[q * shapes.size() + a];
+          }
+        }
+      return load;
+    }
+
+    /// Solution and volume constraint at all degrees of freedom.
+    std::vector<double> constraint_values(const scene::Problem &problem, const MeshSpace &space)
+    {
+      std::vector<double> values(space.n_dofs() * problem.n_components);
+      for (std::size_t dof = space.n_free(); dof < space.n_dofs(); ++dof)
+        for (unsigned int c = 0; c < problem.n_components; ++c)
+          values[dof * problem.n_components + c] = problem.constraint.value(space.support(dof), c);
+      return values;
+    }
+
+    /// Keep the columns of the free unknowns; what the others do goes to the right-hand side.
+    void eliminate(const std::vector<double> &data, std::size_t n_free, algebra::Rows &rows,
+                   std::vector<double> &right_hand_side)
+    {
+      std::size_t end = 0, k = 0;
+      for (std::size_t row = 0; row < rows.n_rows(); ++row)
+      {
+        for (; k < rows.start[row + 1]; ++k)
+          if (rows.column[k] < n_free)
+          {
+            rows.column[end] = rows.column[k];
+            rows.value[end++] = rows.value[k];
+          }
+          else
+            right_hand_side[row] -= rows.value[k] * data[rows.column[k]];
+        rows.start[row + 1] = end;
+      }
+      rows.column.resize(end);
+      rows.value.resize(end);
+    }
+
+    /// One solution with an outer rule refined so many times.
+    void solve_once(const scene::Scene &scene, const scene::Problem &problem,
+                    const AssemblyOptions &options, const base::Team &team, MeshSolution &solution,
+                    bool &is_exact)
+    {
+      const MeshSpace &space = *solution.field.space;
+      base::CpuTimer timer;
+      MeshMatrix matrix = assemble(space, *solution.field.cells, problem.kernel,
+                                   problem.coefficient, options, team);
+      is_exact = matrix.is_exact;
+      solution.cost.setup_seconds += timer.seconds();
+
+      timer.restart();
+      std::vector<double> right_hand_side = load_vector(problem, space, team);
+      const std::size_t n = space.n_free() * problem.n_components;
+      eliminate(solution.field.values, n, matrix.rows, right_hand_side);
+      algebra::SparseOptions solver;
+      solver.solver = algebra::sparse_solver_from_name(scene.linear_solver);
+      solver.n_components = problem.n_components;
+      solver.tolerance = scene.tolerance;
+      solver.max_iterations = scene.max_iterations;
+      const auto solved = algebra::solve_sparse(matrix.rows, right_hand_side, solver, team);
+      std::copy(solved.values.begin(), solved.values.end(), solution.field.values.begin());
+      solution.cost.solve_seconds += timer.seconds();
+      solution.cost.n_unknowns = n;
+      solution.cost.n_bonds = solved.n_nonzeros;
+      solution.cost.n_iterations = solved.n_iterations;
+      solution.diagnostics.n_neighbours =
+          static_cast<unsigned int>(solved.n_nonzeros / std::max<std::size_t>(1, n));
+      solution.diagnostics.relative_residual = solved.relative_residual;
+      solution.diagnostics.operator_road = "sparse, " + solved.solver;
+    }
+
+    double relative_change(const MeshField &before, const MeshField &now)
+    {
+      MeshField difference = now;
+      for (std::size_t i = 0; i < now.values.size(); ++i)
+        difference.values[i] -= before.values[i];
+      const double size = l2_norm(now);
+      return size > 0 ? l2_norm(difference) / size : l2_norm(difference);
+    }
+  } // namespace
+
+  MeshSolution solve_on_mesh(const scene::Scene &scene, const scene::Problem &problem,
+                             bool is_continuous, unsigned int degree, const base::Team &team)
+  {
+    const base::MemoryGauge memory;
+    const base::CpuTimer timer;
+    const auto space = std::make_shared<const MeshSpace>(problem.mesh, is_continuous, degree);
+    MeshSolution solution{{space, std::make_shared<const MeshCells>(*problem.mesh),
+                           problem.n_components, constraint_values(problem, *space)},
+                          {},
+                          {}};
+    if (space->n_free() == 0)
+      throw NumericalError("no degree of freedom is free: every cell of the domain touches the "
+                           "collar; refine the mesh");
+    solution.cost.setup_seconds = timer.seconds();
+
+    AssemblyOptions options{0, scene.exact_rectangles, scene.backend};
+    bool is_exact = false;
+    solve_once(scene, problem, options, team, solution, is_exact);
+    double &change = solution.diagnostics.outer_change;
+    bool is_settled = is_exact || scene.outer_tolerance == 0;
+    while (!is_settled)
+    {
+      if (options.refinement == scene.max_refinements)
+      {
+        std::ostringstream message;
+        message << "outer quadrature refined " << options.refinement
+                << " times still changes the solution by " << change
+                << " relative to it, more than Quadrature/tolerance = " << scene.outer_tolerance
+                << "; raise Quadrature/max refinements or the tolerance, or refine the mesh";
+        throw NumericalError(message.str());
+      }
+      const MeshField before = solution.field;
+      ++options.refinement;
+      solve_once(scene, problem, options, team, solution, is_exact);
+      change = relative_change(before, solution.field);
+      is_settled = change <= scene.outer_tolerance;
+    }
+    solution.diagnostics.n_refinements = options.refinement;
+    if (is_exact)
+      solution.diagnostics.notes.push_back(
+          "entries of axis-aligned rectangles exact by correlation");
+    else if (scene.outer_tolerance == 0)
+      solution.diagnostics.notes.push_back("outer quadrature not refined: its error is not known");
+    solution.cost.setup_seconds = team.sum(solution.cost.setup_seconds);
+    solution.cost.solve_seconds = team.sum(solution.cost.solve_seconds);
+    solution.cost.peak_bytes =
+        static_cast<std::size_t>(team.largest(static_cast<double>(memory.peak_bytes())));
+    const auto check = check_geometry(*solution.field.cells, problem.horizon(),
+                                      scene.n_geometry_checks, scene.seed);
+    solution.diagnostics.n_geometry_checks = check.n_checked;
+    solution.diagnostics.geometry_difference = check.worst_difference;
+    return solution;
+  }
+
+  study::Solution as_solution(const scene::Problem &problem, MeshSolution solved)
+  {
+    const auto field = std::make_shared<const MeshField>(std::move(solved.field));
+    study::Solution solution;
+    solution.cost = solved.cost;
+    solution.diagnostics = solved.diagnostics;
+    for (std::size_t dof = 0; dof < field->space->n_free(); ++dof)
+    {
+      solution.nodes.push_back(field->space->support(dof));
+      for (unsigned int c = 0; c < field->n_components; ++c)
+        solution.nodal.push_back(field->values[dof * field->n_components + c]);
+    }
+    solution.averages = field->averages(*problem.cells);
+    solution.value = [field](const Point<2> &x, unsigned int c) { return field->value(x, c); };
+    solution.write_vtu = [field](const std::string &file) { write_vtu(*field, file); };
+    return solution;
+  }
+
+  study::Solution mesh_solution(const scene::Scene &scene, const scene::Problem &problem,
+                                bool is_continuous, unsigned int degree)
+  {
+    return as_solution(problem, solve_on_mesh(scene, problem, is_continuous, degree));
+  }
+} // namespace plumbline::reference

@@ -1,0 +1,96 @@
+#include "reference/method.h"
+
+#include "reference/lattice_method.h"
+#include "reference/local_limit.h"
+#include "reference/mesh_method.h"
+
+namespace plumbline::reference
+{
+  namespace
+  {
+    class GalerkinMethod : public study::Method
+    {
+    public:
+      GalerkinMethod(unsigned int n_vertices, bool is_continuous, unsigned int degree)
+          : n_vertices_(n_vertices), is_continuous_(is_continuous), degree_(degree)
+      {
+      }
+      std::string name() const override
+      {
+        return std::string(is_continuous_ ? "" : "DG") + (n_vertices_ == 4 ? "Q" : "P") +
+               std::to_string(degree_);
+      }
+      std::string family() const override { return "reference"; }
+      std::string help() const override
+      {
+        return std::string(is_continuous_ ? "continuous" : "discontinuous") +
+               " Galerkin of degree " + std::to_string(degree_) +
+               (n_vertices_ == 4 ? " on quadrilaterals; entries exact to round-off on lattices and "
+                                   "axis-aligned rectangles"
+                                 : " on triangles") +
+               (degree_ == 0 ? " (not asymptotically compatible)" : "");
+      }
+      std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const override
+      {
+        const std::string other = n_vertices_ == 4 ? "P" : "Q";
+        if (problem.lattice
+                ? n_vertices_ == 3
+                : !(n_vertices_ == 4 ? problem.mesh->is_quads() : problem.mesh->is_triangles()))
+          return std::string("the cells of Domain/mesh = ") + scene.mesh.kind + " are not all " +
+                 (n_vertices_ == 4 ? "quadrilaterals" : "triangles") + "; take " +
+                 (is_continuous_ ? "" : "DG") + other + std::to_string(degree_);
+        return {};
+      }
+      std::shared_ptr<const study::Method> higher_degree() const override
+      {
+        return std::make_shared<GalerkinMethod>(n_vertices_, is_continuous_, degree_ + 1);
+      }
+      study::Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
+      {
+        if (problem.lattice)
+          return lattice_solution(scene, problem, AxisShapes(is_continuous_, degree_));
+        return mesh_solution(scene, problem, is_continuous_, degree_);
+      }
+
+    private:
+      unsigned int n_vertices_;
+      bool is_continuous_;
+      unsigned int degree_;
+    };
+
+    class LocalMethod : public study::Method
+    {
+    public:
+      std::string name() const override { return "LOCAL"; }
+      std::string family() const override { return "local"; }
+      std::string help() const override
+      {
+        return "classical finite elements of degree 2 for the local limit (Poisson, Navier)";
+      }
+      std::string why_not(const scene::Scene &, const scene::Problem &problem) const override
+      {
+        if (problem.lattice)
+          return "it needs a mesh; write Domain/mesh = squares or triangles";
+        return {};
+      }
+      study::Solution solve(const scene::Scene &, const scene::Problem &problem) const override
+      {
+        return as_solution(problem, solve_local(problem));
+      }
+    };
+  } // namespace
+
+  study::Methods methods()
+  {
+    study::Methods methods;
+    for (const unsigned int n_vertices : {4u, 3u})
+    {
+      for (unsigned int degree = 1; degree <= 3; ++degree)
+        methods.push_back(std::make_shared<GalerkinMethod>(n_vertices, true, degree));
+      for (unsigned int degree = 0; degree <= 3; ++degree)
+        methods.push_back(std::make_shared<GalerkinMethod>(n_vertices, false, degree));
+    }
+    methods.push_back(std::make_shared<LocalMethod>());
+    return methods;
+  }
+} // namespace plumbline::reference

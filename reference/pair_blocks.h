@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+namespace plumbline::reference
+{
+  /// What an ordered pair of cells (E, E') adds to the energy, C the kernel with its coefficient:
+  ///   outer(a, a') = ∬_{E×E'} C φ_a(x) φ_a'(x),  cross(a, b) = ∬ C φ_a(x) ψ_b(y),
+  ///   inner(b, b') = ∬ C ψ_b(y) ψ_b'(y),
+  /// each shape (n, n, n_entries): one value for a scalar kernel, xx, xy, yy for a tensor.
+  struct PairBlocks
+  {
+    std::vector<double> outer, cross, inner;
+
+    void reset(unsigned int n, unsigned int n_entries)
+    {
+      for (auto *block : {&outer, &cross, &inner})
+        block->assign(static_cast<std::size_t>(n) * n * n_entries, 0.);
+    }
+  };
+} // namespace plumbline::reference

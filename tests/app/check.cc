@@ -1,0 +1,253 @@
+// `plumbline check` as a user meets it: exit codes, messages, and the worked example.
+
+#include "meshfree/rules.h"
+#include "scene/problem.h"
+
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+  struct Outcome
+  {
+    int exit_code;
+    std::string out, err;
+  };
+
+  std::string read(const fs::path &file)
+  {
+    std::stringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+  }
+
+  fs::path temporary(const std::string &name)
+  {
+    return fs::path(::testing::TempDir()) / ("check_" + std::to_string(getpid()) + "_" + name);
+  }
+
+  std::string write(const std::string &name, const std::string &text)
+  {
+    std::ofstream(temporary(name)) << text;
+    return temporary(name).string();
+  }
+
+  const fs::path folder = fs::path(PLUMBLINE_SCENES) / "check";
+  const std::string nodes_file = (folder / "nodes.csv").string(),
+                    bonds_file = (folder / "bonds.csv").string(),
+                    scene_file = (folder / "check.prm").string();
+
+  Outcome check(const std::string &nodes, const std::string &bonds, const std::string &more = "")
+  {
+    const fs::path out = temporary("out"), err = temporary("err");
+    const int status = std::system((std::string(PLUMBLINE_COMMAND) + " check " + nodes + " " +
+                                    bonds + " --scene " + scene_file + " " + more + " >" +
+                                    out.string() + " 2>" + err.string())
+                                       .c_str());
+    return {WEXITSTATUS(status), read(out), read(err)};
+  }
+
+  /// A text with one occurrence of a part replaced.
+  std::string replace(std::string text, const std::string &part, const std::string &by)
+  {
+    const auto at = text.find(part);
+    EXPECT_NE(at, std::string::npos) << part;
+    return text.replace(at, part.size(), by);
+  }
+
+  void expect_refusal(const std::string &nodes, const std::string &bonds,
+                      const std::vector<std::string> &fragments)
+  {
+    const Outcome outcome = check(nodes, bonds);
+    EXPECT_EQ(outcome.exit_code, 2) << fragments[0];
+    EXPECT_EQ(outcome.out, "");
+    for (const std::string &fragment : fragments)
+      EXPECT_NE(outcome.err.find(fragment), std::string::npos)
+          << fragment << " is not in: " << outcome.err;
+  }
+
+  void expect_found(const std::string &text, const std::string &part)
+  {
+    EXPECT_NE(text.find(part), std::string::npos) << part << " is not in:\n" << text;
+  }
+} // namespace
+
+TEST(Check, finds_the_good_example_good)
+{
+  const Outcome outcome = check(nodes_file, bonds_file);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  expect_found(outcome.out, "64 free, 132 in the collar");
+  expect_found(outcome.out, "m = 3: h = 0.125, horizon = 0.375");
+  expect_found(outcome.out, "reproduces polynomials up to degree 3");
+  expect_found(outcome.out, "second moments exact: asymptotically compatible");
+  expect_found(outcome.out, "\npositive definite");
+  expect_found(outcome.out, "averages L2 | reference");
+}
+
+TEST(Check, names_the_node_with_the_wrong_weight)
+{
+  const std::string bonds = (folder / "bonds_wrong.csv").string();
+  const Outcome outcome = check(nodes_file, bonds);
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  expect_found(outcome.out, "first moments off by up to 4.23 % at node 77");
+  expect_found(outcome.out, "the weights of node 77 are out of line with the others");
+
+  const Outcome json = check(nodes_file, bonds, "--json");
+  EXPECT_EQ(json.exit_code, 1);
+  EXPECT_EQ(json.out.front(), '{');
+  expect_found(json.out, "\"exit_code\": 1");
+  const Outcome quiet = check(nodes_file, bonds, "--quiet");
+  EXPECT_EQ(quiet.exit_code, 1);
+  EXPECT_EQ(quiet.out + quiet.err, "");
+}
+
+TEST(Check, its_example_is_what_the_library_makes)
+{
+  using namespace plumbline;
+  auto scene = scene::read_scene(scene_file);
+  scene.mesh.kind = "squares";
+  scene.nodes.kind = nodes_file;
+  const auto problem = scene::make_problem(scene, 0, scene.series[0].levels[0]);
+  const auto families =
+      meshfree::recalibrated(problem.kernel, *problem.cells, meshfree::Backend::fast, 2);
+  meshfree::Family family;
+  std::ifstream good(bonds_file), wrong(folder / "bonds_wrong.csv");
+  std::string row, wrong_row;
+  std::getline(good, row);
+  std::getline(wrong, wrong_row);
+  EXPECT_EQ(row, "i,j,weight,qx,qy");
+  EXPECT_EQ(row, wrong_row);
+  for (std::size_t i = 0; i < families.size(); ++i)
+  {
+    families.make(i, family);
+    for (std::size_t k = 0; k < family.bonds.size(); ++k)
+    {
+      const meshfree::Bond &bond = family.bonds[k];
+      const std::size_t from = problem.cells->source[i] + 1,
+                        to = problem.cells->source[family.neighbours[k]] + 1;
+      ASSERT_TRUE(std::getline(good, row));
+      std::istringstream in(row);
+      std::size_t first = 0, second = 0;
+      double weight = 0, qx = bond.xi[0], qy = bond.xi[1];
+      char comma = 0;
+      in >> first >> comma >> second >> comma >> weight >> comma;
+      if (row.compare(row.size() - 2, 2, ",,") != 0)
+        in >> qx >> comma >> qy;
+      EXPECT_EQ(first, from);
+      EXPECT_EQ(second, to);
+      EXPECT_NEAR(weight, bond.weight, 1e-12);
+      EXPECT_NEAR(qx, bond.kernel_point[0], 1e-12);
+      EXPECT_NEAR(qy, bond.kernel_point[1], 1e-12);
+
+      ASSERT_TRUE(std::getline(wrong, wrong_row));
+      EXPECT_EQ(row == wrong_row, from != 77 || to != 79);
+    }
+  }
+  EXPECT_FALSE(std::getline(good, row));
+  EXPECT_FALSE(std::getline(wrong, wrong_row));
+}
+
+TEST(Check, says_how_wrong_the_limit_is)
+{
+  // all weights 20 % too large: the solution tends to 1 / 1.2 of the right one
+  std::ifstream in(bonds_file);
+  std::string text, row;
+  std::getline(in, row);
+  text = row + '\n';
+  while (std::getline(in, row))
+  {
+    const auto from = row.find(',', row.find(',') + 1) + 1, to = row.find(',', from);
+    std::ostringstream weight;
+    weight.precision(15);
+    weight << 1.2 * std::stod(row.substr(from, to - from));
+    text += row.substr(0, from) + weight.str() + row.substr(to) + '\n';
+  }
+  const Outcome outcome = check(nodes_file, write("scaled.csv", text));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "second moments off by 20 % on average (worst 20 % at node");
+  expect_found(outcome.out, "tends to a wrong limit, off by about 16.7 %");
+}
+
+TEST(Check, a_matrix_that_is_not_definite_is_wrong)
+{
+  // node 77 pushed away from all its neighbours
+  std::ifstream in(bonds_file);
+  std::string text, row;
+  while (std::getline(in, row))
+    text += (row.compare(0, 3, "77,") == 0 ? replace(row, ",0.", ",-0.") : row) + '\n';
+  const Outcome outcome = check(nodes_file, write("indefinite.csv", text));
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  expect_found(outcome.out, "NOT positive definite");
+  expect_found(outcome.out, "second moments are off by 200 % at node 77");
+}
+
+TEST(Check, refuses_nodes_that_cannot_be_used)
+{
+  const std::string text = read(nodes_file), node = "1,-0.3125,-0.3125,0.015625\n";
+  const auto refuse = [&](const std::string &by, const std::vector<std::string> &fragments)
+  { expect_refusal(write("nodes.csv", replace(text, node, by)), bonds_file, fragments); };
+  refuse("1,-0.3125,here,0.015625\n", {"nodes.csv', line 2: y = 'here' is not a finite number"});
+  refuse("1,nan,-0.3125,0.015625\n", {"line 2: x = nan is not a finite number"});
+  refuse("1.5,-0.3125,-0.3125,0.015625\n", {"line 2: id = '1.5' is not an integer"});
+  refuse("1,-0.3125,-0.3125,0\n", {"line 2: the volume", "of node 1 is not positive; give"});
+  refuse("1,-0.3125\n", {"line 2: y = '' is not a finite number"});
+  refuse("2,-0.3125,-0.3125,0.015625\n", {"line 3: id 2 is that of line 2 already; give"});
+  refuse("1,-0.1875,-0.3125,0.015625\n",
+         {"line 3: node 2 lies at (-0.1875, -0.3125), where that of line 2 is; take"});
+  refuse("1,-0.3125,-0.4125,0.015625\n",
+         {"line 2: node 1 at (-0.3125, -0.4125) lies outside of the domain and its collar at the "
+          "level m = 3: h = 0.125, horizon = 0.375; take"});
+  expect_refusal(write("nodes.csv", replace(text, "volume", "area")), bonds_file,
+                 {"has no column volume in its first line 'id,x,y,area'"});
+  expect_refusal(write("nodes.csv", "id,x,y,volume\n1,7,7,1\n"), bonds_file,
+                 {"none of the 1 nodes lies in the domain"});
+  expect_refusal("no_such_nodes.csv", bonds_file, {"'no_such_nodes.csv' cannot be read; check"});
+}
+
+TEST(Check, refuses_bonds_that_cannot_be_used)
+{
+  const std::string text = read(bonds_file), bond = "46,47,0.01482832303132,,\n";
+  const auto refuse = [&](const std::string &by, const std::vector<std::string> &fragments)
+  { expect_refusal(nodes_file, write("bonds.csv", replace(text, bond, by)), fragments); };
+  refuse("46,47,heavy,,\n", {"bonds.csv', line 2: weight = 'heavy' is not a finite number"});
+  refuse("46,47,nan,,\n", {"line 2: weight = nan is not a finite number"});
+  refuse("46,47,inf,,\n", {"line 2: weight = inf is not a finite number"});
+  refuse("46,47,.01,.1,\n", {"line 2: qy = '' is not a finite number"});
+  refuse("46,470,.01,,\n", {"line 2: j = 470 is no node of", "nodes.csv'; take"});
+  refuse("0,47,.01,,\n", {"line 2: i = 0 is no node of"});
+  refuse("46,46,.01,,\n", {"line 2: a bond of node 46 with itself; take it out"});
+  refuse(bond + bond, {"line 3: the bond from node 46 to node 47 is that of line 2 already; take"});
+  refuse("46,47,.01,0,0\n", {"line 2: the kernel point (qx, qy) is 0"});
+  expect_refusal(nodes_file, write("bonds.csv", replace(text, "qy", "qz")),
+                 {"line 1: one of the columns qx and qy is missing; give both or none"});
+  expect_refusal(nodes_file, write("bonds.csv", replace(text, "weight", "w")),
+                 {"has no column weight in its first line 'i,j,w,qx,qy'"});
+  expect_refusal(nodes_file, write("bonds.csv", "i,j,weight\n46,47,.1\n"),
+                 {"nodes.csv', line 48: node 47 lies in the domain but has no bonds in"});
+  expect_refusal(nodes_file, "no_such_bonds.csv", {"'no_such_bonds.csv' cannot be read; check"});
+}
+
+TEST(Check, counts_the_bonds_of_collar_nodes_that_it_ignores)
+{
+  const Outcome outcome =
+      check(nodes_file, write("collar.csv", read(bonds_file) + "1,2,.01,,\n1,46,-5,,\n"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "2 of collar nodes ignored");
+}
+
+TEST(Check, refuses_a_reference_that_is_no_galerkin_method)
+{
+  const Outcome outcome = check(nodes_file, bonds_file, "--set Reference/method=OPT");
+  EXPECT_EQ(outcome.exit_code, 2);
+  expect_found(outcome.err, "Reference/method = 'OPT' is no Galerkin method");
+}

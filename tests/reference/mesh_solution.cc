@@ -1,0 +1,247 @@
+// Galerkin solutions on meshes: exactness, rates, agreement of spaces, projection, local limit.
+#include "base/error.h"
+#include "geometry/mesh_input.h"
+#include "reference/local_limit.h"
+#include "reference/mesh_method.h"
+#include "reference/method.h"
+#include "study/comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace
+{
+  using namespace plumbline;
+  using geometry::Point;
+
+  const std::string wave = "sin(3*x)*cos(2*y)", wave_vector = "sin(3*x)*cos(2*y), cos(x)*sin(3*y)";
+
+  scene::Scene make_scene(const std::string &mesh, const std::string &solution,
+                          const std::string &more = "", bool is_tensor = false)
+  {
+    return scene::parse_scene(
+        "test.prm",
+        "subsection Domain\n set mesh = " + mesh + "\nend\n" +
+            (is_tensor ? "subsection Kernel\n set type = bond-tensor\n set limit = Navier\nend\n"
+                       : "") +
+            "subsection Problem\n set solution = " + solution +
+            "\nend\nsubsection Methods\n set names = P1\nend\n" +
+            "subsection Study\n set norms = nodal Linf, field L2, averages L2\nend\n" +
+            "subsection Geometry\n set checks = 0\nend\n" + more);
+  }
+
+  const std::string constant_kernel =
+      "subsection Kernel\n set type = constant\n set limit = -Laplace\nend\n";
+  const std::string no_refinement = "subsection Quadrature\n set tolerance = 0\nend\n";
+
+  std::shared_ptr<const study::Method> method(const std::string &name)
+  {
+    for (const auto &candidate : reference::methods())
+      if (candidate->name() == name)
+        return candidate;
+    throw std::logic_error(name);
+  }
+
+  double error(const scene::Scene &scene, const std::string &name, double h, double horizon,
+               const std::string &norm = "field L2")
+  {
+    const auto problem = make_problem(scene, 0, {h, horizon});
+    return study::errors(scene, problem, method(name)->solve(scene, problem), {})
+        .at(norm + " | exact");
+  }
+} // namespace
+
+TEST(MeshGalerkin, SolvesWhatItsSpaceContains)
+{
+  // exact entries on rectangles; a linear field on any degree, a quadratic one on degree 2
+  for (const bool is_tensor : {false, true})
+  {
+    const auto linear =
+        make_scene("squares", is_tensor ? "1 + x - y, 2*y" : "1 + x - y", "", is_tensor);
+    EXPECT_LT(error(linear, "Q1", .125, .3, "nodal Linf"), 1e-11);
+    const auto quadratic =
+        make_scene("squares", is_tensor ? "x^2 - x*y, y^2" : "x^2 - x*y", "", is_tensor);
+    for (const std::string name : {"Q2", "DGQ2"})
+      EXPECT_LT(error(quadratic, name, .25, .3, "nodal Linf"), 1e-11) << name;
+  }
+}
+
+TEST(MeshGalerkin, OnSquaresIsTheLatticeSolution)
+{
+  for (const std::string name : {"Q1", "Q3", "DGQ0", "DGQ1", "DGQ2"})
+  {
+    const auto on_mesh = make_scene("squares", wave), on_lattice = make_scene("lattice", wave);
+    const auto mesh = make_problem(on_mesh, 0, {.125, .3}),
+               lattice = make_problem(on_lattice, 0, {.125, .3});
+    const auto a = method(name)->solve(on_mesh, mesh), b = method(name)->solve(on_lattice, lattice);
+    EXPECT_LT(study::averages_l2(lattice, a.averages, b.averages), 1e-11) << name;
+  }
+}
+
+TEST(MeshGalerkin, ConvergesAtTheOptimalRateOnTriangles)
+{
+  struct Case
+  {
+    std::string name;
+    double rate, h;
+  };
+  for (const auto &[name, rate, h] :
+       {Case{"P1", 2, .25}, Case{"P2", 3, .25}, Case{"P3", 4, .25}, Case{"DGP0", 1, .125},
+        Case{"DGP1", 2, .25}, Case{"DGP2", 3, .25}})
+  {
+    const auto scene = make_scene("triangles", wave,
+                                  constant_kernel + "subsection Quadrature\n set tolerance = " +
+                                      std::string(rate > 2 ? "1e-5" : "1e-3") + "\nend\n");
+    const double coarse = error(scene, name, h, .3), fine = error(scene, name, h / 2, .3);
+    EXPECT_NEAR(std::log2(coarse / fine), rate, .25) << name << " " << coarse << " " << fine;
+  }
+}
+
+TEST(MeshGalerkin, DegreeZeroStallsAtAFixedRatioAndDegreeOneDoesNot)
+{
+  const auto scene = make_scene("triangles", wave, no_refinement);
+  const auto rate = [&](const std::string &name)
+  {
+    return std::log2(error(scene, name, .1, .3, "averages L2") /
+                     error(scene, name, .05, .15, "averages L2"));
+  };
+  EXPECT_LT(rate("DGP0"), .4);
+  EXPECT_GT(rate("P1"), 1.7);
+  EXPECT_GT(rate("DGP1"), 1.7);
+}
+
+TEST(MeshGalerkin, KnowsItsOuterError)
+{
+  const auto coarse = make_scene("triangles", wave, no_refinement);
+  const auto problem = make_problem(coarse, 0, {.125, .3});
+  const auto first = reference::solve_on_mesh(coarse, problem, true, 1);
+  EXPECT_EQ(first.diagnostics.n_refinements, 0u);
+
+  const auto scene =
+      make_scene("triangles", wave, "subsection Quadrature\n set tolerance = 1e-6\nend\n");
+  const auto settled = reference::solve_on_mesh(scene, problem, true, 1);
+  EXPECT_GT(settled.diagnostics.n_refinements, 0u);
+  EXPECT_LE(settled.diagnostics.outer_change, 1e-6);
+  EXPECT_GT(settled.diagnostics.outer_change, 0);
+
+  const auto impossible =
+      make_scene("triangles", wave,
+                 "subsection Quadrature\n set tolerance = 1e-14\n set max refinements = 1\nend\n");
+  try
+  {
+    reference::solve_on_mesh(impossible, problem, true, 1);
+    FAIL() << "a tolerance of 1e-14 was met";
+  }
+  catch (const NumericalError &failure)
+  {
+    EXPECT_NE(std::string(failure.what()).find("Quadrature/tolerance"), std::string::npos)
+        << failure.what();
+  }
+}
+
+TEST(MeshGalerkin, ContinuousAndDiscontinuousSolutionsAgreeWithinTheirErrors)
+{
+  const auto scene = make_scene("triangles", wave, constant_kernel);
+  const auto problem = make_problem(scene, 0, {.125, .25});
+  const auto p2 = method("P2")->solve(scene, problem), dgp2 = method("DGP2")->solve(scene, problem);
+  const auto exact = study::cell_averages(*problem.solution, *problem.cells, 1);
+  const double difference = study::averages_l2(problem, p2.averages, dgp2.averages);
+  EXPECT_LT(difference, study::averages_l2(problem, p2.averages, exact) +
+                            study::averages_l2(problem, dgp2.averages, exact) + 1e-14);
+  EXPECT_LT(difference, 1e-4);
+}
+
+TEST(MeshGalerkin, DistortedQuadrilateralsAndVariableCoefficientsConverge)
+{
+  const auto scene = scene::parse_scene(
+      "test.prm",
+      "subsection Domain\n set mesh = squares\n set map = x + .1*sin(3*y), y + .1*x*x\nend\n"
+      "subsection Kernel\n set coefficient = 1 + .5*x*y + x^2\n set symmetrisation = "
+      "harmonic\nend\n"
+      "subsection Problem\n set solution = " +
+          wave +
+          "\nend\nsubsection Methods\n set names = Q1\nend\nsubsection Study\n set norms = field "
+          "L2\n"
+          " set decisive error = field L2 | exact\nend\n"
+          "subsection Geometry\n set checks = 0\nend\nsubsection Quadrature\n set tolerance = "
+          "1e-4\nend\n");
+  const double coarse = error(scene, "Q1", .25, .3), fine = error(scene, "Q1", .125, .3);
+  EXPECT_NEAR(std::log2(coarse / fine), 2, .3) << coarse << " " << fine;
+}
+
+TEST(MeshField, ProjectsExactlyOntoLatticeAndVoronoiCells)
+{
+  // averages of a polynomial that the space contains are those of the polynomial
+  for (const std::string mesh : {"triangles", "squares"})
+    for (const std::string nodes : {"", " set perturbation = 0.3\n", " set nodes = mesh\n"})
+    {
+      const auto scene =
+          make_scene(mesh, "x^2*1 - x*y + 2*y", "subsection Methods\n" + nodes + "end\n");
+      const auto problem = make_problem(scene, 0, {.25, .25});
+      const auto space = std::make_shared<const reference::MeshSpace>(problem.mesh, true, 2);
+      reference::MeshField field{space, std::make_shared<const reference::MeshCells>(*problem.mesh),
+                                 1, std::vector<double>(space->n_dofs())};
+      for (std::size_t dof = 0; dof < space->n_dofs(); ++dof)
+        field.values[dof] = problem.solution->value(space->support(dof), 0);
+      const auto averages = field.averages(*problem.cells);
+      const auto exact = study::cell_averages(*problem.solution, *problem.cells, 1);
+      for (std::size_t i = 0; i < exact.size(); ++i)
+        ASSERT_NEAR(averages[i], exact[i], 1e-13) << mesh << nodes;
+      EXPECT_NEAR(field.value(Point<2>(.3, .7), 0), .09 - .21 + 1.4, 1e-13);
+    }
+}
+
+TEST(LocalLimit, IsTheSolutionOfPoissonsAndNaviersEquation)
+{
+  // -½ Δ u = b and -div σ = b with u outside the space: rate 3 of degree 2
+  const auto rate = [](const scene::Scene &scene)
+  {
+    const auto local_error = [&](double h)
+    {
+      const auto problem = make_problem(scene, 0, {h, h});
+      const auto solution = reference::as_solution(problem, reference::solve_local(problem));
+      return study::errors(scene, problem, solution, {}).at("field L2 | exact");
+    };
+    return std::log2(local_error(.125) / local_error(.0625));
+  };
+  for (const std::string mesh : {"triangles", "squares"})
+  {
+    auto scalar = make_scene(mesh, "exp(x)*sin(2*y)");
+    scalar.loads = {{"u", "1.5*exp(x)*sin(2*y)"}};
+    EXPECT_NEAR(rate(scalar), 3, .15);
+    // u = (sin x cos y, 0), λ = μ = .6: -[μ Δu + (λ + μ) ∇ div u]
+    auto tensor = make_scene(mesh, "sin(x)*cos(y), 0", "", true);
+    tensor.loads = {{"u", "1.2*sin(x)*cos(y) + 1.2*sin(x)*cos(y), 1.2*cos(x)*sin(y)"}};
+    EXPECT_NEAR(rate(tensor), 3, .2);
+  }
+}
+
+TEST(MeshMethods, SayWhyTheyCannotDoAMesh)
+{
+  const auto scene = make_scene("triangles", wave);
+  const auto problem = make_problem(scene, 0, {.25, .25});
+  EXPECT_EQ(method("P1")->why_not(scene, problem), "");
+  EXPECT_NE(method("Q1")->why_not(scene, problem).find("take P1"), std::string::npos);
+}
+
+TEST(MeshMethods, WriteFieldsForEveryDegree)
+{
+  for (const std::string mesh : {"triangles", "squares"})
+  {
+    const auto scene = make_scene(mesh, wave, no_refinement);
+    const auto problem = make_problem(scene, 0, {.25, .25});
+    for (const std::string degree : {"1", "3"})
+    {
+      const std::string name = (mesh == "squares" ? "Q" : "P") + degree;
+      const auto file = std::filesystem::temp_directory_path() / ("plumbline_" + name + ".vtu");
+      method(name)->solve(scene, problem).write_vtu(file.string());
+      std::ifstream written(file);
+      std::string first;
+      std::getline(written, first);
+      EXPECT_NE(first.find("xml"), std::string::npos);
+      std::filesystem::remove(file);
+    }
+  }
+}
