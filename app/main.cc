@@ -95,6 +95,9 @@ int main(int argc, char **argv)
     options.overrides = weights.overrides = to_overrides(settings);
     if (*run)
       return plumbline::app::run(options);
+    const bool is_silent = plumbline::base::Team::all().rank() > 0;
+    if (is_silent && !*check)
+      return 0; // the first rank does it
     if (*check)
       return plumbline::app::check(weights);
     if (*report)

@@ -83,6 +83,11 @@ namespace plumbline::app
                          "' cannot be written; give a writable one with -o");
     }
 
+    bool is_newer(const fs::path &file, const fs::path &than)
+    {
+      return fs::exists(file) && fs::last_write_time(file) > fs::last_write_time(than);
+    }
+
     /// What an interrupted run of the same scene left in the folder.
     study::Results earlier_results(const fs::path &folder, const scene::Scene &scene)
     {
@@ -92,7 +97,10 @@ namespace plumbline::app
       try
       {
         const study::Results earlier = report::read_json(file);
-        if (!earlier.is_complete && earlier.scene_text == scene.text)
+        // files that the scene names must be as old as the results
+        const bool is_current = !is_newer(fs::path(scene.folder) / scene.mesh.kind, file) &&
+                                !is_newer(fs::path(scene.folder) / scene.nodes.kind, file);
+        if (is_current && !earlier.is_complete && earlier.scene_text == scene.text)
           return earlier;
       }
       catch (const InputError &)
@@ -247,7 +255,17 @@ namespace plumbline::app
           fs::create_directories(folder / "fields");
           solution.write_vtu((folder / "fields" / file_name(run)).string());
         };
-      results = study::run_sweep(scene, methods, available, control, earlier);
+      try
+      {
+        results = study::run_sweep(scene, methods, available, control, earlier);
+      }
+      catch (...)
+      {
+        std::error_code not_empty; // results that are there stay
+        if (is_first)
+          fs::remove(folder, not_empty);
+        throw;
+      }
     }
     if (!is_first)
       return exit_code(results, options.check);

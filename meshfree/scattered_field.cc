@@ -31,6 +31,45 @@ namespace plumbline::meshfree
     return values_[nearest * n_components_ + component];
   }
 
+  std::vector<double> cell_averages(const geometry::NodeCells &cells,
+                                    const std::vector<double> &values, unsigned int n_components)
+  {
+    constexpr double same = 1e-10; // of a cell's size: node and centroid are one
+    constexpr double reach = 2;    // of the nodes that a plane is fitted to, in sizes of the cell
+    const geometry::BoxSearch search(bounding_boxes(cells, cells.n_free));
+    std::vector<double> averages = values;
+    std::vector<unsigned int> near;
+    for (std::size_t i = 0; i < cells.n_free; ++i)
+    {
+      const double size = std::sqrt(cells.area[i]);
+      const dealii::Tensor<1, 2> shift = cells.centroid[i] - cells.nodes[i];
+      if (shift.norm() < same * size)
+        continue;
+      search.find(box_around(cells.nodes[i], reach * size), near);
+      for (unsigned int c = 0; c < n_components; ++c)
+      {
+        double xx = 0, xy = 0, yy = 0, x = 0, y = 0; // least squares with weights 1 / r²
+        for (const unsigned int j : near)
+          if (j != i)
+          {
+            const dealii::Tensor<1, 2> xi = cells.nodes[j] - cells.nodes[i];
+            const double weight = 1 / xi.norm_square();
+            const double rise = values[j * n_components + c] - values[i * n_components + c];
+            xx += weight * xi[0] * xi[0];
+            xy += weight * xi[0] * xi[1];
+            yy += weight * xi[1] * xi[1];
+            x += weight * xi[0] * rise;
+            y += weight * xi[1] * rise;
+          }
+        const double determinant = xx * yy - xy * xy;
+        if (determinant > 1e-3 * (xx + yy) * (xx + yy)) // the nodes do not lie on a line
+          averages[i * n_components + c] +=
+              ((yy * x - xy * y) * shift[0] + (xx * y - xy * x) * shift[1]) / determinant;
+      }
+    }
+    return averages;
+  }
+
   void ScatteredField::write_vtu(const std::string &file) const
   {
     std::vector<dealii::DataOutBase::Patch<2, 2>> triangles;

@@ -7,6 +7,14 @@
 
 namespace plumbline::meshfree
 {
+  /// Cell averages of the free nodes to second order: a cell's centroid is not its node, so the
+  /// value there is taken from a plane through the node, fitted to the nodes of Ω around it. Where
+  /// nodes are centroids these are the nodal values.
+  /// @param values  shape (n_free, n_components)
+  /// @return        the same shape
+  std::vector<double> cell_averages(const geometry::NodeCells &cells,
+                                    const std::vector<double> &values, unsigned int n_components);
+
   /// Nodal values as the piecewise constant function K_κ u on the cells of Ω.
   class ScatteredField
   {

@@ -1,45 +1,10 @@
 #include "algebra/sparse_system.h"
-#include "base/error.h"
 #include "meshfree/roads.h"
 #include "meshfree/scattered_field.h"
 #include "meshfree/scattered_operator.h"
 
-#include <deal.II/base/mpi.h>
-
-#include <boost/serialization/utility.hpp>
-
 namespace plumbline::meshfree
 {
-  namespace
-  {
-    /// Do something on every rank; where one throws, all do, so that none waits for it.
-    template <class Action>
-    void together(const base::Team &team, const Action &action)
-    {
-      std::pair<bool, std::string> failure;
-      try
-      {
-        action();
-      }
-      catch (const InputError &error)
-      {
-        failure = {true, error.what()};
-      }
-      catch (const NumericalError &error)
-      {
-        failure = {false, error.what()};
-      }
-      for (const auto &[is_input, message] :
-           dealii::Utilities::MPI::all_gather(team.communicator, failure))
-        if (!message.empty())
-        {
-          if (is_input)
-            throw InputError(message);
-          throw NumericalError(message);
-        }
-    }
-  } // namespace
-
   study::Solution scattered_solution(
       const std::function<ScatteredOperator(std::pair<std::size_t, std::size_t> share)> &make,
       const scene::Scene &scene, const scene::Problem &problem)
@@ -50,22 +15,21 @@ namespace plumbline::meshfree
     const geometry::NodeCells &cells = *problem.cells;
     const auto share = team.share(cells.n_free);
     ScatteredOperator matrix;
-    together(team, [&] { matrix = make(share); });
+    team.together([&] { matrix = make(share); });
     study::Solution solution;
     solution.diagnostics = matrix.statistics.diagnostics(team);
     solution.cost.setup_seconds = team.sum(timer.seconds());
 
     timer.restart();
-    together(team,
-             [&]
-             {
-               const auto &load = problem.load;
-               for (std::size_t i = share.first; i < share.second; ++i)
-                 for (unsigned int c = 0; c < problem.n_components; ++c)
-                   matrix.right_hand_side[i * problem.n_components + c] +=
-                       load.series ? (*load.series)(cells.nodes[i], c)
-                                   : load.value(cells.nodes[i], c);
-             });
+    team.together(
+        [&]
+        {
+          const auto &load = problem.load;
+          for (std::size_t i = share.first; i < share.second; ++i)
+            for (unsigned int c = 0; c < problem.n_components; ++c)
+              matrix.right_hand_side[i * problem.n_components + c] +=
+                  load.series ? (*load.series)(cells.nodes[i], c) : load.value(cells.nodes[i], c);
+        });
     algebra::SparseOptions options;
     options.is_symmetric = false;
     options.solver = algebra::sparse_solver_from_name(scene.linear_solver);
@@ -84,7 +48,8 @@ namespace plumbline::meshfree
 
     const auto end = cells.nodes.begin() + static_cast<std::ptrdiff_t>(cells.n_free);
     solution.nodes.assign(cells.nodes.begin(), end);
-    solution.nodal = solution.averages = solved.values;
+    solution.nodal = solved.values;
+    solution.averages = cell_averages(cells, solved.values, problem.n_components);
     const auto field =
         std::make_shared<const ScatteredField>(problem.cells, solved.values, problem.n_components);
     solution.value = [field](const Point<2> &x, unsigned int c) { return field->value(x, c); };

@@ -3,9 +3,12 @@
 #include "reference/pair_quadrature.h"
 #include "reference/rectangle_pairs.h"
 
+#include <deal.II/base/parallel.h>
 #include <deal.II/base/work_stream.h>
 
 #include <algorithm>
+#include <exception>
+#include <mutex>
 #include <numeric>
 
 namespace plumbline::reference
@@ -75,16 +78,44 @@ namespace plumbline::reference
     {
       PairIntegrator integrator;
       PairBlocks blocks;
-      std::vector<unsigned int> near;
       std::vector<unsigned int> slot; ///< of each dof among the columns
     };
+
+    using CellLists = std::vector<std::vector<unsigned int>>; ///< cells near each cell
+
+    /// Visit 0 ... n - 1, threads sharing them in ranges. @param action  takes a range [first,
+    /// last)
+    template <class Action>
+    void in_parallel(std::size_t n, const Action &action)
+    {
+      constexpr unsigned int grain = 256;
+      dealii::parallel::apply_to_subranges(static_cast<std::size_t>(0), n, action, grain);
+    }
+
+    /// Of the outer cells all cells near them; of partners whose rows other ranks have, themselves,
+    /// since they still take a diagonal block.
+    CellLists find_near(const geometry::Mesh &mesh, const MeshCells &cells, double horizon,
+                        const std::vector<std::size_t> &outer_cells)
+    {
+      CellLists near(cells.size());
+      in_parallel(outer_cells.size(),
+                  [&](std::size_t first, std::size_t last)
+                  {
+                    for (std::size_t i = first; i < last; ++i)
+                      cells.find_near(outer_cells[i], horizon, near[outer_cells[i]]);
+                  });
+      for (const std::size_t cell : outer_cells)
+        for (const unsigned int partner : near[cell])
+          if (near[partner].empty() && mesh.cells[partner].is_inside)
+            near[partner].push_back(partner);
+      return near;
+    }
 
     /// Sums of all cells: rows by scalar dofs with n_entries values a column, and diagonal blocks.
     class Accumulator
     {
     public:
-      Accumulator(const MeshSpace &space, const MeshCells &cells, double horizon,
-                  unsigned int n_entries, std::vector<std::size_t> outer_cells);
+      Accumulator(const MeshSpace &space, unsigned int n_entries, const CellLists &near);
 
       void add(const CellRows &part);
 
@@ -95,6 +126,7 @@ namespace plumbline::reference
       std::uint64_t n_pairs = 0;
 
     private:
+      void make_pattern(const CellLists &near);
       void scatter_diagonal();
 
       const MeshSpace &space_;
@@ -105,51 +137,48 @@ namespace plumbline::reference
       std::vector<double> diagonal_; ///< of each cell
     };
 
-    Accumulator::Accumulator(const MeshSpace &space, const MeshCells &cells, double horizon,
-                             unsigned int n_entries, std::vector<std::size_t> outer_cells)
+    Accumulator::Accumulator(const MeshSpace &space, unsigned int n_entries, const CellLists &near)
         : space_(space), n_entries_(n_entries)
     {
+      make_pattern(near);
       const unsigned int n = space.shapes().size();
-      const std::size_t n_dofs = space.n_dofs();
-      std::vector<std::vector<unsigned int>> near(space.mesh().cells.size());
-      for (const std::size_t cell : outer_cells)
-        cells.find_near(cell, horizon, near[cell]);
-      // partners that other ranks have the rows of still take a diagonal block
-      for (std::size_t i = 0, n_own = outer_cells.size(); i < n_own; ++i)
-        for (const unsigned int partner : near[outer_cells[i]])
-          if (near[partner].empty() && space.mesh().cells[partner].is_inside)
-          {
-            near[partner].push_back(partner);
-            outer_cells.push_back(partner);
-          }
-      std::vector<std::size_t> n_around(n_dofs + 1);
-      for (const std::size_t cell : outer_cells)
-        for (unsigned int a = 0; a < n; ++a)
-          ++n_around[space.dofs(cell)[a] + 1];
-      std::partial_sum(n_around.begin(), n_around.end(), n_around.begin());
-      std::vector<std::size_t> around(n_around.back()), next(n_around.begin(), n_around.end() - 1);
-      for (const std::size_t cell : outer_cells)
-        for (unsigned int a = 0; a < n; ++a)
-          around[next[space.dofs(cell)[a]]++] = cell;
-
-      // a row's columns: the dofs of all cells near a cell that the dof belongs to
-      std::vector<std::size_t> last_row(n_dofs, static_cast<std::size_t>(-1));
-      start_.assign(1, 0);
-      for (std::size_t row = 0; row < n_dofs; ++row)
-      {
-        for (std::size_t k = n_around[row]; k < n_around[row + 1]; ++k)
-          for (const unsigned int partner : near[around[k]])
-            for (unsigned int b = 0; b < n; ++b)
-              if (const unsigned int dof = space.dofs(partner)[b]; last_row[dof] != row)
-              {
-                last_row[dof] = row;
-                column_.push_back(dof);
-              }
-        std::sort(column_.begin() + static_cast<std::ptrdiff_t>(start_.back()), column_.end());
-        start_.push_back(column_.size());
-      }
       value_.assign(column_.size() * n_entries, 0.);
-      diagonal_.assign(space.mesh().cells.size() * n * n * n_entries, 0.);
+      diagonal_.assign(near.size() * n * n * n_entries, 0.);
+    }
+
+    /// A row's columns: the dofs of all cells near a cell that the dof belongs to.
+    void Accumulator::make_pattern(const CellLists &near)
+    {
+      const unsigned int n = space_.shapes().size();
+      const std::size_t n_dofs = space_.n_dofs();
+      CellLists around(n_dofs), columns(n_dofs);
+      for (std::size_t cell = 0; cell < near.size(); ++cell)
+        for (unsigned int a = 0; a < n && !near[cell].empty(); ++a)
+          around[space_.dofs(cell)[a]].push_back(static_cast<unsigned int>(cell));
+      in_parallel(n_dofs,
+                  [&](std::size_t first, std::size_t last)
+                  {
+                    std::vector<std::size_t> last_row(n_dofs, n_dofs);
+                    for (std::size_t row = first; row < last; ++row)
+                    {
+                      for (const unsigned int cell : around[row])
+                        for (const unsigned int partner : near[cell])
+                          for (unsigned int b = 0; b < n; ++b)
+                            if (const unsigned int dof = space_.dofs(partner)[b];
+                                last_row[dof] != row)
+                            {
+                              last_row[dof] = row;
+                              columns[row].push_back(dof);
+                            }
+                      std::sort(columns[row].begin(), columns[row].end());
+                    }
+                  });
+      start_.assign(1, 0);
+      for (const auto &row : columns)
+        start_.push_back(start_.back() + row.size());
+      column_.reserve(start_.back());
+      for (const auto &row : columns)
+        column_.insert(column_.end(), row.begin(), row.end());
     }
 
     void Accumulator::add(const CellRows &part)
@@ -257,8 +286,9 @@ namespace plumbline::reference
     }
 
     /// All pairs whose outer points are on one cell.
-    void integrate_cell(const MeshSpace &space, const MeshCells &cells, double horizon,
-                        unsigned int n_entries, std::size_t cell, Scratch &scratch, CellRows &part)
+    void integrate_cell(const MeshSpace &space, const MeshCells &cells,
+                        const std::vector<unsigned int> &near, unsigned int n_entries,
+                        std::size_t cell, Scratch &scratch, CellRows &part)
     {
       const unsigned int n = space.shapes().size();
       const std::size_t block = static_cast<std::size_t>(n) * n * n_entries;
@@ -266,8 +296,7 @@ namespace plumbline::reference
       part.is_exact = true;
       part.partners.clear();
       part.columns.assign(space.dofs(cell), space.dofs(cell) + n);
-      cells.find_near(cell, horizon, scratch.near);
-      for (const unsigned int partner : scratch.near)
+      for (const unsigned int partner : near)
         if (partner != cell && is_outer(space.mesh(), cells, cell, partner))
         {
           part.partners.push_back(partner);
@@ -327,17 +356,41 @@ namespace plumbline::reference
     outer_cells = {outer_cells.begin() + static_cast<std::ptrdiff_t>(first),
                    outer_cells.begin() + static_cast<std::ptrdiff_t>(last)};
 
-    Accumulator sum(space, cells, kernel.horizon(), profile.n_entries(), outer_cells);
+    CellLists near = find_near(space.mesh(), cells, kernel.horizon(), outer_cells);
+    Accumulator sum(space, profile.n_entries(), near);
     const Scratch scratch{
         PairIntegrator(space, cells, profile, kernel.horizon(), coefficient, options),
         {},
-        {},
         std::vector<unsigned int>(space.n_dofs())};
+    // an exception must not leave a thread: the first one is kept and thrown at the end
+    std::exception_ptr failure;
+    std::mutex mutex;
     dealii::WorkStream::run(
         outer_cells.begin(), outer_cells.end(),
         [&](const std::vector<std::size_t>::iterator &cell, Scratch &own, CellRows &part)
-        { integrate_cell(space, cells, kernel.horizon(), profile.n_entries(), *cell, own, part); },
-        [&](const CellRows &part) { sum.add(part); }, scratch, CellRows());
+        {
+          try
+          {
+            integrate_cell(space, cells, near[*cell], profile.n_entries(), *cell, own, part);
+          }
+          catch (...)
+          {
+            const std::lock_guard<std::mutex> lock(mutex);
+            if (!failure)
+              failure = std::current_exception();
+          }
+        },
+        [&](const CellRows &part)
+        {
+          const std::lock_guard<std::mutex> lock(mutex);
+          if (!failure)
+            sum.add(part);
+        },
+        scratch, CellRows());
+    if (failure)
+      std::rethrow_exception(failure);
+    near.clear();
+    near.shrink_to_fit();
     MeshMatrix matrix{sum.combine(kernel.n_components()), sum.is_exact, sum.n_pairs};
     return matrix;
   }

@@ -41,7 +41,8 @@ namespace plumbline::reference
     {
       const geometry::Polygon &polygon = polygons_[i];
       double radius = 0;
-      bool is_rectangle = polygon.size() == 4;
+      // its first side is the lower one, so that shape functions are those of the unit square
+      bool is_rectangle = polygon.size() == 4 && polygon[1][0] > polygon[0][0];
       for (std::size_t v = 0; v < polygon.size(); ++v)
       {
         const auto side = polygon[(v + 1) % polygon.size()] - polygon[v];

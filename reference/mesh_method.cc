@@ -84,13 +84,19 @@ namespace plumbline::reference
     {
       const MeshSpace &space = *solution.field.space;
       base::CpuTimer timer;
-      MeshMatrix matrix = assemble(space, *solution.field.cells, problem.kernel,
-                                   problem.coefficient, options, team);
-      is_exact = matrix.is_exact;
+      MeshMatrix matrix;
+      team.together(
+          [&]
+          {
+            matrix = assemble(space, *solution.field.cells, problem.kernel, problem.coefficient,
+                              options, team);
+          });
+      is_exact = !team.any(!matrix.is_exact);
       solution.cost.setup_seconds += timer.seconds();
 
       timer.restart();
-      std::vector<double> right_hand_side = load_vector(problem, space, team);
+      std::vector<double> right_hand_side;
+      team.together([&] { right_hand_side = load_vector(problem, space, team); });
       const std::size_t n = space.n_free() * problem.n_components;
       eliminate(solution.field.values, n, matrix.rows, right_hand_side);
       algebra::SparseOptions solver;
@@ -145,9 +151,14 @@ namespace plumbline::reference
       if (options.refinement == scene.max_refinements)
       {
         std::ostringstream message;
-        message << "outer quadrature refined " << options.refinement
-                << " times still changes the solution by " << change
-                << " relative to it, more than Quadrature/tolerance = " << scene.outer_tolerance
+        if (options.refinement == 0)
+          message
+              << "outer quadrature is not refined, so it is not known whether the solution changes "
+                 "by";
+        else
+          message << "outer quadrature, refinement " << options.refinement
+                  << ", still changes the solution by " << change << " relative to it,";
+        message << " more than Quadrature/tolerance = " << scene.outer_tolerance
                 << "; raise Quadrature/max refinements or the tolerance, or refine the mesh";
         throw NumericalError(message.str());
       }
@@ -158,6 +169,7 @@ namespace plumbline::reference
       is_settled = change <= scene.outer_tolerance;
     }
     solution.diagnostics.n_refinements = options.refinement;
+    solution.diagnostics.is_outer_error_known = is_exact || scene.outer_tolerance > 0;
     if (is_exact)
       solution.diagnostics.notes.push_back(
           "entries of axis-aligned rectangles exact by correlation");

@@ -67,10 +67,14 @@ namespace plumbline::reference
       {
         return "classical finite elements of degree 2 for the local limit (Poisson, Navier)";
       }
-      std::string why_not(const scene::Scene &, const scene::Problem &problem) const override
+      std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const override
       {
         if (problem.lattice)
           return "it needs a mesh; write Domain/mesh = squares or triangles";
+        if (scene.regime != scene::Regime::delta &&
+            scene.decisive_error.find("local") == std::string::npos)
+          return "it solves the local limit, but the scene asks for a nonlocal solution; write "
+                 "Study/regime = delta, or a decisive error against local";
         return {};
       }
       study::Solution solve(const scene::Scene &, const scene::Problem &problem) const override

@@ -1,5 +1,10 @@
 #include "base/team.h"
 
+#include "base/error.h"
+
+#include <array>
+#include <string>
+
 namespace plumbline::base
 {
   namespace
@@ -59,6 +64,48 @@ namespace plumbline::base
   double Team::largest(double value) const
   {
     return reduce(value, MPI_MAX, communicator);
+  }
+
+  void Team::together(const std::function<void()> &action) const
+  {
+    enum Kind
+    {
+      good,
+      input,
+      numerical
+    };
+    int kind = good;
+    std::string message;
+    try
+    {
+      action();
+    }
+    catch (const InputError &error)
+    {
+      kind = input;
+      message = error.what();
+    }
+    catch (const NumericalError &error)
+    {
+      kind = numerical;
+      message = error.what();
+    }
+    const double first =
+        -largest(kind == good ? -static_cast<double>(n_ranks()) : -static_cast<double>(rank()));
+    if (first == n_ranks())
+      return;
+    const int root = static_cast<int>(first);
+    if (is_parallel())
+    {
+      std::array<int, 2> head = {kind, static_cast<int>(message.size())};
+      MPI_Bcast(head.data(), 2, MPI_INT, root, communicator);
+      kind = head[0];
+      message.resize(head[1]);
+      MPI_Bcast(message.data(), head[1], MPI_CHAR, root, communicator);
+    }
+    if (kind == input)
+      throw InputError(message);
+    throw NumericalError(message);
   }
 
   void Team::wait() const

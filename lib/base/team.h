@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <cstddef>
+#include <functional>
 #include <utility>
 
 namespace plumbline::base
@@ -29,5 +30,9 @@ namespace plumbline::base
     double sum(double value) const;
     double largest(double value) const;
     void wait() const; ///< until all ranks have come here
+
+    /// Do something on every rank; where one throws, all throw the same, so that none waits for it.
+    /// @throws InputError, NumericalError  as the action did on the first rank that failed
+    void together(const std::function<void()> &action) const;
   };
 } // namespace plumbline::base

@@ -240,8 +240,10 @@ namespace plumbline::geometry
   {
     if (std::none_of(mesh.cells.begin(), mesh.cells.end(),
                      [](const MeshCell &cell) { return cell.is_inside; }))
-      throw InputError("none of the " + std::to_string(mesh.cells.size()) +
-                       " cells of the mesh lies in the domain; mark the cells of the domain");
+      throw InputError(
+          "none of the " + std::to_string(mesh.cells.size()) +
+          " cells of the mesh lies in the domain; mark those of the domain (by Domain/inside, "
+          "or a physical surface 'omega')");
     check_vertices(mesh);
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       check_shape(mesh.polygon(c), c);
@@ -300,10 +302,15 @@ namespace plumbline::geometry
       const auto &m = middles[c];
       const unsigned int centre = n == 4 ? add_vertex(middle(mesh.polygon(c))) : 0;
       for (unsigned int i = 0; i < n; ++i) // the corners' cells
-        fine.cells.push_back(
-            {{cell.vertex[i], m[i], n == 4 ? centre : m[(i + 2) % 3], m[(i + n - 1) % n]},
-             n,
-             cell.is_inside});
+      {
+        const std::array<unsigned int, 4> corner = {
+            cell.vertex[i], m[i], n == 4 ? centre : m[(i + 2) % 3], m[(i + n - 1) % n]};
+        MeshCell child{corner, n, cell.is_inside};
+        for (unsigned int k = 0; k < n && n == 4;
+             ++k) // quadrilaterals begin where their parent does
+          child.vertex[k] = corner[(k + n - i) % n];
+        fine.cells.push_back(child);
+      }
       if (n == 3)
         fine.cells.push_back({{m[0], m[1], m[2], 0}, 3, cell.is_inside});
     }

@@ -58,6 +58,19 @@ namespace plumbline::geometry
     }
 
     /// The mesh without vertices that no cell uses, checked; `source` opens the message.
+    /// Axis-aligned rectangles begin at their lower left corner, as those of a lattice do.
+    void turn_rectangles(Mesh &mesh)
+    {
+      for (MeshCell &cell : mesh.cells)
+        for (unsigned int turn = 0; turn < 3 && cell.n_vertices == 4; ++turn)
+        {
+          const Point<2> &a = mesh.vertices[cell.vertex[0]], &b = mesh.vertices[cell.vertex[1]];
+          if (b[1] == a[1] && b[0] > a[0])
+            break;
+          std::rotate(cell.vertex.begin(), cell.vertex.begin() + 1, cell.vertex.end());
+        }
+    }
+
     Mesh finish(Mesh mesh, const std::string &source)
     {
       drop_unused_vertices(mesh);
@@ -69,6 +82,7 @@ namespace plumbline::geometry
       {
         throw InputError(source + ": " + error.what());
       }
+      turn_rectangles(mesh);
       return mesh;
     }
 
@@ -159,7 +173,8 @@ namespace plumbline::geometry
         height = std::max(height, std::abs(at[2]));
       }
       if (height > off_plane * largest)
-        throw InputError("reaches z = " + text(height) + "; put it into the plane z = 0");
+        throw InputError("reaches z = " + text(height) +
+                         "; only triangles and quadrilaterals in the plane z = 0 are allowed");
 
       for (const Surface &surface : physical_surfaces())
       {
@@ -296,8 +311,10 @@ namespace plumbline::geometry
       std::string sentence;
       for (std::string word; words >> word;)
         sentence += " " + word;
-      throw InputError(source + " is refused by deal.II:" + sentence +
-                       "; give one of its GridGenerator functions with all its arguments");
+      throw InputError(
+          source + " is refused by deal.II:" + sentence +
+          "; give one of its GridGenerator functions (Domain/mesh) with all its arguments "
+          "(Domain/arguments)");
     }
     const auto longest_side = [&]
     {
@@ -327,8 +344,8 @@ namespace plumbline::geometry
   Mesh lattice_mesh(const Domain &domain, double h, double delta, bool is_triangles,
                     const std::function<Point<2>(const Point<2> &)> &map)
   {
-    const std::string after_map = "the map must leave the squares of the boxes convex and not turn "
-                                  "them over, but after it";
+    const std::string after_map = "choose another Domain/map: the map must leave the squares of "
+                                  "the boxes convex and not turn them over, but after it";
     const Lattice lattice(domain, h);
     double last_width = 0;
     for (unsigned int n_added = 0;; ++n_added)
@@ -346,7 +363,7 @@ namespace plumbline::geometry
       if (width < last_width + least_gain * delta)
         throw InputError("the map keeps the collar from becoming delta = " + text(delta) +
                          " wide: after " + std::to_string(n_added) + " more layers it is " +
-                         text(width) + "; choose a map that widens it or a smaller delta");
+                         text(width) + "; choose a Domain/map that widens it or a smaller delta");
       last_width = width;
     }
   }

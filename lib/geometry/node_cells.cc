@@ -313,10 +313,11 @@ namespace plumbline::geometry
       {
         const std::string value = column[d] < row.size() ? row[column[d]] : "";
         const char *const end = value.data() + value.size();
-        const auto parsed = std::from_chars(value.data(), end, node[d]);
+        const bool has_plus = value.size() > 1 && value[0] == '+' && value[1] != '-';
+        const auto parsed = std::from_chars(value.data() + (has_plus ? 1 : 0), end, node[d]);
         if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(node[d]))
           throw InputError(source + ", line " + std::to_string(number) + ": " + header[column[d]] +
-                           " = '" + value + "' is not a finite number");
+                           " = '" + value + "' is not a finite number; mend or take out the line");
       }
       nodes.push_back(node);
     }

@@ -47,6 +47,7 @@ namespace plumbline::report
       a("n_geometry_checks", diagnostics.n_geometry_checks);
       a("geometry_difference", diagnostics.geometry_difference);
       a("outer_change", diagnostics.outer_change);
+      a("is_outer_error_known", diagnostics.is_outer_error_known);
       a("n_refinements", diagnostics.n_refinements);
       a("notes", diagnostics.notes);
     }

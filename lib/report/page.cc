@@ -203,7 +203,9 @@ namespace plumbline::report
           "How much the reference’s cell averages change when h is halved and when the degree is "
           "raised by one, and how much its outer quadrature moved last; the largest is its "
           "estimate, "
-          "and the digits of the solution that this leaves certain are certified.");
+          "and the digits of the solution that this leaves certain are certified (none where outer "
+          "quadrature was not refined). On a mesh they are digits of the problem on its polygon: a "
+          "curved boundary that the polygon stands for is not in the estimate.");
       text += folded("Estimates (" + std::to_string(results.references.size()) + " levels)",
                      to_html(reference_table(results)), results.references.size() <= 12);
       const bool is_estimated =

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "physics/expression.h"
+#include "scene/values.h"
 
 #include <algorithm>
 #include <set>
@@ -132,15 +133,24 @@ namespace plumbline::scene
     needs(is_generator || (mesh.arguments.empty() && mesh.inside.empty()),
           "Domain/arguments or Domain/inside is given",
           "they belong to deal.II's generators; clear them");
-    needs(!is_generator || !mesh.inside.empty(), "Domain/inside is empty",
-          "tell which cells of the generator are in Omega, the others being the collar: an "
-          "expression that is positive there");
+    needs(
+        !is_generator || !mesh.inside.empty(), "Domain/inside is empty",
+        "lattice, squares, triangles and files .msh or .geo do without, any other name is a "
+        "generator of deal.II; tell which of its cells are in Omega, the others being the collar, "
+        "by an expression that is positive there");
     needs(!mesh.is_lattice() || scene.coefficient.empty(),
           "Kernel/coefficient = '" + scene.coefficient + "'", mesh_remedy);
     needs(!mesh.is_lattice() || scene.nodes.perturbation == 0, "Methods/perturbation > 0",
           mesh_remedy);
     needs(!mesh.is_lattice() || scene.local_solution != "computed",
           "Problem/local solution = computed", mesh_remedy);
+    needs(mesh.is_lattice() || !scene.collar, "Domain/collar is given",
+          "a mesh has the collar it has, and is checked; write Domain/collar = auto");
+    needs(mesh.is_lattice() || scene.operator_road == "automatic",
+          "Solver/operator = " + scene.operator_road,
+          "operators on meshes are sparse matrices; write automatic");
+    needs(mesh.is_of_boxes() || scene.domain.exclude.empty(), "Domain/holes is given",
+          "holes are for boxes; cut them out of the mesh itself");
     const std::string &nodes = scene.nodes.kind;
     const bool is_csv = nodes.size() > 4 && nodes.substr(nodes.size() - 4) == ".csv";
     if (nodes != "centres" && nodes != "vertices" && nodes != "mesh" && !is_csv)
@@ -183,8 +193,8 @@ namespace plumbline::scene
     if (!is_known_target ||
         std::find(scene.norms.begin(), scene.norms.end(), parts[0]) == scene.norms.end())
       throw InputError("Study/decisive error = '" + scene.decisive_error +
-                       "' must be 'norm | target' with a norm of Study/norms and a target of "
-                       "exact, local, reference");
+                       "' must be 'norm | target' with a norm of Study/norms (add it there) and a "
+                       "target of exact, local, reference");
     if (parts[1] == "exact" && scene.solutions.empty())
       throw InputError("Study/decisive error = '" + scene.decisive_error +
                        "' needs Problem/solution, which is empty; use the target reference");
@@ -206,5 +216,10 @@ namespace plumbline::scene
       throw InputError("Study/decisive error = '" + scene.decisive_error +
                        "': solutions are held against a reference by cell averages; use averages "
                        "L2 or averages Linf");
+    if (scene.reference_tolerance > 0 && (scene.reference == "none" || !scene.estimate_reference))
+      throw InputError(
+          "Reference/tolerance = " + short_number(scene.reference_tolerance) +
+          " needs a reference and the estimate of its error; give Reference/method and "
+          "write Reference/estimate = true, or set the tolerance to 0");
   }
 } // namespace plumbline::scene

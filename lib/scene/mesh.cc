@@ -59,10 +59,19 @@ namespace plumbline::scene
                                       const geometry::Mesh &mesh)
   {
     const NodeSource &source = scene.nodes;
-    return voronoi_cells(source.kind == "mesh" ? centroids(mesh)
-                         : source.kind == "centres"
-                             ? lattice_nodes(mesh, level.h, source.perturbation, scene.seed)
-                             : geometry::read_nodes(path(scene, source.kind)),
-                         mesh);
+    const bool is_file = source.kind != "mesh" && source.kind != "centres";
+    const auto nodes = source.kind == "mesh" ? centroids(mesh)
+                       : is_file             ? geometry::read_nodes(path(scene, source.kind))
+                                 : lattice_nodes(mesh, level.h, source.perturbation, scene.seed);
+    try
+    {
+      return voronoi_cells(nodes, mesh);
+    }
+    catch (const InputError &error)
+    {
+      throw InputError((is_file ? "node file '" + path(scene, source.kind) + "', counted from 0: "
+                                : "Methods/nodes = " + source.kind + ": ") +
+                       error.what());
+    }
   }
 } // namespace plumbline::scene

@@ -154,7 +154,7 @@ namespace plumbline::scene
            "Entries of axis-aligned rectangles of a mesh: exact by correlation, or by quadrature "
            "as "
            "all other cells."},
-          {"Quadrature", "tolerance", "1e-5", std::make_shared<Patterns::Double>(0, 1),
+          {"Quadrature", "tolerance", "1e-4", std::make_shared<Patterns::Double>(0, 1),
            "Outer quadrature on meshes is refined until the solution changes by less, relative to "
            "it. 0: the first rule is taken as it is, and nothing is known of its error."},
           {"Quadrature", "max refinements", "4", std::make_shared<Patterns::Integer>(0, 8),

@@ -124,7 +124,6 @@ namespace plumbline::scene
         throw InputError("Methods/names is empty; name methods ('plumbline list methods'), or all");
       scene.nodes = {value("Methods/nodes"),
                      to_number("Methods/perturbation", value("Methods/perturbation"))};
-      check_mesh_and_nodes(scene);
 
       const std::string regime = value("Study/regime");
       scene.regime = regime == "m"         ? Regime::m
@@ -152,6 +151,7 @@ namespace plumbline::scene
       scene.n_geometry_checks = std::stoi(value("Geometry/checks"));
       scene.seed = std::stoi(value("Geometry/seed"));
       scene.operator_road = value("Solver/operator");
+      check_mesh_and_nodes(scene);
       scene.linear_solver = value("Solver/linear solver");
       scene.tolerance = to_number("Solver/tolerance", value("Solver/tolerance"));
       scene.max_iterations = std::stoi(value("Solver/max iterations"));

@@ -43,9 +43,10 @@ namespace plumbline::study
   };
 
   /// The errors of nodal values, if the decisive error is nodal, or else of cell averages against
-  /// the exact solution or the reference: the largest in each of at most 32 × 32 blocks of cells.
+  /// the exact solution, or else other averages: the largest in each of at most 32 × 32 blocks of
+  /// cells.
   ErrorMap error_map(const scene::Scene &scene, const scene::Problem &problem,
-                     const Solution &solution, const std::vector<double> &reference);
+                     const Solution &solution, const std::vector<double> &target);
 
   /// The errors of a solution in the scene's norms against every target there is, by "norm |
   /// target". Linf takes the largest component; nodal values are at the method's own nodes; field

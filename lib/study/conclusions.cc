@@ -291,9 +291,13 @@ namespace plumbline::study
         results.omissions.push_back({"the dilatation",
                                      "bond tensor: lambda = mu, no volumetric term",
                                      "one unknown a node, and a family pass"});
-      results.omissions.push_back({"Newton's method", "the model is linear",
-                                   "one solve of " + std::to_string(largest->cost.n_iterations) +
-                                       " iterations a level" + where});
+      results.omissions.push_back(
+          {"Newton's method", "the model is linear",
+           (largest->cost.n_iterations == 0
+                ? std::string("one direct solve a level")
+                : "one solve of " + std::to_string(largest->cost.n_iterations) +
+                      " iterations a level") +
+               where});
       results.omissions.push_back({"bond state", "no fracture: no bond can break",
                                    megabytes(bonds / 8) + " at one bit a bond" + where});
     }

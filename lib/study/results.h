@@ -21,6 +21,7 @@ namespace plumbline::study
     unsigned int n_geometry_checks = 0;  ///< cut cells recomputed with the exact backend
     double geometry_difference = 0;      ///< worst difference among them, relative to the cell
     double outer_change = 0;             ///< L2, relative: the last refinement of outer quadrature
+    bool is_outer_error_known = true;    ///< false: outer quadrature was not refined
     unsigned int n_refinements = 0;      ///< of outer quadrature
     std::vector<std::string> notes;      ///< what the method had to do, e.g. clip a negative kernel
   };
@@ -73,10 +74,10 @@ namespace plumbline::study
     std::string problem, series, method; ///< method: of the reference, e.g. "Q2"
     unsigned int level = 0;
     double h = 0, horizon = 0;
-    double h_change = 0;      ///< averages L2: change to h/2
-    double p_change = 0;      ///< averages L2: change to degree p + 1
-    double outer_change = 0;  ///< averages L2, of outer quadrature; 0 if entries are exact
-    double estimate = 0;      ///< the largest of the three
+    double h_change = 0;               ///< averages L2: change to h/2
+    double p_change = 0;               ///< averages L2: change to degree p + 1
+    double outer_change = 0;           ///< averages L2, of outer quadrature; 0 if entries are exact
+    double estimate = 0;               ///< the largest of the three
     unsigned int certified_digits = 0; ///< floor(-log10(estimate / size of the solution))
     unsigned int n_geometry_checks = 0; ///< cut cells recomputed with the exact backend
     double geometry_difference = 0;     ///< worst difference among them, relative to the cell

@@ -2,8 +2,10 @@
 
 #include "base/error.h"
 #include "base/team.h"
+#include "scene/mesh.h"
 #include "study/comparison.h"
 #include "study/conclusions.h"
+#include "study/reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,71 +49,6 @@ namespace plumbline::study
     {
       return run.method == method && run.problem == problem && run.series == series &&
              run.level == level;
-    }
-
-    /// A reference solution's averages, and how far they move to h/2 and to degree p + 1.
-    struct ReferenceAverages
-    {
-      std::vector<double> averages;
-      ReferenceEstimate estimate;
-    };
-
-    /// Averages of the same method at h/2 over the cells of h.
-    std::vector<double> halved(const scene::Scene &scene, const scene::Problem &problem,
-                               unsigned int case_index, const Method &method)
-    {
-      if (problem.mesh)
-      {
-        scene::Problem fine = problem;
-        fine.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh));
-        return method.solve(scene, fine).averages;
-      }
-      scene::Scene fine_scene = scene;
-      fine_scene.nodes.kind = "centres";
-      fine_scene.n_geometry_checks = 0;
-      const scene::Problem fine =
-          make_problem(fine_scene, case_index, {problem.h / 2, problem.horizon()});
-      return coarsen_averages(method.solve(fine_scene, fine).averages,
-                              comparison_nodes(fine_scene, *fine.lattice, fine.n_components),
-                              comparison_nodes(scene, *problem.lattice, problem.n_components));
-    }
-
-    ReferenceAverages solve_reference(const scene::Scene &scene, const scene::Problem &problem,
-                                      unsigned int case_index, const Method &method)
-    {
-      ReferenceAverages result;
-      const Solution solution = method.solve(scene, problem);
-      result.averages = solution.averages;
-      ReferenceEstimate &estimate = result.estimate;
-      estimate.method = method.name();
-      estimate.h = problem.h;
-      estimate.horizon = problem.horizon();
-      estimate.n_geometry_checks = solution.diagnostics.n_geometry_checks;
-      estimate.geometry_difference = solution.diagnostics.geometry_difference;
-      const double size =
-          averages_l2(problem, solution.averages, std::vector<double>(solution.averages.size()));
-      estimate.outer_change = solution.diagnostics.outer_change * size;
-      if (!scene.estimate_reference)
-        return result;
-
-      estimate.h_change =
-          averages_l2(problem, result.averages, halved(scene, problem, case_index, method));
-      if (const auto higher = method.higher_degree())
-        estimate.p_change =
-            averages_l2(problem, result.averages, higher->solve(scene, problem).averages);
-      estimate.estimate = std::max({estimate.h_change, estimate.p_change, estimate.outer_change});
-      estimate.certified_digits = certified_digits(estimate.estimate, size);
-      if (scene.reference_tolerance > 0 && !(estimate.estimate <= scene.reference_tolerance * size))
-      {
-        std::ostringstream message;
-        message << "the reference " << method.name() << " at h = " << problem.h
-                << " has an estimated error of " << estimate.estimate / size
-                << " relative to the solution, more than Reference/tolerance = "
-                << scene.reference_tolerance
-                << "; take a higher degree (Reference/method), a smaller h, or a larger tolerance";
-        throw NumericalError(message.str());
-      }
-      return result;
     }
 
     /// One walk through cases, series and levels.
@@ -241,7 +178,8 @@ namespace plumbline::study
             if (!std::isfinite(value))
               throw NumericalError("the error " + error + " is not a finite number");
           if (level + 1 == n_levels(series))
-            finish_series(solution, run, problem, targets.reference);
+            finish_series(solution, run, problem,
+                          targets.reference.empty() ? targets.local : targets.reference);
         }
         catch (const NumericalError &error)
         {
@@ -281,13 +219,14 @@ namespace plumbline::study
 
       /// What is done with a solution of the finest level: stored, and drawn for the first series.
       void finish_series(const Solution &solution, const Run &run, const scene::Problem &problem,
-                         const std::vector<double> &reference)
+                         const std::vector<double> &target)
       {
         if (control_.on_finest)
           control_.on_finest(solution, run);
-        if (run.problem != scene_.case_names().back() || run.series != scene_.series.front().name)
+        if (run.problem != scene_.case_names().back() || run.series != scene_.series.front().name ||
+            (!problem.solution && target.empty()))
           return;
-        ErrorMap map = error_map(scene_, problem, solution, reference);
+        ErrorMap map = error_map(scene_, problem, solution, target);
         map.method = run.method;
         map.problem = run.problem;
         map.series = run.series;
@@ -302,15 +241,6 @@ namespace plumbline::study
       bool is_stopped_ = false;
     };
   } // namespace
-
-  unsigned int certified_digits(double estimate, double size)
-  {
-    constexpr int most = 15;
-    if (!(estimate > 0) || !(size > 0))
-      return 0;
-    return static_cast<unsigned int>(
-        std::clamp(static_cast<int>(std::floor(-std::log10(estimate / size))), 0, most));
-  }
 
   Methods choose_methods(const scene::Scene &scene, const Methods &available)
   {
@@ -338,6 +268,10 @@ namespace plumbline::study
     if (scene.reference != "none")
     {
       const auto reference = find_method(available, scene.reference, "Reference/method");
+      if (reference->family() != "reference")
+        throw InputError("Reference/method: '" + scene.reference +
+                         "' is no Galerkin method, so nothing is known of its error; choose Q2, P2 "
+                         "or another ('plumbline list methods')");
       if (const std::string reason = reference->why_not(scene, problem); !reason.empty())
         throw InputError("Reference/method: '" + scene.reference +
                          "' cannot do this scene: " + reason);
@@ -391,8 +325,46 @@ namespace plumbline::study
     }
   } // namespace
 
+  namespace
+  {
+    /// Meshes and nodes of all levels can be used, and differ where h does.
+    void check_meshes(const scene::Scene &scene)
+    {
+      for (const auto &series : scene.series)
+      {
+        std::size_t before = 0;
+        for (std::size_t i = 0; i < series.levels.size(); ++i)
+        {
+          const scene::Level &level = series.levels[i];
+          std::ostringstream where;
+          where << "level h = " << level.h << ", horizon = " << level.horizon << ": ";
+          try
+          {
+            const geometry::Mesh mesh = make_mesh(scene, level);
+            (void)make_node_cells(scene, level, mesh);
+            const std::size_t n_cells = static_cast<std::size_t>(
+                std::count_if(mesh.cells.begin(), mesh.cells.end(),
+                              [](const geometry::MeshCell &cell) { return cell.is_inside; }));
+            if (n_cells == before && level.h != series.levels[i - 1].h)
+              throw InputError("Domain/mesh = " + scene.mesh.kind + " has the " +
+                               std::to_string(n_cells) +
+                               " cells of the level before, so that rates would mean nothing; give "
+                               "a mesh that follows h, or a single value of Study/h");
+            before = n_cells;
+          }
+          catch (const InputError &error)
+          {
+            throw InputError(where.str() + error.what());
+          }
+        }
+      }
+    }
+  } // namespace
+
   void check_data(const scene::Scene &scene)
   {
+    if (!scene.mesh.is_lattice())
+      check_meshes(scene);
     const auto names = scene.case_names();
     for (unsigned int c = 0; c < names.size(); ++c)
       for (const auto &series : scene.series)

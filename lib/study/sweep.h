@@ -26,9 +26,6 @@ namespace plumbline::study
   /// @throws InputError  naming key and place
   void check_data(const scene::Scene &scene);
 
-  /// Decimal digits of a solution of a given size that an estimate of its error leaves certain.
-  unsigned int certified_digits(double estimate, double size);
-
   /// Run all methods over all cases, series and levels; hold them against exact solution, local
   /// limit and reference; judge.
   /// @param earlier  results of an interrupted run of the same scene: what is in it is not run

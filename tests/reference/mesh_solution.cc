@@ -171,6 +171,19 @@ TEST(MeshGalerkin, DistortedQuadrilateralsAndVariableCoefficientsConverge)
   EXPECT_NEAR(std::log2(coarse / fine), 2, .3) << coarse << " " << fine;
 }
 
+TEST(MeshGalerkin, SolvesOnAGeneratorOfDealii)
+{
+  const auto scene = scene::parse_scene(
+      "test.prm", "subsection Domain\n set mesh = hyper_ball_balanced\n set arguments = 0, 0 : 1\n"
+                  " set inside = (1 - 1.6*delta)^2 - x^2 - y^2\nend\n" +
+                      constant_kernel + "subsection Problem\n set solution = " + wave +
+                      "\nend\nsubsection Methods\n set names = Q1\nend\nsubsection Study\n"
+                      " set norms = field L2\n set decisive error = field L2 | exact\nend\n" +
+                      no_refinement);
+  EXPECT_LT(error(scene, "Q1", .2, .25), .02);
+  EXPECT_LT(error(scene, "Q1", .1, .25), .3 * error(scene, "Q1", .2, .25));
+}
+
 TEST(MeshField, ProjectsExactlyOntoLatticeAndVoronoiCells)
 {
   // averages of a polynomial that the space contains are those of the polynomial
@@ -244,4 +257,32 @@ TEST(MeshMethods, WriteFieldsForEveryDegree)
       std::filesystem::remove(file);
     }
   }
+}
+
+TEST(MeshGalerkin, DoesNotDependOnTheFirstVertexOfRectangles)
+{
+  const auto scene = make_scene("squares", wave);
+  auto problem = make_problem(scene, 0, {.25, .3});
+  const auto expected = method("Q2")->solve(scene, problem).averages;
+  for (unsigned int turn = 1; turn < 4; ++turn)
+  {
+    geometry::Mesh mesh = *problem.mesh;
+    for (auto &cell : mesh.cells)
+      std::rotate(cell.vertex.begin(), cell.vertex.begin() + turn, cell.vertex.end());
+    auto turned = problem;
+    turned.mesh = std::make_shared<const geometry::Mesh>(mesh);
+    EXPECT_LT(study::averages_l2(problem, method("Q2")->solve(scene, turned).averages, expected),
+              1e-4)
+        << turn;
+  }
+  // refined cells are rectangles like those they come from: entries stay exact
+  auto fine = problem;
+  fine.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh));
+  const auto refined = reference::solve_on_mesh(scene, fine, true, 2);
+  EXPECT_EQ(refined.diagnostics.n_refinements, 0u);
+  const auto half = make_problem(scene, 0, {.125, .3});
+  const auto direct = reference::solve_on_mesh(scene, half, true, 2);
+  EXPECT_LT(study::averages_l2(problem, refined.field.averages(*problem.cells),
+                               direct.field.averages(*problem.cells)),
+            1e-11);
 }

@@ -1,0 +1,312 @@
+// Bad input for meshes and scattered nodes as a user meets it: exit codes, messages, no output.
+
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+  struct Trial
+  {
+    std::string settings;               ///< after the scene
+    std::vector<std::string> fragments; ///< of what is to be on stderr
+  };
+
+  struct Outcome
+  {
+    int exit_code;
+    std::string out, err;
+    bool has_folder;
+  };
+
+  class BadMeshes : public testing::Test
+  {
+  protected:
+    void SetUp() override
+    {
+      fs::create_directory(folder_);
+      write("scene.prm", "set Purpose = bad input\n"
+                         "subsection Domain\n  set mesh = squares\nend\n"
+                         "subsection Problem\n  set solution = x^2 + y\nend\n"
+                         "subsection Methods\n  set names = FA\nend\n"
+                         "subsection Study\n  set h = 0.25\n  set m = 2\n"
+                         "  set decisive error = averages L2 | exact\nend\n");
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    /// Beside the scene, so that its name will do.
+    void write(const std::string &name, const std::string &text) const
+    {
+      std::ofstream(folder_ / name) << text;
+    }
+
+    fs::path output(std::size_t number) const { return folder_ / ("run" + std::to_string(number)); }
+
+    /// All of them, some at a time: most of a short run is spent waiting for its start.
+    std::vector<Outcome> run(const std::vector<Trial> &runs) const
+    {
+      std::vector<Outcome> outcomes(runs.size());
+      std::atomic<std::size_t> next{0};
+      const auto work = [&]
+      {
+        for (std::size_t i; (i = next++) < runs.size();)
+          outcomes[i] = run(runs[i], i);
+      };
+      std::vector<std::thread> workers;
+      for (unsigned int i = 0; i < 4; ++i)
+        workers.emplace_back(work);
+      for (std::thread &worker : workers)
+        worker.join();
+      return outcomes;
+    }
+
+    void expect_refusals(const std::vector<Trial> &runs) const
+    {
+      const auto outcomes = run(runs);
+      for (std::size_t i = 0; i < runs.size(); ++i)
+      {
+        EXPECT_EQ(outcomes[i].out, "") << runs[i].settings;
+        EXPECT_FALSE(outcomes[i].has_folder) << "partial output for " << runs[i].settings;
+        expect(runs[i], outcomes[i], 2);
+      }
+    }
+
+    static void expect(const Trial &run, const Outcome &outcome, int exit_code)
+    {
+      EXPECT_EQ(outcome.exit_code, exit_code) << run.settings << '\n' << outcome.err;
+      for (const std::string &fragment : run.fragments)
+        EXPECT_NE(outcome.err.find(fragment), std::string::npos)
+            << fragment << " is not in what " << run.settings << " says: " << outcome.err;
+    }
+
+    std::string read(const fs::path &file) const
+    {
+      std::stringstream text;
+      text << std::ifstream(folder_ / file).rdbuf();
+      return text.str();
+    }
+
+  private:
+    Outcome run(const Trial &run, std::size_t number) const
+    {
+      const std::string name = output(number).string(), out = name + ".out", err = name + ".err";
+      const int status =
+          std::system((std::string(PLUMBLINE_COMMAND) + " run " + (folder_ / "scene.prm").string() +
+                       " --threads 1 -o " + name + " " + run.settings + " >" + out + " 2>" + err)
+                          .c_str());
+      return {WEXITSTATUS(status), read(out), read(err), fs::exists(name)};
+    }
+
+    const fs::path folder_ =
+        fs::path(testing::TempDir()) / ("bad_meshes_" + std::to_string(getpid()));
+  };
+
+  std::string set(const std::string &key, const std::string &value)
+  {
+    return "--set '" + key + "=" + value + "' ";
+  }
+
+  // two triangles of Ω in [0,1]², a square of collar in [1,2] × [0,1]
+  const std::string names = "2\n2 1 \"omega\"\n2 2 \"collar\"\n",
+                    vertices = "1 0 0 0\n2 1 0 0\n3 2 0 0\n4 0 1 0\n5 1 1 0\n6 2 1 0\n",
+                    triangle_1 = "1 2 2 1 1 1 2 5\n", triangle_2 = "2 2 2 1 1 1 5 4\n",
+                    collar = "3 3 2 2 2 2 3 6 5\n";
+
+  std::string msh(const std::string &physical_names, const std::string &nodes,
+                  const std::string &elements)
+  {
+    const auto section = [](const std::string &name, const std::string &content)
+    { return "$" + name + "\n" + content + "$End" + name + "\n"; };
+    const auto counted = [](const std::string &lines)
+    { return std::to_string(std::count(lines.begin(), lines.end(), '\n')) + "\n" + lines; };
+    return section("MeshFormat", "2.2 0 8\n") +
+           (physical_names.empty() ? "" : section("PhysicalNames", physical_names)) +
+           section("Nodes", counted(nodes)) + section("Elements", counted(elements));
+  }
+
+  /// A lattice of nodes over the domain and its collar, and one more line.
+  std::string csv(const std::string &header, const std::string &line)
+  {
+    std::ostringstream text;
+    text << header << '\n';
+    for (double y = -.375; y < 1.5; y += .25)
+      for (double x = -.375; x < 1.5; x += .25)
+        text << x << ',' << y << '\n';
+    text << line << '\n';
+    return text.str();
+  }
+} // namespace
+
+TEST_F(BadMeshes, mesh_files_that_cannot_be_used_are_refused)
+{
+  write("inverted.msh", msh(names, vertices, triangle_1 + "2 2 2 1 1 5 1 4\n" + collar));
+  write("hanging.msh", msh(names, vertices + "7 1 .5 0\n",
+                           "1 3 2 1 1 1 2 5 4\n2 2 2 2 2 2 3 7\n3 2 2 2 2 7 6 5\n"
+                           "4 2 2 2 2 7 3 6\n"));
+  write("dart.msh", msh(names, "1 0 0 0\n2 1 0 0\n3 2 0 0\n4 0 1 0\n5 .3 .3 0\n6 2 1 0\n",
+                        "1 3 2 1 1 1 2 5 4\n2 2 2 2 2 2 3 6\n"));
+  write("nameless.msh", msh("", vertices, "1 2 0 1 2 5\n"));
+  write("omega.msh", msh("1\n2 1 \"omega\"\n", vertices, triangle_1 + triangle_2));
+  write("double.msh", msh(names, vertices + "7 1 0 0\n8 1 1 0\n",
+                          triangle_1 + triangle_2 + "3 3 2 2 2 7 3 6 8\n"));
+  write("curved.msh", msh(names, vertices + "7 .5 0 0\n8 1 .5 0\n9 .5 .5 0\n",
+                          "1 9 2 1 1 1 2 5 7 8 9\n" + triangle_2 + collar));
+  write("solid.msh",
+        msh("1\n3 1 \"omega\"\n", "1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n", "1 4 2 1 1 1 2 3 4\n"));
+  write("thin.msh", msh(names, vertices, triangle_1 + triangle_2 + collar));
+  write("broken.geo", "Point(1) = {0, 0;\n");
+  const auto refused = [](const std::string &name, std::vector<std::string> fragments)
+  {
+    fragments.push_back(name);
+    return Trial{set("Domain/mesh", name), std::move(fragments)};
+  };
+  expect_refusals(
+      {refused("inverted.msh", {"cell 1 at (0.333333, 0.666667) is inverted; number its vertices"}),
+       refused("hanging.msh", {"vertex 5 of cell 1 at (1, 0.5) lies inside a side of cell 0 (a "
+                               "hanging vertex); make the mesh conforming"}),
+       refused("dart.msh", {"cell 0 at (0.325, 0.325) is not convex; move its vertices"}),
+       refused("nameless.msh", {"physical surfaces (none); give names that begin with 'omega' and "
+                                "'collar'"}),
+       refused("omega.msh", {"physical surfaces 'omega'; give names", "at least one of each"}),
+       refused("double.msh", {"at (1, 0) lies where cell 0 has another vertex; let the cells"}),
+       refused("curved.msh", {"gmsh's type 9; only triangles and quadrilaterals of first order"}),
+       refused("solid.msh",
+               {"reaches z = 1; only triangles and quadrilaterals in the plane z = 0"}),
+       refused("missing.msh", {"cannot be read; check its name and folder"}),
+       refused("broken.geo", {"refused by gmsh", "syntax error", "; mend the file"}),
+       refused("thin.msh", {"the collar is 0 wide", "thinner than the horizon 0.5", "; widen"})});
+}
+
+TEST_F(BadMeshes, generators_and_maps_that_do_not_work_are_refused)
+{
+  const std::string ball = set("Domain/mesh", "hyper_ball"), inside = set("Domain/inside", "1"),
+                    arguments = set("Domain/arguments", "0, 0 : 1 : false");
+  expect_refusals(
+      {{set("Domain/mesh", "hyper_blob") + inside,
+        {"mesh generator hyper_blob ()", "not implemented; give", "(Domain/mesh)"}},
+       {ball + inside + set("Domain/arguments", "0, 0 : x"),
+        {"(0, 0 : x) is refused", "does not match the pattern", "(Domain/arguments)"}},
+       {ball + arguments, {"Domain/inside is empty", "an expression that is positive there"}},
+       {set("Domain/mesh", "Squares"),
+        {"Domain/mesh = Squares: lattice, squares, triangles and files .msh or .geo do without"}},
+       {ball + arguments + set("Domain/inside", "-1"),
+        {"none of the 320 cells of the mesh lies in the domain; mark", "Domain/inside"}},
+       {ball + arguments + set("Domain/inside", "0.8 - x^2 - y^2"),
+        {"Domain/mesh = hyper_ball: the collar is 0.07", "the horizon 0.5", "widen the collar"}},
+       {set("Domain/map", "-x, y"),
+        {"choose another Domain/map", "cell 0 at (0.375, -0.375) is inverted"}},
+       {set("Domain/map", "x, sqrt(y)"),
+        {"Domain/map = 'x, sqrt(y)' gives", "at (x, y) = (-0.5, -0.5); it must be a finite"}},
+       {set("Domain/map", "x, y") + set("Domain/mesh", "lattice"),
+        {"Domain/map is given with Domain/mesh = lattice", "clear it or choose"}}});
+}
+
+TEST_F(BadMeshes, a_coefficient_that_is_not_positive_everywhere_is_refused)
+{
+  const auto refused = [](const std::string &value, const std::vector<std::string> &fragments,
+                          const std::string &more = "") {
+    return Trial{set("Kernel/coefficient", value) + more, fragments};
+  };
+  // the second one is negative around one vertex, the third without value at the outermost ones
+  expect_refusals({refused("x - 0.5", {"Kernel/coefficient = 'x - 0.5' is -", "positive"}),
+                   refused("1 - 2*exp(-1000000*((x - 0.25)^2 + (y - 0.5)^2))", {"is -1 at (0.25"}),
+                   refused("sqrt(x + 0.45)", {"at (x, y) = (-0.5, ", "must be a finite number"}),
+                   refused("1", {"Kernel/coefficient = '1' with Domain/mesh = lattice", "squares"},
+                           set("Domain/mesh", "lattice"))});
+}
+
+TEST_F(BadMeshes, nodes_that_cannot_be_used_are_refused)
+{
+  write("nox.csv", csv("a,y", ""));
+  write("word.csv", csv("x,y", "one,0"));
+  write("nan.csv", csv("x,y", "nan,0"));
+  write("twin.csv", csv("x,y", "0.125,0.375"));
+  write("far.csv", csv("x,y", "3,3"));
+  write("outer.csv", "x,y\n+1.2,.5\n");
+  const std::string lattice = set("Domain/mesh", "lattice"),
+                    moved = set("Methods/perturbation", "0.3");
+  const auto refused = [](const std::string &nodes, const std::vector<std::string> &fragments,
+                          const std::string &more = "") {
+    return Trial{set("Methods/nodes", nodes) + more, fragments};
+  };
+  expect_refusals(
+      {refused("missing.csv", {"missing.csv' cannot be read; check its name and folder"}),
+       refused("nox.csv", {"nox.csv' has no column x in its first line 'a,y'; name the columns"}),
+       refused("word.csv", {"word.csv', line 66: x = 'one' is not a finite number; mend"}),
+       refused("nan.csv", {"nan.csv', line 66: x = 'nan' is not a finite number; mend"}),
+       refused("twin.csv", {"twin.csv'", "node 64 at (0.125, 0.375) lies where node 26 is; take"}),
+       refused("far.csv", {"far.csv'", "node 64 at (3, 3) lies outside of the domain and its "
+                                       "collar; take it out, or move it in"}),
+       refused("outer.csv", {"outer.csv'", "none of the 1 nodes lies in the domain; add nodes"}),
+       refused("middles", {"Methods/nodes = 'middles' is not known; write centres"}),
+       refused("far.csv", {"far.csv with Domain/mesh = lattice", "write Domain/mesh"}, lattice),
+       refused("centres", {"Methods/perturbation > 0 with Domain/mesh = lattice"}, lattice + moved),
+       refused("mesh", {"Methods/perturbation moves centres", "Methods/nodes = mesh"}, moved)});
+}
+
+TEST_F(BadMeshes, methods_and_targets_that_do_not_fit_are_refused)
+{
+  const std::string lattice = set("Domain/mesh", "lattice"),
+                    triangles = set("Domain/mesh", "triangles"),
+                    nodal = set("Study/norms", "nodal Linf"),
+                    reference = set("Reference/method", "Q1");
+  const auto target = [](const std::string &value) { return set("Study/decisive error", value); };
+  const std::string computed = set("Problem/local solution", "computed");
+  expect_refusals(
+      {{triangles + "--methods Q1", {"'Q1' cannot do", "triangles are not all quad", "take P1"}},
+       {"--methods DGP1", {"'DGP1' cannot do", "squares are not all triangles; take DGQ1"}},
+       {lattice + "--methods P1", {"'P1' cannot do", "Domain/mesh = lattice", "take Q1"}},
+       {triangles + set("Reference/method", "Q2"), {"Reference/method: 'Q2' cannot", "take P2"}},
+       {set("Reference/method", "R2"), {"Reference/method: method 'R2' is not known; choose of"}},
+       {set("Reference/tolerance", "0.01"),
+        {"Reference/tolerance = 0.01 needs a reference", "give Reference/method"}},
+       {reference + set("Reference/tolerance", "0.01") + set("Reference/estimate", "false"),
+        {"Reference/tolerance = 0.01 needs", "Reference/estimate = true"}},
+       {lattice + computed,
+        {"Problem/local solution = computed with Domain/mesh = lattice", "write Domain/mesh"}},
+       {reference + nodal + target("averages L2 | reference"),
+        {"Study/decisive error = 'averages L2 | reference'", "Study/norms (add it there)"}},
+       {reference + nodal + target("nodal Linf | reference"), {"by cell averages; use averages"}},
+       {computed + nodal + target("nodal Linf | local"), {"by cell averages; use averages"}}});
+}
+
+TEST_F(BadMeshes, what_cannot_be_solved_exits_with_3_and_keeps_the_rest)
+{
+  const std::string tight = set("Domain/mesh", "triangles") + set("Quadrature/tolerance", "1e-12");
+  const std::vector<Trial> runs = {
+      {tight + set("Quadrature/max refinements", "0") + "--methods P1,FA",
+       {"no solution: P1, u, m = 2, h = 0.25", "more than Quadrature/tolerance = 1e-12; raise"}},
+      {tight + set("Quadrature/max refinements", "1") + "--methods P1,FA",
+       {"no solution: P1", "refinement 1", "Quadrature/max refinements or the tolerance"}},
+      {set("Study/m", "1.2") + "--methods FA,IPA-AC-R4,Q1",
+       {"no solution: IPA-AC-R4, u, m = 1.2, h = 0.25",
+        "up to degree 4 are infeasible at node 16, "
+        "(0.125, 0.125): the 8 neighbours span rank 8 of 14",
+        "; raise m = horizon / h", "or take a rule of lower degree"}},
+      {set("Reference/method", "Q1") + set("Reference/tolerance", "1e-12"),
+       {"the reference Q1 at h = 0.25 has an estimated error of 0.01",
+        "more than Reference/tolerance = 1e-12; take a higher degree"}}};
+  const auto outcomes = run(runs);
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    expect(runs[i], outcomes[i], 3);
+
+  for (std::size_t i = 0; i < 3; ++i) // the other methods are there, and the failed one says why
+  {
+    EXPECT_NE(outcomes[i].out.find("failed"), std::string::npos) << outcomes[i].out;
+    EXPECT_EQ(outcomes[i].err.find("no solution: FA"), std::string::npos);
+    EXPECT_TRUE(fs::exists(output(i) / "report.html"));
+    EXPECT_NE(read(output(i) / "results.json").find("averages L2 | exact"), std::string::npos);
+  }
+  EXPECT_FALSE(outcomes[3].has_folder); // nothing had been solved
+}
