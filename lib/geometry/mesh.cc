@@ -281,6 +281,7 @@ namespace plumbline::geometry
   {
     Mesh fine;
     fine.vertices = mesh.vertices;
+    fine.groups = mesh.groups;
     const auto add_vertex = [&](const Point<2> &point)
     {
       fine.vertices.push_back(point);
@@ -305,14 +306,14 @@ namespace plumbline::geometry
       {
         const std::array<unsigned int, 4> corner = {
             cell.vertex[i], m[i], n == 4 ? centre : m[(i + 2) % 3], m[(i + n - 1) % n]};
-        MeshCell child{corner, n, cell.is_inside};
+        MeshCell child{corner, n, cell.is_inside, cell.group};
         for (unsigned int k = 0; k < n && n == 4;
              ++k) // quadrilaterals begin where their parent does
           child.vertex[k] = corner[(k + n - i) % n];
         fine.cells.push_back(child);
       }
       if (n == 3)
-        fine.cells.push_back({{m[0], m[1], m[2], 0}, 3, cell.is_inside});
+        fine.cells.push_back({{m[0], m[1], m[2], 0}, 3, cell.is_inside, cell.group});
     }
     return fine;
   }

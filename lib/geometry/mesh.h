@@ -14,6 +14,7 @@ namespace plumbline::geometry
     std::array<unsigned int, 4> vertex; ///< counter-clockwise; the first n_vertices count
     unsigned int n_vertices;            ///< 3 or 4
     bool is_inside;                     ///< in Ω, else in the interaction collar
+    unsigned int group = 0;             ///< index into the mesh's groups, if it has any
   };
 
   /// A conforming mesh of Ω and its interaction collar.
@@ -21,6 +22,7 @@ namespace plumbline::geometry
   {
     std::vector<Point<2>> vertices; ///< [length]
     std::vector<MeshCell> cells;
+    std::vector<std::string> groups; ///< gmsh's physical surfaces by name, for materials
 
     Polygon polygon(std::size_t cell) const;
     bool is_triangles() const;   ///< all cells are

@@ -124,6 +124,7 @@ namespace plumbline::geometry
     {
       int entity;
       bool is_inside;
+      std::string name;
     };
 
     std::vector<Surface> physical_surfaces()
@@ -146,7 +147,7 @@ namespace plumbline::geometry
         std::vector<int> entities;
         gmsh::model::getEntitiesForPhysicalGroup(dimension, group, entities);
         for (const int entity : entities)
-          surfaces.push_back({entity, is_omega});
+          surfaces.push_back({entity, is_omega, name});
       }
       if (!has_omega || !has_collar || has_other)
         throw InputError("has the physical surfaces " + (names.empty() ? "(none)" : names) +
@@ -178,6 +179,9 @@ namespace plumbline::geometry
 
       for (const Surface &surface : physical_surfaces())
       {
+        if (mesh.groups.empty() || mesh.groups.back() != surface.name)
+          mesh.groups.push_back(surface.name);
+        const auto group = static_cast<unsigned int>(mesh.groups.size() - 1);
         std::vector<int> types;
         std::vector<std::vector<std::size_t>> elements, nodes;
         gmsh::model::mesh::getElements(types, elements, nodes, 2, surface.entity);
@@ -190,7 +194,7 @@ namespace plumbline::geometry
           const unsigned int n = types[t] == 2 ? 3 : 4;
           for (std::size_t first = 0; first < nodes[t].size(); first += n)
           {
-            MeshCell cell{{}, n, surface.is_inside};
+            MeshCell cell{{}, n, surface.is_inside, group};
             for (unsigned int i = 0; i < n; ++i)
               cell.vertex[i] = number.at(nodes[t][first + i]);
             mesh.cells.push_back(cell);

@@ -17,7 +17,7 @@ namespace plumbline::physics
     if (value > 0)
       return value;
     std::ostringstream message;
-    message << "Kernel/coefficient = '" << a_.text() << "' is " << value << " at (" << x
+    message << "Kernel/coefficient = '" << text_ << "' is " << value << " at (" << x
             << "), but the operator needs it positive everywhere in the domain and its collar";
     throw InputError(message.str());
   }

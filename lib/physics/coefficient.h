@@ -2,6 +2,9 @@
 
 #include "physics/expression.h"
 
+#include <functional>
+#include <string>
+
 namespace plumbline::physics
 {
   /// How the coefficients at the two ends of a bond make one.
@@ -18,14 +21,23 @@ namespace plumbline::physics
   class Coefficient
   {
   public:
-    Coefficient(Expression a, Mean kind) : a_(std::move(a)), kind_(kind) {}
+    /// @param text  what the scene says, for messages
+    Coefficient(std::function<double(const Point<2> &)> a, std::string text, Mean kind)
+        : a_(std::move(a)), text_(std::move(text)), kind_(kind)
+    {
+    }
+    Coefficient(const Expression &a, Mean kind)
+        : Coefficient([a](const Point<2> &x) { return a(x); }, a.text(), kind)
+    {
+    }
 
     /// a(x) > 0. @throws InputError  not a positive number
     double at(const Point<2> &x) const;
     double mean(double a, double b) const { return physics::mean(kind_, a, b); }
 
   private:
-    Expression a_;
+    std::function<double(const Point<2> &)> a_;
+    std::string text_;
     Mean kind_;
   };
 } // namespace plumbline::physics

@@ -170,6 +170,10 @@ namespace plumbline::scene
         throw InputError(key + " = '" + text + "' has " + std::to_string(parsed.n_components()) +
                          " component(s), not " + std::to_string(n));
     };
+    needs(scene.materials.empty() || mesh.is_file(), "Kernel/materials is given",
+          "materials are the physical surfaces of a .msh or .geo file; write Kernel/coefficient");
+    if (!scene.materials.empty() && !scene.coefficient.empty())
+      throw InputError("Kernel/materials and Kernel/coefficient are both given; clear one of them");
     if (!scene.coefficient.empty())
       expression("Kernel/coefficient", scene.coefficient, 1);
     if (!mesh.inside.empty())

@@ -9,6 +9,12 @@ namespace plumbline::scene
   /// @throws InputError  a mesh that cannot be used, or a collar thinner than the horizon
   geometry::Mesh make_mesh(const Scene &scene, const Level &level);
 
+  /// The scene's coefficient, by expression or by materials; nothing if it is homogeneous.
+  /// @throws InputError  a group of the mesh without a material or a material without a group, a
+  /// coefficient that is not a positive number at a vertex or centroid
+  std::optional<physics::Coefficient> make_coefficient(const Scene &scene,
+                                                       const geometry::Mesh &mesh);
+
   /// The nodes of a scene at a level and their cells.
   /// @throws InputError  nodes that cannot be used
   geometry::NodeCells make_node_cells(const Scene &scene, const Level &level,

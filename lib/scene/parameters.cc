@@ -100,6 +100,10 @@ namespace plumbline::scene
            "a of the polynomial profile p(t) / t^a."},
           {"Kernel", "coefficient", "", text(),
            "a > 0 of a kernel a C: an expression in x and y. Empty: homogeneous. Needs a mesh."},
+          {"Kernel", "materials", "", text(),
+           "The same by the physical surfaces of a gmsh file: 'omega_steel: 5; omega_resin: 1; "
+           "collar: "
+           "1', a positive number for each."},
           {"Kernel", "symmetrisation", "arithmetic", one_of("arithmetic|harmonic"),
            "The mean of the coefficients at both ends of a bond."},
 

@@ -69,15 +69,6 @@ namespace plumbline::scene
       return field;
     }
 
-    /// It is positive and finite at all vertices and in the middle of all cells.
-    void check(const physics::Coefficient &coefficient, const geometry::Mesh &mesh)
-    {
-      for (const Point<2> &vertex : mesh.vertices)
-        (void)coefficient.at(vertex);
-      for (const Point<2> &centroid : geometry::centroids(mesh))
-        (void)coefficient.at(centroid);
-    }
-
     /// The largest value of a field over the samples: for noise levels.
     double magnitude(const Field &field, unsigned int n_components, const Extent &extent)
     {
@@ -101,14 +92,8 @@ namespace plumbline::scene
       problem.mesh = std::make_shared<const geometry::Mesh>(make_mesh(scene, level));
       problem.cells =
           std::make_shared<const geometry::NodeCells>(make_node_cells(scene, level, *problem.mesh));
+      problem.coefficient = make_coefficient(scene, *problem.mesh);
     }
-    if (!scene.coefficient.empty())
-    {
-      problem.coefficient.emplace(Expression("Kernel/coefficient", scene.coefficient),
-                                  scene.symmetrisation);
-      check(*problem.coefficient, *problem.mesh);
-    }
-
     const Extent omega = problem.lattice ? extent(*problem.lattice) : extent(*problem.mesh);
     const auto expression = [&](const std::string &key, const std::string &text) {
       return Expression(key, text, {{"delta", level.horizon}});

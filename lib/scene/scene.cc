@@ -108,6 +108,7 @@ namespace plumbline::scene
                                    std::stoi(value("Kernel/singularity")));
 
       scene.coefficient = value("Kernel/coefficient");
+      scene.materials = to_cases(value("Kernel/materials"));
       scene.symmetrisation = value("Kernel/symmetrisation") == "harmonic"
                                  ? physics::Mean::harmonic
                                  : physics::Mean::arithmetic;

@@ -84,7 +84,9 @@ namespace plumbline::scene
     std::vector<physics::PowerTerm> profile;
     physics::Structure structure;
     double bulk_modulus, kernel_constant;
-    std::string coefficient; ///< an expression; empty: homogeneous
+    std::string coefficient;     ///< an expression; empty: homogeneous, or by materials
+    std::vector<Case> materials; ///< a coefficient for each group of the mesh, or empty
+    bool is_homogeneous() const { return coefficient.empty() && materials.empty(); }
     physics::Mean symmetrisation;
 
     std::vector<Case> solutions; ///< exact nonlocal solutions, empty if not known

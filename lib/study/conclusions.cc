@@ -273,7 +273,7 @@ namespace plumbline::study
         results.omissions.push_back({"exact geometry in every cell",
                                      "circles are cut in double precision, good to round-off",
                                      "a sample of cells is recomputed with exact geometry"});
-        if (scene.coefficient.empty())
+        if (scene.is_homogeneous())
           results.omissions.push_back({"a coefficient at every bond", "the material is homogeneous",
                                        "one evaluation a quadrature point"});
       }

@@ -226,6 +226,24 @@ TEST_F(BadMeshes, a_coefficient_that_is_not_positive_everywhere_is_refused)
                            set("Domain/mesh", "lattice"))});
 }
 
+TEST_F(BadMeshes, materials_that_do_not_fit_the_mesh_are_refused)
+{
+  const std::string file =
+      set("Domain/mesh", std::string(PLUMBLINE_SCENES) + "/meshes/disk_in_disk.geo");
+  expect_refusals(
+      {{file + set("Kernel/materials", "omega_matrix: 1; omega_inclusion: 5"),
+        {"no value for the physical surface 'collar'", "omega_matrix, omega_inclusion"}},
+       {file + set("Kernel/materials", "omega_matrix: 1; omega_inclusion: 5; collar: 1; steel: 2"),
+        {"no physical surface 'steel'"}},
+       {file + set("Kernel/materials", "omega_matrix: 1; omega_inclusion: -5; collar: 1"),
+        {"is -5 at", "positive"}},
+       {file + set("Kernel/materials", "omega_matrix: 1; omega_inclusion: hard; collar: 1"),
+        {"Kernel/materials", "hard"}},
+       {set("Kernel/materials", "collar: 1"), {"Kernel/materials is given", "Kernel/coefficient"}},
+       {file + set("Kernel/materials", "collar: 1") + set("Kernel/coefficient", "1"),
+        {"are both given", "clear one"}}});
+}
+
 TEST_F(BadMeshes, nodes_that_cannot_be_used_are_refused)
 {
   write("nox.csv", csv("a,y", ""));

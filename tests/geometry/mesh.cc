@@ -13,7 +13,8 @@ namespace
   Mesh small_mesh()
   {
     return {{{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}},
-            {{{0, 1, 4}, 3, true}, {{0, 4, 3}, 3, true}, {{1, 2, 5, 4}, 4, false}}};
+            {{{0, 1, 4}, 3, true}, {{0, 4, 3}, 3, true}, {{1, 2, 5, 4}, 4, false}},
+            {}};
   }
 
   std::string fault(const Mesh &mesh)
@@ -86,7 +87,8 @@ TEST(MeshCheck, finds_hanging_vertices_and_two_in_one_place)
                      "one"));
   }
   mesh = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 1}, {2, 1}, {2, 2}, {1, 2}},
-          {{{0, 1, 2, 3}, 4, true}, {{4, 5, 6, 7}, 4, false}}};
+          {{{0, 1, 2, 3}, 4, true}, {{4, 5, 6, 7}, 4, false}},
+          {}};
   EXPECT_TRUE(says(fault(mesh), "at (1, 1) lies where cell 0 has another vertex"));
 }
 
@@ -98,7 +100,8 @@ TEST(MeshCheck, finds_cells_given_twice_and_cells_that_overlap)
                    "a side of cell 0, cell 1 and cell 3 at (1, 1) belongs to more than "
                    "two cells"));
   mesh = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {.5, .5}, {1.5, .5}, {1.5, 1.5}, {.5, 1.5}},
-          {{{0, 1, 2, 3}, 4, true}, {{4, 5, 6, 7}, 4, false}}};
+          {{{0, 1, 2, 3}, 4, true}, {{4, 5, 6, 7}, 4, false}},
+          {}};
   EXPECT_EQ(fault(mesh), "cells 0 and 1 at (0.75, 0.75) overlap; take one out or move their "
                          "vertices");
   mesh = small_mesh(); // folded over a side
