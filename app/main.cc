@@ -52,6 +52,7 @@ int main(int argc, char **argv)
   run->add_option("-o,--output", options.output, "Output folder (default: results/<scene>)");
   run->add_option("--set", settings, "Section/key=value, instead of what the file says");
   run->add_option("--methods", options.methods, "Methods, comma separated, instead of the scene's");
+  run->add_option("--model", options.model, "smallest (what the scene needs) or full");
   run->add_option("--levels", options.n_levels, "The first so many levels of each sweep only");
   run->add_option("--threads", n_threads, "Threads (default: all cores)");
   run->add_flag("--check", options.check, "Exit with 1 if the Expected section does not hold");
@@ -75,7 +76,7 @@ int main(int argc, char **argv)
   list->add_option("WHAT", subject, "methods, kernels or scenes")->required();
   auto *make_template =
       app.add_subcommand("template", "Print a scene with all keys and their help");
-  make_template->add_option("MODEL", model, "scalar or tensor")->required();
+  make_template->add_option("MODEL", model, "scalar, tensor, LPS or variational")->required();
   auto *describe = app.add_subcommand("describe", "What a key of a scene means");
   describe->add_option("KEY", key, "Section or Section/key")->required();
 

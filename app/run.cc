@@ -20,6 +20,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <set>
@@ -222,6 +223,8 @@ namespace plumbline::app
     auto overrides = options.overrides;
     if (!options.methods.empty())
       overrides.push_back({"Methods/names", options.methods});
+    if (!options.model.empty())
+      overrides.push_back({"Solver/model", options.model});
     const scene::Scene scene = scene::read_scene(options.scene_file, overrides);
     const study::Methods available = all_methods();
     const study::Methods methods = study::choose_methods(scene, available);
@@ -245,15 +248,28 @@ namespace plumbline::app
       study::SweepControl control;
       control.n_levels = options.n_levels;
       control.on_progress = [&](const std::string &what, double f) { progress.show(what, f); };
-      if (is_first)
-        control.on_result = [&](const study::Results &r)
-        { report::write_json(r, folder / "results.json"); };
+      // the first rank writes; where it cannot, all end
+      const auto write = [&](const std::function<void()> &action)
+      {
+        team.together(
+            [&]
+            {
+              if (is_first)
+                action();
+            });
+      };
+      control.on_result = [&](const study::Results &r)
+      { write([&] { report::write_json(r, folder / "results.json"); }); };
       control.should_stop = [&] { return team.any(is_interrupted != 0); };
-      if (scene.write_fields && is_first)
+      if (scene.write_fields)
         control.on_finest = [&](const study::Solution &solution, const study::Run &run)
         {
-          fs::create_directories(folder / "fields");
-          solution.write_vtu((folder / "fields" / file_name(run)).string());
+          write(
+              [&]
+              {
+                fs::create_directories(folder / "fields");
+                solution.write_vtu((folder / "fields" / file_name(run)).string());
+              });
         };
       try
       {

@@ -12,6 +12,7 @@ namespace plumbline::app
     std::string scene_file, output; ///< output empty: results/<scene name>
     std::vector<scene::Override> overrides;
     std::string methods; ///< comma separated, instead of the scene's
+    std::string model;   ///< smallest or full, instead of the scene's
     unsigned int n_levels = 0;
     bool check = false, quiet = false, json = false;
   };

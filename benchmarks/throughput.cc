@@ -34,7 +34,8 @@ namespace
     const auto n = static_cast<double>(state.range(1));
     const auto kernel = make_kernel(is_tensor, m / n);
     const auto stencil = meshfree::lattice_operator(
-        kernel, meshfree::improved_partial_area(kernel, 1 / n, geometry::Backend::fast));
+        kernel, meshfree::lattice_bonds(meshfree::improved_partial_area(kernel), kernel, 1 / n,
+                                        geometry::Backend::fast));
     const geometry::Lattice lattice({{{{0, 0}, {1, 1}}}, {}}, 1 / n);
     const auto nodes = free_nodes(lattice, {{.5, false, 0}}, kernel.n_components());
     const auto matrix = make_operator(stencil, nodes, road);
@@ -84,7 +85,9 @@ namespace
   {
     const auto kernel = make_kernel(false, static_cast<double>(state.range(0)));
     for (auto _ : state)
-      benchmark::DoNotOptimize(rule.bonds(kernel, 1, geometry::Backend::fast).family.size());
+      benchmark::DoNotOptimize(
+          meshfree::lattice_bonds(rule.recipe(kernel), kernel, 1, geometry::Backend::fast)
+              .family.size());
   }
 
   void galerkin_entries(benchmark::State &state, bool is_continuous, unsigned int degree)

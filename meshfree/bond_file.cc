@@ -1,12 +1,10 @@
 #include "meshfree/bond_file.h"
 
 #include "base/error.h"
+#include "geometry/cell_locator.h"
+#include "scene/csv.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <fstream>
-#include <limits>
 #include <map>
 #include <sstream>
 #include <unordered_map>
@@ -22,149 +20,6 @@ namespace plumbline::meshfree
       return text.str();
     }
 
-    /// A CSV file with a header, read row by row.
-    class Csv
-    {
-    public:
-      Csv(const std::string &file, const std::vector<std::string> &required)
-          : file_(file), in_(file)
-      {
-        if (!in_ || !std::getline(in_, text_))
-          throw InputError("'" + file + "' cannot be read; check its name and folder");
-        header_ = fields();
-        std::string names;
-        for (const std::string &name : required)
-          names += (names.empty() ? "" : ",") + name;
-        for (const std::string &name : required)
-          if (!has(name))
-            throw InputError("'" + file + "' has no column " + name + " in its first line '" +
-                             text_ + "'; name the columns there: " + names);
-      }
-
-      bool has(const std::string &name) const { return column(name) < header_.size(); }
-
-      /// Go to the next row that is not empty.
-      bool next()
-      {
-        while (std::getline(in_, text_))
-        {
-          ++line_;
-          row_ = fields();
-          if (std::any_of(row_.begin(), row_.end(), [](auto &field) { return !field.empty(); }))
-            return true;
-        }
-        return false;
-      }
-
-      std::size_t line() const { return line_; }
-
-      bool is_empty(const std::string &name) const { return field(name).empty(); }
-
-      double number(const std::string &name) const
-      {
-        const auto value = parse<double>(name, "a finite number");
-        if (!std::isfinite(value))
-          fail(name + " = " + field(name) + " is not a finite number");
-        return value;
-      }
-
-      std::int64_t integer(const std::string &name) const
-      {
-        return parse<std::int64_t>(name, "an integer");
-      }
-
-      [[noreturn]] void fail(const std::string &what) const { fail(line_, what); }
-      [[noreturn]] void fail(std::size_t line, const std::string &what) const
-      {
-        throw InputError("'" + file_ + "', line " + std::to_string(line) + ": " + what);
-      }
-
-    private:
-      std::vector<std::string> fields() const
-      {
-        std::vector<std::string> result;
-        std::istringstream rest(text_);
-        for (std::string field; std::getline(rest, field, ',');)
-        {
-          constexpr auto blank = " \t\r";
-          field.erase(0, field.find_first_not_of(blank));
-          field.erase(field.find_last_not_of(blank) + 1);
-          result.push_back(field);
-        }
-        return result;
-      }
-
-      std::size_t column(const std::string &name) const
-      {
-        return std::find(header_.begin(), header_.end(), name) - header_.begin();
-      }
-
-      std::string field(const std::string &name) const
-      {
-        const std::size_t c = column(name);
-        return c < row_.size() ? row_[c] : "";
-      }
-
-      template <class Number>
-      Number parse(const std::string &name, const std::string &wanted) const
-      {
-        const std::string text = field(name);
-        Number value{};
-        const char *const end = text.data() + text.size();
-        const auto parsed = std::from_chars(text.data(), end, value);
-        if (parsed.ec != std::errc() || parsed.ptr != end)
-          fail(name + " = '" + text + "' is not " + wanted);
-        return value;
-      }
-
-      std::string file_, text_;
-      std::ifstream in_;
-      std::size_t line_ = 1;
-      std::vector<std::string> header_, row_;
-    };
-
-    /// The cells of a mesh, or those of Ω alone, to find points in.
-    class Region
-    {
-    public:
-      Region(const geometry::Mesh &mesh, bool with_collar)
-          : cells_(polygons(mesh, with_collar)), search_(boxes(cells_))
-      {
-      }
-
-      bool contains(const Point<2> &x) const
-      {
-        constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
-        const dealii::Tensor<1, 2> margin({slack * std::abs(x[0]), slack * std::abs(x[1])});
-        std::vector<unsigned int> found;
-        search_.find({x - margin, x + margin}, found);
-        return std::any_of(found.begin(), found.end(),
-                           [&](unsigned int cell)
-                           { return geometry::contains(geometry::view(cells_[cell]), x); });
-      }
-
-    private:
-      static std::vector<geometry::Polygon> polygons(const geometry::Mesh &mesh, bool with_collar)
-      {
-        std::vector<geometry::Polygon> result;
-        for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-          if (with_collar || mesh.cells[c].is_inside)
-            result.push_back(mesh.polygon(c));
-        return result;
-      }
-
-      static std::vector<geometry::Box> boxes(const std::vector<geometry::Polygon> &cells)
-      {
-        std::vector<geometry::Box> result;
-        for (const geometry::Polygon &cell : cells)
-          result.push_back(geometry::bounding_box(geometry::view(cell)));
-        return result;
-      }
-
-      std::vector<geometry::Polygon> cells_;
-      geometry::BoxSearch search_;
-    };
-
     /// A bond as it stands in the file.
     struct Row
     {
@@ -176,7 +31,7 @@ namespace plumbline::meshfree
 
   GivenNodes read_given_nodes(const std::string &file)
   {
-    Csv csv(file, {"id", "x", "y", "volume"});
+    scene::Csv csv(file, {"id", "x", "y", "volume"});
     GivenNodes nodes;
     nodes.file = file;
     std::unordered_map<std::int64_t, std::size_t> line_of_id;
@@ -206,10 +61,10 @@ namespace plumbline::meshfree
 
   std::vector<std::size_t> nodes_inside(const GivenNodes &nodes, const geometry::Mesh &mesh)
   {
-    const Region omega(mesh, false);
+    const geometry::CellLocator cells(mesh);
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      if (omega.contains(nodes.places[i]))
+      if (const auto cell = cells.find(nodes.places[i]); cell && cells.is_inside(*cell))
         result.push_back(i);
     if (result.empty())
       throw InputError("'" + nodes.file + "': none of the " + std::to_string(nodes.size()) +
@@ -219,9 +74,9 @@ namespace plumbline::meshfree
 
   void check_places(const GivenNodes &nodes, const geometry::Mesh &mesh, const std::string &level)
   {
-    const Region region(mesh, true);
+    const geometry::CellLocator cells(mesh);
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      if (!region.contains(nodes.places[i]))
+      if (!cells.find(nodes.places[i]))
         throw InputError("'" + nodes.file + "', line " + std::to_string(nodes.line[i]) + ": node " +
                          std::to_string(nodes.id[i]) + " at " + to_text(nodes.places[i]) +
                          " lies outside of the domain and its collar at the level " + level +
@@ -231,7 +86,7 @@ namespace plumbline::meshfree
   GivenFamilies read_given_families(const std::string &file, const GivenNodes &nodes,
                                     const geometry::NodeCells &cells)
   {
-    Csv csv(file, {"i", "j", "weight"});
+    scene::Csv csv(file, {"i", "j", "weight"});
     if (csv.has("qx") != csv.has("qy"))
       csv.fail("one of the columns qx and qy is missing; give both or none");
     std::unordered_map<std::int64_t, unsigned int> node_of_id;

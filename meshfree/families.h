@@ -11,10 +11,10 @@ namespace plumbline::meshfree
   std::vector<geometry::Box> bounding_boxes(const geometry::NodeCells &cells, std::size_t n);
 
   /// What a meshfree rule yields on scattered nodes: L_h u_i = -Σ_k C(kernel_point_k)
-  /// (u_{neighbour_k} - u_i) weight_k. Free nodes alone have families, made one at a time. The part
-  /// of the ball in the node's own cell is left out, as on a lattice.
-  /// Cost of a scalar family at m = 3: 2 µs with whole cells, 7 µs with partial areas; 2, 4 and 4
-  /// µs more for the weights of IPA-AC-R2, IPA-AC-R4 and OPT.
+  /// (u_{neighbour_k} - u_i) weight_k, made one at a time: of the free nodes and of those in the
+  /// collar whose ball the cells cover. The part of the ball in the node's own cell is left out, as
+  /// on a lattice. Cost of a scalar family at m = 3: 2 µs with whole cells, 7 µs with partial
+  /// areas; 2, 4 and 4 µs more for the weights of IPA-AC-R2, IPA-AC-R4 and OPT.
   class Families
   {
   public:
@@ -22,7 +22,7 @@ namespace plumbline::meshfree
     Families(Recipe recipe, const Kernel<2> &kernel, const geometry::NodeCells &cells,
              Backend backend);
 
-    std::size_t size() const { return cells_->n_free; }
+    std::size_t size() const { return cells_->n_free; } ///< free nodes
 
     /// Thread safe.
     /// @param family  overwritten

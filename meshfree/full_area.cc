@@ -8,13 +8,8 @@ namespace plumbline::meshfree
     return {candidate.xi, is_inside ? candidate.area : 0, candidate.xi, candidate.area};
   }
 
-  Bonds full_area(const Kernel<2> &kernel, double h, Backend backend)
+  Recipe full_area(const Kernel<2> &)
   {
-    return lattice_bonds({full_area_bond}, kernel, h, backend);
-  }
-
-  Families full_area(const Kernel<2> &kernel, const NodeCells &cells, Backend backend)
-  {
-    return {{full_area_bond}, kernel, cells, backend};
+    return {full_area_bond};
   }
 } // namespace plumbline::meshfree

@@ -12,13 +12,8 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  Bonds lammps(const Kernel<2> &kernel, double h, Backend backend)
+  Recipe lammps(const Kernel<2> &)
   {
-    return lattice_bonds({bond}, kernel, h, backend);
-  }
-
-  Families lammps(const Kernel<2> &kernel, const NodeCells &cells, Backend backend)
-  {
-    return {{bond}, kernel, cells, backend};
+    return {bond};
   }
 } // namespace plumbline::meshfree

@@ -59,8 +59,10 @@ namespace plumbline::meshfree
     const base::CpuTimer timer;
     const geometry::Lattice &lattice = *problem.lattice;
     const NodeSet nodes = study::comparison_nodes(scene, lattice, problem.n_components);
-    const Bonds bonds = rule.bonds(problem.kernel, lattice.h(), scene.backend);
-    const auto stencil = lattice_operator(problem.kernel, bonds);
+    const Bonds bonds =
+        lattice_bonds(rule.recipe(problem.kernel), problem.kernel, lattice.h(), scene.backend);
+    const auto stencil = problem.dilatation ? state_based_stencil(*problem.dilatation, bonds)
+                                            : lattice_operator(problem.kernel, bonds);
     const double rule_seconds = timer.seconds();
     study::LatticeSolve solved = study::solve_on_lattice(
         scene, problem, nodes, stencil, [&] { return nodal_load(problem, nodes); });

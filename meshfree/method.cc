@@ -22,6 +22,8 @@ namespace plumbline::meshfree
 
       study::Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
       {
+        if (problem.body)
+          return body_road(rule_, scene, problem);
         return problem.lattice ? lattice_road(rule_, scene, problem)
                                : scattered_road(rule_, scene, problem);
       }

@@ -15,34 +15,25 @@ namespace plumbline::meshfree
       return 2 * std::tgamma(.5 * (a + 1)) * std::tgamma(.5 * (b + 1)) /
              std::tgamma(.5 * (a + b + 2)) / (a + b - 1);
     }
-
-    Recipe recipe(double horizon)
-    {
-      MomentConditions conditions{5, horizon, exponents(2, 5), {}, {}, {}};
-      for (const auto &[a, b] : conditions.exponents)
-        conditions.moments.push_back(horizon * horizon * exact_integral(a, b));
-      conditions.factor = [horizon](const Bond &bond)
-      {
-        const double inverse = horizon / bond.xi.norm();
-        return inverse * inverse * inverse;
-      };
-      conditions.scale = [](const Bond &) { return 1.; };
-      return {full_area_bond, [conditions](Family &family)
-              {
-                for (Bond &bond : family.bonds)
-                  bond.weight = 0;
-                meet(conditions, family);
-              }};
-    }
   } // namespace
 
-  Bonds optimisation_based(const Kernel<2> &kernel, double h, Backend backend)
+  Recipe optimisation_based(const Kernel<2> &kernel)
   {
-    return lattice_bonds(recipe(kernel.horizon()), kernel, h, backend);
-  }
-
-  Families optimisation_based(const Kernel<2> &kernel, const NodeCells &cells, Backend backend)
-  {
-    return {recipe(kernel.horizon()), kernel, cells, backend};
+    const double horizon = kernel.horizon();
+    MomentConditions conditions{5, horizon, exponents(2, 5), {}, {}, {}};
+    for (const auto &[a, b] : conditions.exponents)
+      conditions.moments.push_back(horizon * horizon * exact_integral(a, b));
+    conditions.factor = [horizon](const Bond &bond)
+    {
+      const double inverse = horizon / bond.xi.norm();
+      return inverse * inverse * inverse;
+    };
+    conditions.scale = [](const Bond &) { return 1.; };
+    return {full_area_bond, [conditions](Family &family)
+            {
+              for (Bond &bond : family.bonds)
+                bond.weight = 0;
+              meet(conditions, family);
+            }};
   }
 } // namespace plumbline::meshfree

@@ -30,23 +30,13 @@ namespace plumbline::meshfree
     return result;
   }
 
-  Bonds partial_area(const Kernel<2> &kernel, double h, Backend backend)
+  Recipe partial_area(const Kernel<2> &)
   {
-    return lattice_bonds({partial_area_bond}, kernel, h, backend);
+    return {partial_area_bond};
   }
 
-  Families partial_area(const Kernel<2> &kernel, const NodeCells &cells, Backend backend)
+  Recipe improved_partial_area(const Kernel<2> &)
   {
-    return {{partial_area_bond}, kernel, cells, backend};
-  }
-
-  Bonds improved_partial_area(const Kernel<2> &kernel, double h, Backend backend)
-  {
-    return lattice_bonds({centroid_bond}, kernel, h, backend);
-  }
-
-  Families improved_partial_area(const Kernel<2> &kernel, const NodeCells &cells, Backend backend)
-  {
-    return {{centroid_bond}, kernel, cells, backend};
+    return {centroid_bond};
   }
 } // namespace plumbline::meshfree

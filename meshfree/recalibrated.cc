@@ -10,8 +10,8 @@ namespace plumbline::meshfree
     /// Scalar kernels: the moments of C(kernel_point) ξ^α. Tensors: the entries n_a n_b ξ^α are
     /// ξ^β / |ξ|², |β| = |α| + 2.
     /// @param select  which exponents of a range of degrees
-    Recipe recipe(const Kernel<2> &kernel, unsigned int degree,
-                  std::vector<Exponents> (*select)(int lowest, int highest))
+    MomentConditions moment_conditions(const Kernel<2> &kernel, unsigned int degree,
+                                       std::vector<Exponents> (*select)(int lowest, int highest))
     {
       const bool is_tensor = kernel.n_components() > 1;
       const double horizon = kernel.horizon();
@@ -37,19 +37,16 @@ namespace plumbline::meshfree
         return radial_value(kernel, bond) * (is_tensor ? scale : 1);
       };
       conditions.scale = [](const Bond &bond) { return bond.area; };
-      return {is_tensor ? partial_area_bond : centroid_bond,
-              [conditions](Family &family) { meet(conditions, family); }};
+      return conditions;
     }
   } // namespace
 
-  Bonds recalibrated(const Kernel<2> &kernel, double h, Backend backend, unsigned int degree)
+  Recipe recalibrated(const Kernel<2> &kernel, unsigned int degree)
   {
-    return lattice_bonds(recipe(kernel, degree, even_exponents), kernel, h, backend);
-  }
-
-  Families recalibrated(const Kernel<2> &kernel, const NodeCells &cells, Backend backend,
-                        unsigned int degree)
-  {
-    return {recipe(kernel, degree, exponents), kernel, cells, backend};
+    // on a lattice symmetry meets the odd moments, which need not be independent there
+    const auto even = moment_conditions(kernel, degree, even_exponents),
+               all = moment_conditions(kernel, degree, exponents);
+    return {kernel.n_components() > 1 ? partial_area_bond : centroid_bond,
+            [even, all](Family &family) { meet(family.neighbours.empty() ? even : all, family); }};
   }
 } // namespace plumbline::meshfree

@@ -13,4 +13,9 @@ namespace plumbline::meshfree
   /// @note Collective.
   study::Solution scattered_road(const Rule &rule, const scene::Scene &scene,
                                  const scene::Problem &problem);
+
+  /// Solve on a body with a free boundary, by sums over one family for all nodes.
+  /// @throws InputError  a constraint that is not 0
+  study::Solution body_road(const Rule &rule, const scene::Scene &scene,
+                            const scene::Problem &problem);
 } // namespace plumbline::meshfree

@@ -2,6 +2,7 @@
 #include "meshfree/roads.h"
 #include "meshfree/scattered_field.h"
 #include "meshfree/scattered_operator.h"
+#include "meshfree/state_based_operator.h"
 
 namespace plumbline::meshfree
 {
@@ -57,14 +58,37 @@ namespace plumbline::meshfree
     return solution;
   }
 
+  namespace
+  {
+    Damage damage(const scene::Scene &scene, const scene::Problem &problem)
+    {
+      Damage result{scene.cracks, {}};
+      if (!scene.outside.empty())
+      {
+        const physics::Expression outside("Domain/outside", scene.outside,
+                                          {{"delta", problem.horizon()}});
+        for (const Point<2> &x : problem.cells->nodes)
+          result.is_ghost.push_back(static_cast<char>(outside(x) > 0));
+      }
+      return result;
+    }
+  } // namespace
+
   study::Solution scattered_road(const Rule &rule, const scene::Scene &scene,
                                  const scene::Problem &problem)
   {
     return scattered_solution(
         [&](std::pair<std::size_t, std::size_t> share)
         {
-          return scattered_operator(rule.families(problem.kernel, *problem.cells, scene.backend),
-                                    problem, share);
+          const Families families(rule.recipe(problem.kernel), problem.kernel, *problem.cells,
+                                  scene.backend);
+          if (!problem.dilatation)
+            return scattered_operator(families, problem, share);
+          return state_based_operator([&](std::size_t node, Family &family)
+                                      { families.make(node, family); },
+                                      {problem.cells.get(), *problem.dilatation,
+                                       problem.constraint.value, damage(scene, problem)},
+                                      share);
         },
         scene, problem);
   }

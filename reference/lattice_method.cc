@@ -1,6 +1,7 @@
 #include "reference/lattice_method.h"
 
 #include "reference/geometry_check.h"
+#include "reference/lattice_dilatation.h"
 #include "reference/lattice_stencil.h"
 #include "study/lattice_solve.h"
 
@@ -100,8 +101,14 @@ namespace plumbline::reference
     const base::MemoryGauge memory;
     const base::CpuTimer timer;
     const NodeSet nodes = free_nodes(*problem.lattice, shapes.families(), problem.n_components);
-    const auto stencil =
-        galerkin_stencil(problem.kernel, problem.lattice->h(), shapes, scene.backend);
+    const double h = problem.lattice->h();
+    algebra::Stencil stencil = galerkin_stencil(problem.kernel, h, shapes, scene.backend);
+    if (problem.dilatation)
+    {
+      const physics::Lame lame = problem.dilatation->material({});
+      stencil = add(stencil, dilatation_stencil(problem.dilatation->influence,
+                                                lame.lambda - lame.mu, h, shapes));
+    }
     const double stencil_seconds = timer.seconds();
     study::LatticeSolve solved = study::solve_on_lattice(
         scene, problem, nodes, stencil, [&] { return load_vector(problem, shapes, nodes); });

@@ -14,8 +14,8 @@ namespace plumbline::reference
     study::Diagnostics diagnostics;
   };
 
-  /// Assemble and solve: exact entries, loads tested exactly where they are smooth, data of the
-  /// collar interpolated at the support points.
+  /// Assemble and solve: exact entries, the dilatation's part among them, loads tested exactly
+  /// where they are smooth, data of the collar interpolated at the support points.
   /// @throws NumericalError  the solver does not converge
   LatticeSolution solve_lattice(const scene::Scene &scene, const scene::Problem &problem,
                                 const AxisShapes &shapes);

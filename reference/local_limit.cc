@@ -70,6 +70,12 @@ namespace plumbline::reference
           const Point<2> &x = values.quadrature_point(q);
           const double weight = values.JxW(q);
           const double a = problem.coefficient ? problem.coefficient->at(x) : 1;
+          double lambda = a * limit.lambda;
+          if (problem.dilatation)
+          {
+            const physics::Lame lame = problem.dilatation->material(x);
+            lambda += lame.lambda - lame.mu;
+          }
           for (unsigned int i = 0; i < n; ++i)
           {
             const unsigned int c = element.system_to_component_index(i).first;
@@ -84,9 +90,8 @@ namespace plumbline::reference
               if (problem.n_components == 1)
                 matrix(i, j) += weight * a * limit.diffusion * (u * v);
               else
-                matrix(i, j) += weight * a *
-                                (limit.lambda * v[c] * u[d] + limit.mu * v[d] * u[c] +
-                                 (c == d ? limit.mu * (u * v) : 0));
+                matrix(i, j) += weight * (lambda * v[c] * u[d] +
+                                          a * limit.mu * (v[d] * u[c] + (c == d ? u * v : 0)));
             }
           }
         }

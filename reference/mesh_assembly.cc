@@ -1,5 +1,6 @@
 #include "reference/mesh_assembly.h"
 
+#include "reference/number_set.h"
 #include "reference/pair_quadrature.h"
 #include "reference/rectangle_pairs.h"
 
@@ -8,8 +9,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <mutex>
-#include <numeric>
 
 namespace plumbline::reference
 {
@@ -34,10 +35,9 @@ namespace plumbline::reference
                      double horizon, const std::optional<physics::Coefficient> &coefficient,
                      const AssemblyOptions &options)
           : cells_(cells), by_quadrature_(space, cells, profile, horizon, coefficient,
-                                          options.refinement, options.backend),
-            takes_rectangles_(options.exact_rectangles && !coefficient)
+                                          options.refinement, options.backend)
       {
-        if (takes_rectangles_ && space.shapes().n_vertices() == 4)
+        if (options.exact_rectangles && !coefficient && space.shapes().n_vertices() == 4)
           by_correlation_.emplace(space.shapes(), profile, horizon, options.backend);
       }
 
@@ -57,19 +57,68 @@ namespace plumbline::reference
     private:
       const MeshCells &cells_;
       PairQuadrature by_quadrature_;
-      bool takes_rectangles_;
       std::optional<RectanglePairs> by_correlation_;
     };
+
+    /// Visit 0 ... n - 1, threads sharing them in ranges. @param action  takes a range [first,
+    /// last)
+    template <class Action>
+    void in_parallel(std::size_t n, const Action &action, unsigned int grain = 256)
+    {
+      dealii::parallel::apply_to_subranges(static_cast<std::size_t>(0), n, action, grain);
+    }
+
+    /// The pairs of an outer cell.
+    struct CellPairs
+    {
+      std::vector<unsigned int> partners; ///< ascending, the cell itself is one
+      std::vector<unsigned int> columns;  ///< dofs of all of them, ascending
+    };
+
+    /// Of each cell the pairs that have their outer points on it, for a share of the cells. A
+    /// partner of another share is paired with itself: it still takes a diagonal block.
+    std::vector<CellPairs> find_pairs(const MeshSpace &space, const MeshCells &cells,
+                                      double horizon, const std::vector<std::size_t> &outer_cells)
+    {
+      const geometry::Mesh &mesh = space.mesh();
+      std::vector<CellPairs> pairs(cells.size());
+      in_parallel(outer_cells.size(),
+                  [&](std::size_t first, std::size_t last)
+                  {
+                    std::vector<unsigned int> near;
+                    NumberSet columns(space.n_dofs());
+                    for (std::size_t i = first; i < last; ++i)
+                    {
+                      const std::size_t cell = outer_cells[i];
+                      CellPairs &own = pairs[cell];
+                      cells.find_near(cell, horizon, near);
+                      std::copy_if(near.begin(), near.end(), std::back_inserter(own.partners),
+                                   [&](unsigned int other)
+                                   { return is_outer(mesh, cells, cell, other); });
+                      for (const unsigned int partner : own.partners)
+                        for (unsigned int b = 0; b < space.shapes().size(); ++b)
+                          columns.insert(space.dofs(partner)[b]);
+                      columns.take(own.columns);
+                    }
+                  });
+      for (const std::size_t cell : outer_cells)
+        for (const unsigned int partner : pairs[cell].partners)
+          if (CellPairs &other = pairs[partner];
+              other.partners.empty() && mesh.cells[partner].is_inside)
+          {
+            other.partners = {partner};
+            other.columns.assign(space.dofs(partner), space.dofs(partner) + space.shapes().size());
+            std::sort(other.columns.begin(), other.columns.end());
+          }
+      return pairs;
+    }
 
     /// What the pairs of one outer cell add: its rows, and diagonal blocks of its partners.
     struct CellRows
     {
       std::size_t cell;
-      std::vector<unsigned int> columns; ///< dofs of all its partners, ascending
-      std::vector<double> values;        ///< shape (n_shapes, n_columns, n_entries)
-      std::vector<unsigned int> partners;
-      std::vector<double> diagonal;     ///< of each partner, shape (n_shapes, n_shapes, n_entries)
-      std::vector<double> own_diagonal; ///< of the cell, the same shape
+      std::vector<double> values;   ///< shape (n_shapes, n_columns, n_entries)
+      std::vector<double> diagonal; ///< of each partner, shape (n_shapes, n_shapes, n_entries)
       bool is_exact;
     };
 
@@ -81,41 +130,12 @@ namespace plumbline::reference
       std::vector<unsigned int> slot; ///< of each dof among the columns
     };
 
-    using CellLists = std::vector<std::vector<unsigned int>>; ///< cells near each cell
-
-    /// Visit 0 ... n - 1, threads sharing them in ranges. @param action  takes a range [first,
-    /// last)
-    template <class Action>
-    void in_parallel(std::size_t n, const Action &action)
-    {
-      constexpr unsigned int grain = 256;
-      dealii::parallel::apply_to_subranges(static_cast<std::size_t>(0), n, action, grain);
-    }
-
-    /// Of the outer cells all cells near them; of partners whose rows other ranks have, themselves,
-    /// since they still take a diagonal block.
-    CellLists find_near(const geometry::Mesh &mesh, const MeshCells &cells, double horizon,
-                        const std::vector<std::size_t> &outer_cells)
-    {
-      CellLists near(cells.size());
-      in_parallel(outer_cells.size(),
-                  [&](std::size_t first, std::size_t last)
-                  {
-                    for (std::size_t i = first; i < last; ++i)
-                      cells.find_near(outer_cells[i], horizon, near[outer_cells[i]]);
-                  });
-      for (const std::size_t cell : outer_cells)
-        for (const unsigned int partner : near[cell])
-          if (near[partner].empty() && mesh.cells[partner].is_inside)
-            near[partner].push_back(partner);
-      return near;
-    }
-
     /// Sums of all cells: rows by scalar dofs with n_entries values a column, and diagonal blocks.
     class Accumulator
     {
     public:
-      Accumulator(const MeshSpace &space, unsigned int n_entries, const CellLists &near);
+      Accumulator(const MeshSpace &space, unsigned int n_entries,
+                  const std::vector<CellPairs> &pairs);
 
       void add(const CellRows &part);
 
@@ -123,74 +143,75 @@ namespace plumbline::reference
       algebra::Rows combine(unsigned int n_components);
 
       bool is_exact = true;
-      std::uint64_t n_pairs = 0;
 
     private:
-      void make_pattern(const CellLists &near);
+      void make_pattern();
       void scatter_diagonal();
+      algebra::Rows combine_rows(std::size_t first, std::size_t last,
+                                 unsigned int n_components) const;
 
       const MeshSpace &space_;
       unsigned int n_entries_;
-      std::vector<std::size_t> start_; ///< of each dof's row
+      const std::vector<CellPairs> &pairs_; ///< not needed after the last add
+      std::vector<std::size_t> start_;      ///< of each dof's row
       std::vector<unsigned int> column_;
       std::vector<double> value_;    ///< shape (column_.size(), n_entries)
       std::vector<double> diagonal_; ///< of each cell
     };
 
-    Accumulator::Accumulator(const MeshSpace &space, unsigned int n_entries, const CellLists &near)
-        : space_(space), n_entries_(n_entries)
+    Accumulator::Accumulator(const MeshSpace &space, unsigned int n_entries,
+                             const std::vector<CellPairs> &pairs)
+        : space_(space), n_entries_(n_entries), pairs_(pairs)
     {
-      make_pattern(near);
+      make_pattern();
       const unsigned int n = space.shapes().size();
       value_.assign(column_.size() * n_entries, 0.);
-      diagonal_.assign(near.size() * n * n * n_entries, 0.);
+      diagonal_.assign(pairs.size() * n * n * n_entries, 0.);
     }
 
-    /// A row's columns: the dofs of all cells near a cell that the dof belongs to.
-    void Accumulator::make_pattern(const CellLists &near)
+    /// A row's columns: those of all cells that the dof belongs to.
+    void Accumulator::make_pattern()
     {
       const unsigned int n = space_.shapes().size();
       const std::size_t n_dofs = space_.n_dofs();
-      CellLists around(n_dofs), columns(n_dofs);
-      for (std::size_t cell = 0; cell < near.size(); ++cell)
-        for (unsigned int a = 0; a < n && !near[cell].empty(); ++a)
+      std::vector<std::vector<unsigned int>> around(n_dofs), columns(n_dofs);
+      for (std::size_t cell = 0; cell < pairs_.size(); ++cell)
+        for (unsigned int a = 0; a < n && !pairs_[cell].partners.empty(); ++a)
           around[space_.dofs(cell)[a]].push_back(static_cast<unsigned int>(cell));
       in_parallel(n_dofs,
                   [&](std::size_t first, std::size_t last)
                   {
-                    std::vector<std::size_t> last_row(n_dofs, n_dofs);
+                    NumberSet set(n_dofs);
                     for (std::size_t row = first; row < last; ++row)
                     {
                       for (const unsigned int cell : around[row])
-                        for (const unsigned int partner : near[cell])
-                          for (unsigned int b = 0; b < n; ++b)
-                            if (const unsigned int dof = space_.dofs(partner)[b];
-                                last_row[dof] != row)
-                            {
-                              last_row[dof] = row;
-                              columns[row].push_back(dof);
-                            }
-                      std::sort(columns[row].begin(), columns[row].end());
+                        for (const unsigned int column : pairs_[cell].columns)
+                          set.insert(column);
+                      set.take(columns[row]);
                     }
                   });
       start_.assign(1, 0);
       for (const auto &row : columns)
         start_.push_back(start_.back() + row.size());
-      column_.reserve(start_.back());
-      for (const auto &row : columns)
-        column_.insert(column_.end(), row.begin(), row.end());
+      column_.resize(start_.back());
+      in_parallel(n_dofs,
+                  [&](std::size_t first, std::size_t last)
+                  {
+                    for (std::size_t row = first; row < last; ++row)
+                      std::copy(columns[row].begin(), columns[row].end(),
+                                column_.data() + start_[row]);
+                  });
     }
 
     void Accumulator::add(const CellRows &part)
     {
+      const CellPairs &pairs = pairs_[part.cell];
       const unsigned int n = space_.shapes().size();
-      const std::size_t block = static_cast<std::size_t>(n) * n * n_entries_;
+      const double *from = part.values.data();
       for (unsigned int a = 0; a < n; ++a)
       {
-        const unsigned int row = space_.dofs(part.cell)[a];
-        const double *from = &part.values[a * part.columns.size() * n_entries_];
-        std::size_t k = start_[row];
-        for (const unsigned int column : part.columns)
+        std::size_t k = start_[space_.dofs(part.cell)[a]];
+        for (const unsigned int column : pairs.columns)
         {
           while (column_[k] != column)
             ++k;
@@ -198,13 +219,12 @@ namespace plumbline::reference
             value_[k * n_entries_ + e] += *from++;
         }
       }
-      for (std::size_t i = 0; i < part.partners.size(); ++i)
+      const std::size_t block = static_cast<std::size_t>(n) * n * n_entries_;
+      from = part.diagonal.data();
+      for (const unsigned int partner : pairs.partners)
         for (std::size_t k = 0; k < block; ++k)
-          diagonal_[part.partners[i] * block + k] += part.diagonal[i * block + k];
-      for (std::size_t k = 0; k < block; ++k)
-        diagonal_[part.cell * block + k] += part.own_diagonal[k];
+          diagonal_[partner * block + k] += *from++;
       is_exact = is_exact && part.is_exact;
-      n_pairs += part.partners.size() + 1;
     }
 
     /// Diagonal blocks are symmetric, so half of them into U gives all of them in U + Uᵀ.
@@ -227,49 +247,47 @@ namespace plumbline::reference
           }
     }
 
-    algebra::Rows Accumulator::combine(unsigned int n_components)
+    /// Free rows first ... last - 1 of U + Uᵀ.
+    algebra::Rows Accumulator::combine_rows(std::size_t first, std::size_t last,
+                                            unsigned int n_components) const
     {
-      scatter_diagonal();
-      const std::size_t n_dofs = space_.n_dofs(), n_free = space_.n_free();
-
-      // Uᵀ of the free rows: for each, who points to it
-      std::vector<std::size_t> transposed_start(n_free + 1, 0);
-      for (const unsigned int column : column_)
-        if (column < n_free)
-          ++transposed_start[column + 1];
-      std::partial_sum(transposed_start.begin(), transposed_start.end(), transposed_start.begin());
-      std::vector<unsigned int> transposed_row(transposed_start.back());
-      std::vector<std::size_t> transposed_at(transposed_start.back());
+      // of each row those whose columns hold it, and where
+      struct Entry
       {
-        std::vector<std::size_t> next(transposed_start.begin(), transposed_start.end() - 1);
-        for (std::size_t row = 0; row < n_dofs; ++row)
-          for (std::size_t k = start_[row]; k < start_[row + 1]; ++k)
-            if (column_[k] < n_free)
-            {
-              transposed_row[next[column_[k]]] = static_cast<unsigned int>(row);
-              transposed_at[next[column_[k]]++] = k;
-            }
+        unsigned int row;
+        std::size_t at;
+      };
+      std::vector<std::vector<Entry>> transposed(last - first);
+      for (std::size_t row = 0; row < space_.n_dofs(); ++row)
+      {
+        const unsigned int *const end = column_.data() + start_[row + 1];
+        for (const unsigned int *column =
+                 std::lower_bound(column_.data() + start_[row], end, first);
+             column != end && *column < last; ++column)
+          transposed[*column - first].push_back(
+              {static_cast<unsigned int>(row), static_cast<std::size_t>(column - column_.data())});
       }
 
       algebra::Rows rows;
       rows.start.assign(1, 0);
       std::vector<unsigned int> columns;
       std::vector<double> values;
-      for (std::size_t row = 0; row < n_free; ++row)
+      for (std::size_t row = first; row < last; ++row)
       {
         columns.clear();
         values.clear();
-        std::size_t k = start_[row], t = transposed_start[row];
-        while (k < start_[row + 1] || t < transposed_start[row + 1])
+        std::size_t k = start_[row];
+        auto entry = transposed[row - first].cbegin();
+        while (k < start_[row + 1] || entry != transposed[row - first].cend())
         {
           const unsigned int from_u = k < start_[row + 1] ? column_[k] : -1u;
-          const unsigned int from_t = t < transposed_start[row + 1] ? transposed_row[t] : -1u;
+          const unsigned int from_t = entry != transposed[row - first].cend() ? entry->row : -1u;
           columns.push_back(std::min(from_u, from_t));
           for (unsigned int e = 0; e < n_entries_; ++e)
             values.push_back((from_u <= from_t ? value_[k * n_entries_ + e] : 0) +
-                             (from_t <= from_u ? value_[transposed_at[t] * n_entries_ + e] : 0));
+                             (from_t <= from_u ? value_[entry->at * n_entries_ + e] : 0));
           k += from_u <= from_t ? 1 : 0;
-          t += from_t <= from_u ? 1 : 0;
+          entry += from_t <= from_u ? 1 : 0;
         }
         for (unsigned int c = 0; c < n_components; ++c)
         {
@@ -285,59 +303,83 @@ namespace plumbline::reference
       return rows;
     }
 
-    /// All pairs whose outer points are on one cell.
-    void integrate_cell(const MeshSpace &space, const MeshCells &cells,
-                        const std::vector<unsigned int> &near, unsigned int n_entries,
+    algebra::Rows Accumulator::combine(unsigned int n_components)
+    {
+      scatter_diagonal();
+      // few parts, since each looks at all rows for what is transposed into it
+      constexpr std::size_t n_parts = 16;
+      const auto bound = [&](std::size_t part) { return space_.n_free() * part / n_parts; };
+      std::vector<algebra::Rows> parts(n_parts);
+      in_parallel(
+          n_parts,
+          [&](std::size_t first, std::size_t last)
+          {
+            for (std::size_t i = first; i < last; ++i)
+              parts[i] = combine_rows(bound(i), bound(i + 1), n_components);
+          },
+          1);
+
+      algebra::Rows rows;
+      rows.start.assign(1, 0);
+      for (const algebra::Rows &part : parts)
+        for (std::size_t i = 0; i < part.n_rows(); ++i)
+          rows.start.push_back(rows.start.back() + part.start[i + 1] - part.start[i]);
+      rows.column.resize(rows.start.back());
+      rows.value.resize(rows.start.back());
+      in_parallel(
+          n_parts,
+          [&](std::size_t first, std::size_t last)
+          {
+            for (std::size_t i = first; i < last; ++i)
+            {
+              const std::size_t to = rows.start[bound(i) * n_components];
+              std::copy(parts[i].column.begin(), parts[i].column.end(), rows.column.data() + to);
+              std::copy(parts[i].value.begin(), parts[i].value.end(), rows.value.data() + to);
+              parts[i] = {};
+            }
+          },
+          1);
+      return rows;
+    }
+
+    /// All pairs of a cell.
+    void integrate_cell(const MeshSpace &space, const CellPairs &pairs, unsigned int n_entries,
                         std::size_t cell, Scratch &scratch, CellRows &part)
     {
       const unsigned int n = space.shapes().size();
       const std::size_t block = static_cast<std::size_t>(n) * n * n_entries;
+      const std::size_t n_columns = pairs.columns.size();
       part.cell = cell;
       part.is_exact = true;
-      part.partners.clear();
-      part.columns.assign(space.dofs(cell), space.dofs(cell) + n);
-      for (const unsigned int partner : near)
-        if (partner != cell && is_outer(space.mesh(), cells, cell, partner))
-        {
-          part.partners.push_back(partner);
-          part.columns.insert(part.columns.end(), space.dofs(partner), space.dofs(partner) + n);
-        }
-      std::sort(part.columns.begin(), part.columns.end());
-      part.columns.erase(std::unique(part.columns.begin(), part.columns.end()), part.columns.end());
-      for (unsigned int k = 0; k < part.columns.size(); ++k)
-        scratch.slot[part.columns[k]] = k;
-      part.values.assign(n * part.columns.size() * n_entries, 0.);
-      part.diagonal.resize(part.partners.size() * block);
+      for (unsigned int k = 0; k < n_columns; ++k)
+        scratch.slot[pairs.columns[k]] = k;
+      part.values.assign(n * n_columns * n_entries, 0.);
+      part.diagonal.assign(pairs.partners.size() * block, 0.);
 
+      const std::size_t own = static_cast<std::size_t>(
+          std::lower_bound(pairs.partners.begin(), pairs.partners.end(), cell) -
+          pairs.partners.begin());
       PairBlocks &blocks = scratch.blocks;
-      const auto add_cross = [&](std::size_t partner, double factor)
+      for (std::size_t i = 0; i < pairs.partners.size(); ++i)
       {
+        const unsigned int partner = pairs.partners[i];
+        scratch.integrator.integrate(cell, partner, blocks);
+        part.is_exact = part.is_exact && scratch.integrator.is_exact(cell, partner);
+        // the cell with itself: both orders are the same pair, each counts half
+        const double factor = i == own ? .5 : 1;
+        for (std::size_t k = 0; k < block; ++k)
+        {
+          part.diagonal[own * block + k] += factor * blocks.outer[k];
+          part.diagonal[i * block + k] += factor * blocks.inner[k];
+        }
         for (unsigned int a = 0; a < n; ++a)
           for (unsigned int b = 0; b < n; ++b)
           {
-            double *to =
-                &part.values[(a * part.columns.size() + scratch.slot[space.dofs(partner)[b]]) *
-                             n_entries];
+            const std::size_t slot = scratch.slot[space.dofs(partner)[b]];
             for (unsigned int e = 0; e < n_entries; ++e)
-              to[e] += factor * blocks.cross[(a * n + b) * n_entries + e];
+              part.values[(a * n_columns + slot) * n_entries + e] -=
+                  factor * blocks.cross[(a * n + b) * n_entries + e];
           }
-      };
-      // the cell with itself: both orders are the same pair, each counts half
-      scratch.integrator.integrate(cell, cell, blocks);
-      part.is_exact = scratch.integrator.is_exact(cell, cell);
-      part.own_diagonal.resize(block);
-      for (std::size_t k = 0; k < block; ++k)
-        part.own_diagonal[k] = .5 * (blocks.outer[k] + blocks.inner[k]);
-      add_cross(cell, -.5);
-      for (std::size_t i = 0; i < part.partners.size(); ++i)
-      {
-        scratch.integrator.integrate(cell, part.partners[i], blocks);
-        part.is_exact = part.is_exact && scratch.integrator.is_exact(cell, part.partners[i]);
-        for (std::size_t k = 0; k < block; ++k)
-          part.own_diagonal[k] += blocks.outer[k];
-        std::copy(blocks.inner.begin(), blocks.inner.end(),
-                  part.diagonal.begin() + static_cast<std::ptrdiff_t>(i * block));
-        add_cross(part.partners[i], -1);
       }
     }
   } // namespace
@@ -356,8 +398,8 @@ namespace plumbline::reference
     outer_cells = {outer_cells.begin() + static_cast<std::ptrdiff_t>(first),
                    outer_cells.begin() + static_cast<std::ptrdiff_t>(last)};
 
-    CellLists near = find_near(space.mesh(), cells, kernel.horizon(), outer_cells);
-    Accumulator sum(space, profile.n_entries(), near);
+    std::vector<CellPairs> pairs = find_pairs(space, cells, kernel.horizon(), outer_cells);
+    Accumulator sum(space, profile.n_entries(), pairs);
     const Scratch scratch{
         PairIntegrator(space, cells, profile, kernel.horizon(), coefficient, options),
         {},
@@ -371,7 +413,7 @@ namespace plumbline::reference
         {
           try
           {
-            integrate_cell(space, cells, near[*cell], profile.n_entries(), *cell, own, part);
+            integrate_cell(space, pairs[*cell], profile.n_entries(), *cell, own, part);
           }
           catch (...)
           {
@@ -389,9 +431,7 @@ namespace plumbline::reference
         scratch, CellRows());
     if (failure)
       std::rethrow_exception(failure);
-    near.clear();
-    near.shrink_to_fit();
-    MeshMatrix matrix{sum.combine(kernel.n_components()), sum.is_exact, sum.n_pairs};
-    return matrix;
+    pairs = {};
+    return {sum.combine(kernel.n_components()), sum.is_exact};
   }
 } // namespace plumbline::reference

@@ -24,8 +24,7 @@ namespace plumbline::reference
     /// Rows of the free unknowns, columns of all: unknown = dof · n_components + component; shape
     /// (n_free n_components, n_dofs n_components). On several ranks the sum of all is the matrix.
     algebra::Rows rows;
-    bool is_exact = true;      ///< all entries came by correlation: no outer quadrature, no error
-    std::uint64_t n_pairs = 0; ///< of cells that interact, this rank's share
+    bool is_exact = true; ///< all entries came by correlation: no outer quadrature, no error
   };
 
   /// A(u, v) = ½ ∬ a C (u(y) - u(x)) · (v(y) - v(x)) over all pairs of points of Ω and its collar

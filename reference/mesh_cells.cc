@@ -9,22 +9,6 @@ namespace plumbline::reference
   {
     using geometry::Point;
 
-    std::vector<geometry::Polygon> polygons(const geometry::Mesh &mesh)
-    {
-      std::vector<geometry::Polygon> result;
-      for (std::size_t i = 0; i < mesh.cells.size(); ++i)
-        result.push_back(mesh.polygon(i));
-      return result;
-    }
-
-    std::vector<geometry::Box> boxes(const std::vector<geometry::ConvexCell> &cells)
-    {
-      std::vector<geometry::Box> result;
-      for (const geometry::ConvexCell &cell : cells)
-        result.push_back(cell.box());
-      return result;
-    }
-
     double square_distance(const Point<2> &x, const Point<2> &a, const Point<2> &b)
     {
       const dealii::Tensor<1, 2> side = b - a;
@@ -33,13 +17,12 @@ namespace plumbline::reference
     }
   } // namespace
 
-  MeshCells::MeshCells(const geometry::Mesh &mesh)
-      : polygons_(polygons(mesh)), cells_(polygons_.begin(), polygons_.end()),
-        search_(boxes(cells_))
+  MeshCells::MeshCells(const geometry::Mesh &mesh) : locator_(mesh)
   {
-    for (std::size_t i = 0; i < cells_.size(); ++i)
+    for (std::size_t i = 0; i < locator_.size(); ++i)
     {
-      const geometry::Polygon &polygon = polygons_[i];
+      const geometry::Polygon &polygon = locator_.polygon(i);
+      cells_.emplace_back(polygon);
       double radius = 0;
       // its first side is the lower one, so that shape functions are those of the unit square
       bool is_rectangle = polygon.size() == 4 && polygon[1][0] > polygon[0][0];
@@ -70,7 +53,8 @@ namespace plumbline::reference
             return true;
       return false;
     };
-    return reaches(polygons_[a], polygons_[b]) || reaches(polygons_[b], polygons_[a]);
+    return reaches(locator_.polygon(a), locator_.polygon(b)) ||
+           reaches(locator_.polygon(b), locator_.polygon(a));
   }
 
   void MeshCells::find_near(std::size_t cell, double distance,
@@ -82,7 +66,7 @@ namespace plumbline::reference
       reach.lower[d] -= distance;
       reach.upper[d] += distance;
     }
-    search_.find(reach, near);
+    locator_.find(reach, near);
     near.erase(std::remove_if(near.begin(), near.end(),
                               [&](unsigned int other) { return !is_near(cell, other, distance); }),
                near.end());
@@ -91,8 +75,8 @@ namespace plumbline::reference
   double MeshCells::farthest(std::size_t a, std::size_t b) const
   {
     double square = 0;
-    for (const Point<2> &x : polygons_[a])
-      for (const Point<2> &y : polygons_[b])
+    for (const Point<2> &x : locator_.polygon(a))
+      for (const Point<2> &y : locator_.polygon(b))
         square = std::max(square, (x - y).norm_square());
     return std::sqrt(square);
   }

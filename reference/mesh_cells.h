@@ -1,7 +1,6 @@
 #pragma once
 
-#include "geometry/mesh.h"
-#include "geometry/search.h"
+#include "geometry/cell_locator.h"
 
 namespace plumbline::reference
 {
@@ -11,7 +10,7 @@ namespace plumbline::reference
   public:
     explicit MeshCells(const geometry::Mesh &mesh);
 
-    MeshCells(const MeshCells &) = delete; // cells_ are views of polygons_
+    MeshCells(const MeshCells &) = delete; // cells_ are views of locator_'s
     MeshCells &operator=(const MeshCells &) = delete;
 
     std::size_t size() const { return cells_.size(); }
@@ -24,11 +23,7 @@ namespace plumbline::reference
     double radius(std::size_t cell) const { return radius_[cell]; } ///< about the centroid
     bool is_rectangle(std::size_t cell) const { return is_rectangle_[cell] != 0; } ///< axis-aligned
 
-    /// Cells whose bounding boxes meet a box.
-    void find(const geometry::Box &box, std::vector<unsigned int> &found) const
-    {
-      search_.find(box, found);
-    }
+    const geometry::CellLocator &locator() const { return locator_; }
 
     /// Cells whose distance to the given one is less than `distance`, itself included, ascending.
     /// @param near  overwritten
@@ -40,10 +35,9 @@ namespace plumbline::reference
   private:
     bool is_near(std::size_t a, std::size_t b, double distance) const;
 
-    std::vector<geometry::Polygon> polygons_;
+    geometry::CellLocator locator_;
     std::vector<geometry::ConvexCell> cells_;
     std::vector<double> radius_;
     std::vector<char> is_rectangle_;
-    geometry::BoxSearch search_;
   };
 } // namespace plumbline::reference

@@ -1,29 +1,14 @@
 #include "reference/mesh_field.h"
 
+#include <deal.II/base/parallel.h>
 #include <deal.II/base/quadrature_lib.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace plumbline::reference
 {
   namespace
   {
-    /// How far x lies outside a convex cell, at most 0 inside [length].
-    double outside(const Point<2> &x, geometry::ArrayView<const Point<2>> polygon)
-    {
-      double farthest = -std::numeric_limits<double>::max();
-      for (unsigned int v = 0; v < polygon.size(); ++v)
-      {
-        const Point<2> &a = polygon[v];
-        const auto side = polygon[(v + 1) % polygon.size()] - a;
-        farthest =
-            std::max(farthest, (side[1] * (x[0] - a[0]) - side[0] * (x[1] - a[1])) / side.norm());
-      }
-      return farthest;
-    }
-
     double on_cell(const MeshField &field, std::size_t cell, const double *phi,
                    unsigned int component)
     {
@@ -36,14 +21,7 @@ namespace plumbline::reference
 
   double MeshField::value(const Point<2> &x, unsigned int component) const
   {
-    std::vector<unsigned int> found;
-    for (double margin = 1e-12; found.empty(); margin = std::max(10 * margin, 1e-3))
-      cells->find({Point<2>(x[0] - margin, x[1] - margin), Point<2>(x[0] + margin, x[1] + margin)},
-                  found);
-    const unsigned int cell = *std::min_element(
-        found.begin(), found.end(),
-        [&](unsigned int a, unsigned int b)
-        { return outside(x, (*cells)[a].vertices()) < outside(x, (*cells)[b].vertices()); });
+    const std::size_t cell = cells->locator().at(x);
     double phi[CellShapes::most];
     space->shapes().values(space->map(cell).unit(x), phi);
     return on_cell(*this, cell, phi, component);
@@ -53,35 +31,40 @@ namespace plumbline::reference
   {
     const CellShapes &shapes = space->shapes();
     std::vector<double> result(nodes.n_free * n_components);
-    std::vector<unsigned int> found;
-    double phi[CellShapes::most];
-    for (std::size_t node = 0; node < nodes.n_free; ++node)
-      for (std::size_t piece = nodes.first_piece[node]; piece < nodes.first_piece[node + 1];
-           ++piece)
-      {
-        const auto polygon = geometry::view(nodes.pieces[piece]);
-        cells->find(geometry::bounding_box(polygon), found);
-        for (const unsigned int cell : found)
+    const auto average = [&](std::size_t first, std::size_t last)
+    {
+      std::vector<unsigned int> found;
+      double phi[CellShapes::most];
+      for (std::size_t node = first; node < last; ++node)
+        for (std::size_t piece = nodes.first_piece[node]; piece < nodes.first_piece[node + 1];
+             ++piece)
         {
-          if (!space->mesh().cells[cell].is_inside)
-            continue;
-          const geometry::Polygon part = geometry::overlap(polygon, (*cells)[cell].vertices());
-          if (part.empty())
-            continue;
-          const unsigned int degree = space->map(cell).is_affine() && shapes.n_vertices() == 3
-                                          ? shapes.degree()
-                                      : space->map(cell).is_affine() ? 2 * shapes.degree()
-                                                                     : 2 * shapes.degree() + 6;
-          const geometry::CutRule rule = geometry::polygon_rule(geometry::view(part), degree);
-          for (std::size_t q = 0; q < rule.points.size(); ++q)
+          const auto polygon = geometry::view(nodes.pieces[piece]);
+          cells->locator().find(geometry::bounding_box(polygon), found);
+          for (const unsigned int cell : found)
           {
-            shapes.values(space->map(cell).unit(rule.points[q]), phi);
-            for (unsigned int c = 0; c < n_components; ++c)
-              result[node * n_components + c] +=
-                  rule.weights[q] / nodes.area[node] * on_cell(*this, cell, phi, c);
+            if (!space->mesh().cells[cell].is_inside)
+              continue;
+            const geometry::Polygon part = geometry::overlap(polygon, (*cells)[cell].vertices());
+            if (part.empty())
+              continue;
+            const unsigned int degree = space->map(cell).is_affine() && shapes.n_vertices() == 3
+                                            ? shapes.degree()
+                                        : space->map(cell).is_affine() ? 2 * shapes.degree()
+                                                                       : 2 * shapes.degree() + 6;
+            const geometry::CutRule rule = geometry::polygon_rule(geometry::view(part), degree);
+            for (std::size_t q = 0; q < rule.points.size(); ++q)
+            {
+              shapes.values(space->map(cell).unit(rule.points[q]), phi);
+              for (unsigned int c = 0; c < n_components; ++c)
+                result[node * n_components + c] +=
+                    rule.weights[q] / nodes.area[node] * on_cell(*this, cell, phi, c);
+            }
           }
         }
-      }
+    };
+    constexpr unsigned int grain = 256;
+    dealii::parallel::apply_to_subranges(static_cast<std::size_t>(0), nodes.n_free, average, grain);
     return result;
   }
 

@@ -16,7 +16,8 @@ namespace plumbline::reference
     unsigned int n_components;
     std::vector<double> values; ///< shape (n_dofs, n_components)
 
-    /// @param x  in Ω or its collar; in between cells, of the nearest one
+    /// @param x  in Ω or its collar; where cells meet, on the one that `CellLocator` finds
+    /// @throws InputError  x outside
     double value(const Point<2> &x, unsigned int component) const;
 
     /// Averages over the cells of the free nodes, shape (n_free, n_components): the parts that the

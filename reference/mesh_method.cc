@@ -4,7 +4,10 @@
 #include "base/error.h"
 #include "reference/geometry_check.h"
 #include "reference/mesh_assembly.h"
+#include "reference/mesh_dilatation.h"
+#include "reference/weighted_volume.h"
 
+#include <deal.II/base/parallel.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
@@ -27,22 +30,36 @@ namespace plumbline::reference
       for (unsigned int q = 0; q < gauss.size(); ++q)
         shapes.values(gauss.point(q), &phi[q * shapes.size()]);
 
-      std::vector<double> load(space.n_free() * nc);
       const auto [first, last] = team.share(space.mesh().cells.size());
-      for (std::size_t cell = first; cell < last; ++cell)
-        for (unsigned int q = 0; q < gauss.size() && space.mesh().cells[cell].is_inside; ++q)
-        {
-          const Point<2> x = space.map(cell).point(gauss.point(q));
-          const double weight = gauss.weight(q) * space.map(cell).determinant(gauss.point(q));
-          for (unsigned int c = 0; c < nc; ++c)
+      const std::size_t n_values = shapes.size() * nc;
+      std::vector<double> of_cells((last - first) * n_values); // shape (n_cells, n_shapes, nc)
+      const auto integrate = [&, first = first](std::size_t begin, std::size_t end)
+      {
+        const scene::Field b = problem.load; // a thread's own
+        for (std::size_t cell = begin; cell < end; ++cell)
+          for (unsigned int q = 0; q < gauss.size() && space.mesh().cells[cell].is_inside; ++q)
           {
-            const double b = weight * (problem.load.series ? (*problem.load.series)(x, c)
-                                                           : problem.load.value(x, c));
-            for (unsigned int a = 0; a < shapes.size(); ++a)
-              if (const unsigned int dof = space.dofs(cell)[a]; dof < space.n_free())
-                load[dof * nc + c] += b * phi[q * shapes.size() + a];
+            const Point<2> x = space.map(cell).point(gauss.point(q));
+            const double weight = gauss.weight(q) * space.map(cell).determinant(gauss.point(q));
+            for (unsigned int c = 0; c < nc; ++c)
+            {
+              const double value = weight * (b.series ? (*b.series)(x, c) : b.value(x, c));
+              for (unsigned int a = 0; a < shapes.size(); ++a)
+                of_cells[(cell - first) * n_values + a * nc + c] +=
+                    value * phi[q * shapes.size() + a];
+            }
           }
-        }
+      };
+      constexpr unsigned int grain = 256;
+      dealii::parallel::apply_to_subranges(first, last, integrate, grain);
+
+      std::vector<double> load(space.n_free() * nc);
+      const double *from = of_cells.data();
+      for (std::size_t cell = first; cell < last; ++cell)
+        for (unsigned int a = 0; a < shapes.size(); ++a, from += nc)
+          if (const unsigned int dof = space.dofs(cell)[a]; dof < space.n_free())
+            for (unsigned int c = 0; c < nc; ++c)
+              load[dof * nc + c] += from[c];
       return load;
     }
 
@@ -77,6 +94,37 @@ namespace plumbline::reference
       rows.value.resize(end);
     }
 
+    /// The coefficient of the bonds. Where families end at a free boundary, the part of the ball
+    /// that is left carries all of the shear modulus.
+    std::optional<physics::Coefficient> bond_coefficient(const scene::Problem &problem)
+    {
+      if (!problem.body)
+        return problem.coefficient;
+      const auto influence =
+          physics::influence_function(problem.kernel.profile(), problem.horizon());
+      const auto volume = std::make_shared<const WeightedVolume>(*problem.mesh, influence);
+      return physics::Coefficient([mu = *problem.coefficient, volume](const Point<2> &x)
+                                  { return mu.at(x) * 2 / (*volume)(x); },
+                                  "shear modulus", physics::Mean::arithmetic);
+    }
+
+    /// The matrix with an outer rule refined so many times.
+    MeshMatrix assemble_all(const scene::Problem &problem, const MeshField &field,
+                            const AssemblyOptions &options, const base::Team &team)
+    {
+      MeshMatrix matrix = assemble(*field.space, *field.cells, problem.kernel,
+                                   bond_coefficient(problem), options, team);
+      if (problem.dilatation)
+      {
+        const DilatationOptions dilatation{options.refinement, problem.body.has_value(),
+                                           options.backend};
+        matrix.rows = add(matrix.rows, assemble_dilatation(*field.space, *field.cells,
+                                                           *problem.dilatation, dilatation, team));
+        matrix.is_exact = false;
+      }
+      return matrix;
+    }
+
     /// One solution with an outer rule refined so many times.
     void solve_once(const scene::Scene &scene, const scene::Problem &problem,
                     const AssemblyOptions &options, const base::Team &team, MeshSolution &solution,
@@ -85,12 +133,7 @@ namespace plumbline::reference
       const MeshSpace &space = *solution.field.space;
       base::CpuTimer timer;
       MeshMatrix matrix;
-      team.together(
-          [&]
-          {
-            matrix = assemble(space, *solution.field.cells, problem.kernel, problem.coefficient,
-                              options, team);
-          });
+      team.together([&] { matrix = assemble_all(problem, solution.field, options, team); });
       is_exact = !team.any(!matrix.is_exact);
       solution.cost.setup_seconds += timer.seconds();
 
@@ -101,6 +144,7 @@ namespace plumbline::reference
       eliminate(solution.field.values, n, matrix.rows, right_hand_side);
       algebra::SparseOptions solver;
       solver.solver = algebra::sparse_solver_from_name(scene.linear_solver);
+      solver.is_symmetric = !problem.dilatation || problem.dilatation->is_symmetric();
       solver.n_components = problem.n_components;
       solver.tolerance = scene.tolerance;
       solver.max_iterations = scene.max_iterations;

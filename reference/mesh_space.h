@@ -16,7 +16,6 @@ namespace plumbline::reference
     MeshSpace(std::shared_ptr<const geometry::Mesh> mesh, bool is_continuous, unsigned int degree);
 
     const geometry::Mesh &mesh() const { return *mesh_; }
-    const std::shared_ptr<const geometry::Mesh> &shared_mesh() const { return mesh_; }
     bool is_continuous() const { return is_continuous_; }
     const CellShapes &shapes() const { return shapes_; }
     const CellMap &map(std::size_t cell) const { return maps_[cell]; }

@@ -24,9 +24,13 @@ namespace plumbline::reference
   /// ones, polar about x where the kernel has a kink or a singularity there. Zero row sums by
   /// construction: the same points serve the three blocks.
   /// The inner integral is only piecewise smooth in x: it has kinks where the circle crosses a
-  /// vertex of E' or touches a side, and, for kernels that are no polynomials, on the boundary of
-  /// E'. There E is halved `refinement` times, elsewhere half as often. Not thread safe: give each
-  /// thread its own copy.
+  /// vertex of E' or touches a side. There E is halved `refinement` times, elsewhere a third as
+  /// often. On the boundary of E' it behaves like d log d (kernels like 1/r) or better: parts of E
+  /// there take points that crowd towards their sides.
+  /// Accuracy: where the circle comes to touch a side the integral is like d^(3/2), so that two
+  /// refinements gain a factor of 32; what each of them gains depends on how the kink cuts the
+  /// smallest parts.
+  /// Not thread safe: give each thread its own copy.
   class PairQuadrature
   {
   public:
@@ -39,9 +43,10 @@ namespace plumbline::reference
   private:
     struct Tables
     {
-      ShapeRule outer;              ///< on all of E
-      ShapeRule refined;            ///< on parts of E, of higher degree
-      std::vector<ShapeRule> whole; ///< inner rules on whole cells: index i is exact to 2 i + 1
+      ShapeRule outer;               ///< on all of E
+      ShapeRule refined;             ///< on parts of E, of higher degree
+      std::vector<ShapeRule> graded; ///< on parts at sides of E': index i is of size 2^i
+      std::vector<ShapeRule> whole;  ///< inner rules on whole cells: index i is exact to 2 i + 1
       std::vector<double> integrals, mass; ///< of the shape functions over an affine cell's area
     };
 
@@ -67,7 +72,13 @@ namespace plumbline::reference
     template <int n_entries, int n_shapes>
     void integrate_point(std::size_t outer, std::size_t inner, const Point<2> &unit, double weight,
                          const double *phi, PairBlocks &blocks);
-    bool has_kink(const Part &part, std::size_t outer, std::size_t inner) const;
+    enum class Kink
+    {
+      none,
+      at_side,  ///< x may come close to a side of E'
+      at_circle ///< or the circle to a vertex, or to touching a side
+    };
+    Kink find_kink(const Part &part, std::size_t outer, std::size_t inner) const;
     template <int n_entries, int n_shapes>
     void integrate_inner(const Point<2> &x, std::size_t inner);
     template <int n_entries, int n_shapes>

@@ -6,7 +6,7 @@
 
 namespace plumbline::algebra
 {
-  /// Approximate inverse of a stencil on one rectangle of cells with zero values around it.
+  /// Approximate inverse of a stencil on one rectangle of cells.
   class RectangleSolver
   {
   public:
@@ -16,14 +16,27 @@ namespace plumbline::algebra
     virtual void add_inverse(Vector &result, const Vector &input) const = 0;
   };
 
+  /// How values continue beyond one side of a rectangle of nodes.
+  enum class Side
+  {
+    zero,    ///< odd about the next node outside
+    mirrored ///< even about the outermost node inside, which has half a cell
+  };
+
+  using Sides = std::array<std::array<Side, 2>, 2>;
+
   /// The τ preconditioner for one node family: the sine transform diagonalises the operator but for
   /// its rows near the boundary; components are treated one by one. Eigenvalues
-  /// λ_pq = Σ_k A(k) cos(k1 π p/(n1+1)) cos(k2 π q/(n2+1)).
-  /// Source: Bini & Di Benedetto 1990, doi:10.1145/97444.97688.
+  /// λ_pq = Σ_k A(k) cos(k1 θ_p) cos(k2 θ_q), θ_p = π p/(n1+1) between two sides of zeros.
+  /// At mirrored sides it inverts the rows of half cells, A times ½.
+  /// @param sides  lower and upper of each axis; two mirrored ones need two nodes between them
+  /// Source: Bini & Di Benedetto 1990, doi:10.1145/97444.97688; cosines: Strang 1999,
+  /// doi:10.1137/S0036144598336745.
   /// @throws NumericalError  an eigenvalue is not positive: the stencil is not coercive
   std::unique_ptr<RectangleSolver> make_sine_solver(const Stencil &stencil,
                                                     const geometry::NodeSet &nodes,
-                                                    const geometry::CellRange &cells);
+                                                    const geometry::CellRange &cells,
+                                                    const Sides &sides = {});
 
   /// The same idea for several node families: reflect the rectangle oddly to twice its size, where
   /// the operator is block circulant, and invert its symbol block by block.

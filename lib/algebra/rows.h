@@ -17,4 +17,7 @@ namespace plumbline::algebra
 
     std::size_t n_rows() const { return start.empty() ? 0 : start.size() - 1; }
   };
+
+  /// The sum of two matrices with the same number of rows.
+  Rows add(const Rows &a, const Rows &b);
 } // namespace plumbline::algebra

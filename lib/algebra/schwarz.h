@@ -15,6 +15,12 @@ namespace plumbline::algebra
     SchwarzPreconditioner(const Stencil &stencil, const geometry::NodeSet &nodes,
                           const std::vector<geometry::CellRange> &rectangles);
 
+    /// The sum of any rectangle solvers.
+    explicit SchwarzPreconditioner(std::vector<std::unique_ptr<RectangleSolver>> solvers)
+        : solvers_(std::move(solvers))
+    {
+    }
+
     void vmult(Vector &result, const Vector &input) const;
 
   private:

@@ -1,13 +1,15 @@
 #include "algebra/sparse_system.h"
 
+#include "algebra/shared_rows.h"
 #include "base/error.h"
 
+#include <deal.II/base/memory_consumption.h>
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/diagonal_matrix.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
-#include <deal.II/lac/trilinos_vector.h>
 
 #include <Amesos_Mumps.h>
 #include <Epetra_LinearProblem.h>
@@ -17,8 +19,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
-#include <numeric>
 #include <sstream>
 
 namespace plumbline::algebra
@@ -26,8 +26,8 @@ namespace plumbline::algebra
   namespace
   {
     using base::Team;
-    using Matrix = dealii::TrilinosWrappers::SparseMatrix;
-    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+    using TrilinosMatrix = dealii::TrilinosWrappers::SparseMatrix;
+    using Vector = SharedRows::Vector;
 
     constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -93,109 +93,67 @@ namespace plumbline::algebra
                                     : "the solver of the sparse system fails on another rank");
     }
 
-    // ---- rows to their ranks --------------------------------------------------------------------
+    // ---- what solvers ask of the matrix ---------------------------------------------------------
 
-    /// The contiguous rows of every rank; those of one node stay together.
-    struct Shares
+    /// ‖A‖_∞ of this rank's rows.
+    double largest_row_sum(const Rows &rows)
     {
-      std::vector<int> first, size;
-      unsigned int rank;
-
-      Shares(std::size_t n, unsigned int n_components, const Team &team)
-          : first(team.n_ranks()), size(team.n_ranks()), rank(team.rank())
+      double largest = 0;
+      for (std::size_t i = 0; i < rows.n_rows(); ++i)
       {
-        const auto [begin, end] = team.share(n / n_components);
-        const int own_first = static_cast<int>(begin * n_components);
-        const int own_size = static_cast<int>((end - begin) * n_components);
-        MPI_Allgather(&own_first, 1, MPI_INT, first.data(), 1, MPI_INT, team.communicator);
-        MPI_Allgather(&own_size, 1, MPI_INT, size.data(), 1, MPI_INT, team.communicator);
+        double sum = 0;
+        for (std::size_t e = rows.start[i]; e < rows.start[i + 1]; ++e)
+          sum += std::abs(rows.value[e]);
+        largest = std::max(largest, sum);
       }
-
-      dealii::IndexSet own() const
-      {
-        dealii::IndexSet rows(first.back() + size.back());
-        rows.add_range(first[rank], first[rank] + size[rank]);
-        return rows;
-      }
-    };
-
-    /// Every rank sends pieces of its data to the others.
-    /// @param out, out_from  sizes and places of the pieces in data, by receiver
-    /// @param in             sizes of the pieces to receive, by sender
-    template <class T>
-    std::vector<T> exchange(const std::vector<T> &data, const std::vector<int> &out,
-                            const std::vector<int> &out_from, const std::vector<int> &in,
-                            const Team &team)
-    {
-      const auto type = dealii::Utilities::MPI::mpi_type_id_for_type<T>;
-      std::vector<int> in_from(in.size());
-      std::exclusive_scan(in.begin(), in.end(), in_from.begin(), 0);
-      std::vector<T> received(in_from.back() + in.back());
-      MPI_Alltoallv(data.data(), out.data(), out_from.data(), type, received.data(), in.data(),
-                    in_from.data(), type, team.communicator);
-      return received;
+      return largest;
     }
 
-    /// What the other ranks give to this rank's share: shape (n_ranks × n_own) rows, by sender.
-    Rows from_others(const Rows &rows, const Shares &shares, const Team &team)
+    void check_rows(const SharedRows &matrix, unsigned int n_components)
     {
-      const std::size_t n_ranks = shares.first.size();
-      std::vector<std::size_t> length(rows.n_rows()); // of what is sent: 0 in the own share
-      std::vector<int> out(n_ranks), out_from(n_ranks), in(n_ranks);
-      for (std::size_t r = 0; r < n_ranks; ++r)
-      {
-        out_from[r] = static_cast<int>(rows.start[shares.first[r]]);
-        for (int i = shares.first[r]; r != shares.rank && i < shares.first[r] + shares.size[r]; ++i)
-          out[r] += static_cast<int>(length[i] = rows.start[i + 1] - rows.start[i]);
-      }
-      MPI_Alltoall(out.data(), 1, MPI_INT, in.data(), 1, MPI_INT, team.communicator);
-      Rows received;
-      received.start = exchange(length, shares.size, shares.first,
-                                std::vector<int>(n_ranks, shares.size[shares.rank]), team);
-      received.start.insert(received.start.begin(), 0);
-      std::partial_sum(received.start.begin(), received.start.end(), received.start.begin());
-      received.column = exchange(rows.column, out, out_from, in, team);
-      received.value = exchange(rows.value, out, out_from, in, team);
-      return received;
-    }
-
-    Matrix assemble(const Rows &rows, const Shares &shares, unsigned int n_components,
-                    const Team &team)
-    {
-      const std::size_t n_own = shares.size[shares.rank], first = shares.first[shares.rank];
-      const Rows others = from_others(rows, shares, team);
-      const auto visit = [&](std::size_t i, const auto &use)
-      {
-        use(rows, first + i);
-        for (std::size_t r = 0; r < shares.size.size(); ++r)
-          use(others, r * n_own + i);
-      };
+      const Rows &rows = matrix.own();
       int bad = none;
-      std::vector<unsigned int> length(n_own + 1); // one more, deal.II looks at the first
-      for (std::size_t i = 0; i < n_own; ++i)
-      {
-        visit(i, [&](const Rows &part, std::size_t row)
-              { length[i] += part.start[row + 1] - part.start[row]; });
-        if (length[i] == 0)
-          bad = std::min<int>(bad, first + i);
-      }
+      for (std::size_t i = rows.n_rows(); i-- > 0;)
+        if (rows.start[i] == rows.start[i + 1])
+          bad = static_cast<int>(matrix.shares().own_first + i);
       reject(bad,
              "has no entries: nothing ties this unknown to the others; raise the horizon or leave "
              "the node out",
-             n_components, team);
+             n_components, matrix.shares().team);
+    }
 
-      // entries that are set twice before compress are kept, and added up by it
-      Matrix matrix(shares.own(), team.communicator, length);
-      for (std::size_t i = 0; i < n_own; ++i)
-        visit(i,
-              [&](const Rows &part, std::size_t row)
-              {
-                const std::size_t from = part.start[row];
-                matrix.set(first + i, part.start[row + 1] - from, part.column.data() + from,
-                           part.value.data() + from);
-              });
-      matrix.compress(dealii::VectorOperation::insert);
-      return matrix;
+    /// Of this rank's rows.
+    std::vector<double> find_diagonal(const SharedRows &matrix, unsigned int n_components)
+    {
+      const Rows &rows = matrix.own();
+      std::vector<double> result(rows.n_rows());
+      int bad = none;
+      for (std::size_t i = rows.n_rows(); i-- > 0;)
+      {
+        const std::size_t row = matrix.shares().own_first + i;
+        for (std::size_t e = rows.start[i]; e < rows.start[i + 1]; ++e)
+          if (rows.column[e] == row)
+            result[i] = rows.value[e];
+        if (result[i] == 0)
+          bad = static_cast<int>(row);
+      }
+      reject(bad, "has no diagonal entry, which iterations need; take the sparse solver direct",
+             n_components, matrix.shares().team);
+      return result;
+    }
+
+    TrilinosMatrix to_trilinos(const SharedRows &matrix)
+    {
+      const Rows &rows = matrix.own();
+      std::vector<unsigned int> length(rows.n_rows() + 1); // one more, deal.II looks at the first
+      for (std::size_t i = 0; i < rows.n_rows(); ++i)
+        length[i] = rows.start[i + 1] - rows.start[i];
+      TrilinosMatrix result(matrix.shares().own(), matrix.shares().team.communicator, length);
+      for (std::size_t i = 0; i < rows.n_rows(); ++i)
+        result.set(matrix.shares().own_first + i, length[i], &rows.column[rows.start[i]],
+                   &rows.value[rows.start[i]]);
+      result.compress(dealii::VectorOperation::insert);
+      return result;
     }
 
     // ---- solvers --------------------------------------------------------------------------------
@@ -207,16 +165,12 @@ namespace plumbline::algebra
       return heap.uordblks + heap.hblkhd;
     }
 
-    struct Work
-    {
-      unsigned int n_iterations;
-      std::size_t bytes; ///< of factors or preconditioner, on this rank
-    };
-
     /// MUMPS. On several ranks it is faster than KLU, which gathers all on one.
-    Work solve_directly(const Matrix &matrix, Vector &x, const Vector &b)
+    /// @return  what it allocated on this rank [bytes]
+    std::size_t solve_directly(const SharedRows &rows, Vector &x, const Vector &b)
     {
       const std::size_t bytes_before = heap_bytes();
+      const TrilinosMatrix matrix = to_trilinos(rows);
       Epetra_LinearProblem problem(const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()),
                                    &x.trilinos_vector(),
                                    const_cast<Epetra_MultiVector *>(&b.trilinos_vector()));
@@ -238,74 +192,51 @@ namespace plumbline::algebra
               << "; take the sparse solver amg";
       if (!fault.str().empty())
         throw NumericalError(fault.str());
-      return {0, bytes};
+      return bytes;
     }
 
     /// Couplings below this fraction of the diagonal do not join nodes into ML's aggregates. At
     /// most .02, which suits finite elements, but below the strongest coupling of all but a few
     /// rows: rows of many small entries would otherwise not be coarsened at all.
-    double aggregation_threshold(const Matrix &matrix, unsigned int n_components, const Team &team)
+    double aggregation_threshold(const SharedRows &matrix, const std::vector<double> &diagonal,
+                                 unsigned int n_components)
     {
-      const Epetra_CrsMatrix &entries = matrix.trilinos_matrix();
-      std::vector<double> strongest(entries.NumMyRows() + 1, 1); // one more, a rank may have none
-      for (int i = 0; i < entries.NumMyRows(); ++i)
+      const Rows &rows = matrix.own();
+      std::vector<double> strongest(rows.n_rows() + 1, 1); // one more, a rank may have none
+      for (std::size_t i = 0; i < rows.n_rows(); ++i)
       {
-        int size = 0, *column = nullptr;
-        double *value = nullptr, coupling = 0, diagonal = 0;
-        entries.ExtractMyRowView(i, size, value, column);
-        for (int e = 0; e < size; ++e)
-        {
-          const int row = entries.GRID(i), other = entries.GCID(column[e]);
-          if (other == row)
-            diagonal = std::abs(value[e]);
-          else if (other / n_components != row / n_components)
-            coupling = std::max(coupling, std::abs(value[e]));
-        }
-        strongest[i] = coupling / diagonal;
+        const std::size_t node = (matrix.shares().own_first + i) / n_components;
+        double coupling = 0;
+        for (std::size_t e = rows.start[i]; e < rows.start[i + 1]; ++e)
+          if (rows.column[e] / n_components != node)
+            coupling = std::max(coupling, std::abs(rows.value[e]));
+        strongest[i] = coupling / std::abs(diagonal[i]);
       }
       const auto low = strongest.begin() + strongest.size() / 20;
       std::nth_element(strongest.begin(), low, strongest.end());
-      return std::min(.02, .7 * dealii::Utilities::MPI::min(*low, team.communicator));
+      return std::min(.02,
+                      .7 * dealii::Utilities::MPI::min(*low, matrix.shares().team.communicator));
     }
 
-    void check_diagonal(const Matrix &matrix, unsigned int n_components, const Team &team)
-    {
-      int bad = none;
-      for (auto row = matrix.local_range().second; row-- > matrix.local_range().first;)
-        if (matrix.el(row, row) == 0)
-          bad = static_cast<int>(row);
-      reject(bad, "has no diagonal entry, which iterations need; take the sparse solver direct",
-             n_components, team);
-    }
+    using AMG = dealii::TrilinosWrappers::PreconditionAMG;
 
-    std::unique_ptr<dealii::TrilinosWrappers::PreconditionBase>
-    make_preconditioner(const Matrix &matrix, SparseSolver solver, unsigned int n_components,
-                        const Team &team)
+    AMG::AdditionalData multigrid_data(const SharedRows &matrix,
+                                       const std::vector<double> &diagonal,
+                                       unsigned int n_components)
     {
-      check_diagonal(matrix, n_components, team);
-      if (solver == SparseSolver::jacobi)
-      {
-        auto jacobi = std::make_unique<dealii::TrilinosWrappers::PreconditionJacobi>();
-        jacobi->initialize(matrix);
-        return jacobi;
-      }
-      using AMG = dealii::TrilinosWrappers::PreconditionAMG;
       AMG::AdditionalData data; // elliptic, also if not symmetric: measured to be the more robust
-      data.aggregation_threshold = aggregation_threshold(matrix, n_components, team);
-      data.constant_modes.assign(n_components, std::vector<bool>(matrix.local_size()));
-      for (std::size_t i = 0; i < matrix.local_size(); ++i)
+      data.aggregation_threshold = aggregation_threshold(matrix, diagonal, n_components);
+      data.constant_modes.assign(n_components, std::vector<bool>(diagonal.size()));
+      for (std::size_t i = 0; i < diagonal.size(); ++i)
         data.constant_modes[i % n_components][i] = true; // the share begins with a node
-      auto amg = std::make_unique<AMG>();
-      amg->initialize(matrix, data);
-      return amg;
+      return data;
     }
 
-    Work iterate(const Matrix &matrix, SparseSolver solver, Vector &x, const Vector &b,
-                 const SparseOptions &options, const Team &team)
+    /// @return  the number of iterations
+    template <class Preconditioner>
+    unsigned int iterate(const SharedRows &matrix, const Preconditioner &preconditioner, Vector &x,
+                         const Vector &b, const SparseOptions &options)
     {
-      const std::size_t bytes_before = heap_bytes();
-      const auto preconditioner = make_preconditioner(matrix, solver, options.n_components, team);
-      const std::size_t bytes = heap_bytes() - bytes_before;
       using CG = dealii::SolverCG<Vector>;
       using GMRES = dealii::SolverGMRES<Vector>;
       const double scale = b.l2_norm();
@@ -314,10 +245,10 @@ namespace plumbline::algebra
       try
       {
         if (options.is_symmetric)
-          CG(control).solve(matrix, x, b, *preconditioner);
+          CG(control).solve(matrix, x, b, preconditioner);
         else // preconditioned from the right: the residual watched is the true one
           GMRES(control, GMRES::AdditionalData(n_basis_vectors + 2, true))
-              .solve(matrix, x, b, *preconditioner);
+              .solve(matrix, x, b, preconditioner);
       }
       catch (const dealii::SolverControl::NoConvergence &)
       {
@@ -330,7 +261,35 @@ namespace plumbline::algebra
                    "another sparse solver";
         throw NumericalError(message.str());
       }
-      return {control.last_step(), bytes};
+      return control.last_step();
+    }
+
+    /// x, and in the solution what it took.
+    void solve_by(SparseSolver solver, const SharedRows &matrix, Vector &x, const Vector &b,
+                  const SparseOptions &options, SparseSolution &solution)
+    {
+      if (solver == SparseSolver::direct)
+      {
+        solution.bytes += solve_directly(matrix, x, b);
+        return;
+      }
+      const std::size_t bytes_before = heap_bytes();
+      const std::vector<double> diagonal = find_diagonal(matrix, options.n_components);
+      if (solver == SparseSolver::jacobi)
+      {
+        Vector inverse(b);
+        std::transform(diagonal.begin(), diagonal.end(), inverse.begin(),
+                       [](double value) { return 1 / value; });
+        const dealii::DiagonalMatrix<Vector> preconditioner(inverse);
+        solution.bytes += heap_bytes() - bytes_before;
+        solution.n_iterations = iterate(matrix, preconditioner, x, b, options);
+        return;
+      }
+      const TrilinosMatrix entries = to_trilinos(matrix);
+      AMG preconditioner;
+      preconditioner.initialize(entries, multigrid_data(matrix, diagonal, options.n_components));
+      solution.bytes += heap_bytes() - bytes_before;
+      solution.n_iterations = iterate(matrix, preconditioner, x, b, options);
     }
 
     SparseSolver choose(std::size_t n, std::uint64_t n_nonzeros)
@@ -380,35 +339,35 @@ namespace plumbline::algebra
            options.n_components, team);
 
     const Shares shares(n, options.n_components, team);
-    const Matrix matrix = assemble(rows, shares, options.n_components, team);
+    const SharedRows matrix(rows, shares);
+    check_rows(matrix, options.n_components);
     Vector b(shares.own(), team.communicator), x(b), residual(b);
     MPI_Reduce_scatter(right_hand_side.data(), b.begin(), shares.size.data(), MPI_DOUBLE, MPI_SUM,
                        team.communicator);
 
     SparseSolution solution{};
-    solution.n_nonzeros = matrix.n_nonzero_elements();
+    const Rows &own = matrix.own();
+    solution.bytes = dealii::MemoryConsumption::memory_consumption(own.start) +
+                     dealii::MemoryConsumption::memory_consumption(own.column) +
+                     dealii::MemoryConsumption::memory_consumption(own.value);
+    solution.n_nonzeros = dealii::Utilities::MPI::sum(static_cast<std::uint64_t>(own.value.size()),
+                                                      team.communicator);
     const SparseSolver solver =
         options.solver == SparseSolver::automatic ? choose(n, solution.n_nonzeros) : options.solver;
     for (const auto &[name, named] : solver_names)
       if (named == solver)
         solution.solver = name;
-    const double norm = b.l2_norm(), scale = norm > 0 ? norm : 1;
-    const bool is_direct = solver == SparseSolver::direct;
-    together(team,
-             [&]
-             {
-               const Work work = is_direct ? solve_directly(matrix, x, b)
-                                           : iterate(matrix, solver, x, b, options, team);
-               solution.n_iterations = work.n_iterations;
-               solution.bytes = matrix.memory_consumption() + work.bytes;
-             });
+    together(team, [&] { solve_by(solver, matrix, x, b, options, solution); });
 
     // A x cannot be computed more accurately than this
-    const double round_off = 10 * eps * matrix.linfty_norm() * x.l2_norm() / scale;
-    const double allowed = is_direct
+    const double norm = b.l2_norm(), scale = norm > 0 ? norm : 1;
+    const double round_off = 10 * eps * team.largest(largest_row_sum(own)) * x.l2_norm() / scale;
+    const double allowed = solver == SparseSolver::direct
                                ? largest_residual
                                : 10 * options.tolerance + std::min(round_off, largest_residual);
-    solution.relative_residual = matrix.residual(residual, x, b) / scale;
+    matrix.vmult(residual, x);
+    residual -= b;
+    solution.relative_residual = residual.l2_norm() / scale;
     if (!(solution.relative_residual <= allowed))
     {
       std::ostringstream message;
@@ -418,7 +377,7 @@ namespace plumbline::algebra
       throw NumericalError(message.str());
     }
     solution.values.resize(n);
-    MPI_Allgatherv(x.begin(), shares.size[shares.rank], MPI_DOUBLE, solution.values.data(),
+    MPI_Allgatherv(x.begin(), static_cast<int>(shares.own_size), MPI_DOUBLE, solution.values.data(),
                    shares.size.data(), shares.first.data(), MPI_DOUBLE, team.communicator);
     return solution;
   }

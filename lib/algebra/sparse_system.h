@@ -35,12 +35,12 @@ namespace plumbline::algebra
     double relative_residual;   ///< computed afterwards from the matrix itself
     std::string solver;         ///< "direct", "amg" or "jacobi"
     std::uint64_t n_nonzeros;   ///< of the whole matrix
-    std::size_t bytes;          ///< of matrix and factors or preconditioner on this rank
+    std::size_t bytes;          ///< of rows, and factors or preconditioner, on this rank
   };
 
-  /// Solve A x = b where A and b are the sums over all ranks of what each one gives, as distributed
-  /// Trilinos matrix and vectors with contiguous shares of nodes. Entries of other ranks' rows are
-  /// sent to them; what a rank gives to its own share is not copied but into the matrix.
+  /// Solve A x = b where A and b are the sums over all ranks of what each one gives. Every rank
+  /// gets a contiguous share of the nodes; entries of other ranks' rows are sent to them. Threads
+  /// share the products A x. Only direct and amg copy the rows, into a Trilinos matrix.
   /// @param rows  this rank's part of A: any rows, shape (n, n), < 2^31 entries
   /// @param right_hand_side  this rank's part of b, shape (n), n a multiple of n_components
   /// @note Collective; errors are thrown on all ranks.

@@ -59,4 +59,16 @@ namespace plumbline::algebra
           }
     return largest > 0 ? defect / largest : 0;
   }
+
+  Stencil add(const Stencil &a, const Stencil &b)
+  {
+    Stencil sum(a.n_blocks(), std::max(a.reach(), b.reach()));
+    for (const Stencil *term : {&a, &b})
+      for (unsigned int s = 0; s < term->n_blocks(); ++s)
+        for (unsigned int t = 0; t < term->n_blocks(); ++t)
+          for (int k2 = -term->reach(); k2 <= term->reach(); ++k2)
+            for (int k1 = -term->reach(); k1 <= term->reach(); ++k1)
+              sum(s, t, k1, k2) += (*term)(s, t, k1, k2);
+    return sum;
+  }
 } // namespace plumbline::algebra

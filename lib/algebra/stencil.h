@@ -36,4 +36,8 @@ namespace plumbline::algebra
     int reach_;
     std::vector<double> entries_; ///< shape (n_blocks, n_blocks, 2 reach + 1, 2 reach + 1)
   };
+
+  /// The sum of two operators on the same blocks; its reach is the larger one.
+  /// @pre a.n_blocks() == b.n_blocks()
+  Stencil add(const Stencil &a, const Stencil &b);
 } // namespace plumbline::algebra

@@ -1,16 +1,14 @@
 #include "geometry/node_cells.h"
 
 #include "base/error.h"
+#include "geometry/cell_locator.h"
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <fstream>
-#include <limits>
 #include <numeric>
 #include <random>
 #include <sstream>
@@ -35,70 +33,18 @@ namespace plumbline::geometry
       throw InputError(message.str());
     }
 
-    /// The cells of a mesh on one side of the boundary of Ω, to search in.
-    class Side
+    /// Of a convex polygon with the cells of Ω, or with those of the collar.
+    std::vector<Polygon> overlaps(const Polygon &polygon, const CellLocator &cells, bool is_inside)
     {
-    public:
-      Side(const Mesh &mesh, bool is_inside)
-          : cells_(polygons(mesh, is_inside)), search_(boxes(cells_))
-      {
-      }
-
-      bool is_empty() const { return cells_.empty(); }
-
-      /// The boundary belongs to it, to rounding.
-      bool contains(const Point<2> &point) const
-      {
-        constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
-        Box box{point, point};
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          box.lower[d] -= slack * std::abs(point[d]);
-          box.upper[d] += slack * std::abs(point[d]);
-        }
-        std::vector<unsigned int> found;
-        search_.find(box, found);
-        return std::any_of(found.begin(), found.end(),
-                           [&](unsigned int cell)
-                           { return geometry::contains(view(cells_[cell]), point); });
-      }
-
-      /// Of a convex polygon with the cells.
-      std::vector<Polygon> overlaps(const Polygon &polygon) const
-      {
-        std::vector<unsigned int> found;
-        search_.find(bounding_box(view(polygon)), found);
-        std::vector<Polygon> result;
-        for (const unsigned int cell : found)
-        {
-          Polygon part = overlap(view(polygon), view(cells_[cell]));
-          if (!part.empty())
+      std::vector<unsigned int> found;
+      cells.find(bounding_box(view(polygon)), found);
+      std::vector<Polygon> result;
+      for (const unsigned int cell : found)
+        if (cells.is_inside(cell) == is_inside)
+          if (Polygon part = overlap(view(polygon), view(cells.polygon(cell))); !part.empty())
             result.push_back(std::move(part));
-        }
-        return result;
-      }
-
-    private:
-      static std::vector<Polygon> polygons(const Mesh &mesh, bool is_inside)
-      {
-        std::vector<Polygon> result;
-        for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-          if (mesh.cells[c].is_inside == is_inside)
-            result.push_back(mesh.polygon(c));
-        return result;
-      }
-
-      static std::vector<Box> boxes(const std::vector<Polygon> &cells)
-      {
-        std::vector<Box> result;
-        for (const Polygon &cell : cells)
-          result.push_back(bounding_box(view(cell)));
-        return result;
-      }
-
-      std::vector<Polygon> cells_;
-      BoxSearch search_;
-    };
+      return result;
+    }
 
     double total_area(const std::vector<Polygon> &pieces)
     {
@@ -133,10 +79,11 @@ namespace plumbline::geometry
       return polygon;
     }
 
-    /// Adds the cells of nodes[first ... last - 1], which lie on that side.
-    void add_cells(NodeCells &result, std::size_t first, std::size_t last, const Side &side,
-                   const Polygon &frame)
+    /// Adds the cells of nodes[first ... last - 1], all of Ω or all of the collar.
+    void add_cells(NodeCells &result, std::size_t first, std::size_t last,
+                   const CellLocator &mesh_cells, const Polygon &frame)
     {
+      const bool is_inside = first < result.n_free;
       std::vector<std::pair<Delaunay::Point, std::size_t>> points;
       for (std::size_t i = first; i < last; ++i)
         points.push_back({{result.nodes[i][0], result.nodes[i][1]}, i - first});
@@ -148,7 +95,7 @@ namespace plumbline::geometry
       for (const auto &vertex : vertices)
       {
         const Polygon whole = voronoi_polygon(delaunay, vertex, frame);
-        std::vector<Polygon> pieces = side.overlaps(whole);
+        std::vector<Polygon> pieces = overlaps(whole, mesh_cells, is_inside);
         if (std::abs(total_area(pieces) - area(view(whole))) <= uncut * area(view(whole)))
           pieces = {whole};
         const double cell_area = total_area(pieces);
@@ -190,23 +137,22 @@ namespace plumbline::geometry
 
   NodeCells voronoi_cells(const std::vector<Point<2>> &nodes, const Mesh &mesh)
   {
-    const Side omega(mesh, true), collar(mesh, false);
+    const CellLocator mesh_cells(mesh);
     NodeCells result;
     std::vector<std::size_t> in_collar;
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if (!std::isfinite(nodes[i][0]) || !std::isfinite(nodes[i][1]))
         reject(i, nodes[i], "is not finite; give finite coordinates");
-      else if (omega.contains(nodes[i]))
-        result.source.push_back(i);
-      else if (collar.contains(nodes[i]))
-        in_collar.push_back(i);
+      else if (const auto cell = mesh_cells.find(nodes[i]))
+        (mesh_cells.is_inside(*cell) ? result.source : in_collar).push_back(i);
       else
         reject(i, nodes[i],
                "lies outside of the domain and its collar; take it out, or move it in");
     if (result.source.empty())
       throw InputError("none of the " + std::to_string(nodes.size()) +
                        " nodes lies in the domain; add nodes there");
-    if (in_collar.empty() && !collar.is_empty())
+    if (in_collar.empty() && std::any_of(mesh.cells.begin(), mesh.cells.end(),
+                                         [](const MeshCell &cell) { return !cell.is_inside; }))
       throw InputError("none of the " + std::to_string(nodes.size()) +
                        " nodes lies in the collar; add nodes there, they carry the data");
 
@@ -220,8 +166,8 @@ namespace plumbline::geometry
     const Polygon frame{box.lower, Point<2>(box.upper[0], box.lower[1]), box.upper,
                         Point<2>(box.lower[0], box.upper[1])};
     result.first_piece = {0};
-    add_cells(result, 0, result.n_free, omega, frame);
-    add_cells(result, result.n_free, result.size(), collar, frame);
+    add_cells(result, 0, result.n_free, mesh_cells, frame);
+    add_cells(result, result.n_free, result.size(), mesh_cells, frame);
     return result;
   }
 
@@ -239,7 +185,12 @@ namespace plumbline::geometry
     if (!(h > 0))
       throw InputError("lattice of nodes with h = " + std::to_string(h) +
                        "; give a positive length");
-    const Side omega(mesh, true), collar(mesh, false);
+    const CellLocator cells(mesh);
+    const auto is_inside = [&](const Point<2> &x) -> std::optional<bool>
+    {
+      const auto cell = cells.find(x);
+      return cell ? std::optional(cells.is_inside(*cell)) : std::nullopt;
+    };
     const Box box = bounding_box(view(mesh.vertices));
     const Point<2> origin = bounding_box(mesh).lower;
     std::array<int, 2> from{}, to{};
@@ -255,72 +206,16 @@ namespace plumbline::geometry
       for (int i = from[0]; i < to[0]; ++i)
       {
         const Point<2> centre = origin + h * Point<2>(i + .5, j + .5);
-        const bool is_inside = omega.contains(centre);
-        const auto stays = [&](const Point<2> &node)
-        { return omega.contains(node) == is_inside && (is_inside || collar.contains(node)); };
-        if (!stays(centre))
+        const auto side = is_inside(centre);
+        if (!side)
           continue;
         Point<2> move;
         move[0] = draw();
         move[1] = draw();
-        while (!stays(centre + move))
+        while (is_inside(centre + move) != side)
           move *= .5;
         nodes.push_back(centre + move);
       }
-    return nodes;
-  }
-
-  std::vector<Point<2>> read_nodes(const std::string &file)
-  {
-    const std::string source = "node file '" + file + "'";
-    std::ifstream in(file);
-    if (!in)
-      throw InputError(source + " cannot be read; check its name and folder");
-    std::string line;
-    const auto fields = [&]
-    {
-      std::vector<std::string> result;
-      std::istringstream rest(line);
-      for (std::string field; std::getline(rest, field, ',');)
-      {
-        constexpr auto blank = " \t\r";
-        field.erase(0, field.find_first_not_of(blank));
-        field.erase(field.find_last_not_of(blank) + 1);
-        result.push_back(field);
-      }
-      return result;
-    };
-
-    std::getline(in, line);
-    const std::vector<std::string> header = fields();
-    std::array<std::size_t, 2> column{};
-    for (unsigned int d = 0; d < 2; ++d)
-    {
-      const std::string wanted = d == 0 ? "x" : "y";
-      column[d] = std::find(header.begin(), header.end(), wanted) - header.begin();
-      if (column[d] == header.size())
-        throw InputError(source + " has no column " + wanted + " in its first line '" + line +
-                         "'; name the columns there, e.g. 'x,y'");
-    }
-    std::vector<Point<2>> nodes;
-    for (std::size_t number = 2; std::getline(in, line); ++number)
-    {
-      const std::vector<std::string> row = fields();
-      if (row.empty() || (row.size() == 1 && row[0].empty()))
-        continue;
-      Point<2> node;
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        const std::string value = column[d] < row.size() ? row[column[d]] : "";
-        const char *const end = value.data() + value.size();
-        const bool has_plus = value.size() > 1 && value[0] == '+' && value[1] != '-';
-        const auto parsed = std::from_chars(value.data() + (has_plus ? 1 : 0), end, node[d]);
-        if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(node[d]))
-          throw InputError(source + ", line " + std::to_string(number) + ": " + header[column[d]] +
-                           " = '" + value + "' is not a finite number; mend or take out the line");
-      }
-      nodes.push_back(node);
-    }
     return nodes;
   }
 } // namespace plumbline::geometry

@@ -3,8 +3,6 @@
 #include "geometry/mesh.h"
 #include "geometry/search.h"
 
-#include <string>
-
 namespace plumbline::geometry
 {
   /// Nodes anywhere in Ω and its collar, each with a cell: a union of convex pieces. Nodes of Ω
@@ -44,9 +42,4 @@ namespace plumbline::geometry
   /// @throws InputError  h <= 0
   std::vector<Point<2>> lattice_nodes(const Mesh &mesh, double h, double perturbation,
                                       unsigned int seed);
-
-  /// Nodes from a CSV file with the columns x and y (others are ignored) and a header line.
-  /// @throws InputError  file not readable, missing columns, a value that is not a finite number;
-  /// naming the line
-  std::vector<Point<2>> read_nodes(const std::string &file);
 } // namespace plumbline::geometry

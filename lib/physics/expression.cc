@@ -4,6 +4,7 @@
 
 #include <muParser.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -76,6 +77,12 @@ namespace plumbline::physics
   }
 
   Expression::~Expression() = default;
+
+  bool Expression::is_constant() const
+  {
+    return std::all_of(parsers_->components.begin(), parsers_->components.end(),
+                       [](const mu::Parser &parser) { return parser.GetUsedVar().empty(); });
+  }
 
   unsigned int Expression::n_components() const
   {

@@ -28,6 +28,7 @@ namespace plumbline::physics
 
     unsigned int n_components() const;
     const std::string &text() const { return text_; }
+    bool is_constant() const; ///< neither x nor y is in it
 
     /// @throws InputError  the value is not a finite number
     double operator()(const Point<2> &x, unsigned int component = 0) const;

@@ -4,6 +4,8 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -23,45 +25,59 @@ namespace plumbline::physics
       return rules.try_emplace(n, n).first->second;
     }
 
-    struct Integral
+    /// An integrand at ξ, and the difference of values of which its round-off is made.
+    struct Sample
     {
-      double value;
-      double largest_difference; ///< max |u(x+ξ) - u(x)| over the points
+      double value, difference;
     };
 
-    Integral integrate(const Kernel<2> &kernel, const Expression &u,
-                       const std::optional<Coefficient> &a, const Point<2> &x,
-                       unsigned int component, unsigned int n_radii, unsigned int n_angles)
+    /// ∫_{|ξ|<δ} g(ξ) dξ and the largest difference, with so many radii and angles.
+    template <typename Integrand>
+    Sample over_ball(double horizon, unsigned int n_radii, unsigned int n_angles,
+                     const Integrand &g)
     {
-      const unsigned int n_components = kernel.n_components();
-      const bool is_scalar = kernel.structure() == Structure::scalar;
-      std::vector<double> u0(n_components);
-      for (unsigned int b = 0; b < n_components; ++b)
-        u0[b] = u(x, is_scalar ? component : b);
-
-      const double a0 = a ? a->at(x) : 1;
-      Integral result{0, 0};
+      Sample result{0, 0};
       for (unsigned int q = 0; q < n_radii; ++q)
       {
-        const double r = kernel.horizon() * gauss(n_radii).point(q)[0];
+        const double r = horizon * gauss(n_radii).point(q)[0];
         double ring = 0;
         for (unsigned int k = 0; k < n_angles; ++k)
         {
           const double angle = 2 * M_PI * (k + .5) / n_angles;
-          const Point<2> xi(r * std::cos(angle), r * std::sin(angle));
-          const double factor = a ? a->mean(a0, a->at(x + xi)) : 1;
-          for (unsigned int b = 0; b < n_components; ++b)
-          {
-            const double difference = u(x + xi, is_scalar ? component : b) - u0[b];
-            ring +=
-                factor * difference * (is_scalar ? 1. : kernel.direction_factor(component, b, xi));
-            result.largest_difference = std::max(result.largest_difference, std::abs(difference));
-          }
+          const Sample sample = g(Point<2>(r * std::cos(angle), r * std::sin(angle)));
+          ring += sample.value;
+          result.difference = std::max(result.difference, std::abs(sample.difference));
         }
-        result.value -= ring * kernel.radial(r) * r * gauss(n_radii).weight(q) * kernel.horizon() *
-                        2 * M_PI / n_angles;
+        result.value += ring * r * gauss(n_radii).weight(q) * horizon * 2 * M_PI / n_angles;
       }
       return result;
+    }
+
+    /// The same with more and more points until the value settles.
+    /// @param scale  of round-off: ∫ of the size of the factor of the differences
+    /// @param what   the integral is, and @param x  where, for the message
+    template <typename Integrand>
+    double settled_integral(double horizon, double scale, const char *what, const Point<2> &x,
+                            const Integrand &g)
+    {
+      constexpr double settled = 1e-14, acceptable = 1e-12;
+      Sample coarse = over_ball(horizon, 6, 12, g);
+      double change = 0, size = 0;
+      for (unsigned int n = 12; n <= 192; n *= 2)
+      {
+        const Sample fine = over_ball(horizon, n, 2 * n, g);
+        change = std::abs(fine.value - coarse.value);
+        size = std::abs(fine.value) + scale * fine.difference;
+        if (change <= settled * size)
+          return fine.value;
+        coarse = fine;
+      }
+      if (change <= acceptable * size)
+        return coarse.value;
+      std::ostringstream message;
+      message << what << " at (" << x << ") does not settle: still moving by " << change
+              << " with 192 radii; u must be smooth in the ball, or give Problem/load itself";
+      throw NumericalError(message.str());
     }
   } // namespace
 
@@ -77,25 +93,58 @@ namespace plumbline::physics
 
   double ManufacturedLoad::operator()(const Point<2> &x, unsigned int component) const
   {
-    constexpr double settled = 1e-14, acceptable = 1e-12;
-    Integral coarse = integrate(kernel_, u_, a_, x, component, 6, 12);
-    double change = 0, scale = 0;
-    for (unsigned int n = 12; n <= 192; n *= 2)
+    const unsigned int n_components = kernel_.n_components();
+    const bool is_scalar = kernel_.structure() == Structure::scalar;
+    std::array<double, 2> u0{};
+    for (unsigned int b = 0; b < n_components; ++b)
+      u0[b] = u_(x, is_scalar ? component : b);
+    const double a0 = a_ ? a_->at(x) : 1;
+    const auto integrand = [&](const Point<2> &xi)
     {
-      const Integral fine = integrate(kernel_, u_, a_, x, component, n, 2 * n);
-      change = std::abs(fine.value - coarse.value);
-      scale = std::abs(fine.value) + operator_scale(kernel_) * fine.largest_difference;
-      if (change <= settled * scale)
-        return fine.value;
-      coarse = fine;
-    }
-    if (change <= acceptable * scale)
-      return coarse.value;
-    std::ostringstream message;
-    message << "the load L u at (" << x << ") for u = '" << u_.text()
-            << "' does not settle: still moving by " << change
-            << " with 192 radii; u must be smooth in the ball, or give Problem/load itself";
-    throw NumericalError(message.str());
+      Sample result{0, 0};
+      for (unsigned int b = 0; b < n_components; ++b)
+      {
+        const double difference = u_(x + xi, is_scalar ? component : b) - u0[b];
+        result.value -= difference * (is_scalar ? 1. : kernel_.direction_factor(component, b, xi));
+        result.difference = std::max(result.difference, std::abs(difference));
+      }
+      result.value *= kernel_.radial(xi.norm()) * (a_ ? a_->mean(a0, a_->at(x + xi)) : 1);
+      return result;
+    };
+    return settled_integral(kernel_.horizon(), operator_scale(kernel_), "the load L u", x,
+                            integrand);
+  }
+
+  double FieldDilatation::operator()(const Point<2> &x) const
+  {
+    const std::array<double, 2> u0{u_(x, 0), u_(x, 1)};
+    const auto integrand = [&](const Point<2> &xi)
+    {
+      const double first = u_(x + xi, 0) - u0[0], second = u_(x + xi, 1) - u0[1];
+      return Sample{influence_.radial(xi.norm()) * (xi[0] * first + xi[1] * second),
+                    std::max(std::abs(first), std::abs(second))};
+    };
+    return settled_integral(influence_.horizon(), influence_.horizon() * operator_scale(influence_),
+                            "the dilatation of u", x, integrand);
+  }
+
+  double DilatationForce::operator()(const Point<2> &x, unsigned int component) const
+  {
+    const Kernel<2> &influence = dilatation_.influence;
+    const double theta0 = theta_(x);
+    const Lame own = dilatation_.material(x);
+    const auto integrand = [&](const Point<2> &xi)
+    {
+      const double theta = theta_(x + xi);
+      const Lame other = dilatation_.material(x + xi);
+      const double sum =
+          dilatation_.factor(own, other) * theta0 + dilatation_.factor(other, own) * theta;
+      return Sample{-influence.radial(xi.norm()) * xi[component] * sum,
+                    std::max(std::abs(own.lambda - own.mu), std::abs(other.lambda - other.mu)) *
+                        std::max(std::abs(theta), std::abs(theta0))};
+    };
+    return settled_integral(influence.horizon(), influence.horizon() * operator_scale(influence),
+                            "the load of the dilatation", x, integrand);
   }
 
   double operator_scale(const Kernel<2> &kernel)

@@ -2,6 +2,7 @@
 
 #include "physics/coefficient.h"
 #include "physics/kernel.h"
+#include "physics/state_based.h"
 
 #include <optional>
 
@@ -25,6 +26,43 @@ namespace plumbline::physics
     Kernel<2> kernel_;
     Expression u_;
     std::optional<Coefficient> a_;
+  };
+
+  /// The dilatation θ(x) = ∫ K ξ·(u(x+ξ) - u(x)) dξ of a given field, to the same accuracy.
+  class FieldDilatation
+  {
+  public:
+    /// @param influence  K, scalar
+    /// @param u          of two components
+    FieldDilatation(Kernel<2> influence, Expression u)
+        : influence_(std::move(influence)), u_(std::move(u))
+    {
+    }
+
+    /// @throws NumericalError  the quadrature does not settle to 1e-12
+    double operator()(const Point<2> &x) const;
+
+  private:
+    Kernel<2> influence_;
+    Expression u_;
+  };
+
+  /// What the dilatation adds to the load, for a given θ: the first integral of `Dilatation`.
+  class DilatationForce
+  {
+  public:
+    /// @param theta  on Ω and the horizon around it
+    DilatationForce(Dilatation dilatation, std::function<double(const Point<2> &)> theta)
+        : dilatation_(std::move(dilatation)), theta_(std::move(theta))
+    {
+    }
+
+    /// @throws NumericalError  the quadrature does not settle to 1e-12
+    double operator()(const Point<2> &x, unsigned int component) const;
+
+  private:
+    Dilatation dilatation_;
+    std::function<double(const Point<2> &)> theta_;
   };
 
   /// ∫_{|ξ|<δ} |C_aa|, the size of the operator's two terms, which cancel [unit of C length^2].

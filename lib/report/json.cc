@@ -92,21 +92,21 @@ namespace plumbline::report
     }
 
     template <typename Archive>
-    void visit(Archive &a, study::ReferenceEstimate &reference)
+    void visit(Archive &a, study::ErrorEstimate &estimate)
     {
-      a("problem", reference.problem);
-      a("series", reference.series);
-      a("method", reference.method);
-      a("level", reference.level);
-      a("h", reference.h);
-      a("horizon", reference.horizon);
-      a("h_change", reference.h_change);
-      a("p_change", reference.p_change);
-      a("outer_change", reference.outer_change);
-      a("estimate", reference.estimate);
-      a("certified_digits", reference.certified_digits);
-      a("n_geometry_checks", reference.n_geometry_checks);
-      a("geometry_difference", reference.geometry_difference);
+      a("problem", estimate.problem);
+      a("series", estimate.series);
+      a("method", estimate.method);
+      a("level", estimate.level);
+      a("h", estimate.h);
+      a("horizon", estimate.horizon);
+      a("h_change", estimate.h_change);
+      a("p_change", estimate.p_change);
+      a("outer_change", estimate.outer_change);
+      a("estimate", estimate.estimate);
+      a("certified_digits", estimate.certified_digits);
+      a("n_geometry_checks", estimate.n_geometry_checks);
+      a("geometry_difference", estimate.geometry_difference);
     }
 
     template <typename Archive>
@@ -173,6 +173,7 @@ namespace plumbline::report
       a("trends", results.trends);
       a("advice", results.advice);
       a("references", results.references);
+      a("estimates", results.estimates);
       a("expectations", results.expectations);
       a("omissions", results.omissions);
       a("maps", results.maps);

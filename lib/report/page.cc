@@ -194,10 +194,23 @@ namespace plumbline::report
 
     std::string reference(const study::Results &results)
     {
-      if (results.references.empty())
+      if (results.references.empty() && results.estimates.empty())
         return section("reference", "The reference’s own error",
                        paragraph("No estimate: errors here are against an exact solution, or the "
                                  "scene did not ask for one."));
+      const std::string others =
+          results.estimates.empty()
+              ? ""
+              : paragraph("The same for other Galerkin solutions:") +
+                    folded("Estimates (" + std::to_string(results.estimates.size()) + " solutions)",
+                           to_html(estimate_table(results.estimates)),
+                           results.estimates.size() <= 12);
+      if (results.references.empty())
+        return section("reference", "The solutions’ own error estimates",
+                       paragraph("How much the cell averages of each Galerkin solution differ from "
+                                 "those of half or twice h, from those of one more degree, and by "
+                                 "the last refinement of outer quadrature.") +
+                           others);
       const Table doubtful = doubtful_differences(results);
       std::string text = paragraph(
           "How much the reference’s cell averages change when h is halved and when the degree is "
@@ -207,10 +220,11 @@ namespace plumbline::report
           "quadrature was not refined). On a mesh they are digits of the problem on its polygon: a "
           "curved boundary that the polygon stands for is not in the estimate.");
       text += folded("Estimates (" + std::to_string(results.references.size()) + " levels)",
-                     to_html(reference_table(results)), results.references.size() <= 12);
+                     to_html(estimate_table(results.references)), results.references.size() <= 12) +
+              others;
       const bool is_estimated =
           std::any_of(results.references.begin(), results.references.end(),
-                      [](const study::ReferenceEstimate &e) { return e.estimate > 0; });
+                      [](const study::ErrorEstimate &e) { return e.estimate > 0; });
       if (doubtful.rows.empty())
         return section("reference", "The reference’s own error",
                        text + paragraph(is_estimated
@@ -239,7 +253,7 @@ namespace plumbline::report
           worst = std::max(worst, run.diagnostics.geometry_difference);
           ++n_runs;
         }
-      for (const study::ReferenceEstimate &reference : results.references)
+      for (const study::ErrorEstimate &reference : results.references)
         if (reference.n_geometry_checks > 0)
         {
           n_checks += reference.n_geometry_checks;

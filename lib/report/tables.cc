@@ -172,7 +172,7 @@ namespace plumbline::report
     return table;
   }
 
-  Table reference_table(const study::Results &results)
+  Table estimate_table(const std::vector<study::ErrorEstimate> &estimates)
   {
     Table table;
     table.columns = {"reference",
@@ -186,7 +186,7 @@ namespace plumbline::report
                      "outer quadrature",
                      "estimate",
                      "certified digits"};
-    for (const study::ReferenceEstimate &estimate : results.references)
+    for (const study::ErrorEstimate &estimate : estimates)
       table.rows.push_back({text_cell(estimate.method), text_cell(estimate.problem),
                             text_cell(estimate.series), count_cell(estimate.level),
                             number_cell(estimate.h), number_cell(estimate.horizon),
@@ -201,7 +201,7 @@ namespace plumbline::report
     Table table;
     table.columns = {"method",     "problem", "series",   "level",
                      "difference", "value",   "estimate", "value / estimate"};
-    for (const study::ReferenceEstimate &estimate : results.references)
+    for (const study::ErrorEstimate &estimate : results.references)
       for (const study::Run &run : results.runs)
         if (run.problem == estimate.problem && run.series == estimate.series &&
             run.level == estimate.level && run.method != estimate.method && run.failure.empty())

@@ -21,7 +21,7 @@ namespace plumbline::report
   Table other_errors_table(const study::Results &results);
 
   /// The reference's own uncertainty at each level.
-  Table reference_table(const study::Results &results);
+  Table estimate_table(const std::vector<study::ErrorEstimate> &estimates);
 
   /// A run whose difference from the reference is not at least this many times the reference's own
   /// estimate says little.

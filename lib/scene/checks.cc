@@ -60,9 +60,11 @@ namespace plumbline::scene
                   << " (m = " << level.horizon / level.h
                   << "), so a node has no neighbours; use m = horizon / h >= 1 "
                      "(Study/m, Study/horizon, Study/h)";
-        else if (scene.collar && *scene.collar < level.horizon * (1 - 1e-12))
-          message << "Domain/collar = " << *scene.collar << " is thinner than the horizon "
-                  << level.horizon
+        else if (scene.collar && *scene.collar < scene.reach(level.horizon) * (1 - 1e-12))
+          message << "Domain/collar = " << *scene.collar << " is thinner than "
+                  << (scene.has_dilatation() ? "twice the horizon, which dilatations need, "
+                                             : "the horizon ")
+                  << scene.reach(level.horizon)
                   << ", so balls would reach points without data; widen it or write auto";
         else
         {
@@ -76,7 +78,14 @@ namespace plumbline::scene
 
   void check_kernel_and_problem(const Scene &scene)
   {
-    const bool is_tensor = scene.structure == physics::Structure::tensor;
+    const bool is_tensor = scene.is_vector(), is_state_based = scene.material.is_state_based();
+    if (is_state_based &&
+        (scene.structure == physics::Structure::tensor || scene.limit != "Navier" ||
+         !scene.coefficient.empty() || !scene.materials.empty()))
+      throw InputError("Material/model = " + scene.material.model +
+                       " takes Kernel/type as its influence function and its constants from "
+                       "Material; write a scalar Kernel/type (1/r, constant, ...), Kernel/limit = "
+                       "Navier, and clear Kernel/coefficient and Kernel/materials");
     if (scene.limit == "Navier" && !is_tensor)
       throw InputError("Kernel/limit = Navier does not fit the scalar kernel '" +
                        scene.kernel_type +
@@ -89,10 +98,13 @@ namespace plumbline::scene
     {
       const physics::Expression parsed(key, expression, {{"delta", 1.}});
       if (parsed.n_components() != n_components)
-        throw InputError(
-            key + " = '" + expression + "' has " + std::to_string(parsed.n_components()) +
-            " component(s), but the " + (is_tensor ? "bond tensor" : "scalar kernel") + " needs " +
-            std::to_string(n_components) + "; give one expression a component, separated by ','");
+        throw InputError(key + " = '" + expression + "' has " +
+                         std::to_string(parsed.n_components()) + " component(s), but the " +
+                         (is_state_based ? "solid"
+                          : is_tensor    ? "bond tensor"
+                                         : "scalar kernel") +
+                         " needs " + std::to_string(n_components) +
+                         "; give one expression a component, separated by ','");
     };
     for (const Case &solution : scene.solutions)
       check("Problem/solution", solution.expression);
@@ -117,6 +129,38 @@ namespace plumbline::scene
                        "; give one load a solution");
   }
 
+  namespace
+  {
+    void check_free_body(const Scene &scene)
+    {
+      const auto needs = [](bool is_good, const std::string &what)
+      {
+        if (!is_good)
+          throw InputError("Domain/boundary = free needs " + what);
+      };
+      needs(scene.material.model == "variational", "Material/model = variational");
+      needs(scene.mesh.is_of_boxes() && scene.domain.include.size() == 1 &&
+                scene.domain.exclude.empty() && scene.mesh.map.empty(),
+            "one box (Domain/boxes) without holes or map, and Domain/mesh = lattice, squares or "
+            "triangles");
+      needs(
+          !scene.fixed.empty(),
+          "a part where u is given, or the body can move as a whole (3 rigid modes in the plane); "
+          "give Domain/fixed");
+      needs(scene.nodes.kind == "vertices", "Methods/nodes = vertices");
+      needs(scene.solutions.empty() && !scene.loads.empty(),
+            "Problem/load and Problem/constraint as expressions, Problem/solution empty");
+      needs(!scene.collar, "Domain/collar = auto: there is none");
+      for (const Series &series : scene.series)
+        for (const Level &level : series.levels)
+        {
+          geometry::Domain both = scene.domain;
+          both.include.insert(both.include.end(), scene.fixed.begin(), scene.fixed.end());
+          (void)geometry::Lattice(both, level.h);
+        }
+    }
+  } // namespace
+
   void check_mesh_and_nodes(const Scene &scene)
   {
     const MeshSource &mesh = scene.mesh;
@@ -140,6 +184,10 @@ namespace plumbline::scene
         "by an expression that is positive there");
     needs(!mesh.is_lattice() || scene.coefficient.empty(),
           "Kernel/coefficient = '" + scene.coefficient + "'", mesh_remedy);
+    needs(!mesh.is_lattice() || scene.is_free_body || scene.material.is_homogeneous,
+          "Material/" + scene.material.keys[0] + " or " + scene.material.keys[1] +
+              " varies in space",
+          mesh_remedy);
     needs(!mesh.is_lattice() || scene.nodes.perturbation == 0, "Methods/perturbation > 0",
           mesh_remedy);
     needs(!mesh.is_lattice() || scene.local_solution != "computed",
@@ -151,6 +199,16 @@ namespace plumbline::scene
           "operators on meshes are sparse matrices; write automatic");
     needs(mesh.is_of_boxes() || scene.domain.exclude.empty(), "Domain/holes is given",
           "holes are for boxes; cut them out of the mesh itself");
+    if (scene.is_free_body)
+      check_free_body(scene);
+    else if (!scene.fixed.empty())
+      throw InputError("Domain/fixed is given, but u is given in the collar all around; write "
+                       "Domain/boundary = free, or clear it");
+    if (scene.is_damaged() && scene.material.model != "LPS")
+      throw InputError("Domain/cracks and Domain/outside need Material/model = LPS, whose free "
+                       "surfaces they make; choose it, or clear them");
+    needs(!mesh.is_lattice() || !scene.is_damaged(), "Domain/cracks or Domain/outside is given",
+          mesh_remedy);
     const std::string &nodes = scene.nodes.kind;
     const bool is_csv = nodes.size() > 4 && nodes.substr(nodes.size() - 4) == ".csv";
     if (nodes != "centres" && nodes != "vertices" && nodes != "mesh" && !is_csv)
@@ -158,8 +216,9 @@ namespace plumbline::scene
                        "' is not known; write centres, vertices, mesh, or a file .csv");
     needs(!mesh.is_lattice() || nodes == "centres" || nodes == "vertices",
           "Methods/nodes = " + nodes, mesh_remedy);
-    needs(mesh.is_lattice() || nodes != "vertices", "Methods/nodes = vertices",
-          "vertices are for lattices; write centres, mesh, or a file .csv");
+    needs((mesh.is_of_boxes() && mesh.map.empty()) || nodes != "vertices",
+          "Methods/nodes = vertices",
+          "vertices are those of the boxes; write centres, mesh, or a file .csv");
     if (scene.nodes.perturbation > 0 && nodes != "centres")
       throw InputError("Methods/perturbation moves centres, but Methods/nodes = " + nodes +
                        "; write Methods/nodes = centres, or set the perturbation to 0");
@@ -178,6 +237,8 @@ namespace plumbline::scene
       expression("Kernel/coefficient", scene.coefficient, 1);
     if (!mesh.inside.empty())
       expression("Domain/inside", mesh.inside, 1);
+    if (!scene.outside.empty())
+      expression("Domain/outside", scene.outside, 1);
     if (!mesh.map.empty())
       expression("Domain/map", mesh.map, 2);
   }
@@ -220,10 +281,10 @@ namespace plumbline::scene
       throw InputError("Study/decisive error = '" + scene.decisive_error +
                        "': solutions are held against a reference by cell averages; use averages "
                        "L2 or averages Linf");
-    if (scene.reference_tolerance > 0 && (scene.reference == "none" || !scene.estimate_reference))
+    if (scene.reference_tolerance > 0 && (scene.reference == "none" || scene.estimate == "none"))
       throw InputError(
           "Reference/tolerance = " + short_number(scene.reference_tolerance) +
           " needs a reference and the estimate of its error; give Reference/method and "
-          "write Reference/estimate = true, or set the tolerance to 0");
+          "write Reference/estimate = automatic, or set the tolerance to 0");
   }
 } // namespace plumbline::scene

@@ -2,7 +2,9 @@
 
 #include "base/error.h"
 #include "geometry/mesh_input.h"
+#include "geometry/vertex_cells.h"
 #include "physics/expression.h"
+#include "scene/csv.h"
 
 #include <filesystem>
 #include <sstream>
@@ -30,24 +32,44 @@ namespace plumbline::scene
         if (!source.map.empty())
           map = [expression = physics::Expression("Domain/map", source.map, constants)](
                     const Point<2> &x) { return Point<2>(expression(x, 0), expression(x, 1)); };
-        return geometry::lattice_mesh(scene.domain, level.h, level.horizon,
+        return geometry::lattice_mesh(scene.domain, level.h,
+                                      scene.is_free_body ? 0 : scene.reach(level.horizon),
                                       source.kind == "triangles", map);
       }
       const physics::Expression inside("Domain/inside", source.inside, constants);
       return geometry::generate_mesh(source.kind, source.arguments, level.h,
                                      [&](const Point<2> &x) { return inside(x) > 0; });
     }
+
+    /// Cells with their centroid in one of the boxes are fixed.
+    void fix_parts(const std::vector<geometry::Box> &fixed, geometry::Mesh &mesh)
+    {
+      const auto centroids = geometry::centroids(mesh);
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        for (const geometry::Box &box : fixed)
+          if (box.lower[0] < centroids[c][0] && centroids[c][0] < box.upper[0] &&
+              box.lower[1] < centroids[c][1] && centroids[c][1] < box.upper[1])
+            mesh.cells[c].is_inside = false;
+    }
   } // namespace
 
   geometry::Mesh make_mesh(const Scene &scene, const Level &level)
   {
     geometry::Mesh mesh = read_or_make(scene, level);
+    if (scene.is_free_body)
+    {
+      fix_parts(scene.fixed, mesh);
+      return mesh;
+    }
     const double width = geometry::collar_width(mesh);
-    if (width < level.horizon * (1 - 1e-9))
+    if (width < scene.reach(level.horizon) * (1 - 1e-9))
     {
       std::ostringstream message;
       message << "Domain/mesh = " << scene.mesh.kind << ": the collar is " << width
-              << " wide at its thinnest place, thinner than the horizon " << level.horizon
+              << " wide at its thinnest place, thinner than "
+              << (scene.has_dilatation() ? "twice the horizon, which dilatations need, "
+                                         : "the horizon ")
+              << scene.reach(level.horizon)
               << ", so balls would reach points without data; widen the collar in the mesh, or "
                  "choose a smaller horizon (Study)";
       throw InputError(message.str());
@@ -55,13 +77,25 @@ namespace plumbline::scene
     return mesh;
   }
 
+  std::vector<Point<2>> read_nodes(const std::string &file)
+  {
+    Csv csv(file, {"x", "y"});
+    std::vector<Point<2>> nodes;
+    while (csv.next())
+      nodes.emplace_back(csv.number("x"), csv.number("y"));
+    return nodes;
+  }
+
   geometry::NodeCells make_node_cells(const Scene &scene, const Level &level,
                                       const geometry::Mesh &mesh)
   {
     const NodeSource &source = scene.nodes;
+    if (source.kind == "vertices")
+      return geometry::vertex_squares(geometry::Lattice(scene.domain, level.h),
+                                      scene.reach(level.horizon));
     const bool is_file = source.kind != "mesh" && source.kind != "centres";
     const auto nodes = source.kind == "mesh" ? centroids(mesh)
-                       : is_file             ? geometry::read_nodes(path(scene, source.kind))
+                       : is_file             ? read_nodes(path(scene, source.kind))
                                  : lattice_nodes(mesh, level.h, source.perturbation, scene.seed);
     try
     {

@@ -11,9 +11,14 @@ namespace plumbline::scene
 
   /// The scene's coefficient, by expression or by materials; nothing if it is homogeneous.
   /// @throws InputError  a group of the mesh without a material or a material without a group, a
-  /// coefficient that is not a positive number at a vertex or centroid
+  /// coefficient that is not a positive number at a vertex or centroid; later, where materials are
+  /// asked for outside of the mesh
   std::optional<physics::Coefficient> make_coefficient(const Scene &scene,
                                                        const geometry::Mesh &mesh);
+
+  /// Nodes from a CSV file with the columns x and y [length], others ignored.
+  /// @throws InputError  as `Csv`
+  std::vector<dealii::Point<2>> read_nodes(const std::string &file);
 
   /// The nodes of a scene at a level and their cells.
   /// @throws InputError  nodes that cannot be used

@@ -82,6 +82,19 @@ namespace plumbline::scene
            "of "
            "at least the largest horizon. [length]"},
 
+          {"Domain", "boundary", "constrained", one_of("constrained|free"),
+           "constrained: u is given all around Omega, in its collar. free: no collar; families end "
+           "at the boundary, and u is given in Domain/fixed (Material/model = variational)."},
+          {"Domain", "fixed", "", text(),
+           "Boxes within the boxes of a free body where u is given, written like these. [length]"},
+          {"Domain", "cracks", "", text(),
+           "Cracks as lines 'x0, y0 : x1, y1', with more points where they bend, separated by ';'. "
+           "Bonds across them are broken, their faces free of traction (Material/model = LPS). "
+           "[length]"},
+          {"Domain", "outside", "", text(),
+           "An expression in x, y and delta that is positive beyond free surfaces: nodes of the "
+           "collar there carry no data (Material/model = LPS)."},
+
           {"Kernel", "type", "linear-decay", one_of(kernel_names()),
            "Radial profile of the kernel, scalar or bond tensor; see 'plumbline list kernels'."},
           {"Kernel", "limit", "-1/2 Laplace", one_of("-1/2 Laplace|-Laplace|Navier|none"),
@@ -106,6 +119,23 @@ namespace plumbline::scene
            "1', a positive number for each."},
           {"Kernel", "symmetrisation", "arithmetic", one_of("arithmetic|harmonic"),
            "The mean of the coefficients at both ends of a bond."},
+
+          {"Material", "model", "bond-based", one_of("bond-based|LPS|variational"),
+           "bond-based: the kernel is all. LPS: the linear peridynamic solid, with harmonic means "
+           "of lambda and of mu at both ends of a bond. variational: constants at one point. Both "
+           "take Kernel/type as their influence function, with Kernel/limit = Navier."},
+          {"Material", "plane", "strain", one_of("strain|stress"),
+           "Plane strain or plane stress, for E and nu."},
+          {"Material", "E", "", text(),
+           "Young's modulus > 0, an expression in x and y. [force/length^2]"},
+          {"Material", "nu", "", text(), "Poisson's ratio, -1 < nu < 1/2, given with E."},
+          {"Material", "lambda", "", text(),
+           "Lame's first constant in the plane, instead of E and nu. [force/length^2]"},
+          {"Material", "mu", "", text(),
+           "The shear modulus > 0, given with lambda, which is > -mu. [force/length^2]"},
+          {"Material", "k", "", text(),
+           "lambda + mu > 0 of the variational model, instead. [force/length^2]"},
+          {"Material", "l", "", text(), "8 mu > 0, given with k. [force/length^2]"},
 
           {"Problem", "solution", "", text(),
            "The exact nonlocal solution: a muParser expression in x, y and delta (the horizon), "
@@ -132,6 +162,9 @@ namespace plumbline::scene
            "Centres are moved at random by up to so many h in x and in y (Geometry/seed). Needs a "
            "mesh."},
 
+          {"Methods", "load", "nodes", one_of("nodes|cells"),
+           "Meshfree right-hand sides: the load at the nodes, or its averages over their cells."},
+
           {"Study", "regime", "delta", one_of("m|delta|delta-m|horizon"),
            "m: horizon fixed, h to 0. delta: m = horizon / h fixed, h to 0 (decides asymptotic "
            "compatibility). delta-m: pairs of h and m. horizon: h fixed, horizon varies."},
@@ -147,8 +180,10 @@ namespace plumbline::scene
 
           {"Reference", "method", "none", text(),
            "Galerkin method whose cell averages are the reference: none, Q1, Q2, Q3, ..."},
-          {"Reference", "estimate", "true", yes_or_no(),
-           "Estimate the reference's own error by h/2 and by degree p+1."},
+          {"Reference", "estimate", "automatic", one_of("automatic|every|reference|none"),
+           "Whose error is estimated by outer quadrature, h/2 and degree p+1: of the reference, of "
+           "every Galerkin solution, or of none. automatic: of the reference, and where there is "
+           "neither one nor an exact solution of every Galerkin solution."},
           {"Reference", "tolerance", "0", std::make_shared<Patterns::Double>(0, 1),
            "Largest estimate of the reference's own error, relative to the solution; where it is "
            "not "
@@ -175,6 +210,10 @@ namespace plumbline::scene
           {"Solver", "operator", "automatic", one_of("automatic|fft|direct|sparse"),
            "How the operator is applied: by Fourier transforms, by the shared stencil, by a sparse "
            "Trilinos matrix, or whichever of the first two is faster."},
+          {"Solver", "model", "smallest", one_of("smallest|full"),
+           "smallest: no more than the scene needs. full: a mesh and sparse matrices where a "
+           "lattice and a stencil would do, the dilatation also where lambda = mu; same numbers, "
+           "to show that nothing is missed."},
           {"Solver", "linear solver", "automatic", one_of("automatic|direct|amg|jacobi"),
            "Of sparse systems, on meshes and scattered nodes: direct, or conjugate gradients "
            "(GMRES "

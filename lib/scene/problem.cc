@@ -1,7 +1,9 @@
 #include "scene/problem.h"
 
 #include "base/error.h"
+#include "geometry/vertex_cells.h"
 #include "physics/load.h"
+#include "scene/material.h"
 #include "scene/mesh.h"
 
 #include <algorithm>
@@ -69,6 +71,21 @@ namespace plumbline::scene
       return field;
     }
 
+    /// θ of a field, as a series where it is smooth: a load asks for it all over the ball.
+    std::function<double(const Point<2> &)>
+    dilatation_of(const Expression &u, const physics::Dilatation &dilatation, const Extent &extent)
+    {
+      const physics::FieldDilatation theta(dilatation.influence, u);
+      const double horizon = dilatation.influence.horizon();
+      const Point<2> margin(horizon, horizon);
+      if (extent.is_rectangle)
+        if (const auto series = ChebyshevField::resolve(
+                [&](const Point<2> &x, unsigned int) { return theta(x); }, 1,
+                Point<2>(extent.box.lower - margin), extent.box.upper + margin))
+          return [series = *series](const Point<2> &x) { return series(x, 0); };
+      return theta;
+    }
+
     /// The largest value of a field over the samples: for noise levels.
     double magnitude(const Field &field, unsigned int n_components, const Extent &extent)
     {
@@ -78,14 +95,30 @@ namespace plumbline::scene
           largest = std::max(largest, std::abs(field.value(x, c)));
       return largest;
     }
+
+    /// Nodes on the vertices of a lattice; the mesh is that of their cells, or one of the boxes.
+    void make_body(const Scene &scene, const Level &level, Problem &problem)
+    {
+      problem.body.emplace(scene.domain, level.h);
+      const auto vertices = geometry::vertex_cells(*problem.body, scene.fixed);
+      problem.cells = vertices.cells;
+      problem.mesh = scene.mesh.is_lattice()
+                         ? vertices.mesh
+                         : std::make_shared<const geometry::Mesh>(make_mesh(scene, level));
+      problem.coefficient = make_coefficient(scene, *problem.mesh);
+    }
   } // namespace
 
   Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level)
   {
     const physics::Kernel<2> kernel = scene.kernel(level.horizon);
     const unsigned int n_components = kernel.n_components();
-    Problem problem{{}, {}, {}, level.h, kernel, {}, n_components, {}, {}, {}, {}};
-    if (scene.mesh.is_lattice())
+    Problem problem{
+        {},           {}, {}, {}, level.h, kernel, {}, make_dilatation(scene, level.horizon),
+        n_components, {}, {}, {}, {}};
+    if (scene.is_free_body)
+      make_body(scene, level, problem);
+    else if (scene.mesh.is_lattice())
       problem.lattice.emplace(scene.domain, level.h);
     else
     {
@@ -115,9 +148,13 @@ namespace plumbline::scene
       problem.load = field("Problem/load", scene.loads[case_index].expression);
     else
     {
-      const physics::ManufacturedLoad load(
-          kernel, expression("Problem/solution", scene.solutions[case_index].expression),
-          problem.coefficient);
+      const Expression u = expression("Problem/solution", scene.solutions[case_index].expression);
+      const physics::ManufacturedLoad bonds(kernel, u, problem.coefficient);
+      ChebyshevField::Function load = bonds;
+      if (problem.dilatation)
+        load = [bonds, force = physics::DilatationForce(
+                           *problem.dilatation, dilatation_of(u, *problem.dilatation, omega))](
+                   const Point<2> &x, unsigned int c) { return bonds(x, c) + force(x, c); };
       const double noise = 2 * std::numeric_limits<double>::epsilon() *
                            physics::operator_scale(kernel) *
                            magnitude(*problem.solution, n_components, omega);

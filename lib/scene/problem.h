@@ -26,9 +26,12 @@ namespace plumbline::scene
     std::optional<geometry::Lattice> lattice;
     std::shared_ptr<const geometry::Mesh> mesh;       ///< of Ω and its collar; empty on a lattice
     std::shared_ptr<const geometry::NodeCells> cells; ///< of the nodes; empty on a lattice
-    double h;                                         ///< of the level [length]
+    /// Of a free body on the vertices of a lattice, which mesh and cells belong to.
+    std::optional<geometry::Lattice> body;
+    double h; ///< of the level [length]
     physics::Kernel<2> kernel;
-    std::optional<physics::Coefficient> coefficient; ///< empty: homogeneous
+    std::optional<physics::Coefficient> coefficient; ///< of the bonds; empty: homogeneous
+    std::optional<physics::Dilatation> dilatation;   ///< empty: bonds are all
     unsigned int n_components;
     Field load;                          ///< b on Ω
     Field constraint;                    ///< u in the collar

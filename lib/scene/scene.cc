@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "scene/checks.h"
+#include "scene/material.h"
 #include "scene/parameters.h"
 #include "scene/values.h"
 
@@ -98,6 +99,11 @@ namespace plumbline::scene
       if (value("Domain/collar") != "auto")
         scene.collar = to_number("Domain/collar", value("Domain/collar"));
 
+      scene.is_free_body = value("Domain/boundary") == "free";
+      scene.fixed = to_boxes("Domain/fixed", value("Domain/fixed"));
+      scene.cracks = to_polylines("Domain/cracks", value("Domain/cracks"));
+      scene.outside = value("Domain/outside");
+
       const physics::KernelType &type = physics::kernel_type(value("Kernel/type"));
       scene.kernel_type = type.name;
       scene.structure = type.structure;
@@ -113,6 +119,11 @@ namespace plumbline::scene
                                  ? physics::Mean::harmonic
                                  : physics::Mean::arithmetic;
 
+      scene.material = make_material(value);
+      scene.is_full_model = value("Solver/model") == "full";
+      if (scene.is_full_model && scene.mesh.is_lattice())
+        scene.mesh.kind = "squares";
+
       scene.solutions = to_cases(value("Problem/solution"));
       if (value("Problem/load") != "manufactured")
         scene.loads = to_cases(value("Problem/load"));
@@ -126,6 +137,8 @@ namespace plumbline::scene
       scene.nodes = {value("Methods/nodes"),
                      to_number("Methods/perturbation", value("Methods/perturbation"))};
 
+      scene.loads_are_averages = value("Methods/load") == "cells";
+
       const std::string regime = value("Study/regime");
       scene.regime = regime == "m"         ? Regime::m
                      : regime == "delta"   ? Regime::delta
@@ -138,7 +151,7 @@ namespace plumbline::scene
       check_levels(scene);
 
       scene.reference = value("Reference/method");
-      scene.estimate_reference = value("Reference/estimate") == "true";
+      scene.estimate = value("Reference/estimate");
       scene.reference_tolerance = to_number("Reference/tolerance", value("Reference/tolerance"));
       scene.norms = to_names(value("Study/norms"));
       scene.decisive_error = value("Study/decisive error");
@@ -222,8 +235,22 @@ namespace plumbline::scene
     return names;
   }
 
+  bool Scene::has_dilatation() const
+  {
+    if (!material.is_state_based())
+      return false;
+    if (is_full_model || is_damaged() || !material.is_homogeneous)
+      return true;
+    const physics::Lame lame = material.lame()({});
+    return std::abs(lame.lambda - lame.mu) > 1e-14 * lame.mu;
+  }
+
   physics::Kernel<2> Scene::kernel(double horizon) const
   {
+    if (material.is_state_based())
+      return physics::deviatoric_kernel(
+          physics::influence_function(profile, horizon),
+          material.is_homogeneous && !is_free_body ? material.lame()({}).mu : 1);
     if (limit == "Navier")
       return physics::Kernel<2>::with_bulk_modulus(profile, horizon, bulk_modulus);
     if (limit == "none")
@@ -249,8 +276,9 @@ namespace plumbline::scene
 
   std::string scene_template(const std::string &model)
   {
-    if (model != "scalar" && model != "tensor")
-      throw InputError("template: model '" + model + "' is not known; choose scalar or tensor");
+    if (model != "scalar" && model != "tensor" && model != "LPS" && model != "variational")
+      throw InputError("template: model '" + model +
+                       "' is not known; choose scalar, tensor, LPS or variational");
     dealii::ParameterHandler parameters;
     declare(parameters);
     set(parameters, "Purpose", "Which rules are asymptotically compatible?");
@@ -259,9 +287,37 @@ namespace plumbline::scene
       set(parameters, "Problem/solution", "x^3 + 2*y^2");
     else
     {
-      set(parameters, "Kernel/type", "bond-tensor");
+      set(parameters, "Kernel/type", model == "tensor" ? "bond-tensor" : "1/r");
       set(parameters, "Kernel/limit", "Navier");
       set(parameters, "Problem/solution", "x*(1-x)/2 + y*(1-y)/2, x*(1-x)/2 + y*(1-y)/2");
+    }
+    if (model == "LPS")
+    {
+      set(parameters, "Material/model", model);
+      set(parameters, "Material/E", "1");
+      set(parameters, "Material/nu", "0.3");
+    }
+    if (model == "variational")
+    {
+      set(parameters, "Purpose", "A bar that is held on the left and pulled on the right.");
+      set(parameters, "Domain/boxes", "0, 0 : 2, 1");
+      set(parameters, "Domain/boundary", "free");
+      set(parameters, "Domain/fixed", "0, 0 : 0.1, 1");
+      set(parameters, "Material/model", model);
+      set(parameters, "Material/k", "100");
+      set(parameters, "Material/l", "800");
+      set(parameters, "Problem/solution", "");
+      set(parameters, "Problem/load", "100*(x > 1.9 - 1e-9), 0");
+      set(parameters, "Problem/constraint", "0, 0");
+      set(parameters, "Problem/local solution", "none");
+      set(parameters, "Methods/names", "FA, PA-AC, IPA-AC");
+      set(parameters, "Methods/nodes", "vertices");
+      set(parameters, "Study/regime", "m");
+      set(parameters, "Study/h", "0.05, 0.025, 0.0125");
+      set(parameters, "Study/horizon", "0.05");
+      set(parameters, "Study/norms", "averages L2");
+      set(parameters, "Study/decisive error", "averages L2 | reference");
+      set(parameters, "Reference/method", "DGQ0");
     }
     std::ostringstream text;
     parameters.print_parameters(text, dealii::ParameterHandler::PRM);

@@ -4,7 +4,10 @@
 #include "geometry/lattice.h"
 #include "physics/coefficient.h"
 #include "physics/kernel.h"
+#include "physics/state_based.h"
 
+#include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +42,22 @@ namespace plumbline::scene
   {
     std::string kind;        ///< centres, vertices, mesh (centroids of its cells), or a .csv file
     double perturbation = 0; ///< of centres, by up to so many h in x and in y
+  };
+
+  /// The solid of a state-based model.
+  struct Material
+  {
+    std::string model = "bond-based"; ///< bond-based (none of its own), LPS or variational
+    physics::PlaneState plane = physics::PlaneState::strain;
+    std::array<std::string, 2> keys;        ///< E and nu, lambda and mu, or k and l
+    std::array<std::string, 2> expressions; ///< in x and y
+    bool is_homogeneous = true;             ///< neither x nor y is in them
+
+    bool is_state_based() const { return model != "bond-based"; }
+
+    /// λ and μ as a function of the place. Copies share nothing: give each thread its own.
+    /// @throws InputError  (the function) constants of no solid, naming keys and place
+    std::function<physics::Lame(const dealii::Point<2> &)> lame() const;
   };
 
   /// A named field to solve for, or a named load.
@@ -79,6 +98,14 @@ namespace plumbline::scene
     geometry::Domain domain;
     MeshSource mesh;
     std::optional<double> collar; ///< width; empty: as wide as the ball needs
+    /// The boundary is free of traction and families end there; u is given in `fixed` parts of Ω.
+    bool is_free_body;
+    std::vector<geometry::Box> fixed;
+    /// Lines that break the bonds across them, and an expression that is positive beyond free
+    /// surfaces; empty: none.
+    std::vector<std::vector<dealii::Point<2>>> cracks;
+    std::string outside;
+    bool is_damaged() const { return !cracks.empty() || !outside.empty(); }
 
     std::string kernel_type, limit;
     std::vector<physics::PowerTerm> profile;
@@ -86,7 +113,23 @@ namespace plumbline::scene
     double bulk_modulus, kernel_constant;
     std::string coefficient;     ///< an expression; empty: homogeneous, or by materials
     std::vector<Case> materials; ///< a coefficient for each group of the mesh, or empty
-    bool is_homogeneous() const { return coefficient.empty() && materials.empty(); }
+    Material material;
+    bool is_full_model; ///< nothing is left out, to show that what is left out is not missed
+    bool is_homogeneous() const
+    {
+      return coefficient.empty() && materials.empty() && material.is_homogeneous;
+    }
+    bool is_vector() const ///< two components
+    {
+      return structure == physics::Structure::tensor || material.is_state_based();
+    }
+
+    /// λ = μ leaves a state-based solid its bonds alone.
+    bool has_dilatation() const;
+
+    /// How far from Ω the constraint is needed: the horizon, or twice as far where dilatations of
+    /// neighbours count.
+    double reach(double horizon) const { return has_dilatation() ? 2 * horizon : horizon; }
     physics::Mean symmetrisation;
 
     std::vector<Case> solutions; ///< exact nonlocal solutions, empty if not known
@@ -96,6 +139,7 @@ namespace plumbline::scene
 
     std::vector<std::string> methods;
     NodeSource nodes;
+    bool loads_are_averages; ///< meshfree: over the cells, not at the nodes
     bool nodes_at_vertices() const { return nodes.kind == "vertices"; }
 
     Regime regime;
@@ -103,8 +147,8 @@ namespace plumbline::scene
     std::vector<std::string> norms;
     std::string decisive_error; ///< "norm | target"
 
-    std::string reference; ///< a method's name, or "none"
-    bool estimate_reference;
+    std::string reference;      ///< a method's name, or "none"
+    std::string estimate;       ///< automatic, every, reference or none: which solutions get one
     double reference_tolerance; ///< relative; 0: only reported
 
     bool exact_rectangles;  ///< axis-aligned rectangles by correlation, not by quadrature
@@ -144,7 +188,8 @@ namespace plumbline::scene
   Scene parse_scene(const std::string &name, const std::string &text,
                     const std::vector<Override> &overrides = {});
 
-  /// A whole scene with every key, its default and its meaning, for a model: "scalar" or "tensor".
+  /// A whole scene with every key, its default and its meaning, for a model: "scalar", "tensor",
+  /// "LPS" or "variational".
   std::string scene_template(const std::string &model);
 
   /// What a key means, its default and what it allows; for "Section" all its keys.

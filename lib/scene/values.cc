@@ -51,6 +51,23 @@ namespace plumbline::scene
     return names;
   }
 
+  namespace
+  {
+    /// "x0, y0 : x1, y1 : ..."
+    std::vector<dealii::Point<2>> to_points(const std::string &key, const std::string &text)
+    {
+      std::vector<dealii::Point<2>> points;
+      for (const std::string &one : split_outside_brackets(text, ':'))
+      {
+        const auto numbers = to_numbers(key, one, ',');
+        if (numbers.size() != 2)
+          throw InputError(key + ": '" + one + "' is not a point; write 'x, y'");
+        points.emplace_back(numbers[0], numbers[1]);
+      }
+      return points;
+    }
+  } // namespace
+
   std::vector<geometry::Box> to_boxes(const std::string &key, const std::string &text)
   {
     std::vector<geometry::Box> boxes;
@@ -58,19 +75,32 @@ namespace plumbline::scene
     {
       if (part.empty())
         continue;
-      const auto corners = split_outside_brackets(part, ':');
-      std::vector<double> numbers;
-      for (const std::string &corner : corners)
-        for (const double x : to_numbers(key, corner, ','))
-          numbers.push_back(x);
-      if (corners.size() != 2 || numbers.size() != 4)
+      if (std::count(part.begin(), part.end(), ':') != 1 ||
+          std::count(part.begin(), part.end(), ',') != 2)
         throw InputError(key + ": '" + part + "' is not a box; write 'x0, y0 : x1, y1'");
-      if (!(numbers[0] < numbers[2]) || !(numbers[1] < numbers[3]))
+      const auto corners = to_points(key, part);
+      if (!(corners[0][0] < corners[1][0]) || !(corners[0][1] < corners[1][1]))
         throw InputError(key + ": the box '" + part +
                          "' is empty; its second corner must be above and right of its first");
-      boxes.push_back({{numbers[0], numbers[1]}, {numbers[2], numbers[3]}});
+      boxes.push_back({corners[0], corners[1]});
     }
     return boxes;
+  }
+
+  std::vector<std::vector<dealii::Point<2>>> to_polylines(const std::string &key,
+                                                          const std::string &text)
+  {
+    std::vector<std::vector<dealii::Point<2>>> lines;
+    for (const std::string &part : split_outside_brackets(text, ';'))
+    {
+      if (part.empty())
+        continue;
+      lines.push_back(to_points(key, part));
+      if (lines.back().size() < 2)
+        throw InputError(key + ": '" + part +
+                         "' is not a line; write 'x0, y0 : x1, y1', with more points if it bends");
+    }
+    return lines;
   }
 
   std::vector<Case> to_cases(const std::string &text)

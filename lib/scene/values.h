@@ -7,6 +7,7 @@
 
 namespace plumbline::scene
 {
+
   // From the text of a key to its value. Each throws InputError naming the key and what is allowed.
 
   std::string trim(const std::string &text);
@@ -16,6 +17,10 @@ namespace plumbline::scene
 
   /// "x0, y0 : x1, y1; ..."
   std::vector<geometry::Box> to_boxes(const std::string &key, const std::string &text);
+
+  /// "x0, y0 : x1, y1 : x2, y2; ..."
+  std::vector<std::vector<dealii::Point<2>>> to_polylines(const std::string &key,
+                                                          const std::string &text);
 
   /// "name: expression; ..." or a single expression, whose case is called "u".
   std::vector<Case> to_cases(const std::string &text);

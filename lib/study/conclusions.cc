@@ -56,7 +56,7 @@ namespace plumbline::study
           trend.outcome == Outcome::failed)
         return;
       double estimate = 0;
-      for (const ReferenceEstimate &one : results.references)
+      for (const ErrorEstimate &one : results.references)
         if (one.problem == trend.problem && one.series == trend.series)
           estimate = one.estimate; // of the finest level, the last one
       if (trend.values.back() < 10 * estimate)
@@ -283,14 +283,27 @@ namespace plumbline::study
              "an assembled matrix would hold " + number(bonds) + " entries, " +
                  megabytes(12 * bonds) + "; the stencil holds " + number(bonds / rows) + " a row" +
                  where});
-      if (scene.structure == physics::Structure::scalar)
+      if (scene.is_full_model)
+      {
+        results.omissions.clear();
+        return;
+      }
+      if (!scene.is_vector())
         results.omissions.push_back({"the second component",
                                      "the kernel is scalar, so components do not couple",
                                      "half the unknowns, a quarter of the entries"});
-      else
-        results.omissions.push_back({"the dilatation",
-                                     "bond tensor: lambda = mu, no volumetric term",
-                                     "one unknown a node, and a family pass"});
+      else if (!scene.has_dilatation())
+        results.omissions.push_back(
+            {"the dilatation", "lambda = mu: the bonds are all",
+             "one unknown a node, a family pass, and half the width of the collar"});
+      else if (scene.mesh.is_lattice())
+        results.omissions.push_back(
+            {"the dilatation as an unknown",
+             "homogeneous: eliminated, it is part of one stencil of twice the reach",
+             "a third of the unknowns, and a system that stays positive definite"});
+      if (scene.material.is_state_based() && scene.material.is_homogeneous)
+        results.omissions.push_back({"means of the material at both ends of each bond",
+                                     "the material is homogeneous", megabytes(16 * bonds) + where});
       results.omissions.push_back(
           {"Newton's method", "the model is linear",
            (largest->cost.n_iterations == 0

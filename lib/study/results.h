@@ -68,10 +68,10 @@ namespace plumbline::study
     std::string reason;  ///< one sentence with the numbers
   };
 
-  /// The reference's own uncertainty at one level.
-  struct ReferenceEstimate
+  /// How far a Galerkin solution of one level may be wrong: how much it moves.
+  struct ErrorEstimate
   {
-    std::string problem, series, method; ///< method: of the reference, e.g. "Q2"
+    std::string problem, series, method; ///< method: e.g. "Q2"
     unsigned int level = 0;
     double h = 0, horizon = 0;
     double h_change = 0;               ///< averages L2: change to h/2
@@ -133,7 +133,8 @@ namespace plumbline::study
     std::string decisive_error;                    ///< the "norm | target" that verdicts rest on
     std::vector<Run> runs;
     std::vector<Trend> trends;
-    std::vector<ReferenceEstimate> references;
+    std::vector<ErrorEstimate> references; ///< of the scene's reference
+    std::vector<ErrorEstimate> estimates;  ///< of other Galerkin solutions
     std::vector<Omission> omissions;
     std::vector<Expectation> expectations;
     std::vector<Advice> advice;

@@ -5,7 +5,7 @@
 #include "scene/mesh.h"
 #include "study/comparison.h"
 #include "study/conclusions.h"
-#include "study/reference.h"
+#include "study/reference_estimate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -107,9 +107,12 @@ namespace plumbline::study
         for (const ErrorMap &map : earlier_.maps)
           if (map.problem == name && map.series == series.name && level + 1 == n_levels(series))
             results_.maps.push_back(map);
-        for (const ReferenceEstimate &estimate : earlier_.references)
+        for (const ErrorEstimate &estimate : earlier_.references)
           if (estimate.problem == name && estimate.series == series.name && estimate.level == level)
             results_.references.push_back(estimate);
+        for (const ErrorEstimate &estimate : earlier_.estimates)
+          if (estimate.problem == name && estimate.series == series.name && estimate.level == level)
+            results_.estimates.push_back(estimate);
         return true;
       }
 
@@ -130,10 +133,7 @@ namespace plumbline::study
           ReferenceAverages reference =
               solve_reference(scene_, problem, case_index,
                               *find_method(available_, scene_.reference, "Reference/method"));
-          reference.estimate.problem = name;
-          reference.estimate.series = series.name;
-          reference.estimate.level = level;
-          results_.references.push_back(reference.estimate);
+          results_.references.push_back(placed(reference.estimate, name, series, level));
           targets.reference = std::move(reference.averages);
         }
         if (scene_.local_solution == "computed")
@@ -149,14 +149,32 @@ namespace plumbline::study
             control_.on_progress(name + ", " + series.name + ", level " +
                                      std::to_string(level + 1) + ": " + method->name(),
                                  static_cast<double>(n_done++) / static_cast<double>(n_all));
-          run_method(*method, name, series, level, problem, targets);
+          run_method(*method, case_index, name, series, level, problem, targets);
           if (control_.on_result)
             control_.on_result(results_);
         }
       }
 
-      void run_method(const Method &method, const std::string &name, const scene::Series &series,
-                      unsigned int level, const scene::Problem &problem, const Targets &targets)
+      static ErrorEstimate placed(ErrorEstimate estimate, const std::string &name,
+                                  const scene::Series &series, unsigned int level)
+      {
+        estimate.problem = name;
+        estimate.series = series.name;
+        estimate.level = level;
+        return estimate;
+      }
+
+      /// Besides the reference.
+      bool is_estimated(const Method &method, const scene::Problem &problem) const
+      {
+        return method.family() == "reference" && method.name() != scene_.reference &&
+               (scene_.estimate == "every" || (scene_.estimate == "automatic" &&
+                                               scene_.reference == "none" && !problem.solution));
+      }
+
+      void run_method(const Method &method, unsigned int case_index, const std::string &name,
+                      const scene::Series &series, unsigned int level,
+                      const scene::Problem &problem, const Targets &targets)
       {
         Run run;
         run.method = method.name();
@@ -177,6 +195,10 @@ namespace plumbline::study
           for (const auto &[error, value] : run.errors)
             if (!std::isfinite(value))
               throw NumericalError("the error " + error + " is not a finite number");
+          if (is_estimated(method, problem))
+            results_.estimates.push_back(
+                placed(estimate_error(scene_, problem, case_index, method, solution, true), name,
+                       series, level));
           if (level + 1 == n_levels(series))
             finish_series(solution, run, problem,
                           targets.reference.empty() ? targets.local : targets.reference);

@@ -164,6 +164,67 @@ TEST(Solve, preconditioned_and_direct_solutions_agree)
     }
 }
 
+namespace
+{
+  /// Where a value outside 0..n-1 continues one inside, and its sign; 0 on the node next to a side
+  /// of zeros.
+  std::pair<int, double> continued(int i, int n, const std::array<Side, 2> &sides)
+  {
+    double sign = 1;
+    while (i < 0 || i >= n)
+    {
+      const bool upper = i >= n, is_zero = sides[upper] == Side::zero;
+      const int about = upper ? n - !is_zero : -is_zero;
+      if (i == about)
+        return {0, 0};
+      i = 2 * about - i;
+      sign *= is_zero ? -1 : 1;
+    }
+    return {i, sign};
+  }
+} // namespace
+
+TEST(SineSolver, inverts_an_even_operator_between_zeros_and_mirrors)
+{
+  const std::array<int, 2> n{7, 6};
+  const NodeSet nodes{one_family, 1, n, std::vector<char>(n[0] * n[1], 1)};
+  Stencil stencil(1, 2);
+  for (int k2 = -2; k2 <= 2; ++k2)
+    for (int k1 = -2; k1 <= 2; ++k1)
+      stencil(0, 0, k1, k2) = k1 == 0 && k2 == 0 ? 9 : -1. / (1 + k1 * k1 + 2 * k2 * k2);
+  const std::vector<std::array<Side, 2>> all = {{Side::zero, Side::zero},
+                                                {Side::zero, Side::mirrored},
+                                                {Side::mirrored, Side::zero},
+                                                {Side::mirrored, Side::mirrored}};
+  const Vector u = random_vector(nodes);
+  for (const auto &along : all)
+    for (const auto &across : all)
+    {
+      Vector f(u.size()), inverse(u.size());
+      for (int j = 0; j < n[1]; ++j)
+        for (int i = 0; i < n[0]; ++i)
+        {
+          for (int k2 = -2; k2 <= 2; ++k2)
+            for (int k1 = -2; k1 <= 2; ++k1)
+            {
+              const auto [p, sign_p] = continued(i + k1, n[0], along);
+              const auto [q, sign_q] = continued(j + k2, n[1], across);
+              f[j * n[0] + i] += stencil(0, 0, k1, k2) * sign_p * sign_q * u[q * n[0] + p];
+            }
+          for (const bool upper : {false, true}) // half cells
+          {
+            if (along[upper] == Side::mirrored && i == upper * (n[0] - 1))
+              f[j * n[0] + i] /= 2;
+            if (across[upper] == Side::mirrored && j == upper * (n[1] - 1))
+              f[j * n[0] + i] /= 2;
+          }
+        }
+      make_sine_solver(stencil, nodes, {{0, 0}, n}, {along, across})->add_inverse(inverse, f);
+      inverse -= u;
+      EXPECT_LT(inverse.linfty_norm(), 1e-14);
+    }
+}
+
 TEST(Solve, an_operator_that_is_not_positive_definite_is_an_error)
 {
   const Lattice lattice(square, .125);

@@ -1,33 +1,18 @@
 // Bad input for meshes and scattered nodes as a user meets it: exit codes, messages, no output.
 
-#include <gtest/gtest.h>
-
-#include <sys/wait.h>
+#include "command.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <thread>
-#include <unistd.h>
-
-namespace fs = std::filesystem;
 
 namespace
 {
+  using namespace plumbline::app;
+
   struct Trial
   {
     std::string settings;               ///< after the scene
     std::vector<std::string> fragments; ///< of what is to be on stderr
-  };
-
-  struct Outcome
-  {
-    int exit_code;
-    std::string out, err;
-    bool has_folder;
   };
 
   class BadMeshes : public testing::Test
@@ -61,7 +46,7 @@ namespace
       const auto work = [&]
       {
         for (std::size_t i; (i = next++) < runs.size();)
-          outcomes[i] = run(runs[i], i);
+          outcomes[i] = run(runs[i].settings, output(i));
       };
       std::vector<std::thread> workers;
       for (unsigned int i = 0; i < 4; ++i)
@@ -77,7 +62,7 @@ namespace
       for (std::size_t i = 0; i < runs.size(); ++i)
       {
         EXPECT_EQ(outcomes[i].out, "") << runs[i].settings;
-        EXPECT_FALSE(outcomes[i].has_folder) << "partial output for " << runs[i].settings;
+        EXPECT_FALSE(fs::exists(output(i))) << "partial output for " << runs[i].settings;
         expect(runs[i], outcomes[i], 2);
       }
     }
@@ -86,30 +71,17 @@ namespace
     {
       EXPECT_EQ(outcome.exit_code, exit_code) << run.settings << '\n' << outcome.err;
       for (const std::string &fragment : run.fragments)
-        EXPECT_NE(outcome.err.find(fragment), std::string::npos)
-            << fragment << " is not in what " << run.settings << " says: " << outcome.err;
-    }
-
-    std::string read(const fs::path &file) const
-    {
-      std::stringstream text;
-      text << std::ifstream(folder_ / file).rdbuf();
-      return text.str();
+        expect_found(outcome.err, fragment, "for " + run.settings);
     }
 
   private:
-    Outcome run(const Trial &run, std::size_t number) const
+    Outcome run(const std::string &settings, const fs::path &folder) const
     {
-      const std::string name = output(number).string(), out = name + ".out", err = name + ".err";
-      const int status =
-          std::system((std::string(PLUMBLINE_COMMAND) + " run " + (folder_ / "scene.prm").string() +
-                       " --threads 1 -o " + name + " " + run.settings + " >" + out + " 2>" + err)
-                          .c_str());
-      return {WEXITSTATUS(status), read(out), read(err), fs::exists(name)};
+      return plumbline::app::run("run " + (folder_ / "scene.prm").string() + " --threads 1 -o " +
+                                 folder.string() + " " + settings);
     }
 
-    const fs::path folder_ =
-        fs::path(testing::TempDir()) / ("bad_meshes_" + std::to_string(getpid()));
+    const fs::path folder_ = temporary("bad_meshes");
   };
 
   std::string set(const std::string &key, const std::string &value)
@@ -289,8 +261,8 @@ TEST_F(BadMeshes, methods_and_targets_that_do_not_fit_are_refused)
        {set("Reference/method", "R2"), {"Reference/method: method 'R2' is not known; choose of"}},
        {set("Reference/tolerance", "0.01"),
         {"Reference/tolerance = 0.01 needs a reference", "give Reference/method"}},
-       {reference + set("Reference/tolerance", "0.01") + set("Reference/estimate", "false"),
-        {"Reference/tolerance = 0.01 needs", "Reference/estimate = true"}},
+       {reference + set("Reference/tolerance", "0.01") + set("Reference/estimate", "none"),
+        {"Reference/tolerance = 0.01 needs", "Reference/estimate = automatic"}},
        {lattice + computed,
         {"Problem/local solution = computed with Domain/mesh = lattice", "write Domain/mesh"}},
        {reference + nodal + target("averages L2 | reference"),
@@ -321,10 +293,10 @@ TEST_F(BadMeshes, what_cannot_be_solved_exits_with_3_and_keeps_the_rest)
 
   for (std::size_t i = 0; i < 3; ++i) // the other methods are there, and the failed one says why
   {
-    EXPECT_NE(outcomes[i].out.find("failed"), std::string::npos) << outcomes[i].out;
+    expect_found(outcomes[i].out, "failed");
     EXPECT_EQ(outcomes[i].err.find("no solution: FA"), std::string::npos);
     EXPECT_TRUE(fs::exists(output(i) / "report.html"));
-    EXPECT_NE(read(output(i) / "results.json").find("averages L2 | exact"), std::string::npos);
+    expect_found(read(output(i) / "results.json"), "averages L2 | exact");
   }
-  EXPECT_FALSE(outcomes[3].has_folder); // nothing had been solved
+  EXPECT_FALSE(fs::exists(output(3))); // nothing had been solved
 }

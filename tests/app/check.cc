@@ -1,45 +1,14 @@
 // `plumbline check` as a user meets it: exit codes, messages, and the worked example.
 
+#include "command.h"
+
+#include "meshfree/families.h"
 #include "meshfree/rules.h"
 #include "scene/problem.h"
 
-#include <gtest/gtest.h>
-
-#include <sys/wait.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <unistd.h>
-
-namespace fs = std::filesystem;
-
 namespace
 {
-  struct Outcome
-  {
-    int exit_code;
-    std::string out, err;
-  };
-
-  std::string read(const fs::path &file)
-  {
-    std::stringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-  }
-
-  fs::path temporary(const std::string &name)
-  {
-    return fs::path(::testing::TempDir()) / ("check_" + std::to_string(getpid()) + "_" + name);
-  }
-
-  std::string write(const std::string &name, const std::string &text)
-  {
-    std::ofstream(temporary(name)) << text;
-    return temporary(name).string();
-  }
+  using namespace plumbline::app;
 
   const fs::path folder = fs::path(PLUMBLINE_SCENES) / "check";
   const std::string nodes_file = (folder / "nodes.csv").string(),
@@ -48,12 +17,7 @@ namespace
 
   Outcome check(const std::string &nodes, const std::string &bonds, const std::string &more = "")
   {
-    const fs::path out = temporary("out"), err = temporary("err");
-    const int status = std::system((std::string(PLUMBLINE_COMMAND) + " check " + nodes + " " +
-                                    bonds + " --scene " + scene_file + " " + more + " >" +
-                                    out.string() + " 2>" + err.string())
-                                       .c_str());
-    return {WEXITSTATUS(status), read(out), read(err)};
+    return run("check " + nodes + " " + bonds + " --scene " + scene_file + " " + more);
   }
 
   /// A text with one occurrence of a part replaced.
@@ -71,13 +35,7 @@ namespace
     EXPECT_EQ(outcome.exit_code, 2) << fragments[0];
     EXPECT_EQ(outcome.out, "");
     for (const std::string &fragment : fragments)
-      EXPECT_NE(outcome.err.find(fragment), std::string::npos)
-          << fragment << " is not in: " << outcome.err;
-  }
-
-  void expect_found(const std::string &text, const std::string &part)
-  {
-    EXPECT_NE(text.find(part), std::string::npos) << part << " is not in:\n" << text;
+      expect_found(outcome.err, fragment);
   }
 } // namespace
 
@@ -118,8 +76,8 @@ TEST(Check, its_example_is_what_the_library_makes)
   scene.mesh.kind = "squares";
   scene.nodes.kind = nodes_file;
   const auto problem = scene::make_problem(scene, 0, scene.series[0].levels[0]);
-  const auto families =
-      meshfree::recalibrated(problem.kernel, *problem.cells, meshfree::Backend::fast, 2);
+  const meshfree::Families families(meshfree::recalibrated(problem.kernel, 2), problem.kernel,
+                                    *problem.cells, meshfree::Backend::fast);
   meshfree::Family family;
   std::ifstream good(bonds_file), wrong(folder / "bonds_wrong.csv");
   std::string row, wrong_row;
@@ -197,7 +155,7 @@ TEST(Check, refuses_nodes_that_cannot_be_used)
   const auto refuse = [&](const std::string &by, const std::vector<std::string> &fragments)
   { expect_refusal(write("nodes.csv", replace(text, node, by)), bonds_file, fragments); };
   refuse("1,-0.3125,here,0.015625\n", {"nodes.csv', line 2: y = 'here' is not a finite number"});
-  refuse("1,nan,-0.3125,0.015625\n", {"line 2: x = nan is not a finite number"});
+  refuse("1,nan,-0.3125,0.015625\n", {"line 2: x = 'nan' is not a finite number"});
   refuse("1.5,-0.3125,-0.3125,0.015625\n", {"line 2: id = '1.5' is not an integer"});
   refuse("1,-0.3125,-0.3125,0\n", {"line 2: the volume", "of node 1 is not positive; give"});
   refuse("1,-0.3125\n", {"line 2: y = '' is not a finite number"});
@@ -220,8 +178,8 @@ TEST(Check, refuses_bonds_that_cannot_be_used)
   const auto refuse = [&](const std::string &by, const std::vector<std::string> &fragments)
   { expect_refusal(nodes_file, write("bonds.csv", replace(text, bond, by)), fragments); };
   refuse("46,47,heavy,,\n", {"bonds.csv', line 2: weight = 'heavy' is not a finite number"});
-  refuse("46,47,nan,,\n", {"line 2: weight = nan is not a finite number"});
-  refuse("46,47,inf,,\n", {"line 2: weight = inf is not a finite number"});
+  refuse("46,47,nan,,\n", {"line 2: weight = 'nan' is not a finite number"});
+  refuse("46,47,inf,,\n", {"line 2: weight = 'inf' is not a finite number"});
   refuse("46,47,.01,.1,\n", {"line 2: qy = '' is not a finite number"});
   refuse("46,470,.01,,\n", {"line 2: j = 470 is no node of", "nodes.csv'; take"});
   refuse("0,47,.01,,\n", {"line 2: i = 0 is no node of"});

@@ -100,34 +100,12 @@ namespace plumbline::geometry
 
   TEST(BallCell, BackendsAgreeForCirclesThroughCorners)
   {
-    RandomCases random(4);
-    std::vector<Case> cases;
-    for (double ratio : ratios)
-      for (int trial = 0; trial < 8; ++trial)
-      {
-        const Polygon cell = random.polygon(Point<2>(.3, .2), 1);
-        const double t = random.uniform(0, 7);
-        const Point<2> centre = cell[0] + ratio * Point<2>(std::cos(t), std::sin(t));
-        const double R = centre.distance(cell[0]);
-        for (double off : {0., 1e-15, -1e-15, 1e-12, -1e-12})
-          cases.push_back({{centre, R * (1 + off)}, cell});
-      }
-    EXPECT_LE(worst_of(cases), accuracy);
+    EXPECT_LE(worst_of(through_corners(4)), accuracy);
   }
 
-  TEST(BallCell, BackendsAgreeForCentresOnEdgesAndVertices)
+  TEST(BallCell, BackendsAgreeForCentresOnSidesAndCorners)
   {
-    RandomCases random(5);
-    std::vector<Case> cases;
-    for (double ratio : ratios)
-      for (int trial = 0; trial < 8; ++trial)
-      {
-        const Polygon cell = random.polygon(Point<2>(.3, .2), 1);
-        const double s = random.uniform(0, 1);
-        cases.push_back({{cell[1], ratio}, cell});
-        cases.push_back({{cell[1] + s * (cell[2] - cell[1]), ratio}, cell});
-      }
-    EXPECT_LE(worst_of(cases), accuracy);
+    EXPECT_LE(worst_of(about_corners_and_sides(5)), accuracy);
   }
 
   TEST(BallCell, BackendsAgreeForTinyBallsOnSidesOfLargeCells)
@@ -274,9 +252,7 @@ namespace plumbline::geometry
   TEST(BallCell, RepeatedAndCollinearVerticesChangeNothing)
   {
     const Polygon plain = box(0, 1, 0, 1);
-    const Polygon crowded = {Point<2>(0, 0),  Point<2>(0, 0), Point<2>(.5, 0), Point<2>(1, 0),
-                             Point<2>(1, .3), Point<2>(1, 1), Point<2>(1, 1),  Point<2>(0, 1),
-                             Point<2>(0, .5), Point<2>(0, 0)};
+    const Polygon crowded = crowded_square();
     for (double R : {.2, .5, .9, 1.1, 3.})
       for (const Point<2> &centre :
            {Point<2>(.5, .5), Point<2>(.5, 0), Point<2>(0, 0), Point<2>(1, R)})

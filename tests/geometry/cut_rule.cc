@@ -1,7 +1,7 @@
 #include "geometry/ball_cell.h"
 
 #include "base/error.h"
-#include "placements.h"
+#include "monomials.h"
 
 #include <gtest/gtest.h>
 
@@ -11,152 +11,6 @@ namespace plumbline::geometry
 {
   namespace
   {
-    using Integrals = std::vector<Real>; // of all monomials up to a degree, as in weighted_moments
-
-    /// Calls f(i, x^a y^b) for all of them.
-    template <class F>
-    void for_monomials(unsigned int degree, Real x, Real y, F f)
-    {
-      std::vector<Real> xs(degree + 1, 1), ys(degree + 1, 1);
-      for (unsigned int k = 0; k < degree; ++k)
-      {
-        xs[k + 1] = xs[k] * x;
-        ys[k + 1] = ys[k] * y;
-      }
-      for (unsigned int total = 0, i = 0; total <= degree; ++total)
-        for (unsigned int b = 0; b <= total; ++b, ++i)
-          f(i, xs[total - b] * ys[b]);
-    }
-
-    std::size_t n_monomials(unsigned int degree)
-    {
-      return (degree + 1) * (degree + 2) / 2;
-    }
-
-    /// Coordinates in which the region is of size 1.
-    struct Frame
-    {
-      Point<2> origin;
-      Real unit;
-    };
-
-    /// About the cell's first vertex or the ball's centre, whichever is smaller.
-    Frame frame(const Case &c)
-    {
-      if (diameter(c.cell) < 2 * c.ball.radius)
-        return {c.cell[0], diameter(c.cell)};
-      return {c.ball.centre, c.ball.radius};
-    }
-
-    /// Moved to where the coordinates of points in the region lose no digits.
-    Case moved(Case c)
-    {
-      const Point<2> origin = frame(c).origin;
-      c.ball.centre = Point<2>(c.ball.centre - origin);
-      for (auto &v : c.cell)
-        v = Point<2>(v - origin);
-      return c;
-    }
-
-    /// Integrals, and the largest absolute values met.
-    struct Result
-    {
-      Integrals integrals, largest;
-    };
-
-    Result evaluate(const CutRule &rule, const Frame &frame, unsigned int degree)
-    {
-      Result result{Integrals(n_monomials(degree), 0), Integrals(n_monomials(degree), 0)};
-      for (std::size_t q = 0; q < rule.points.size(); ++q)
-        for_monomials(degree, (rule.points[q][0] - Real(frame.origin[0])) / frame.unit,
-                      (rule.points[q][1] - Real(frame.origin[1])) / frame.unit,
-                      [&](unsigned int i, Real value)
-                      {
-                        result.integrals[i] += rule.weights[q] * value;
-                        result.largest[i] = std::max(result.largest[i], std::abs(value));
-                      });
-      return result;
-    }
-
-    Integrals integrate(const CutRule &rule, const Frame &frame, unsigned int degree)
-    {
-      return evaluate(rule, frame, degree).integrals;
-    }
-
-    /// Gauss's points on [-1, 1], in long double.
-    std::vector<std::pair<Real, Real>> gauss(int n)
-    {
-      std::vector<std::pair<Real, Real>> rule;
-      for (int i = 0; i < n; ++i)
-      {
-        Real x = std::cos(pi * (i + .75L) / (n + .5L)), slope = 1;
-        for (int step = 0; step < 9; ++step)
-        {
-          Real last = 1, value = x;
-          for (int k = 2; k <= n; ++k)
-            last = std::exchange(value, ((2 * k - 1) * x * value - (k - 1) * last) / k);
-          slope = n * (x * value - last) / (x * x - 1);
-          x -= value / slope;
-        }
-        rule.push_back({x, 2 / ((1 - x * x) * slope * slope)});
-      }
-      return rule;
-    }
-
-    /// The oracle: Green's theorem on the boundary's pieces, ∫ x^a y^b = ∮ (x dy - y dx) x^a y^b /
-    /// (a + b + 2).
-    Integrals around(const Case &c, const Frame &frame, unsigned int degree)
-    {
-      static const auto rule = gauss(40);
-      Integrals sum(n_monomials(degree), 0);
-      for (const Piece &piece : boundary(c.ball, view(c.cell)))
-      {
-        const auto relative = [&](const Point<2> &p, int k)
-        { return (p[k] - Real(frame.origin[k])) / frame.unit; };
-        const Real x0 = relative(piece.from, 0), y0 = relative(piece.from, 1);
-        const Real ex = relative(piece.to, 0) - x0, ey = relative(piece.to, 1) - y0;
-        const auto add = [&](Real x, Real y, Real dx, Real dy)
-        {
-          for_monomials(degree, x, y,
-                        [&](unsigned int i, Real value) { sum[i] += (x * dy - y * dx) * value; });
-        };
-        if (!piece.is_arc)
-        {
-          for (const auto &[t, w] : rule)
-            add(x0 + .5L * (1 + t) * ex, y0 + .5L * (1 + t) * ey, .5L * w * ex, .5L * w * ey);
-          continue;
-        }
-        const Real R = c.ball.radius / frame.unit, chord = std::hypot(ex, ey);
-        if (piece.angle > 1.5 || chord == 0)
-        {
-          const Real from = std::atan2(Real(piece.from[1]) - c.ball.centre[1],
-                                       Real(piece.from[0]) - c.ball.centre[0]);
-          for (int part = 0; part < 8; ++part)
-            for (const auto &[t, w] : rule)
-            {
-              const Real width = Real(piece.angle) / 8, s = from + (part + .5L * (1 + t)) * width;
-              add(relative(c.ball.centre, 0) + R * std::cos(s),
-                  relative(c.ball.centre, 1) + R * std::sin(s), -.5L * w * width * R * std::sin(s),
-                  .5L * w * width * R * std::cos(s));
-            }
-          continue;
-        }
-        const Real half = std::asin(chord / (2 * R)), tx = ex / chord, ty = ey / chord;
-        for (const auto &[t, w] : rule)
-        {
-          const Real along = R * std::sin(t * half);
-          const Real out = 2 * R * std::sin(.5L * half * (1 + t)) * std::sin(.5L * half * (1 - t));
-          const Real da = R * std::cos(t * half) * half * w, dn = -along * half * w;
-          add(x0 + .5L * ex + along * tx + out * ty, y0 + .5L * ey + along * ty - out * tx,
-              da * tx + dn * ty, da * ty - dn * tx);
-        }
-      }
-      for (unsigned int total = 0, i = 0; total <= degree; ++total)
-        for (unsigned int b = 0; b <= total; ++b)
-          sum[i++] *= frame.unit * frame.unit / (total + 2);
-      return sum;
-    }
-
     double difference(const Integrals &a, const Integrals &b, const Case &c)
     {
       double worst = 0;
@@ -171,24 +25,68 @@ namespace plumbline::geometry
       return difference(found, around(c, frame(c), degree), c);
     }
 
+    double worst_error(const std::vector<Case> &cases, unsigned int degree)
+    {
+      double worst = 0;
+      for (const Case &c : cases)
+        worst = std::max(worst, error(c, degree));
+      return worst;
+    }
+
     /// Relative to the region's own area and its monomials' largest values.
     double own_error(const Case &c, unsigned int degree)
     {
       const auto found = integrate(cut_rule(c.ball, view(c.cell), degree), frame(c), degree);
       const auto exact = around(c, frame(c), degree);
-      const auto many = evaluate(cut_rule(c.ball, view(c.cell), degree + 8), frame(c), degree);
+      const auto largest =
+          largest_values(cut_rule(c.ball, view(c.cell), degree + 8), frame(c), degree);
       double worst = 0;
       for (std::size_t i = 0; i < exact.size(); ++i)
-        worst = std::max(worst, double(std::abs(found[i] - exact[i]) / exact[0] / many.largest[i]));
+        worst = std::max(worst, double(std::abs(found[i] - exact[i]) / exact[0] / largest[i]));
       return worst;
     }
 
-    /// A polygon as it is, and its first 3, 4 and 5 vertices.
-    std::vector<Case> with_fewer_vertices(const Case &c)
+    /// Each polygon as it is, and its first 3, 4 and 5 vertices; all of them moved.
+    std::vector<Case> with_fewer_vertices(const std::vector<Case> &all)
     {
-      std::vector<Case> cases{moved(c)};
-      for (std::size_t n = 3; n < std::min<std::size_t>(6, c.cell.size()); ++n)
-        cases.push_back(moved({c.ball, Polygon(c.cell.begin(), c.cell.begin() + n)}));
+      std::vector<Case> cases;
+      for (const Case &c : all)
+      {
+        cases.push_back(moved(c));
+        for (std::size_t n = 3; n < std::min<std::size_t>(6, c.cell.size()); ++n)
+          cases.push_back(moved({c.ball, Polygon(c.cell.begin(), c.cell.begin() + n)}));
+      }
+      return cases;
+    }
+
+    /// Sides cut the unit circle at y = d, and one at x = -.8.
+    std::vector<Case> arcs_of_all_lengths()
+    {
+      std::vector<Case> cases;
+      for (double d : {-.999999, -.99, -.7, -1e-9, 0., 1e-9, .3, .9, .999999})
+        for (const Polygon &cell :
+             {box(-2, 2, d, d + 4), box(-2, 2, d, d + .3), box(-.8, 2, d, d + 4)})
+          cases.push_back({{Point<2>(), 1}, cell});
+      return cases;
+    }
+
+    /// Circles of radius 5 through corners (3, 4) of the lattice.
+    std::vector<Case> pythagorean_ties()
+    {
+      std::vector<Case> cases;
+      for (int i = -1; i < 6; ++i)
+        for (int j = -1; j < 6; ++j)
+          cases.push_back({{Point<2>(), 5}, box(Point<2>(i, j), 1)});
+      return cases;
+    }
+
+    std::vector<Case> on_a_crowded_square()
+    {
+      std::vector<Case> cases;
+      for (double R : {.2, .5, .9, 1.1, 3.})
+        for (const Point<2> &centre : {Point<2>(.5, .5), Point<2>(.5, 0), Point<2>(0, 0),
+                                       Point<2>(1, R), Point<2>(.5, R), Point<2>(.5, 1 - R)})
+          cases.push_back({{centre, R}, crowded_square()});
       return cases;
     }
 
@@ -209,7 +107,7 @@ namespace plumbline::geometry
     double worst = 0, worst_own = 0;
     int n_cut = 0;
     for (int trial = 0; trial < 14 * 13 * 8; ++trial)
-      for (const Case &c : with_fewer_vertices(random.next(ratios[trial % std::size(ratios)])))
+      for (const Case &c : with_fewer_vertices({random.next(ratios[trial % std::size(ratios)])}))
       {
         const unsigned int degree = trial % 14; // there are 13 ratios
         worst = std::max(worst, error(c, degree));
@@ -273,71 +171,37 @@ namespace plumbline::geometry
     RandomCases random(21);
     for (unsigned int degree : {14u, 15u, 20u, 30u})
       for (int trial = 0; trial < 26; ++trial)
-        for (const Case &c : with_fewer_vertices(random.next(ratios[trial % std::size(ratios)])))
-          EXPECT_LE(error(c, degree), accuracy);
+        EXPECT_LE(worst_error(with_fewer_vertices({random.next(ratios[trial % std::size(ratios)])}),
+                              degree),
+                  accuracy);
   }
 
-  TEST(CutRule, IsExactAtAndNearTangency)
+  TEST(CutRule, IsExactInDegeneratePositions)
   {
+    std::vector<Case> tangent;
     for (double gap : {0., 1e-2, 1e-4, 1e-8, 1e-12, 1e-15})
       for (double sign : {-1., 1.})
         for (const Case &c : against_a_side(sign * gap))
-          EXPECT_LE(error(moved(c), 8), accuracy) << sign * gap;
-  }
-
-  TEST(CutRule, IsExactForCirclesThroughCorners)
-  {
-    RandomCases random(22);
-    for (double ratio : ratios)
-      for (int trial = 0; trial < 10; ++trial)
-      {
-        const Polygon cell = random.polygon(Point<2>(.3, .2), 1);
-        const double t = random.uniform(0, 7);
-        const Point<2> centre = cell[0] + ratio * Point<2>(std::cos(t), std::sin(t));
-        for (double off : {0., 1e-15, -1e-15, 1e-12, -1e-12})
-          for (const Case &c :
-               with_fewer_vertices({{centre, centre.distance(cell[0]) * (1 + off)}, cell}))
-            EXPECT_LE(error(c, 7), accuracy) << off;
-      }
-    for (int i = -1; i < 6; ++i) // (3, 4, 5)
-      for (int j = -1; j < 6; ++j)
-        EXPECT_LE(error({{Point<2>(), 5}, box(Point<2>(i, j), 1)}, 8), accuracy);
-  }
-
-  TEST(CutRule, IsExactForCentresOnSidesAndCorners)
-  {
-    RandomCases random(23);
-    for (double ratio : ratios)
-      for (int trial = 0; trial < 10; ++trial)
-      {
-        const Polygon cell = random.polygon(Point<2>(.3, .2), 1);
-        const double s = random.uniform(0, 1);
-        for (const Point<2> &centre : {cell[1], cell[1] + s * (cell[2] - cell[1])})
-          for (const Case &c : with_fewer_vertices({{centre, ratio}, cell}))
-            EXPECT_LE(error(c, 6), accuracy);
-      }
+          tangent.push_back(moved(c));
+    struct
+    {
+      const char *position;
+      std::vector<Case> cases;
+      unsigned int degree;
+    } const table[] = {
+        {"at and near tangency", tangent, 8},
+        {"circles through corners", with_fewer_vertices(through_corners(22)), 7},
+        {"circles through corners of the lattice", pythagorean_ties(), 8},
+        {"centres on sides and corners", with_fewer_vertices(about_corners_and_sides(23)), 6},
+        {"repeated and collinear vertices", on_a_crowded_square(), 8}};
+    for (const auto &row : table)
+      EXPECT_LE(worst_error(row.cases, row.degree), accuracy) << row.position;
   }
 
   TEST(CutRule, IsExactForArcsOfAllLengths)
   {
-    for (double d : {-.999999, -.99, -.7, -1e-9, 0., 1e-9, .3, .9, .999999}) // a side cuts at y = d
-      for (unsigned int degree = 0; degree <= largest; ++degree)
-      {
-        EXPECT_LE(error({{Point<2>(), 1}, box(-2, 2, d, d + 4)}, degree), accuracy) << d;
-        EXPECT_LE(error({{Point<2>(), 1}, box(-2, 2, d, d + .3)}, degree), accuracy) << d;
-        EXPECT_LE(error({{Point<2>(), 1}, box(-.8, 2, d, d + 4)}, degree), accuracy) << d;
-      }
-  }
-
-  TEST(CutRule, OfRepeatedAndCollinearVerticesIsExact)
-  {
-    const Polygon crowded = {Point<2>(0, 0),  Point<2>(0, 0), Point<2>(.5, 0), Point<2>(1, 0),
-                             Point<2>(1, .3), Point<2>(1, 1), Point<2>(1, 1),  Point<2>(0, 1),
-                             Point<2>(0, .5), Point<2>(0, 0)};
-    for (double R : {.2, .5, .9, 1.1, 3.})
-      for (const Point<2> &centre : {Point<2>(.5, .5), Point<2>(.5, 0), Point<2>(0, 0),
-                                     Point<2>(1, R), Point<2>(.5, R), Point<2>(.5, 1 - R)})
-        EXPECT_LE(error({{centre, R}, crowded}, 8), accuracy) << R << ", " << centre;
+    for (unsigned int degree = 0; degree <= largest; ++degree)
+      EXPECT_LE(worst_error(arcs_of_all_lengths(), degree), accuracy) << degree;
   }
 
   TEST(CutRule, TheBackendsAgree)

@@ -2,12 +2,8 @@
 
 #include "meshes.h"
 
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <random>
-
-#include <unistd.h>
 
 using namespace plumbline;
 using namespace plumbline::geometry;
@@ -214,26 +210,4 @@ TEST(LatticeNodes, stay_on_their_side)
   const NodeCells before = voronoi_cells(at_rest, mesh), after = voronoi_cells(moved, mesh);
   EXPECT_EQ(before.source, after.source);
   EXPECT_EQ(before.n_free, after.n_free);
-}
-
-TEST(ReadNodes, takes_columns_by_name_and_names_lines_that_are_wrong)
-{
-  const std::string file =
-      (std::filesystem::temp_directory_path() / ("plumbline_nodes_" + std::to_string(getpid())))
-          .string();
-  const auto read = [&](const std::string &text)
-  {
-    std::ofstream(file) << text;
-    return read_nodes(file);
-  };
-  const auto fault = [&](const std::string &text) { return error_of([&] { read(text); }); };
-  EXPECT_EQ(read("y, label,x\n.5,a,1e-1\r\n\n-2, b ,3,7\n"),
-            (std::vector<Point<2>>{{.1, .5}, {3, -2}}));
-  EXPECT_TRUE(says(fault("x,z\n1,2\n"), "has no column y in its first line 'x,z'"));
-  EXPECT_TRUE(says(fault(""), "has no column x"));
-  EXPECT_TRUE(says(fault("x,y\n1,2\n1,2a\n"), ", line 3: y = '2a' is not a finite number"));
-  EXPECT_TRUE(says(fault("x,y\n1\n"), ", line 2: y = '' is not a finite number"));
-  EXPECT_TRUE(says(fault("x,y\nnan,1\n"), ", line 2: x = 'nan'"));
-  std::filesystem::remove(file);
-  EXPECT_TRUE(says(error_of([&] { read_nodes(file); }), "cannot be read"));
 }

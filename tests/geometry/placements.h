@@ -189,6 +189,46 @@ namespace plumbline::geometry
     return cases;
   }
 
+  /// Circles through a corner of a polygon, or within rounding of one.
+  inline std::vector<Case> through_corners(unsigned int seed)
+  {
+    RandomCases random(seed);
+    std::vector<Case> cases;
+    for (double ratio : ratios)
+      for (int trial = 0; trial < 10; ++trial)
+      {
+        const Polygon cell = random.polygon(Point<2>(.3, .2), 1);
+        const double t = random.uniform(0, 7);
+        const Point<2> centre = cell[0] + ratio * Point<2>(std::cos(t), std::sin(t));
+        for (double off : {0., 1e-15, -1e-15, 1e-12, -1e-12})
+          cases.push_back({{centre, centre.distance(cell[0]) * (1 + off)}, cell});
+      }
+    return cases;
+  }
+
+  /// Balls about corners and points of sides.
+  inline std::vector<Case> about_corners_and_sides(unsigned int seed)
+  {
+    RandomCases random(seed);
+    std::vector<Case> cases;
+    for (double ratio : ratios)
+      for (int trial = 0; trial < 10; ++trial)
+      {
+        const Polygon cell = random.polygon(Point<2>(.3, .2), 1);
+        const double s = random.uniform(0, 1);
+        cases.push_back({{cell[1], ratio}, cell});
+        cases.push_back({{cell[1] + s * (cell[2] - cell[1]), ratio}, cell});
+      }
+    return cases;
+  }
+
+  /// The unit square with vertices that are repeated, or in the middle of a side.
+  inline Polygon crowded_square()
+  {
+    return {Point<2>(0, 0), Point<2>(0, 0), Point<2>(.5, 0), Point<2>(1, 0),  Point<2>(1, .3),
+            Point<2>(1, 1), Point<2>(1, 1), Point<2>(0, 1),  Point<2>(0, .5), Point<2>(0, 0)};
+  }
+
   inline double worst_of(const std::vector<Case> &cases)
   {
     double worst = 0;

@@ -1,10 +1,8 @@
 #include "geometry/search.h"
 
-#include "base/error.h"
+#include "geometry/cell_locator.h"
+#include "meshes.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <limits>
 #include <random>
 #include <thread>
@@ -217,6 +215,115 @@ namespace plumbline::geometry
       {
         EXPECT_NE(std::string(error.what()).find("box 1"), std::string::npos) << error.what();
       }
+  }
+
+  namespace
+  {
+    /// Meshes of like and of graded cells, at the origin and far away from it.
+    std::vector<Mesh> meshes()
+    {
+      const auto grade = [](const Point<2> &x)
+      { return Point<2>(std::exp(5 * x[0]) - 1, std::exp(3 * x[1])); };
+      const auto shift = [](const Point<2> &x) { return bend(x) + Point<2>(1000, -500); };
+      return {lattice_mesh(unit, .125, .25, false), lattice_mesh(l_shape, .125, .25, true, bend),
+              lattice_mesh(with_hole, .125, .1, true, grade),
+              lattice_mesh(l_shape, .125, .25, false, shift)};
+    }
+
+    /// Among all cells.
+    std::optional<std::size_t> brute_force(const Mesh &mesh, const Point<2> &x)
+    {
+      for (const bool is_inside : {true, false})
+        for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+          if (mesh.cells[cell].is_inside == is_inside && contains(view(mesh.polygon(cell)), x))
+            return cell;
+      return {};
+    }
+  } // namespace
+
+  TEST(CellLocator, FindsWhatASearchOfAllCellsFinds)
+  {
+    Random random(12);
+    for (const Mesh &mesh : meshes())
+    {
+      const CellLocator locator(mesh);
+      ASSERT_EQ(locator.size(), mesh.cells.size());
+      const Box box = bounding_box(view(mesh.vertices));
+      int n_found = 0;
+      for (int i = 0; i < 2000; ++i)
+      {
+        Point<2> x;
+        for (unsigned int d = 0; d < 2; ++d)
+          x[d] = box.lower[d] + random.uniform(-.1, 1.1) * (box.upper[d] - box.lower[d]);
+        const auto cell = locator.find(x);
+        ASSERT_EQ(cell, brute_force(mesh, x)) << x;
+        n_found += cell.has_value();
+      }
+      EXPECT_GT(n_found, 500);
+      EXPECT_LT(n_found, 2000);
+    }
+  }
+
+  TEST(CellLocator, FindsVerticesAndPointsOfSides)
+  {
+    Random random(13);
+    for (const Mesh &mesh : meshes())
+    {
+      const CellLocator locator(mesh);
+      for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+      {
+        const Polygon &polygon = locator.polygon(cell);
+        EXPECT_EQ(polygon, mesh.polygon(cell));
+        EXPECT_EQ(locator.at(centroid(view(polygon))), cell);
+        for (std::size_t v = 0; v < polygon.size(); ++v)
+          for (const double share : {0., .5, random.uniform(0, 1)})
+          {
+            const Point<2> &a = polygon[v], &b = polygon[(v + 1) % polygon.size()];
+            const Point<2> x = a + share * (b - a);
+            const auto found = locator.find(x);
+            ASSERT_TRUE(found) << x;
+            EXPECT_EQ(found, brute_force(mesh, x));
+            // the boundary of Ω lies in Ω
+            EXPECT_TRUE(locator.is_inside(*found) || !mesh.cells[cell].is_inside) << x;
+          }
+      }
+    }
+  }
+
+  TEST(CellLocator, FindsPointsThatRoundingPutsBesideTheBoundary)
+  {
+    const CellLocator alone(lattice_mesh(unit, .25, 0, false)); // [0, 1]²
+    for (const Point<2> &x : {Point<2>(-5e-17, .6), Point<2>(.6, 1 + 2e-16), Point<2>(.3, -1e-17)})
+      EXPECT_TRUE(alone.find(x)) << x;
+    for (const Point<2> &x : {Point<2>(-1e-14, .6), Point<2>(.6, 1 + 1e-14), Point<2>(2, 3)})
+      EXPECT_FALSE(alone.find(x)) << x;
+    // of Ω, although cells of the collar hold it too
+    const CellLocator both(lattice_mesh(unit, .25, .25, false));
+    EXPECT_TRUE(both.is_inside(both.at(Point<2>(-5e-17, .6))));
+    EXPECT_FALSE(both.is_inside(both.at(Point<2>(-1e-14, .6))));
+  }
+
+  TEST(CellLocator, FindsTheCellsAroundABox)
+  {
+    const Mesh mesh = lattice_mesh(unit, .25, .25, false); // 6 x 6 squares from (-.25, -.25)
+    const CellLocator locator(mesh);
+    Found cells;
+    locator.find({Point<2>(.1, .1), Point<2>(.3, .2)}, cells);
+    EXPECT_EQ(cells, (Found{7, 8}));
+    locator.find({Point<2>(-.1, -.1), Point<2>(.1, -.1)}, cells);
+    EXPECT_EQ(cells, (Found{0, 1}));
+    EXPECT_TRUE(locator.is_inside(7));
+    EXPECT_FALSE(locator.is_inside(1));
+  }
+
+  TEST(CellLocator, NamesThePointOutside)
+  {
+    const CellLocator locator(lattice_mesh(with_hole, .125, .125, false));
+    EXPECT_TRUE(says(error_of([&] { (void)locator.at(Point<2>(.5, .5)); }), // in the hole
+                     "the point (0.5, 0.5) lies outside of the domain and its collar"));
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(locator.find(Point<2>(nan, .1)));
+    EXPECT_TRUE(says(error_of([&] { (void)locator.at(Point<2>(0, 1e300)); }), "(0, 1e+300)"));
   }
 
   TEST(BoundingBox, HoldsAllVertices)

@@ -28,8 +28,10 @@ namespace
     return scene::make_problem(scene, 0, {h, m * h});
   }
 
-  std::vector<Family> all(const Families &families)
+  /// The families of all free nodes.
+  std::vector<Family> all(const Recipe &recipe, const scene::Problem &problem)
   {
+    const Families families(recipe, problem.kernel, *problem.cells, Backend::fast);
     std::vector<Family> result(families.size());
     for (std::size_t i = 0; i < families.size(); ++i)
       families.make(i, result[i]);
@@ -38,7 +40,7 @@ namespace
 
   std::vector<Family> good_families(const scene::Problem &problem)
   {
-    return all(recalibrated(problem.kernel, *problem.cells, Backend::fast, 2));
+    return all(recalibrated(problem.kernel, 2), problem);
   }
 
   MatrixCheck check_matrix(const std::vector<Family> &families, const scene::Problem &problem)
@@ -73,7 +75,7 @@ TEST(CheckMoments, finds_what_partial_areas_miss)
   // C(m) - 1 at m = 3 for the scalar kernel, independent of h
   constexpr double expected = .091336;
   const auto problem = make_problem(false);
-  const auto families = all(improved_partial_area(problem.kernel, *problem.cells, Backend::fast));
+  const auto families = all(improved_partial_area(problem.kernel), problem);
   const MomentCheck check = check_moments(families, problem.kernel);
   EXPECT_NEAR(check.mean_ratio - 1, expected, 1e-6);
   EXPECT_NEAR(check.second.value, expected, 1e-6);
@@ -130,8 +132,7 @@ TEST(CheckMoments, names_the_one_node_whose_weights_are_wrong)
 TEST(CheckMoments, of_tensors_are_off_at_least_as_much_at_worst_as_on_average)
 {
   const auto problem = make_problem(true);
-  const MomentCheck check =
-      check_moments(all(full_area(problem.kernel, *problem.cells, Backend::fast)), problem.kernel);
+  const MomentCheck check = check_moments(all(full_area(problem.kernel), problem), problem.kernel);
   EXPECT_GT(std::abs(check.mean_ratio - 1), 1e-3);
   EXPECT_GE(check.second.value, std::abs(check.mean_ratio - 1) - 1e-12);
 }
@@ -147,7 +148,7 @@ TEST(CheckMoments, refuses_a_kernel_without_a_local_limit)
 TEST(CheckWeights, partial_areas_add_up_to_the_ball)
 {
   const auto problem = make_problem(false);
-  auto families = all(improved_partial_area(problem.kernel, *problem.cells, Backend::fast));
+  auto families = all(improved_partial_area(problem.kernel), problem);
   for (Family &family : families)
     for (std::size_t k = 0; k < family.bonds.size(); ++k)
       family.bonds[k].area = problem.cells->area[family.neighbours[k]];

@@ -45,7 +45,7 @@ namespace
 
   Families make_families(const std::string &name, const scene::Problem &problem)
   {
-    return rule(name).families(problem.kernel, *problem.cells, Backend::fast);
+    return {rule(name).recipe(problem.kernel), problem.kernel, *problem.cells, Backend::fast};
   }
 
   /// The largest |Σ C_ab w ξ^α - ∫ C_ab ξ^α| over all families, |α| <= degree, relative to
@@ -118,8 +118,9 @@ TEST(Families, are_the_lattices_where_nodes_are_not_moved)
       const auto problem = make_problem(0, is_tensor, h, m);
       for (const Rule &rule : rules())
       {
-        const auto lattice = rule.bonds(problem.kernel, h, Backend::fast).family;
-        const auto families = rule.families(problem.kernel, *problem.cells, Backend::fast);
+        const auto lattice =
+            lattice_bonds(rule.recipe(problem.kernel), problem.kernel, h, Backend::fast).family;
+        const auto families = make_families(rule.name, problem);
         Family family;
         for (const std::size_t node : {0, 9, 36, 63})
         {

@@ -218,7 +218,7 @@ namespace plumbline::report
   TEST(ReportPage, DoesNotTrustAReferenceWithoutEstimate)
   {
     study::Results results = fixture::results();
-    for (study::ReferenceEstimate &estimate : results.references)
+    for (study::ErrorEstimate &estimate : results.references)
       estimate.h_change = estimate.p_change = estimate.estimate = 0;
     EXPECT_TRUE(holds(page_of(results), "nothing says how far the reference can be trusted"));
   }

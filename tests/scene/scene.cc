@@ -1,6 +1,7 @@
 #include "scene/scene.h"
 
 #include "base/error.h"
+#include "scene/mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -88,7 +89,7 @@ TEST(Scene, overrides_win_over_the_file_and_json_is_read_too)
 
 TEST(Scene, templates_parse_and_describe_knows_every_section)
 {
-  for (const std::string model : {"scalar", "tensor"})
+  for (const std::string model : {"scalar", "tensor", "LPS", "variational"})
     EXPECT_NO_THROW(parse_scene("template.prm", scene_template(model)));
   EXPECT_THROW(scene_template("fluid"), InputError);
   EXPECT_NE(describe("Study/m").find("horizon / h"), std::string::npos);
@@ -188,5 +189,32 @@ TEST(SceneErrors, a_file_that_is_not_there)
   {
     EXPECT_STREQ(error.what(),
                  "scene 'no/such/scene.prm' cannot be read; give a .prm or .json file");
+  }
+}
+
+TEST(Materials, are_those_of_the_cells_and_of_nothing_outside)
+{
+  // a square of steel and one of wood beside it, with a gap of .5 to one more
+  const geometry::Mesh mesh{
+      {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {2.5, 0}, {3, 0}, {3, 1}, {2.5, 1}},
+      {{{0, 1, 4, 3}, 4, true, 1}, {{1, 2, 5, 4}, 4, false, 0}, {{6, 7, 8, 9}, 4, false, 1}},
+      {"wood", "steel"}};
+  Scene scene = parse("");
+  scene.materials = {{"steel", "200"}, {"wood", "12"}};
+  const auto coefficient = make_coefficient(scene, mesh);
+  ASSERT_TRUE(coefficient);
+  EXPECT_EQ(coefficient->at({.5, .5}), 200);
+  EXPECT_EQ(coefficient->at({1.5, .9}), 12);
+  EXPECT_EQ(coefficient->at({2.9, .1}), 200);
+  EXPECT_EQ(coefficient->at({1, .3}), 200); // where the domain meets its collar: the domain's
+  try
+  {
+    (void)coefficient->at({2.25, .5});
+    ADD_FAILURE() << "a material in the gap";
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("(2.25, 0.5) lies outside"), std::string::npos)
+        << error.what();
   }
 }

@@ -1,0 +1,141 @@
+#include "algebra/shared_rows.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/parallel.h>
+
+#include <numeric>
+
+namespace plumbline::algebra
+{
+  namespace
+  {
+    using base::Team;
+
+    /// Every rank sends pieces of its data to the others.
+    /// @param out, out_from  sizes and places of the pieces in data, by receiver
+    /// @param in             sizes of the pieces to receive, by sender
+    template <class T>
+    std::vector<T> exchange(const std::vector<T> &data, const std::vector<int> &out,
+                            const std::vector<int> &out_from, const std::vector<int> &in,
+                            const Team &team)
+    {
+      const auto type = dealii::Utilities::MPI::mpi_type_id_for_type<T>;
+      std::vector<int> in_from(in.size());
+      std::exclusive_scan(in.begin(), in.end(), in_from.begin(), 0);
+      std::vector<T> received(in_from.back() + in.back());
+      MPI_Alltoallv(data.data(), out.data(), out_from.data(), type, received.data(), in.data(),
+                    in_from.data(), type, team.communicator);
+      return received;
+    }
+
+    /// What all ranks give to this rank's share: shape (n_ranks × own_size) rows, by sender.
+    Rows from_all(const Rows &rows, const Shares &shares)
+    {
+      const std::size_t n_ranks = shares.first.size();
+      std::vector<std::size_t> length(rows.n_rows());
+      for (std::size_t row = 0; row < length.size(); ++row)
+        length[row] = rows.start[row + 1] - rows.start[row];
+      std::vector<int> out(n_ranks), out_from(n_ranks), in(n_ranks);
+      for (std::size_t r = 0; r < n_ranks; ++r)
+      {
+        out_from[r] = static_cast<int>(rows.start[shares.first[r]]);
+        out[r] = static_cast<int>(rows.start[shares.first[r] + shares.size[r]]) - out_from[r];
+      }
+      MPI_Alltoall(out.data(), 1, MPI_INT, in.data(), 1, MPI_INT, shares.team.communicator);
+      Rows received;
+      received.start =
+          exchange(length, shares.size, shares.first,
+                   std::vector<int>(n_ranks, static_cast<int>(shares.own_size)), shares.team);
+      received.start.insert(received.start.begin(), 0);
+      std::partial_sum(received.start.begin(), received.start.end(), received.start.begin());
+      received.column = exchange(rows.column, out, out_from, in, shares.team);
+      received.value = exchange(rows.value, out, out_from, in, shares.team);
+      return received;
+    }
+
+    /// Rows first ... first + n - 1 alone.
+    Rows slice(const Rows &rows, std::size_t first, std::size_t n)
+    {
+      const auto at = [](const auto &data, std::size_t i)
+      { return data.begin() + static_cast<std::ptrdiff_t>(i); };
+      const std::size_t from = rows.start[first], to = rows.start[first + n];
+      Rows result{{at(rows.start, first), at(rows.start, first + n + 1)},
+                  {at(rows.column, from), at(rows.column, to)},
+                  {at(rows.value, from), at(rows.value, to)}};
+      for (std::size_t &start : result.start)
+        start -= from;
+      return result;
+    }
+
+    /// Σ value[i] x[column[i]] in four sums that do not wait for each other.
+    double product(const double *value, const unsigned int *column, std::size_t n, const double *x)
+    {
+      double sum[4] = {};
+      std::size_t i = 0;
+      for (; i + 4 <= n; i += 4)
+        for (unsigned int k = 0; k < 4; ++k)
+          sum[k] += value[i + k] * x[column[i + k]];
+      for (; i < n; ++i)
+        sum[0] += value[i] * x[column[i]];
+      return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    }
+  } // namespace
+
+  Shares::Shares(std::size_t n, unsigned int n_components, const Team &team) : team(team)
+  {
+    for (unsigned int rank = 0; rank < team.n_ranks(); ++rank)
+    {
+      const auto [begin, end] = team.share(n / n_components, rank);
+      first.push_back(static_cast<int>(begin * n_components));
+      size.push_back(static_cast<int>((end - begin) * n_components));
+    }
+    own_first = first[team.rank()];
+    own_size = size[team.rank()];
+  }
+
+  dealii::IndexSet Shares::own() const
+  {
+    dealii::IndexSet rows(first.back() + size.back());
+    rows.add_range(own_first, own_first + own_size);
+    return rows;
+  }
+
+  SharedRows::SharedRows(const Rows &rows, const Shares &shares) : shares_(shares), given_(rows)
+  {
+    const std::size_t n_ranks = shares.first.size(), n = shares.own_size;
+    if (n_ranks == 1)
+      return;
+    const Rows all = from_all(rows, shares);
+    sum_ = slice(all, 0, n);
+    for (std::size_t rank = 1; rank < n_ranks; ++rank)
+      sum_ = add(sum_, slice(all, rank * n, n));
+  }
+
+  void SharedRows::vmult(Vector &y, const Vector &x) const
+  {
+    const double *all = x.begin();
+    std::vector<double> gathered;
+    if (shares_.first.size() > 1)
+    {
+      gathered.resize(x.size());
+      MPI_Allgatherv(x.begin(), static_cast<int>(shares_.own_size), MPI_DOUBLE, gathered.data(),
+                     shares_.size.data(), shares_.first.data(), MPI_DOUBLE,
+                     shares_.team.communicator);
+      all = gathered.data();
+    }
+    const Rows &rows = own();
+    constexpr unsigned int grain = 128;
+    dealii::parallel::apply_to_subranges(
+        static_cast<std::size_t>(0), shares_.own_size,
+        [&, to = y.begin()](std::size_t first, std::size_t last)
+        {
+          for (std::size_t row = first; row < last; ++row)
+          {
+            const std::size_t start = rows.start[row];
+            to[row] = product(rows.value.data() + start, rows.column.data() + start,
+                              rows.start[row + 1] - start, all);
+          }
+        },
+        grain);
+  }
+} // namespace plumbline::algebra

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "algebra/rows.h"
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+namespace plumbline::algebra
+{
+  /// The contiguous rows of every rank; those of one node stay together.
+  struct Shares
+  {
+    base::Team team;
+    std::vector<int> first, size; ///< shape (n_ranks)
+    std::size_t own_first, own_size;
+
+    /// @note Collective.
+    Shares(std::size_t n, unsigned int n_components, const base::Team &team);
+
+    dealii::IndexSet own() const;
+  };
+
+  /// A square sparse matrix of which every rank has its share of the rows, and all their columns.
+  class SharedRows
+  {
+  public:
+    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+    /// The sum of what all ranks give: entries of other ranks' rows are sent to them.
+    /// @param rows  any rows, shape (n, n), < 2^31 entries; on one rank a reference is kept
+    /// @note Collective.
+    SharedRows(const Rows &rows, const Shares &shares);
+
+    const Shares &shares() const { return shares_; }
+    const Rows &own() const { return sum_.start.empty() ? given_ : sum_; }
+
+    /// y = A x, threads sharing the rows; the same on any number of them. @note Collective.
+    void vmult(Vector &y, const Vector &x) const;
+
+  private:
+    const Shares &shares_;
+    const Rows &given_;
+    Rows sum_; ///< empty on one rank
+  };
+} // namespace plumbline::algebra

@@ -1,0 +1,112 @@
+#include "base/error.h"
+#include "meshfree/family_statistics.h"
+#include "meshfree/roads.h"
+#include "meshfree/scattered_field.h"
+#include "meshfree/variational_operator.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <sstream>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    VariationalBody make_body(const scene::Scene &scene, const scene::Problem &problem)
+    {
+      Polygons fixed;
+      for (const geometry::Box &box : scene.fixed)
+        fixed.push_back(
+            {box.lower, {box.upper[0], box.lower[1]}, box.upper, {box.lower[0], box.upper[1]}});
+      const auto lame = scene.material.lame();
+      return body_on_vertices(*problem.body, fixed,
+                              {[lame](const Point<2> &x) { return lame(x).lambda + lame(x).mu; },
+                               [lame](const Point<2> &x) { return 8 * lame(x).mu; }});
+    }
+
+    /// ∫ b over the free cells: 3 × 3 Gauss points on each quarter, so that loads may jump at
+    /// nodes.
+    algebra::Vector cell_integrals(const VariationalBody &body, const scene::Problem &problem)
+    {
+      const dealii::QGauss<2> gauss(3);
+      const geometry::Lattice &lattice = *problem.body;
+      algebra::Vector result(2 * body.size());
+      for (int j = 0; j < lattice.n_cells()[1]; ++j)
+        for (int i = 0; i < lattice.n_cells()[0]; ++i)
+          for (unsigned int quarter = 0; quarter < 4 && lattice.is_inside(i, j); ++quarter)
+          {
+            const int right = quarter % 2, above = quarter / 2;
+            const std::size_t node = static_cast<std::size_t>(j + above) * body.n[0] + i + right;
+            for (unsigned int q = 0; q < gauss.size() && body.is_fixed[node] == 0; ++q)
+            {
+              const Point<2> x = lattice.point(i + .5 * (right + gauss.point(q)[0]),
+                                               j + .5 * (above + gauss.point(q)[1]));
+              for (unsigned int c = 0; c < 2; ++c)
+                result[c * body.size() + node] +=
+                    .25 * body.h * body.h * gauss.weight(q) * problem.load.value(x, c);
+            }
+          }
+      return result;
+    }
+
+    void check_constraint(const VariationalBody &body, const scene::Problem &problem)
+    {
+      for (std::size_t i = 0; i < body.size(); ++i)
+        for (unsigned int c = 0; c < 2 && body.is_fixed[i] != 0; ++c)
+          if (const double value = problem.constraint.value(body.node(i), c); value != 0)
+          {
+            std::ostringstream message;
+            message << "Problem/constraint is " << value << " at (" << body.node(i)
+                    << "), but rules on free bodies hold the fixed part at 0; write 0, 0";
+            throw InputError(message.str());
+          }
+    }
+  } // namespace
+
+  study::Solution body_road(const Rule &rule, const scene::Scene &scene,
+                            const scene::Problem &problem)
+  {
+    const base::MemoryGauge memory;
+    base::CpuTimer timer;
+    const VariationalBody body = make_body(scene, problem);
+    check_constraint(body, problem);
+    const Bonds bonds =
+        lattice_bonds(rule.recipe(problem.kernel), problem.kernel, body.h, scene.backend);
+    const VariationalOperator matrix(body,
+                                     physics::influence_function(scene.profile, problem.horizon()),
+                                     bonds, algebra::road_from_name(scene.operator_road));
+    study::Solution solution;
+    solution.cost.setup_seconds = timer.seconds();
+
+    timer.restart();
+    const algebra::Vector load =
+        scene.loads_are_averages
+            ? cell_integrals(body, problem)
+            : nodal_load(body, [&](const Point<2> &x)
+                         { return Point<2>(problem.load.value(x, 0), problem.load.value(x, 1)); });
+    algebra::Vector u(load.size());
+    const auto solved = solve(matrix, u, load, scene.tolerance, scene.max_iterations);
+    solution.cost.solve_seconds = timer.seconds();
+    solution.cost.peak_bytes = memory.peak_bytes();
+    solution.cost.n_unknowns = 2 * problem.cells->n_free;
+    solution.cost.n_bonds = matrix.n_bonds();
+    solution.cost.n_iterations = solved.n_iterations;
+    solution.diagnostics.relative_residual = solved.relative_residual;
+    solution.diagnostics.operator_road = matrix.road();
+    describe_weights(bonds.family, solution.diagnostics);
+    solution.diagnostics.notes = bonds.notes;
+
+    const geometry::NodeCells &cells = *problem.cells; // they come from the vertices row by row
+    for (std::size_t i = 0; i < cells.n_free; ++i)
+    {
+      solution.nodes.push_back(cells.nodes[i]);
+      for (unsigned int c = 0; c < 2; ++c)
+        solution.nodal.push_back(u[c * body.size() + cells.source[i]]);
+    }
+    solution.averages = solution.nodal;
+    const auto field = std::make_shared<const ScatteredField>(problem.cells, solution.nodal, 2);
+    solution.value = [field](const Point<2> &x, unsigned int c) { return field->value(x, c); };
+    solution.write_vtu = [field](const std::string &file) { field->write_vtu(file); };
+    return solution;
+  }
+} // namespace plumbline::meshfree

@@ -1,0 +1,445 @@
+// The dilatation's part of state-based Galerkin matrices on meshes: exact identities, the lattice's
+// entries, direct sums.
+#include "reference/mesh_dilatation.h"
+
+#include "geometry/mesh_input.h"
+#include "reference/dilatation_row.h"
+#include "reference/lattice_dilatation.h"
+#include "reference/mesh_assembly.h"
+#include "reference/weighted_volume.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numeric>
+#include <random>
+
+namespace
+{
+  using namespace plumbline;
+  using geometry::Mesh;
+  using geometry::Point;
+  using physics::Dilatation;
+  using physics::Lame;
+  using reference::MeshCells;
+  using reference::MeshSpace;
+
+  using Field = std::function<Point<2>(const Point<2> &)>;
+
+  struct Discrete
+  {
+    Discrete(const Mesh &mesh, bool is_continuous, unsigned int degree)
+        : space(std::make_shared<const Mesh>(mesh), is_continuous, degree), cells(space.mesh())
+    {
+    }
+
+    algebra::Rows assemble(const Dilatation &dilatation, unsigned int refinement,
+                           bool is_normalised = false) const
+    {
+      return reference::assemble_dilatation(space, cells, dilatation,
+                                            {refinement, is_normalised, geometry::Backend::fast},
+                                            base::Team::alone());
+    }
+
+    std::vector<double> interpolate(const Field &u) const
+    {
+      std::vector<double> values;
+      for (std::size_t dof = 0; dof < space.n_dofs(); ++dof)
+        for (unsigned int c = 0; c < 2; ++c)
+          values.push_back(u(space.support(dof))[c]);
+      return values;
+    }
+
+    MeshSpace space;
+    MeshCells cells;
+  };
+
+  const geometry::Domain unit_square{{{Point<2>(0, 0), Point<2>(1, 1)}}, {}};
+
+  /// Of the unit square with a collar, vertices moved at random by up to `shift` h.
+  Mesh square_mesh(double h, double collar, bool is_triangles, double shift = 0)
+  {
+    Mesh mesh = geometry::lattice_mesh(unit_square, h, collar, is_triangles);
+    std::mt19937 random(3);
+    for (auto &vertex : mesh.vertices)
+      for (unsigned int d = 0; d < 2; ++d)
+        vertex[d] += shift * h * (2. * random() / random.max() - 1);
+    return mesh;
+  }
+
+  /// The unit square alone, with nothing around it.
+  Mesh free_square(double h, bool is_triangles)
+  {
+    const Mesh mesh = geometry::lattice_mesh(unit_square, h, h, is_triangles);
+    Mesh inside;
+    std::map<unsigned int, unsigned int> number;
+    for (geometry::MeshCell cell : mesh.cells)
+      if (cell.is_inside)
+      {
+        for (unsigned int v = 0; v < cell.n_vertices; ++v)
+        {
+          const auto [at, is_new] =
+              number.emplace(cell.vertex[v], static_cast<unsigned int>(number.size()));
+          if (is_new)
+            inside.vertices.push_back(mesh.vertices[cell.vertex[v]]);
+          cell.vertex[v] = at->second;
+        }
+        inside.cells.push_back(cell);
+      }
+    return inside;
+  }
+
+  Dilatation homogeneous(std::vector<physics::PowerTerm> profile, double horizon)
+  {
+    return {physics::influence_function(std::move(profile), horizon),
+            [](const Point<2> &) {
+              return Lame{3, 1};
+            },
+            true, true};
+  }
+
+  Dilatation heterogeneous(double horizon, bool is_two_point)
+  {
+    return {physics::influence_function({{1, -1}}, horizon),
+            [](const Point<2> &x) {
+              return Lame{3 + x[0], 1 + .5 * x[1] * x[1]};
+            },
+            is_two_point, false};
+  }
+
+  const std::vector<physics::PowerTerm> singular{{1, -1}}, constant{{1, 0}},
+      conical{{1, 0}, {-1, 1}};
+
+  std::vector<double> product(const algebra::Rows &rows, const std::vector<double> &values)
+  {
+    std::vector<double> result(rows.n_rows());
+    for (std::size_t i = 0; i < rows.n_rows(); ++i)
+      for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+        result[i] += rows.value[k] * values[rows.column[k]];
+    return result;
+  }
+
+  double largest(const std::vector<double> &values)
+  {
+    double result = 0;
+    for (const double value : values)
+      result = std::max(result, std::abs(value));
+    return result;
+  }
+
+  std::map<std::pair<std::size_t, std::size_t>, double> entries(const algebra::Rows &rows)
+  {
+    std::map<std::pair<std::size_t, std::size_t>, double> matrix;
+    for (std::size_t i = 0; i < rows.n_rows(); ++i)
+      for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+        matrix[{i, rows.column[k]}] = rows.value[k];
+    return matrix;
+  }
+
+  /// Largest |D_ij - D_ji| among the free unknowns, in units of the largest entry.
+  double asymmetry(const algebra::Rows &rows)
+  {
+    const auto matrix = entries(rows);
+    double worst = 0;
+    for (const auto &[place, value] : matrix)
+      if (place.second < rows.n_rows())
+        worst = std::max(worst, std::abs(value - matrix.at({place.second, place.first})));
+    return worst / largest(rows.value);
+  }
+
+  /// Largest |θ_u(x) - divergence(x)| at points of Ω.
+  double row_error(const Discrete &discrete, const Dilatation &dilatation, const Field &u,
+                   const std::function<double(const Point<2> &)> &divergence)
+  {
+    const MeshSpace &space = discrete.space;
+    reference::DilatationRow row(space, discrete.cells, dilatation, 2, geometry::Backend::fast);
+    std::vector<unsigned int> near, slot(space.n_dofs());
+    std::iota(slot.begin(), slot.end(), 0u);
+    std::vector<double> theta(2 * space.n_dofs()), test(2 * space.n_dofs());
+    const std::vector<double> values = discrete.interpolate(u);
+    double worst = 0;
+    for (std::size_t cell = 0; cell < discrete.cells.size(); ++cell)
+      for (const Point<2> &unit : {Point<2>(.3, .3), Point<2>(.01, .4), Point<2>(.5, 1e-6)})
+        if (space.mesh().cells[cell].is_inside)
+        {
+          discrete.cells.find_near(cell, dilatation.influence.horizon(), near);
+          row.evaluate(cell, unit, near, slot, theta, test);
+          const double value = std::inner_product(theta.begin(), theta.end(), values.begin(), 0.);
+          worst = std::max(worst, std::abs(value - divergence(space.map(cell).point(unit))));
+        }
+    return worst;
+  }
+
+  Point<2> linear(const Point<2> &x)
+  {
+    return Point<2>(1 + 2 * x[0] - x[1], x[0] + 3 * x[1]);
+  }
+  Point<2> quadratic(const Point<2> &x)
+  {
+    return Point<2>(x[0] * x[0] + 2 * x[0] * x[1], x[1] * x[1] - 3 * x[0] * x[1]);
+  }
+} // namespace
+
+TEST(DilatationRow, GivesTheDivergenceOfLinearAndQuadraticFields)
+{
+  for (const auto &profile : {singular, constant, conical})
+    for (const bool is_triangles : {true, false})
+      for (const unsigned int degree : {1u, 2u})
+        for (const bool is_continuous : {true, false})
+        {
+          const Dilatation dilatation = homogeneous(profile, .3);
+          const Discrete any(square_mesh(.125, .3, is_triangles, .15), is_continuous, degree);
+          EXPECT_LT(row_error(any, dilatation, linear, [](const Point<2> &) { return 5; }), 3e-13);
+          if (degree == 1)
+            continue; // of unit mass: φ ⋆ div u = div u where that is linear
+          const Discrete straight(square_mesh(.125, .3, is_triangles), is_continuous, degree);
+          EXPECT_LT(row_error(straight, dilatation, quadratic,
+                              [](const Point<2> &x) { return -x[0] + 4 * x[1]; }),
+                    3e-13);
+        }
+}
+
+TEST(WeightedVolume, IsTwoInAFullBallAndItsShareAtTheBoundary)
+{
+  const Mesh mesh = free_square(.25, true);
+  for (const auto &profile : {singular, constant, conical})
+  {
+    const reference::WeightedVolume volume(mesh, physics::influence_function(profile, .3));
+    EXPECT_DOUBLE_EQ(volume(Point<2>(.5, .5)), 2);
+    for (const double y : {0., 1e-17, 1e-15})
+      EXPECT_NEAR(volume(Point<2>(.5, y)), 1, 1e-13);
+    EXPECT_NEAR(volume(Point<2>(1e-15, 1e-15)), .5, 1e-13);
+  }
+}
+
+TEST(WeightedVolume, IsTheSumOverTheCells)
+{
+  Mesh mesh = square_mesh(.25, .1, true, .1);
+  mesh.cells.erase(mesh.cells.begin() + 20, mesh.cells.begin() + 30); // holes, corners of all kinds
+  const MeshCells cells(mesh);
+  for (const auto &profile : {singular, constant, conical})
+  {
+    const auto kernel = physics::influence_function(profile, .3);
+    const reference::WeightedVolume volume(mesh, kernel);
+    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+    {
+      const geometry::Ball ball{cells.centroid(cell), .3};
+      double sum = 0;
+      for (std::size_t other = 0; other < cells.size(); ++other)
+        sum += geometry::weighted_moments(
+            ball, cells[other], [&](double r) { return kernel.radial(r) * r * r; }, 0)[0];
+      EXPECT_NEAR(volume(ball.centre), sum, 1e-13);
+    }
+  }
+}
+
+TEST(MeshDilatation, IsBlindToConstantsAndSymmetricWhereItShouldBe)
+{
+  for (const bool is_triangles : {true, false})
+    for (const unsigned int degree : {0u, 1u, 2u})
+      for (const bool is_continuous : {true, false})
+      {
+        const Discrete discrete(square_mesh(.5, .8, is_triangles, .15), is_continuous, degree);
+        const auto translation =
+            discrete.interpolate([](const Point<2> &) { return Point<2>(1, -2); });
+        for (const auto &dilatation :
+             {homogeneous(singular, .4), heterogeneous(.4, false), heterogeneous(.4, true)})
+        {
+          const auto rows = discrete.assemble(dilatation, 0, !dilatation.is_two_point);
+          EXPECT_LT(largest(product(rows, translation)), 1e-13 * largest(rows.value));
+          if (dilatation.is_symmetric())
+            EXPECT_LT(asymmetry(rows), 1e-14);
+          else
+            EXPECT_GT(asymmetry(rows), 1e-4);
+        }
+      }
+}
+
+TEST(MeshDilatation, OfUniformSquaresApproachesThatOfTheLattice)
+{
+  const double h = .5, horizon = 1.3;
+  const Dilatation dilatation = homogeneous(singular, horizon);
+  for (const unsigned int degree : {1u, 2u})
+  {
+    const Discrete discrete(square_mesh(h, 2 * horizon, false), true, degree);
+    const reference::AxisShapes shapes(true, degree);
+    const auto stencil = reference::dilatation_stencil(dilatation.influence, 2, h, shapes);
+    const auto n_axis = static_cast<unsigned int>(shapes.families().size());
+    // block of an unknown, and the lattice cell of its place
+    const auto locate = [&](std::size_t unknown)
+    {
+      std::array<int, 3> place{static_cast<int>(unknown % 2)};
+      for (const unsigned int d : {1u, 0u})
+        for (unsigned int s = 0; s < n_axis; ++s)
+        {
+          const double at =
+              discrete.space.support(unknown / 2)[d] / h - shapes.families()[s].offset;
+          if (std::abs(at - std::round(at)) < 1e-9)
+          {
+            place[0] = place[0] * static_cast<int>(n_axis) + static_cast<int>(s);
+            place[1 + d] = static_cast<int>(std::lround(at));
+          }
+        }
+      return place;
+    };
+    std::vector<double> difference;
+    for (const unsigned int refinement : {0u, 1u, 2u})
+    {
+      double square = 0, size = 0;
+      for (const auto &[position, value] : entries(discrete.assemble(dilatation, refinement)))
+      {
+        const auto from = locate(position.first), to = locate(position.second);
+        const int k1 = to[1] - from[1], k2 = to[2] - from[2];
+        const double expected = std::max(std::abs(k1), std::abs(k2)) > stencil.reach()
+                                    ? 0
+                                    : stencil(static_cast<unsigned int>(from[0]),
+                                              static_cast<unsigned int>(to[0]), k1, k2);
+        square += std::pow(value - expected, 2);
+        size += std::pow(expected, 2);
+      }
+      difference.push_back(std::sqrt(square / size));
+    }
+    EXPECT_LT(difference[0], 5e-3);
+    EXPECT_LT(difference[1], difference[0] / 12);
+    EXPECT_LT(difference[2], 5e-5);
+  }
+}
+
+TEST(MeshDilatation, WithItsBondsIsTheLocalOperatorOfPolynomials)
+{
+  // weakly for interior test functions: -(λ - μ) ∇div u, and -[μ Δu + (λ + μ) ∇div u] with bonds
+  const Discrete discrete(square_mesh(.25, .6, true, .15), true, 2);
+  const Dilatation dilatation = homogeneous(singular, .3);
+  std::vector<double> integrals(discrete.space.n_free());
+  const auto &shapes = discrete.space.shapes();
+  const dealii::QWitherdenVincentSimplex<2> gauss(3);
+  std::vector<double> phi(shapes.size());
+  for (std::size_t cell = 0; cell < discrete.cells.size(); ++cell)
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      shapes.values(gauss.point(q), phi.data());
+      for (unsigned int a = 0; a < shapes.size(); ++a)
+        if (const unsigned int dof = discrete.space.dofs(cell)[a]; dof < integrals.size())
+          integrals[dof] +=
+              gauss.weight(q) * discrete.space.map(cell).determinant(gauss.point(q)) * phi[a];
+    }
+  const auto error = [&](const algebra::Rows &rows, const Field &u, const Point<2> &expected)
+  {
+    auto residual = product(rows, discrete.interpolate(u));
+    for (std::size_t i = 0; i < residual.size(); ++i)
+      residual[i] -= expected[i % 2] * integrals[i / 2];
+    return largest(residual) / largest(integrals);
+  };
+  std::array<std::array<double, 3>, 2> errors;
+  for (const unsigned int refinement : {0u, 1u})
+  {
+    const auto rows = discrete.assemble(dilatation, refinement);
+    const auto bonds = reference::assemble(
+        discrete.space, discrete.cells, physics::deviatoric_kernel(dilatation.influence, 1), {},
+        {refinement, true, geometry::Backend::fast}, base::Team::alone());
+    errors[refinement] = {error(rows, linear, Point<2>()), error(rows, quadratic, Point<2>(2, -8)),
+                          error(algebra::add(bonds.rows, rows), quadratic, Point<2>(2, -18))};
+  }
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    EXPECT_LT(errors[0][i], .4);
+    EXPECT_LT(errors[1][i], errors[0][i] / 8);
+  }
+}
+
+TEST(MeshDilatation, OfDegreeZeroIsTheVariationalModel)
+{
+  // families end at the boundary: forces from areas and centroids of ball ∩ cell alone, as Pflug,
+  // Stingl & Zetzmann 2026, eqs. (13)-(15)
+  const double horizon = .6;
+  const Discrete discrete(free_square(.25, false), false, 0);
+  Dilatation dilatation = heterogeneous(horizon, false);
+  dilatation.influence = physics::influence_function(constant, horizon);
+  const double K = dilatation.influence.constant();
+  const std::size_t n = discrete.cells.size();
+  std::vector<double> expected(4 * n * n);
+  const dealii::QGauss<2> gauss(2);
+  for (std::size_t cell = 0; cell < n; ++cell)
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const Point<2> x = discrete.space.map(cell).point(gauss.point(q));
+      std::vector<double> row(2 * n);
+      double volume = 0;
+      for (std::size_t other = 0; other < n; ++other)
+      {
+        const auto part = geometry::intersect({x, horizon}, discrete.cells[other]);
+        const auto d = part.centroid - x;
+        volume += K * (part.area * d.norm_square() + part.second[0] + part.second[2]);
+        for (unsigned int c = 0; c < 2; ++c)
+        {
+          row[2 * other + c] += K * part.area * d[c];
+          row[2 * cell + c] -= K * part.area * d[c];
+        }
+      }
+      const Lame material = dilatation.material(x);
+      const double weight = gauss.weight(q) * discrete.cells.area(cell) *
+                            (material.lambda - material.mu) * std::pow(2 / volume, 2);
+      for (std::size_t i = 0; i < 2 * n; ++i)
+        for (std::size_t j = 0; j < 2 * n; ++j)
+          expected[i * 2 * n + j] += weight * row[i] * row[j];
+    }
+  const auto rows = discrete.assemble(dilatation, 0, true);
+  ASSERT_EQ(rows.n_rows(), 2 * n);
+  for (const auto &[place, value] : entries(rows))
+  {
+    // unknowns are numbered by cell
+    double &other = expected[place.first * 2 * n + place.second];
+    EXPECT_NEAR(value, other, 1e-13 * largest(rows.value));
+    other = 0;
+  }
+  EXPECT_EQ(largest(expected), 0); // nothing is missing
+}
+
+TEST(MeshDilatation, TakesTheMaterialAtBothEnds)
+{
+  // two cells, each in the ball of all of the other's points: all integrands are smooth
+  Mesh mesh;
+  mesh.vertices = {Point<2>(0, 0), Point<2>(1, 0), Point<2>(2, 0),
+                   Point<2>(0, 1), Point<2>(1, 1), Point<2>(2, 1)};
+  mesh.cells = {{{0, 1, 4, 3}, 4, true}, {{1, 2, 5, 4}, 4, true}};
+  const Discrete discrete(mesh, false, 0);
+  Dilatation dilatation = heterogeneous(3, true);
+  dilatation.influence = physics::influence_function(constant, 3);
+  const double K = dilatation.influence.constant();
+  const dealii::QGauss<2> gauss(8);
+  std::vector<std::array<double, 4>> expected(4);
+  for (unsigned int cell = 0; cell < 2; ++cell)
+    for (unsigned int p = 0; p < gauss.size(); ++p)
+    {
+      const Point<2> x = discrete.space.map(cell).point(gauss.point(p));
+      std::array<double, 4> theta{}, test{};
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+      {
+        const Point<2> y = discrete.space.map(1 - cell).point(gauss.point(q));
+        const double f = dilatation.factor(dilatation.material(x), dilatation.material(y));
+        for (unsigned int c = 0; c < 2; ++c)
+        {
+          const double value = gauss.weight(q) * K * (y - x)[c];
+          theta[2 * (1 - cell) + c] += value;
+          theta[2 * cell + c] -= value;
+          test[2 * (1 - cell) + c] += f * value;
+          test[2 * cell + c] -= f * value;
+        }
+      }
+      for (unsigned int i = 0; i < 4; ++i)
+        for (unsigned int j = 0; j < 4; ++j)
+          expected[i][j] += gauss.weight(p) * test[i] * theta[j];
+    }
+  const auto difference = [&](unsigned int refinement)
+  {
+    const auto rows = discrete.assemble(dilatation, refinement);
+    double worst = 0;
+    for (const auto &[place, value] : entries(rows))
+      worst = std::max(worst, std::abs(value - expected[place.first][place.second]));
+    return worst / largest(rows.value);
+  };
+  EXPECT_LT(difference(0), 1e-3);
+  EXPECT_LT(difference(3), 1e-7);
+}

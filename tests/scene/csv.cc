@@ -1,0 +1,134 @@
+#include "scene/csv.h"
+
+#include "base/error.h"
+#include "scene/mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include <unistd.h>
+
+using namespace plumbline;
+using namespace plumbline::scene;
+
+namespace
+{
+  class CsvFile : public testing::Test
+  {
+  protected:
+    void TearDown() override { std::filesystem::remove(file_); }
+
+    Csv open(const std::string &text, const std::vector<std::string> &required = {"a", "b"}) const
+    {
+      std::ofstream(file_) << text;
+      return {file_, required};
+    }
+
+    /// What reading all of it as numbers says.
+    std::string fault(const std::string &text) const
+    {
+      return error_of(
+          [&]
+          {
+            Csv csv = open(text);
+            while (csv.next())
+            {
+              csv.integer("a");
+              csv.number("b");
+            }
+          });
+    }
+
+    template <class F>
+    std::string error_of(const F &f) const
+    {
+      try
+      {
+        f();
+      }
+      catch (const InputError &error)
+      {
+        const std::string message = error.what(), file = "'" + file_ + "'";
+        EXPECT_EQ(message.find(file), 0u) << message;
+        return message.substr(file.size());
+      }
+      return "no error";
+    }
+
+    const std::string file_ =
+        (std::filesystem::path(testing::TempDir()) / ("csv_" + std::to_string(getpid()))).string();
+  };
+} // namespace
+
+TEST_F(CsvFile, is_read_by_the_names_of_its_columns)
+{
+  Csv csv = open("b, label ,a\r\n.5,two words,-7\r\n\n , \n+1e-1,,+12\n-2 ,c");
+  EXPECT_TRUE(csv.has("label"));
+  EXPECT_FALSE(csv.has("c"));
+  ASSERT_TRUE(csv.next());
+  EXPECT_EQ(csv.line(), 2u);
+  EXPECT_EQ(csv.number("b"), .5);
+  EXPECT_EQ(csv.integer("a"), -7);
+  EXPECT_FALSE(csv.is_empty("label"));
+  ASSERT_TRUE(csv.next()); // lines without values do not count
+  EXPECT_EQ(csv.line(), 5u);
+  EXPECT_EQ(csv.number("b"), .1);
+  EXPECT_EQ(csv.integer("a"), 12);
+  EXPECT_EQ(csv.number("a"), 12);
+  EXPECT_TRUE(csv.is_empty("label"));
+  ASSERT_TRUE(csv.next()); // a short row
+  EXPECT_EQ(csv.number("b"), -2);
+  EXPECT_TRUE(csv.is_empty("a"));
+  EXPECT_FALSE(csv.next());
+}
+
+TEST_F(CsvFile, with_a_header_that_will_not_do_is_refused)
+{
+  EXPECT_EQ(fault("a,c\n1,2\n"),
+            " has no column b in its first line 'a,c'; name the columns there: a,b");
+  EXPECT_EQ(fault(""), " has no column a in its first line ''; name the columns there: a,b");
+  EXPECT_EQ(fault("a,b,a\n"), ", line 1: two columns are named a; rename one of them");
+  EXPECT_EQ(fault("a,b,,\n"), "no error"); // columns without a name
+  std::filesystem::remove(file_);
+  const std::string unreadable = " cannot be read; check its name and folder";
+  EXPECT_EQ(error_of([&] { Csv(file_, {}); }), unreadable);
+  std::filesystem::create_directory(file_);
+  EXPECT_EQ(error_of([&] { Csv(file_, {}); }), unreadable);
+}
+
+TEST_F(CsvFile, names_line_column_and_value_that_are_wrong)
+{
+  EXPECT_EQ(fault("a,b\n1,2\n\n3,4x\n"),
+            ", line 4: b = '4x' is not a finite number; mend or take out the line");
+  for (const std::string bad :
+       {"", "x", "nan", "-inf", "+", "+-1", "--1", "1 2", "0x1p3", "1e999", "1.5.2"})
+    EXPECT_EQ(fault("a,b\n1," + bad + "\n").find(", line 2: b = '" + bad + "' is not a finite"), 0u)
+        << bad << ": " << fault("a,b\n1," + bad + "\n");
+  for (const std::string bad : {"1.0", "1e3", "9223372036854775808", "one"})
+    EXPECT_EQ(fault("a,b\n" + bad + ",2\n").find(", line 2: a = '" + bad + "' is not an integer"),
+              0u)
+        << bad;
+  // as decimal commas make it
+  EXPECT_EQ(fault("a,b\n1,2\n1,0,2\n"), ", line 3: '1,0,2' has 3 values for 2 columns; take some "
+                                        "out, or name their columns in the first line");
+  Csv csv = open("a,b\n1,2\n");
+  ASSERT_TRUE(csv.next());
+  EXPECT_EQ(error_of([&] { csv.fail("is odd"); }), ", line 2: is odd");
+  EXPECT_EQ(error_of([&] { csv.fail(7, "is odd"); }), ", line 7: is odd");
+}
+
+TEST_F(CsvFile, holds_nodes)
+{
+  const auto read = [&](const std::string &text)
+  {
+    open(text, {});
+    return read_nodes(file_);
+  };
+  EXPECT_EQ(read("y,label,x\n.5,a,1e-1\n\n-2,b,+3\n"),
+            (std::vector<dealii::Point<2>>{{.1, .5}, {3, -2}}));
+  EXPECT_EQ(error_of([&] { read("x,z\n1,2\n"); }),
+            " has no column y in its first line 'x,z'; name the columns there: x,y");
+  EXPECT_EQ(error_of([&] { read("x,y\n1\n"); }),
+            ", line 2: y = '' is not a finite number; mend or take out the line");
+}
