@@ -1,5 +1,6 @@
 #include "check.h"
 
+#include "algebra/spectrum.h"
 #include "base/error.h"
 #include "base/team.h"
 #include "meshfree/bond_check.h"
@@ -119,7 +120,7 @@ namespace plumbline::app
       MomentCheck moments;
       WeightCheck weights;
       SymmetryCheck symmetry;
-      MatrixCheck matrix;
+      algebra::MatrixCheck matrix;
       std::vector<CaseCheck> cases;
     };
 
@@ -156,7 +157,8 @@ namespace plumbline::app
       found.symmetry = check_symmetry(given.families, problem.kernel);
       const FamilySource families = [&](std::size_t i, Family &family)
       { family = given.families[i]; };
-      found.matrix = check_matrix(scattered_operator(families, problem, {0, cells.n_free}).rows);
+      found.matrix =
+          algebra::check_matrix(scattered_operator(families, problem, {0, cells.n_free}).rows);
       const auto names = scene.case_names();
       for (unsigned int c = 0; c < names.size(); ++c)
         found.cases.push_back(check_case(scene, scene::make_problem(scene, c, found.level.level),

@@ -4,6 +4,7 @@
 #include "base/team.h"
 #include "check.h"
 #include "run.h"
+#include "stability.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/multithread_info.h>
@@ -69,6 +70,17 @@ int main(int argc, char **argv)
   check->add_flag("--quiet", weights.quiet, "Print nothing but errors");
   check->add_flag("--json", weights.json, "Print a JSON object instead of text");
 
+  plumbline::app::StabilityOptions measures;
+  auto *stability = app.add_subcommand("stability", "Where methods fail, and how");
+  stability->add_option("SCENE", measures.scene_file, "Scene file (.prm or .json)")->required();
+  stability->add_option("-o,--output", measures.output, "Output folder (default: results/<scene>)");
+  stability->add_option("--set", settings, "Section/key=value, instead of what the file says");
+  stability->add_option("--methods", measures.methods, "Methods, instead of the scene's");
+  stability->add_option("--levels", measures.n_levels, "The first so many levels of each sweep");
+  stability->add_flag("--check", measures.check, "Exit with 1 if Expected/stability fails");
+  stability->add_flag("--quiet", measures.quiet, "Print nothing but errors");
+  stability->add_flag("--json", measures.json, "Print stability.json instead of the table");
+
   std::string folder, subject, model, key;
   auto *report = app.add_subcommand("report", "Rebuild tables, charts and page from results.json");
   report->add_option("DIR", folder, "Output folder of a run")->required();
@@ -93,7 +105,7 @@ int main(int argc, char **argv)
       argc, argv, n_threads == 0 ? dealii::numbers::invalid_unsigned_int : n_threads);
   try
   {
-    options.overrides = weights.overrides = to_overrides(settings);
+    options.overrides = weights.overrides = measures.overrides = to_overrides(settings);
     if (*run)
       return plumbline::app::run(options);
     const bool is_silent = plumbline::base::Team::all().rank() > 0;
@@ -101,6 +113,8 @@ int main(int argc, char **argv)
       return 0; // the first rank does it
     if (*check)
       return plumbline::app::check(weights);
+    if (*stability)
+      return plumbline::app::stability(measures);
     if (*report)
       return plumbline::app::rebuild_report(folder);
     if (*list)

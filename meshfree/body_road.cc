@@ -24,6 +24,13 @@ namespace plumbline::meshfree
                                [lame](const Point<2> &x) { return 8 * lame(x).mu; }});
     }
 
+    VariationalOperator make_operator(const VariationalBody &body, const Bonds &bonds,
+                                      const scene::Scene &scene, const scene::Problem &problem)
+    {
+      return {body, physics::influence_function(scene.profile, problem.horizon()), bonds,
+              algebra::road_from_name(scene.operator_road)};
+    }
+
     /// ∫ b over the free cells: 3 × 3 Gauss points on each quarter, so that loads may jump at
     /// nodes.
     algebra::Vector cell_integrals(const VariationalBody &body, const scene::Problem &problem)
@@ -72,9 +79,7 @@ namespace plumbline::meshfree
     check_constraint(body, problem);
     const Bonds bonds =
         lattice_bonds(rule.recipe(problem.kernel), problem.kernel, body.h, scene.backend);
-    const VariationalOperator matrix(body,
-                                     physics::influence_function(scene.profile, problem.horizon()),
-                                     bonds, algebra::road_from_name(scene.operator_road));
+    const VariationalOperator matrix = make_operator(body, bonds, scene, problem);
     study::Solution solution;
     solution.cost.setup_seconds = timer.seconds();
 
@@ -93,7 +98,7 @@ namespace plumbline::meshfree
     solution.cost.n_iterations = solved.n_iterations;
     solution.diagnostics.relative_residual = solved.relative_residual;
     solution.diagnostics.operator_road = matrix.road();
-    describe_weights(bonds.family, solution.diagnostics);
+    describe_weights(bonds.family, bonds.fit, solution.diagnostics);
     solution.diagnostics.notes = bonds.notes;
 
     const geometry::NodeCells &cells = *problem.cells; // they come from the vertices row by row
@@ -108,5 +113,46 @@ namespace plumbline::meshfree
     solution.value = [field](const Point<2> &x, unsigned int c) { return field->value(x, c); };
     solution.write_vtu = [field](const std::string &file) { field->write_vtu(file); };
     return solution;
+  }
+
+  study::DiscreteOperator body_discrete(const Rule &rule, const scene::Scene &scene,
+                                        const scene::Problem &problem)
+  {
+    const VariationalBody body = make_body(scene, problem);
+    const Bonds bonds =
+        lattice_bonds(rule.recipe(problem.kernel), problem.kernel, body.h, scene.backend);
+    auto result = show(
+        std::make_shared<const VariationalOperator>(make_operator(body, bonds, scene, problem)));
+    describe_weights(bonds.family, bonds.fit, result.diagnostics);
+    result.diagnostics.notes = bonds.notes;
+    return result;
+  }
+
+  study::DiscreteOperator show(std::shared_ptr<const VariationalOperator> matrix)
+  {
+    const VariationalBody &body = matrix->body();
+    study::DiscreteOperator result;
+    result.n_components = 2;
+    result.is_collocated = false;
+    std::vector<std::size_t> positions;
+    for (std::size_t i = 0; i < body.size(); ++i)
+      if (body.V[i] > 0 && body.is_fixed[i] == 0)
+      {
+        result.nodes.push_back(body.node(i));
+        result.mass.push_back(body.V[i]);
+        positions.push_back(i);
+        positions.push_back(body.size() + i);
+      }
+    result.action = [matrix = std::move(matrix), positions](const std::vector<double> &x,
+                                                            std::vector<double> &y)
+    {
+      algebra::Vector in(2 * matrix->body().size()), out(in.size());
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        in[positions[i]] = x[i];
+      matrix->vmult(out, in);
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        y[i] = out[positions[i]];
+    };
+    return result;
   }
 } // namespace plumbline::meshfree

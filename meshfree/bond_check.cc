@@ -5,19 +5,14 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
-#include <Eigen/SparseCholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 namespace plumbline::meshfree
 {
   namespace
   {
-    using SparseMatrix = Eigen::SparseMatrix<double>;
-
     /// ∫ |C| |ξ|^degree over the ball, where |C| is the radial factor's.
     double kernel_size(const Kernel<2> &kernel, int degree)
     {
@@ -78,48 +73,6 @@ namespace plumbline::meshfree
       std::nth_element(values.begin(), middle, values.end());
       return *middle;
     }
-
-    /// Triangular factors of a symmetric matrix minus a shift.
-    struct Factors
-    {
-      Eigen::SimplicialLDLT<SparseMatrix> ldlt;
-
-      Factors(const SparseMatrix &matrix, double shift)
-      {
-        ldlt.setShift(-shift);
-        ldlt.compute(matrix);
-        if (ldlt.info() != Eigen::Success)
-          throw NumericalError("the symmetric part of the matrix has no factors L D L^T; look for "
-                               "nodes whose weights are all zero");
-      }
-
-      /// Eigenvalues below the shift, by Sylvester's law of inertia.
-      std::size_t n_below() const
-      {
-        return static_cast<std::size_t>((ldlt.vectorD().array() < 0).count());
-      }
-
-      /// The eigenvalue nearest to the shift.
-      double nearest_eigenvalue(const SparseMatrix &matrix) const
-      {
-        constexpr int most_iterations = 2000;
-        constexpr double tolerance = 1e-12; // of the change in one iteration
-        Eigen::VectorXd x(matrix.rows());
-        for (Eigen::Index i = 0; i < x.size(); ++i) // orthogonal to no eigenvector, most likely
-          x[i] = 1 + .5 * std::sin(1. + static_cast<double>(i) * static_cast<double>(i));
-        double value = std::numeric_limits<double>::infinity();
-        for (int iteration = 0; iteration < most_iterations; ++iteration)
-        {
-          x = ldlt.solve(x).eval();
-          x.normalize();
-          const double before = value;
-          value = x.dot(matrix * x);
-          if (std::abs(value - before) <= tolerance * std::abs(value))
-            break;
-        }
-        return value;
-      }
-    };
   } // namespace
 
   MomentCheck check_moments(const std::vector<Family> &families, const Kernel<2> &kernel)
@@ -224,47 +177,6 @@ namespace plumbline::meshfree
           }
       }
     check.asymmetry /= scale > 0 ? scale : 1;
-    return check;
-  }
-
-  MatrixCheck check_matrix(const algebra::Rows &rows)
-  {
-    constexpr double rounding = 1e-12; // of a row's sum
-    MatrixCheck check;
-    double largest_sum = 0;
-    std::vector<Eigen::Triplet<double>> entries;
-    for (unsigned int i = 0; i < rows.n_rows(); ++i)
-    {
-      double diagonal = 0, others = 0, largest_other = 0;
-      for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
-      {
-        const auto j = rows.column[k];
-        const double value = rows.value[k];
-        entries.emplace_back(i, j, value);
-        if (j == i)
-          diagonal = value;
-        else
-        {
-          others += std::abs(value);
-          largest_other = std::max(largest_other, value);
-        }
-      }
-      const double sum = std::abs(diagonal) + others;
-      check.n_positive += largest_other > rounding * sum ? 1 : 0;
-      check.n_weak += diagonal < others - rounding * sum ? 1 : 0;
-      largest_sum = std::max(largest_sum, sum);
-    }
-    const auto n = static_cast<Eigen::Index>(rows.n_rows());
-    SparseMatrix matrix(n, n);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    matrix = (.5 * (matrix + SparseMatrix(matrix.transpose()))).eval();
-
-    // the smallest eigenvalue is the one nearest to a shift that none is below
-    auto factors = std::make_unique<Factors>(matrix, 1e-14 * largest_sum);
-    check.n_negative_eigenvalues = factors->n_below();
-    for (double shift = -1e-6 * largest_sum; factors->n_below() > 0; shift *= 4)
-      factors = std::make_unique<Factors>(matrix, shift);
-    check.smallest_eigenvalue = factors->nearest_eigenvalue(matrix);
     return check;
   }
 } // namespace plumbline::meshfree

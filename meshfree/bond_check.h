@@ -1,6 +1,5 @@
 #pragma once
 
-#include "algebra/rows.h"
 #include "meshfree/recipe.h"
 
 namespace plumbline::meshfree
@@ -65,21 +64,4 @@ namespace plumbline::meshfree
   };
 
   SymmetryCheck check_symmetry(const std::vector<Family> &families, const Kernel<2> &kernel);
-
-  struct MatrixCheck
-  {
-    std::size_t n_positive = 0; ///< rows with a positive off-diagonal entry
-    std::size_t n_weak = 0;     ///< rows that are not diagonally dominant, by more than rounding
-    // of the symmetric part
-    std::size_t n_negative_eigenvalues = 0; ///< below 1e-14 of the largest row sum
-    double smallest_eigenvalue = 0; ///< to 1e-6 if all are positive; else an upper bound near it
-
-    bool is_positive_definite() const { return n_negative_eigenvalues == 0; }
-  };
-
-  /// Eigenvalues are counted by the inertia of sparse factors, and the smallest is found by inverse
-  /// iteration, from below it.
-  /// @throws NumericalError  the factorisation fails
-  /// Cost: 1 factorisation, or up to 12 if the matrix is not positive definite.
-  MatrixCheck check_matrix(const algebra::Rows &rows);
 } // namespace plumbline::meshfree

@@ -21,13 +21,25 @@ namespace plumbline::meshfree
     double area;           ///< of ball ∩ cell where the rule uses it, else of the cell [length^2]
   };
 
+  /// How well weights meet the moments that were asked of them.
+  struct Fit
+  {
+    unsigned int degree = 0; ///< of the moments
+    unsigned int n_conditions = 0, rank = 0;
+    double residual = 0; ///< relative
+    /// Of conditions of norm 1 the shortest part orthogonal to the others that counted, by
+    /// pivoting: the smallest singular value of those up to a modest factor.
+    double smallest_pivot = 1;
+  };
+
   /// What a meshfree rule yields on a lattice, where all nodes share one family:
   /// L_h u_i = -Σ C(kernel_point) (u(x_i + ξ) - u_i) weight.
   struct Bonds
   {
     double h; ///< of the lattice [length]
     std::vector<Bond> family;
-    std::vector<std::string> notes; ///< what the rule had to do that a user should know
+    Fit fit = {};
+    std::vector<std::string> notes = {}; ///< what the rule had to do that a user should know
   };
 
   /// A node counts as inside the ball up to this fraction of the radius beyond it: on lattices

@@ -4,7 +4,8 @@
 
 namespace plumbline::meshfree
 {
-  void describe_weights(const std::vector<Bond> &family, study::Diagnostics &diagnostics)
+  void describe_weights(const std::vector<Bond> &family, const Fit &fit,
+                        study::Diagnostics &diagnostics)
   {
     diagnostics.n_neighbours =
         std::max(diagnostics.n_neighbours, static_cast<unsigned int>(family.size()));
@@ -14,13 +15,17 @@ namespace plumbline::meshfree
           std::min(diagnostics.smallest_weight_ratio, bond.weight / bond.area);
       diagnostics.n_negative_weights += bond.weight < 0 ? 1 : 0;
     }
+    if (diagnostics.n_conditions == 0 || fit.rank < diagnostics.rank)
+      diagnostics.rank = fit.rank;
+    diagnostics.n_conditions = fit.n_conditions;
+    diagnostics.smallest_pivot = std::min(diagnostics.smallest_pivot, fit.smallest_pivot);
   }
 
   void FamilyStatistics::add(const Kernel<2> &kernel, const Family &family)
   {
     const auto any = [&](const auto &is) -> int
     { return std::any_of(family.bonds.begin(), family.bonds.end(), is) ? 1 : 0; };
-    describe_weights(family.bonds, weights_);
+    describe_weights(family.bonds, family.fit, weights_);
     n_families_ += 1;
     n_negative_ += any([](const Bond &bond) { return bond.weight < 0; });
     n_unstable_ +=
@@ -36,6 +41,10 @@ namespace plumbline::meshfree
     result.n_neighbours = static_cast<unsigned int>(team.largest(weights_.n_neighbours));
     result.smallest_weight_ratio = -team.largest(-weights_.smallest_weight_ratio);
     result.n_negative_weights = static_cast<unsigned int>(total(weights_.n_negative_weights));
+    result.n_conditions = static_cast<unsigned int>(team.largest(weights_.n_conditions));
+    result.rank = result.n_conditions -
+                  static_cast<unsigned int>(team.largest(weights_.n_conditions - weights_.rank));
+    result.smallest_pivot = -team.largest(-weights_.smallest_pivot);
     const std::string n_families = std::to_string(total(n_families_));
     const auto note = [&](double n, const std::string &what, const std::string &so)
     {

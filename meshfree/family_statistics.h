@@ -7,7 +7,8 @@
 namespace plumbline::meshfree
 {
   /// Add a family to what a method says of its weights.
-  void describe_weights(const std::vector<Bond> &family, study::Diagnostics &diagnostics);
+  void describe_weights(const std::vector<Bond> &family, const Fit &fit,
+                        study::Diagnostics &diagnostics);
 
   /// What the families of scattered nodes are like.
   class FamilyStatistics

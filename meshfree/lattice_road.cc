@@ -50,6 +50,18 @@ namespace plumbline::meshfree
       }
       return load;
     }
+
+    Bonds make_bonds(const Rule &rule, const scene::Scene &scene, const scene::Problem &problem)
+    {
+      return lattice_bonds(rule.recipe(problem.kernel), problem.kernel, problem.lattice->h(),
+                           scene.backend);
+    }
+
+    algebra::Stencil make_stencil(const scene::Problem &problem, const Bonds &bonds)
+    {
+      return problem.dilatation ? state_based_stencil(*problem.dilatation, bonds)
+                                : lattice_operator(problem.kernel, bonds);
+    }
   } // namespace
 
   study::Solution lattice_road(const Rule &rule, const scene::Scene &scene,
@@ -59,10 +71,8 @@ namespace plumbline::meshfree
     const base::CpuTimer timer;
     const geometry::Lattice &lattice = *problem.lattice;
     const NodeSet nodes = study::comparison_nodes(scene, lattice, problem.n_components);
-    const Bonds bonds =
-        lattice_bonds(rule.recipe(problem.kernel), problem.kernel, lattice.h(), scene.backend);
-    const auto stencil = problem.dilatation ? state_based_stencil(*problem.dilatation, bonds)
-                                            : lattice_operator(problem.kernel, bonds);
+    const Bonds bonds = make_bonds(rule, scene, problem);
+    const auto stencil = make_stencil(problem, bonds);
     const double rule_seconds = timer.seconds();
     study::LatticeSolve solved = study::solve_on_lattice(
         scene, problem, nodes, stencil, [&] { return nodal_load(problem, nodes); });
@@ -73,7 +83,7 @@ namespace plumbline::meshfree
     solution.cost.peak_bytes = memory.peak_bytes();
     solution.diagnostics = solved.diagnostics;
     solution.diagnostics.n_neighbours = 0;
-    describe_weights(bonds.family, solution.diagnostics);
+    describe_weights(bonds.family, bonds.fit, solution.diagnostics);
     solution.diagnostics.notes = bonds.notes;
     const auto field =
         std::make_shared<const NodalField>(NodalField{lattice, nodes, std::move(solved.values)});
@@ -90,5 +100,17 @@ namespace plumbline::meshfree
     solution.value = [field](const Point<2> &x, unsigned int c) { return field->value(x, c); };
     solution.write_vtu = [field](const std::string &file) { field->write_vtu(file); };
     return solution;
+  }
+
+  study::DiscreteOperator lattice_discrete(const Rule &rule, const scene::Scene &scene,
+                                           const scene::Problem &problem)
+  {
+    const NodeSet nodes = study::comparison_nodes(scene, *problem.lattice, problem.n_components);
+    const Bonds bonds = make_bonds(rule, scene, problem);
+    auto result =
+        study::show_on_lattice(*problem.lattice, nodes, make_stencil(problem, bonds), {1});
+    describe_weights(bonds.family, bonds.fit, result.diagnostics);
+    result.diagnostics.notes = bonds.notes;
+    return result;
   }
 } // namespace plumbline::meshfree

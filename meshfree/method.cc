@@ -15,9 +15,17 @@ namespace plumbline::meshfree
       std::string name() const override { return rule_.name; }
       std::string family() const override { return "meshfree"; }
       std::string help() const override { return rule_.help; }
-      std::string why_not(const scene::Scene &, const scene::Problem &) const override
+      std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const override
       {
-        return {};
+        if (scene.iteration != "cg" || problem.lattice || problem.body)
+          return {};
+        std::string why = "on scattered nodes a bond has two weights, one for each end";
+        if (problem.dilatation && !problem.dilatation->is_symmetric())
+          why = "harmonic means of constants that vary in space (LPS) make none";
+        else if (scene.is_damaged())
+          why = "what cracks and free surfaces add to rows makes none";
+        return "Solver/iteration = cg needs a symmetric operator, but " + why +
+               "; write automatic, gmres or bicgstab";
       }
 
       study::Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
@@ -26,6 +34,15 @@ namespace plumbline::meshfree
           return body_road(rule_, scene, problem);
         return problem.lattice ? lattice_road(rule_, scene, problem)
                                : scattered_road(rule_, scene, problem);
+      }
+
+      std::optional<study::DiscreteOperator>
+      discrete_operator(const scene::Scene &scene, const scene::Problem &problem) const override
+      {
+        if (problem.body)
+          return body_discrete(rule_, scene, problem);
+        return problem.lattice ? lattice_discrete(rule_, scene, problem)
+                               : scattered_discrete(rule_, scene, problem);
       }
 
     private:

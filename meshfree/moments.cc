@@ -19,7 +19,8 @@ namespace plumbline::meshfree
     /// Least |y| with columnsᵀ y = values, up to what is inconsistent: modified Gram-Schmidt with
     /// pivoting.
     /// @param columns  shape (n_neighbours, n_conditions), of norm 1
-    VectorXd least_norm(MatrixXd columns, VectorXd values, unsigned int &rank)
+    VectorXd least_norm(MatrixXd columns, VectorXd values, unsigned int &rank,
+                        double &smallest_pivot)
     {
       const Index n = columns.cols();
       VectorXd y = VectorXd::Zero(columns.rows());
@@ -36,6 +37,7 @@ namespace plumbline::meshfree
         const double norm = direction.norm();
         if (norm < rank_tolerance)
           break;
+        smallest_pivot = std::min(smallest_pivot, norm);
         direction /= norm;
         values[rank] /= norm;
         y += values[rank] * direction;
@@ -98,9 +100,9 @@ namespace plumbline::meshfree
       columns.col(i) *= scale;
       moments[i] = conditions.moments[i] * scale;
     }
-    family.fit = {conditions.degree, static_cast<unsigned int>(n_conditions), 0, 0};
-    const VectorXd after =
-        before + least_norm(columns, moments - columns.transpose() * before, family.fit.rank);
+    family.fit = {conditions.degree, static_cast<unsigned int>(n_conditions), 0, 0, 1};
+    const VectorXd after = before + least_norm(columns, moments - columns.transpose() * before,
+                                               family.fit.rank, family.fit.smallest_pivot);
     family.fit.residual = (columns.transpose() * after - moments).cwiseAbs().maxCoeff() /
                           moments.cwiseAbs().maxCoeff();
     for (Index j = 0; j < n; ++j)

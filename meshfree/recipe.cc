@@ -76,7 +76,7 @@ namespace plumbline::meshfree
              place << "for m = " << horizon / h;
              return place.str();
            });
-    Bonds bonds{h, std::move(family.bonds), {}};
+    Bonds bonds{h, std::move(family.bonds), family.fit};
     if (family.is_clipped)
       bonds.notes.push_back("kernel negative at nodes beyond the horizon, clipped at 0");
     if (family.fit.rank < family.fit.n_conditions)

@@ -18,14 +18,6 @@ namespace plumbline::meshfree
     dealii::ArrayView<const geometry::ConvexCell> pieces; ///< of this node's cell
   };
 
-  /// How well weights meet the moments that were asked of them.
-  struct Fit
-  {
-    unsigned int degree = 0; ///< of the moments
-    unsigned int n_conditions = 0, rank = 0;
-    double residual = 0; ///< relative
-  };
-
   /// The bonds of one node.
   struct Family
   {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshfree/rules.h"
+#include "meshfree/variational_operator.h"
 #include "study/method.h"
 
 namespace plumbline::meshfree
@@ -18,4 +19,16 @@ namespace plumbline::meshfree
   /// @throws InputError  a constraint that is not 0
   study::Solution body_road(const Rule &rule, const scene::Scene &scene,
                             const scene::Problem &problem);
+
+  // The operators that these solve with.
+
+  study::DiscreteOperator lattice_discrete(const Rule &rule, const scene::Scene &scene,
+                                           const scene::Problem &problem);
+  study::DiscreteOperator scattered_discrete(const Rule &rule, const scene::Scene &scene,
+                                             const scene::Problem &problem);
+  study::DiscreteOperator body_discrete(const Rule &rule, const scene::Scene &scene,
+                                        const scene::Problem &problem);
+
+  /// A body's operator at its free nodes, without notes on its weights.
+  study::DiscreteOperator show(std::shared_ptr<const VariationalOperator> matrix);
 } // namespace plumbline::meshfree

@@ -6,9 +6,34 @@
 
 namespace plumbline::meshfree
 {
-  study::Solution scattered_solution(
-      const std::function<ScatteredOperator(std::pair<std::size_t, std::size_t> share)> &make,
-      const scene::Scene &scene, const scene::Problem &problem)
+  namespace
+  {
+    using MakeOperator =
+        std::function<ScatteredOperator(std::pair<std::size_t, std::size_t> share)>;
+
+    algebra::SparseOptions solver_options(const scene::Scene &scene, const scene::Problem &problem)
+    {
+      algebra::SparseOptions options;
+      options.is_symmetric = false;
+      options.tolerance = scene.tolerance;
+      options.max_iterations = scene.max_iterations;
+      if (scene.keeps_dilatation) // unknowns of several kinds, numbered in no regular way
+      {
+        options.solver = algebra::SparseSolver::direct;
+        return options;
+      }
+      options.iteration = algebra::iteration_from_name(scene.iteration);
+      options.solver = algebra::sparse_solver_from_name(scene.linear_solver);
+      options.n_components = problem.n_components;
+      const auto &nodes = problem.cells->nodes;
+      options.nodes.assign(nodes.begin(),
+                           nodes.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free));
+      return options;
+    }
+  } // namespace
+
+  study::Solution scattered_solution(const MakeOperator &make, const scene::Scene &scene,
+                                     const scene::Problem &problem)
   {
     const base::MemoryGauge memory;
     base::CpuTimer timer;
@@ -17,27 +42,27 @@ namespace plumbline::meshfree
     const auto share = team.share(cells.n_free);
     ScatteredOperator matrix;
     team.together([&] { matrix = make(share); });
+    const auto n =
+        static_cast<std::size_t>(team.largest(static_cast<double>(matrix.right_hand_side.size())));
+    matrix.right_hand_side.resize(n); // of ranks that gave nothing
+    matrix.rows.start.resize(n + 1);
     study::Solution solution;
     solution.diagnostics = matrix.statistics.diagnostics(team);
     solution.cost.setup_seconds = team.sum(timer.seconds());
 
     timer.restart();
+    const unsigned int n_rows = problem.n_components + (scene.keeps_dilatation ? 1 : 0); // a node's
     team.together(
         [&]
         {
           const auto &load = problem.load;
           for (std::size_t i = share.first; i < share.second; ++i)
             for (unsigned int c = 0; c < problem.n_components; ++c)
-              matrix.right_hand_side[i * problem.n_components + c] +=
+              matrix.right_hand_side[i * n_rows + c] +=
                   load.series ? (*load.series)(cells.nodes[i], c) : load.value(cells.nodes[i], c);
         });
-    algebra::SparseOptions options;
-    options.is_symmetric = false;
-    options.solver = algebra::sparse_solver_from_name(scene.linear_solver);
-    options.n_components = problem.n_components;
-    options.tolerance = scene.tolerance;
-    options.max_iterations = scene.max_iterations;
-    const auto solved = algebra::solve_sparse(matrix.rows, matrix.right_hand_side, options, team);
+    const auto solved = algebra::solve_sparse(matrix.rows, matrix.right_hand_side,
+                                              solver_options(scene, problem), team);
     solution.cost.solve_seconds = team.sum(timer.seconds());
     solution.cost.peak_bytes =
         static_cast<std::size_t>(team.largest(static_cast<double>(memory.peak_bytes())));
@@ -49,10 +74,12 @@ namespace plumbline::meshfree
 
     const auto end = cells.nodes.begin() + static_cast<std::ptrdiff_t>(cells.n_free);
     solution.nodes.assign(cells.nodes.begin(), end);
-    solution.nodal = solved.values;
-    solution.averages = cell_averages(cells, solved.values, problem.n_components);
+    for (std::size_t i = 0; i < cells.n_free; ++i)
+      for (unsigned int c = 0; c < problem.n_components; ++c)
+        solution.nodal.push_back(solved.values[i * n_rows + c]);
+    solution.averages = cell_averages(cells, solution.nodal, problem.n_components);
     const auto field =
-        std::make_shared<const ScatteredField>(problem.cells, solved.values, problem.n_components);
+        std::make_shared<const ScatteredField>(problem.cells, solution.nodal, problem.n_components);
     solution.value = [field](const Point<2> &x, unsigned int c) { return field->value(x, c); };
     solution.write_vtu = [field](const std::string &file) { field->write_vtu(file); };
     return solution;
@@ -72,6 +99,25 @@ namespace plumbline::meshfree
       }
       return result;
     }
+
+    /// @param keeps_dilatation  all of the system on the first rank, nothing on the others
+    ScatteredOperator make_operator(const Rule &rule, const scene::Scene &scene,
+                                    const scene::Problem &problem,
+                                    std::pair<std::size_t, std::size_t> share,
+                                    bool keeps_dilatation)
+    {
+      const Families families(rule.recipe(problem.kernel), problem.kernel, *problem.cells,
+                              scene.backend);
+      if (!problem.dilatation)
+        return scattered_operator(families, problem, share);
+      const auto make = [&](std::size_t node, Family &family) { families.make(node, family); };
+      const StateBasedBody body{problem.cells.get(), *problem.dilatation, problem.constraint.value,
+                                damage(scene, problem)};
+      if (!keeps_dilatation)
+        return state_based_operator(make, body, share);
+      const bool is_first = base::Team::all().rank() == 0;
+      return is_first ? state_based_system(make, body) : ScatteredOperator();
+    }
   } // namespace
 
   study::Solution scattered_road(const Rule &rule, const scene::Scene &scene,
@@ -79,17 +125,25 @@ namespace plumbline::meshfree
   {
     return scattered_solution(
         [&](std::pair<std::size_t, std::size_t> share)
-        {
-          const Families families(rule.recipe(problem.kernel), problem.kernel, *problem.cells,
-                                  scene.backend);
-          if (!problem.dilatation)
-            return scattered_operator(families, problem, share);
-          return state_based_operator([&](std::size_t node, Family &family)
-                                      { families.make(node, family); },
-                                      {problem.cells.get(), *problem.dilatation,
-                                       problem.constraint.value, damage(scene, problem)},
-                                      share);
-        },
+        { return make_operator(rule, scene, problem, share, scene.keeps_dilatation); },
         scene, problem);
+  }
+
+  study::DiscreteOperator scattered_discrete(const Rule &rule, const scene::Scene &scene,
+                                             const scene::Problem &problem)
+  {
+    const geometry::NodeCells &cells = *problem.cells;
+    const auto n = static_cast<std::ptrdiff_t>(cells.n_free);
+    ScatteredOperator matrix = make_operator(rule, scene, problem, {0, cells.n_free}, false);
+    study::DiscreteOperator result;
+    result.n_components = problem.n_components;
+    result.nodes.assign(cells.nodes.begin(), cells.nodes.begin() + n);
+    result.mass.assign(cells.area.begin(), cells.area.begin() + n);
+    result.diagnostics = matrix.statistics.diagnostics(base::Team::alone());
+    result.rows = std::move(matrix.rows);
+    for (std::size_t i = 0; i < result.rows.n_rows(); ++i)
+      for (std::size_t k = result.rows.start[i]; k < result.rows.start[i + 1]; ++k)
+        result.rows.value[k] *= result.mass[i / result.n_components];
+    return result;
   }
 } // namespace plumbline::meshfree

@@ -93,6 +93,38 @@ namespace plumbline::reference
           load[i] = 0;
       return load;
     }
+
+    algebra::Stencil make_stencil(const scene::Scene &scene, const scene::Problem &problem,
+                                  const AxisShapes &shapes)
+    {
+      const double h = problem.lattice->h();
+      const algebra::Stencil bonds = galerkin_stencil(problem.kernel, h, shapes, scene.backend);
+      if (!problem.dilatation)
+        return bonds;
+      const physics::Lame lame = problem.dilatation->material({});
+      return add(bonds, dilatation_stencil(problem.dilatation->influence, lame.lambda - lame.mu, h,
+                                           shapes));
+    }
+
+    /// Masses of the families along an axis, the cell's length being 1.
+    std::vector<double> axis_masses(const AxisShapes &shapes)
+    {
+      const dealii::QGauss<1> gauss(shapes.degree() + 1);
+      std::vector<double> squares(shapes.n_local());
+      double sum = 0;
+      for (unsigned int a = 0; a < shapes.n_local(); ++a)
+        for (unsigned int q = 0; q < gauss.size(); ++q)
+        {
+          const double part = gauss.weight(q) * std::pow(shapes.value(a, gauss.point(q)[0]), 2);
+          squares[a] += part;
+          sum += part;
+        }
+      std::vector<double> masses(shapes.families().size());
+      for (unsigned int s = 0; s < masses.size(); ++s)
+        for (const auto &part : shapes.restrictions(s))
+          masses[s] += squares[part.local] / sum;
+      return masses;
+    }
   } // namespace
 
   LatticeSolution solve_lattice(const scene::Scene &scene, const scene::Problem &problem,
@@ -101,14 +133,7 @@ namespace plumbline::reference
     const base::MemoryGauge memory;
     const base::CpuTimer timer;
     const NodeSet nodes = free_nodes(*problem.lattice, shapes.families(), problem.n_components);
-    const double h = problem.lattice->h();
-    algebra::Stencil stencil = galerkin_stencil(problem.kernel, h, shapes, scene.backend);
-    if (problem.dilatation)
-    {
-      const physics::Lame lame = problem.dilatation->material({});
-      stencil = add(stencil, dilatation_stencil(problem.dilatation->influence,
-                                                lame.lambda - lame.mu, h, shapes));
-    }
+    const algebra::Stencil stencil = make_stencil(scene, problem, shapes);
     const double stencil_seconds = timer.seconds();
     study::LatticeSolve solved = study::solve_on_lattice(
         scene, problem, nodes, stencil, [&] { return load_vector(problem, shapes, nodes); });
@@ -152,5 +177,21 @@ namespace plumbline::reference
     { return result->field.value(x, c); };
     solution.write_vtu = [result](const std::string &file) { write_vtu(result->field, file); };
     return solution;
+  }
+
+  study::DiscreteOperator lattice_discrete(const scene::Scene &scene, const scene::Problem &problem,
+                                           const AxisShapes &shapes)
+  {
+    const geometry::Lattice &lattice = *problem.lattice;
+    std::vector<double> mass;
+    const auto masses = axis_masses(shapes);
+    for (const double b : masses)
+      for (const double a : masses)
+        mass.push_back(a * b * lattice.h() * lattice.h());
+    auto result = study::show_on_lattice(
+        lattice, free_nodes(lattice, shapes.families(), problem.n_components),
+        make_stencil(scene, problem, shapes), mass);
+    result.is_collocated = false;
+    return result;
   }
 } // namespace plumbline::reference

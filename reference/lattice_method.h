@@ -23,4 +23,9 @@ namespace plumbline::reference
   /// The same, as the study compares it, with the geometry checked on a sample of cut cells.
   study::Solution lattice_solution(const scene::Scene &scene, const scene::Problem &problem,
                                    const AxisShapes &shapes);
+
+  /// The operator that these solve with. Masses by the diagonal of the mass matrix, scaled to the
+  /// area of each cell: Hinton, Rock & Zienkiewicz 1976, doi:10.1002/eqe.4290040305.
+  study::DiscreteOperator lattice_discrete(const scene::Scene &scene, const scene::Problem &problem,
+                                           const AxisShapes &shapes);
 } // namespace plumbline::reference

@@ -144,8 +144,11 @@ namespace plumbline::reference
       eliminate(solution.field.values, n, matrix.rows, right_hand_side);
       algebra::SparseOptions solver;
       solver.solver = algebra::sparse_solver_from_name(scene.linear_solver);
+      solver.iteration = algebra::iteration_from_name(scene.iteration);
       solver.is_symmetric = !problem.dilatation || problem.dilatation->is_symmetric();
       solver.n_components = problem.n_components;
+      for (std::size_t dof = 0; dof < space.n_free(); ++dof)
+        solver.nodes.push_back(space.support(dof));
       solver.tolerance = scene.tolerance;
       solver.max_iterations = scene.max_iterations;
       const auto solved = algebra::solve_sparse(matrix.rows, right_hand_side, solver, team);
@@ -158,6 +161,47 @@ namespace plumbline::reference
           static_cast<unsigned int>(solved.n_nonzeros / std::max<std::size_t>(1, n));
       solution.diagnostics.relative_residual = solved.relative_residual;
       solution.diagnostics.operator_road = "sparse, " + solved.solver;
+    }
+
+    /// The field of a problem that is still to be solved: 0, and the constraint.
+    MeshField empty_field(const scene::Problem &problem, bool is_continuous, unsigned int degree)
+    {
+      const auto space = std::make_shared<const MeshSpace>(problem.mesh, is_continuous, degree);
+      if (space->n_free() == 0)
+        throw NumericalError("no degree of freedom is free: every cell of the domain touches the "
+                             "collar; refine the mesh");
+      return {space, std::make_shared<const MeshCells>(*problem.mesh), problem.n_components,
+              constraint_values(problem, *space)};
+    }
+
+    /// The diagonal of the mass matrix, scaled to the area of each cell.
+    std::vector<double> lumped_masses(const MeshSpace &space)
+    {
+      const CellShapes &shapes = space.shapes();
+      dealii::Quadrature<2> gauss = dealii::QGauss<2>(shapes.degree() + 2);
+      if (shapes.n_vertices() == 3)
+        gauss = dealii::QWitherdenVincentSimplex<2>(std::min(7u, shapes.degree() + 2));
+      std::vector<double> masses(space.n_dofs()), squares, phi(shapes.size());
+      for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
+      {
+        squares.assign(shapes.size(), 0);
+        double area = 0, sum = 0;
+        for (unsigned int q = 0; q < gauss.size(); ++q)
+        {
+          const double weight = gauss.weight(q) * space.map(cell).determinant(gauss.point(q));
+          shapes.values(gauss.point(q), phi.data());
+          area += weight;
+          for (unsigned int a = 0; a < shapes.size(); ++a)
+          {
+            squares[a] += weight * phi[a] * phi[a];
+            sum += weight * phi[a] * phi[a];
+          }
+        }
+        for (unsigned int a = 0; a < shapes.size(); ++a)
+          masses[space.dofs(cell)[a]] += area * squares[a] / sum;
+      }
+      masses.resize(space.n_free());
+      return masses;
     }
 
     double relative_change(const MeshField &before, const MeshField &now)
@@ -175,14 +219,7 @@ namespace plumbline::reference
   {
     const base::MemoryGauge memory;
     const base::CpuTimer timer;
-    const auto space = std::make_shared<const MeshSpace>(problem.mesh, is_continuous, degree);
-    MeshSolution solution{{space, std::make_shared<const MeshCells>(*problem.mesh),
-                           problem.n_components, constraint_values(problem, *space)},
-                          {},
-                          {}};
-    if (space->n_free() == 0)
-      throw NumericalError("no degree of freedom is free: every cell of the domain touches the "
-                           "collar; refine the mesh");
+    MeshSolution solution{empty_field(problem, is_continuous, degree), {}, {}};
     solution.cost.setup_seconds = timer.seconds();
 
     AssemblyOptions options{0, scene.exact_rectangles, scene.backend};
@@ -228,6 +265,24 @@ namespace plumbline::reference
     solution.diagnostics.n_geometry_checks = check.n_checked;
     solution.diagnostics.geometry_difference = check.worst_difference;
     return solution;
+  }
+
+  study::DiscreteOperator mesh_discrete(const scene::Scene &scene, const scene::Problem &problem,
+                                        bool is_continuous, unsigned int degree)
+  {
+    const MeshField field = empty_field(problem, is_continuous, degree);
+    study::DiscreteOperator result;
+    result.n_components = problem.n_components;
+    result.is_collocated = false;
+    for (std::size_t dof = 0; dof < field.space->n_free(); ++dof)
+      result.nodes.push_back(field.space->support(dof));
+    result.mass = lumped_masses(*field.space);
+    result.rows = assemble_all(problem, field, {0, scene.exact_rectangles, scene.backend},
+                               base::Team::alone())
+                      .rows;
+    std::vector<double> ignored(result.size());
+    eliminate(field.values, result.size(), result.rows, ignored);
+    return result;
   }
 
   study::Solution as_solution(const scene::Problem &problem, MeshSolution solved)

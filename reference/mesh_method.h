@@ -25,6 +25,11 @@ namespace plumbline::reference
   study::Solution mesh_solution(const scene::Scene &scene, const scene::Problem &problem,
                                 bool is_continuous, unsigned int degree);
 
+  /// The matrix by the first outer rule. Masses as of `lattice_discrete`.
+  /// @throws NumericalError  no degree of freedom is free
+  study::DiscreteOperator mesh_discrete(const scene::Scene &scene, const scene::Problem &problem,
+                                        bool is_continuous, unsigned int degree);
+
   /// The view of a field that a study compares: nodes, values, averages.
   study::Solution as_solution(const scene::Problem &problem, MeshSolution solution);
 } // namespace plumbline::reference

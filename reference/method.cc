@@ -39,6 +39,16 @@ namespace plumbline::reference
           return std::string("the cells of Domain/mesh = ") + scene.mesh.kind + " are not all " +
                  (n_vertices_ == 4 ? "quadrilaterals" : "triangles") + "; take " +
                  (is_continuous_ ? "" : "DG") + other + std::to_string(degree_);
+        if (scene.is_damaged())
+          return "Galerkin methods break no bonds; take meshfree methods alone, or clear "
+                 "Domain/cracks and Domain/outside";
+        if (scene.keeps_dilatation)
+          return "Galerkin methods eliminate the dilatation; write Solver/dilatation = eliminated, "
+                 "or take meshfree methods alone";
+        if (scene.iteration == "cg" && problem.dilatation && !problem.dilatation->is_symmetric())
+          return "Solver/iteration = cg needs a symmetric operator, but harmonic means of "
+                 "constants "
+                 "that vary in space (LPS) make none; write automatic, gmres or bicgstab";
         return {};
       }
       std::shared_ptr<const study::Method> higher_degree() const override
@@ -50,6 +60,13 @@ namespace plumbline::reference
         if (problem.lattice)
           return lattice_solution(scene, problem, AxisShapes(is_continuous_, degree_));
         return mesh_solution(scene, problem, is_continuous_, degree_);
+      }
+      std::optional<study::DiscreteOperator>
+      discrete_operator(const scene::Scene &scene, const scene::Problem &problem) const override
+      {
+        if (problem.lattice)
+          return lattice_discrete(scene, problem, AxisShapes(is_continuous_, degree_));
+        return mesh_discrete(scene, problem, is_continuous_, degree_);
       }
 
     private:
@@ -71,6 +88,9 @@ namespace plumbline::reference
       {
         if (problem.lattice)
           return "it needs a mesh; write Domain/mesh = squares or triangles";
+        if (scene.is_free_body || scene.is_damaged())
+          return "u must be given all around its domain; write Domain/boundary = constrained, and "
+                 "clear Domain/cracks and Domain/outside";
         if (scene.regime != scene::Regime::delta &&
             scene.decisive_error.find("local") == std::string::npos)
           return "it solves the local limit, but the scene asks for a nonlocal solution; write "

@@ -23,10 +23,30 @@ namespace plumbline::reference
           else
             is_outer[{from, to}] = true;
         }
-      std::vector<std::array<Point<2>, 2>> sides;
+      std::map<unsigned int, std::vector<unsigned int>> next, last; // along the boundary
       for (const auto &[vertices, is] : is_outer)
         if (is)
-          sides.push_back({mesh.vertices[vertices[0]], mesh.vertices[vertices[1]]});
+        {
+          next[vertices[0]].push_back(vertices[1]);
+          last[vertices[1]].push_back(vertices[0]);
+        }
+      // sides on a line are one
+      const auto is_straight = [&](unsigned int v)
+      {
+        if (next[v].size() != 1 || last[v].size() != 1)
+          return false;
+        const auto before = mesh.vertices[v] - mesh.vertices[last[v][0]];
+        const auto after = mesh.vertices[next[v][0]] - mesh.vertices[v];
+        return std::abs(before[0] * after[1] - before[1] * after[0]) <= 1e-14 * (before * after);
+      };
+      std::vector<std::array<Point<2>, 2>> sides;
+      for (const auto &[first, ends] : next)
+        for (unsigned int end : is_straight(first) ? std::vector<unsigned int>() : ends)
+        {
+          while (is_straight(end))
+            end = next[end][0];
+          sides.push_back({mesh.vertices[first], mesh.vertices[end]});
+        }
       return sides;
     }
 
@@ -42,9 +62,13 @@ namespace plumbline::reference
     double power_integral(int n, double d, double s)
     {
       const double r = std::hypot(d, s);
+      double power = n % 2 == 0 ? 1 : r; // r^(k - 2), k from 2 or 3
       double value = n % 2 == 0 ? s : .5 * (s * r + (d > 0 ? d * d * std::asinh(s / d) : 0));
       for (int k = n % 2 + 2; k <= n; k += 2)
-        value = (s * std::pow(r, k) + k * d * d * value) / (k + 1);
+      {
+        power *= r * r;
+        value = (s * power + k * d * d * value) / (k + 1);
+      }
       return value;
     }
   } // namespace

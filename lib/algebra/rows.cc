@@ -28,4 +28,25 @@ namespace plumbline::algebra
     }
     return result;
   }
+
+  Rows transpose(const Rows &rows)
+  {
+    Rows result;
+    result.start.assign(rows.n_rows() + 1, 0);
+    for (const unsigned int j : rows.column)
+      ++result.start[j + 1];
+    for (std::size_t j = 0; j < rows.n_rows(); ++j)
+      result.start[j + 1] += result.start[j];
+    result.column.resize(rows.column.size());
+    result.value.resize(rows.value.size());
+    auto next = result.start;
+    for (unsigned int i = 0; i < rows.n_rows(); ++i)
+      for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+      {
+        const std::size_t at = next[rows.column[k]]++;
+        result.column[at] = i;
+        result.value[at] = rows.value[k];
+      }
+    return result;
+  }
 } // namespace plumbline::algebra

@@ -20,4 +20,7 @@ namespace plumbline::algebra
 
   /// The sum of two matrices with the same number of rows.
   Rows add(const Rows &a, const Rows &b);
+
+  /// Of a square matrix.
+  Rows transpose(const Rows &rows);
 } // namespace plumbline::algebra

@@ -3,6 +3,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parallel.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace plumbline::algebra
@@ -137,5 +139,47 @@ namespace plumbline::algebra
           }
         },
         grain);
+  }
+
+  double SharedRows::asymmetry() const
+  {
+    const Rows &rows = own();
+    const std::size_t n = shares_.first.back() + shares_.size.back();
+    Rows transposed{std::vector<std::size_t>(n + 1), std::vector<unsigned int>(rows.column.size()),
+                    std::vector<double>(rows.value.size())}; // this rank's part of -Aᵀ
+    for (const unsigned int column : rows.column)
+      ++transposed.start[column + 1];
+    std::partial_sum(transposed.start.begin(), transposed.start.end(), transposed.start.begin());
+    auto next = transposed.start;
+    for (std::size_t row = 0; row < rows.n_rows(); ++row)
+      for (std::size_t e = rows.start[row]; e < rows.start[row + 1]; ++e)
+      {
+        const std::size_t place = next[rows.column[e]]++;
+        transposed.column[place] = static_cast<unsigned int>(shares_.own_first + row);
+        transposed.value[place] = -rows.value[e];
+      }
+    const auto largest = [&](const std::vector<double> &values)
+    {
+      double result = 0;
+      for (const double value : values)
+        result = std::max(result, std::abs(value));
+      return shares_.team.largest(result);
+    };
+    const SharedRows other(transposed, shares_);
+    return largest(add(rows, other.own()).value) / largest(rows.value);
+  }
+
+  dealii::TrilinosWrappers::SparseMatrix SharedRows::to_trilinos() const
+  {
+    const Rows &rows = own();
+    std::vector<unsigned int> length(rows.n_rows() + 1); // one more, deal.II looks at the first
+    for (std::size_t i = 0; i < rows.n_rows(); ++i)
+      length[i] = rows.start[i + 1] - rows.start[i];
+    dealii::TrilinosWrappers::SparseMatrix result(shares_.own(), shares_.team.communicator, length);
+    for (std::size_t i = 0; i < rows.n_rows(); ++i)
+      result.set(shares_.own_first + i, length[i], &rows.column[rows.start[i]],
+                 &rows.value[rows.start[i]]);
+    result.compress(dealii::VectorOperation::insert);
+    return result;
   }
 } // namespace plumbline::algebra

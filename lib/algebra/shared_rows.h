@@ -3,6 +3,7 @@
 #include "algebra/rows.h"
 
 #include <deal.II/base/index_set.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
 namespace plumbline::algebra
@@ -36,6 +37,12 @@ namespace plumbline::algebra
 
     /// y = A x, threads sharing the rows; the same on any number of them. @note Collective.
     void vmult(Vector &y, const Vector &x) const;
+
+    /// max |A_ij - A_ji| / max |A_ij|; takes a copy of the rows. @note Collective.
+    double asymmetry() const;
+
+    /// A copy. @note Collective.
+    dealii::TrilinosWrappers::SparseMatrix to_trilinos() const;
 
   private:
     const Shares &shares_;

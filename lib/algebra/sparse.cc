@@ -38,55 +38,82 @@ namespace plumbline::algebra
     }
   };
 
+  std::vector<std::size_t> free_positions(const geometry::NodeSet &nodes)
+  {
+    std::vector<std::size_t> positions;
+    for (std::size_t k = 0; k < nodes.is_free.size(); ++k)
+      for (unsigned int c = 0; c < nodes.n_components && nodes.is_free[k] != 0; ++c)
+        positions.push_back(c * nodes.is_free.size() + k);
+    return positions;
+  }
+
+  Rows assemble(const Stencil &stencil, const geometry::NodeSet &nodes)
+  {
+    const auto positions = free_positions(nodes);
+    const std::size_t n_positions = nodes.n_positions();
+    std::vector<std::size_t> number(nodes.size(), not_free);
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      number[positions[i]] = i;
+
+    Rows rows;
+    rows.start.assign(1, 0);
+    std::vector<std::pair<std::size_t, double>> row;
+    for (const std::size_t position : positions)
+    {
+      const auto s = static_cast<unsigned int>(position / n_positions);
+      const int i = static_cast<int>(position % n_positions % nodes.n[0]),
+                j = static_cast<int>(position % n_positions / nodes.n[0]);
+      row.clear();
+      for (unsigned int t = 0; t < nodes.n_blocks(); ++t)
+        for (int k2 = std::max(-stencil.reach(), -j);
+             k2 <= std::min(stencil.reach(), nodes.n[1] - 1 - j); ++k2)
+          for (int k1 = std::max(-stencil.reach(), -i);
+               k1 <= std::min(stencil.reach(), nodes.n[0] - 1 - i); ++k1)
+          {
+            const double a = stencil(s, t, k1, k2);
+            const auto column =
+                number[t * n_positions + static_cast<std::size_t>(j + k2) * nodes.n[0] + i + k1];
+            if (a != 0 && column != not_free)
+              row.emplace_back(column, a);
+          }
+      std::sort(row.begin(), row.end());
+      for (const auto &[column, a] : row)
+      {
+        rows.column.push_back(static_cast<unsigned int>(column));
+        rows.value.push_back(a);
+      }
+      rows.start.push_back(rows.column.size());
+    }
+    return rows;
+  }
+
   SparseOperator::SparseOperator(const Stencil &stencil, const geometry::NodeSet &nodes)
       : matrix_(std::make_unique<Matrix>())
   {
-    const std::size_t n_positions = nodes.n_positions();
-    auto &number = matrix_->number;
-    number.assign(nodes.size(), not_free);
-    dealii::types::global_dof_index n_unknowns = 0;
-    for (std::size_t i = 0; i < number.size(); ++i)
-      if (nodes.is_free[i % nodes.is_free.size()] != 0)
-        number[i] = n_unknowns++;
+    matrix_->number.assign(nodes.size(), not_free);
+    const auto positions = free_positions(nodes);
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      matrix_->number[positions[i]] = i;
 
-    const unsigned int n_blocks = nodes.n_blocks();
-    const auto most_entries =
-        static_cast<unsigned int>((stencil.n_entries() + n_blocks - 1) / n_blocks);
+    const Rows rows = assemble(stencil, nodes);
+    unsigned int most_entries = 1;
+    for (std::size_t i = 0; i < rows.n_rows(); ++i)
+      most_entries =
+          std::max(most_entries, static_cast<unsigned int>(rows.start[i + 1] - rows.start[i]));
     const MPI_Comm self = MPI_COMM_SELF;
-    const dealii::IndexSet all = dealii::complete_index_set(n_unknowns);
-    matrix_->entries.emplace(all, self, std::max(1u, most_entries));
+    const dealii::IndexSet all = dealii::complete_index_set(positions.size());
+    matrix_->entries.emplace(all, self, most_entries);
     matrix_->in.reinit(all, self);
     matrix_->out.reinit(all, self);
-
     std::vector<dealii::types::global_dof_index> columns;
-    std::vector<double> values;
-    for (unsigned int s = 0; s < n_blocks; ++s)
-      for (int j = 0; j < nodes.n[1]; ++j)
-        for (int i = 0; i < nodes.n[0]; ++i)
-        {
-          const auto row = number[s * n_positions + static_cast<std::size_t>(j) * nodes.n[0] + i];
-          if (row == not_free)
-            continue;
-          columns.clear();
-          values.clear();
-          for (unsigned int t = 0; t < n_blocks; ++t)
-            for (int k2 = std::max(-stencil.reach(), -j);
-                 k2 <= std::min(stencil.reach(), nodes.n[1] - 1 - j); ++k2)
-              for (int k1 = std::max(-stencil.reach(), -i);
-                   k1 <= std::min(stencil.reach(), nodes.n[0] - 1 - i); ++k1)
-              {
-                const double a = stencil(s, t, k1, k2);
-                const auto column = number[t * n_positions +
-                                           static_cast<std::size_t>(j + k2) * nodes.n[0] + i + k1];
-                if (a != 0 && column != not_free)
-                {
-                  columns.push_back(column);
-                  values.push_back(a);
-                }
-              }
-          matrix_->entries->set(row, static_cast<dealii::types::global_dof_index>(columns.size()),
-                                columns.data(), values.data());
-        }
+    for (std::size_t i = 0; i < rows.n_rows(); ++i)
+    {
+      const std::size_t first = rows.start[i], last = rows.start[i + 1];
+      columns.assign(rows.column.begin() + static_cast<std::ptrdiff_t>(first),
+                     rows.column.begin() + static_cast<std::ptrdiff_t>(last));
+      matrix_->entries->set(i, static_cast<dealii::types::global_dof_index>(last - first),
+                            columns.data(), &rows.value[first]);
+    }
     matrix_->entries->compress(dealii::VectorOperation::insert);
   }
 

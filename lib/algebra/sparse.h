@@ -1,11 +1,19 @@
 #pragma once
 
 #include "algebra/operator.h"
+#include "algebra/rows.h"
 
 #include <memory>
 
 namespace plumbline::algebra
 {
+  /// Where the free unknowns stand in vectors of a NodeSet, numbered node by node: first all
+  /// components of the first node.
+  std::vector<std::size_t> free_positions(const geometry::NodeSet &nodes);
+
+  /// Couplings between the free unknowns, numbered like that.
+  Rows assemble(const Stencil &stencil, const geometry::NodeSet &nodes);
+
   /// The same operator as an assembled Trilinos matrix: the second road to every number, and the
   /// one that other solvers can take. Memory O(unknowns × bonds).
   class SparseOperator : public Operator

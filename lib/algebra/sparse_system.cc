@@ -6,6 +6,7 @@
 #include <deal.II/base/memory_consumption.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/diagonal_matrix.h>
+#include <deal.II/lac/solver_bicgstab.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/trilinos_precondition.h>
@@ -13,6 +14,8 @@
 
 #include <Amesos_Mumps.h>
 #include <Epetra_LinearProblem.h>
+#include <Epetra_MultiVector.h>
+#include <Teuchos_ParameterList.hpp>
 #include <malloc.h>
 
 #include <algorithm>
@@ -34,10 +37,14 @@ namespace plumbline::algebra
     /// Up to here a factorisation takes .02 s or less, and it solves what iterations do not.
     constexpr std::size_t most_unknowns_for_direct = 1000;
 
-    /// Multigrid pays if nodes outnumber the entries of a row by this. Iterations with Jacobi grow
-    /// like diameter / horizon, the root of that number, and pass 120 or so here. Measured: n = 1e4
-    /// to 1e5, horizon 3 h to 12 h.
-    constexpr double multigrid_pays = 150;
+    /// Multigrid pays if unknowns × n_components² outnumber the entries of a row by this.
+    /// Iterations with Jacobi grow like diameter / horizon, the root of unknowns / entries; solids
+    /// take more of them than scalars, and rows that reach two horizons have four times the entries
+    /// for the same iterations. Where both take the same time, measured for n = 1e3 to 5e4 and
+    /// horizons of 3 h and 6 h, unknowns / entries is 85 (rules) to 130 (Galerkin) for scalars, 45
+    /// to 65 for bond tensors, and 10 to 30 for state-based solids; the wrong choice costs up to
+    /// half as much again.
+    constexpr double multigrid_pays = 100;
 
     /// A pivot of MUMPS below this, relative to the scaled matrix, is round-off: it is 1e-13 for
     /// 1000 unknowns that are tied to nothing and grows with their number.
@@ -46,8 +53,45 @@ namespace plumbline::algebra
     /// Basis vectors of GMRES before it restarts.
     constexpr unsigned int n_basis_vectors = 100;
 
+    /// Asymmetry that conjugate gradients are not to be asked to bear; Galerkin matrices have less.
+    constexpr double largest_asymmetry = 1e-10;
+
     /// What direct solutions must fulfil, and how far round-off may excuse iterated ones.
     constexpr double largest_residual = 1e-8;
+
+    // ---- names ----------------------------------------------------------------------------------
+
+    template <class Value>
+    using Names = std::map<std::string, Value>;
+
+    const Names<SparseSolver> solver_names = {{"automatic", SparseSolver::automatic},
+                                              {"direct", SparseSolver::direct},
+                                              {"amg", SparseSolver::amg},
+                                              {"jacobi", SparseSolver::jacobi}};
+
+    const Names<Iteration> iteration_names = {{"automatic", Iteration::automatic},
+                                              {"cg", Iteration::cg},
+                                              {"gmres", Iteration::gmres},
+                                              {"bicgstab", Iteration::bicgstab}};
+
+    template <class Value>
+    std::string name_of(Value value, const Names<Value> &names)
+    {
+      return std::find_if(names.begin(), names.end(),
+                          [value](const auto &entry) { return entry.second == value; })
+          ->first;
+    }
+
+    template <class Value>
+    Value from_name(const std::string &name, const Names<Value> &names, const std::string &what)
+    {
+      if (const auto entry = names.find(name); entry != names.end())
+        return entry->second;
+      std::string all;
+      for (const auto &[known, value] : names)
+        all += (all.empty() ? "" : ", ") + known;
+      throw InputError(what + " '" + name + "' is not known; allowed are " + all);
+    }
 
     // ---- what all ranks agree on ----------------------------------------------------------------
 
@@ -142,20 +186,6 @@ namespace plumbline::algebra
       return result;
     }
 
-    TrilinosMatrix to_trilinos(const SharedRows &matrix)
-    {
-      const Rows &rows = matrix.own();
-      std::vector<unsigned int> length(rows.n_rows() + 1); // one more, deal.II looks at the first
-      for (std::size_t i = 0; i < rows.n_rows(); ++i)
-        length[i] = rows.start[i + 1] - rows.start[i];
-      TrilinosMatrix result(matrix.shares().own(), matrix.shares().team.communicator, length);
-      for (std::size_t i = 0; i < rows.n_rows(); ++i)
-        result.set(matrix.shares().own_first + i, length[i], &rows.column[rows.start[i]],
-                   &rows.value[rows.start[i]]);
-      result.compress(dealii::VectorOperation::insert);
-      return result;
-    }
-
     // ---- solvers --------------------------------------------------------------------------------
 
     /// What this process has allocated [bytes].
@@ -170,7 +200,7 @@ namespace plumbline::algebra
     std::size_t solve_directly(const SharedRows &rows, Vector &x, const Vector &b)
     {
       const std::size_t bytes_before = heap_bytes();
-      const TrilinosMatrix matrix = to_trilinos(rows);
+      const TrilinosMatrix matrix = rows.to_trilinos();
       Epetra_LinearProblem problem(const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()),
                                    &x.trilinos_vector(),
                                    const_cast<Epetra_MultiVector *>(&b.trilinos_vector()));
@@ -218,18 +248,43 @@ namespace plumbline::algebra
                       .7 * dealii::Utilities::MPI::min(*low, matrix.shares().team.communicator));
     }
 
+    /// Modes of little energy, a column each: the constants and, where places are known, the
+    /// rotation.
+    Epetra_MultiVector near_null_space(const Shares &shares, const TrilinosMatrix &matrix,
+                                       const SparseOptions &options)
+    {
+      const unsigned int n_components = options.n_components;
+      const bool has_rotation = n_components == 2 && !options.nodes.empty();
+      Epetra_MultiVector modes(matrix.trilinos_matrix().RowMap(),
+                               static_cast<int>(n_components + (has_rotation ? 1 : 0)));
+      for (std::size_t i = 0; i < shares.own_size; ++i)
+      {
+        const std::size_t node = (shares.own_first + i) / n_components, c = i % n_components;
+        modes[static_cast<int>(c)][i] = 1;
+        if (has_rotation)
+        {
+          const auto arm = options.nodes[node] - options.nodes.front();
+          modes[2][i] = c == 0 ? -arm[1] : arm[0];
+        }
+      }
+      return modes;
+    }
+
     using AMG = dealii::TrilinosWrappers::PreconditionAMG;
 
-    AMG::AdditionalData multigrid_data(const SharedRows &matrix,
-                                       const std::vector<double> &diagonal,
-                                       unsigned int n_components)
+    void initialize(AMG &preconditioner, const SharedRows &matrix, const TrilinosMatrix &entries,
+                    const std::vector<double> &diagonal, const SparseOptions &options)
     {
       AMG::AdditionalData data; // elliptic, also if not symmetric: measured to be the more robust
-      data.aggregation_threshold = aggregation_threshold(matrix, diagonal, n_components);
-      data.constant_modes.assign(n_components, std::vector<bool>(diagonal.size()));
-      for (std::size_t i = 0; i < diagonal.size(); ++i)
-        data.constant_modes[i % n_components][i] = true; // the share begins with a node
-      return data;
+      data.aggregation_threshold = aggregation_threshold(matrix, diagonal, options.n_components);
+      Teuchos::ParameterList parameters;
+      std::unique_ptr<Epetra_MultiVector> deals_own;
+      data.set_parameters(parameters, deals_own, entries);
+      const Epetra_MultiVector modes = near_null_space(matrix.shares(), entries, options);
+      parameters.set("null space: type", "pre-computed");
+      parameters.set("null space: dimension", modes.NumVectors());
+      parameters.set("null space: vectors", modes.Values());
+      preconditioner.initialize(entries, parameters);
     }
 
     /// @return  the number of iterations
@@ -237,15 +292,16 @@ namespace plumbline::algebra
     unsigned int iterate(const SharedRows &matrix, const Preconditioner &preconditioner, Vector &x,
                          const Vector &b, const SparseOptions &options)
     {
-      using CG = dealii::SolverCG<Vector>;
       using GMRES = dealii::SolverGMRES<Vector>;
       const double scale = b.l2_norm();
       dealii::SolverControl control(options.max_iterations, options.tolerance * scale, false,
                                     false);
       try
       {
-        if (options.is_symmetric)
-          CG(control).solve(matrix, x, b, preconditioner);
+        if (options.iteration == Iteration::cg)
+          dealii::SolverCG<Vector>(control).solve(matrix, x, b, preconditioner);
+        else if (options.iteration == Iteration::bicgstab)
+          dealii::SolverBicgstab<Vector>(control).solve(matrix, x, b, preconditioner);
         else // preconditioned from the right: the residual watched is the true one
           GMRES(control, GMRES::AdditionalData(n_basis_vectors + 2, true))
               .solve(matrix, x, b, preconditioner);
@@ -253,7 +309,7 @@ namespace plumbline::algebra
       catch (const dealii::SolverControl::NoConvergence &)
       {
         std::ostringstream message;
-        message << (options.is_symmetric ? "conjugate gradients stop" : "GMRES stops") << " after "
+        message << name_of(options.iteration, iteration_names) << " stops after "
                 << control.last_step() << " iterations (allowed: " << options.max_iterations
                 << ") at the relative residual " << control.last_value() / scale << ", wanted "
                 << options.tolerance
@@ -265,17 +321,17 @@ namespace plumbline::algebra
     }
 
     /// x, and in the solution what it took.
-    void solve_by(SparseSolver solver, const SharedRows &matrix, Vector &x, const Vector &b,
+    void solve_by(const SharedRows &matrix, Vector &x, const Vector &b,
                   const SparseOptions &options, SparseSolution &solution)
     {
-      if (solver == SparseSolver::direct)
+      if (options.solver == SparseSolver::direct)
       {
         solution.bytes += solve_directly(matrix, x, b);
         return;
       }
       const std::size_t bytes_before = heap_bytes();
       const std::vector<double> diagonal = find_diagonal(matrix, options.n_components);
-      if (solver == SparseSolver::jacobi)
+      if (options.solver == SparseSolver::jacobi)
       {
         Vector inverse(b);
         std::transform(diagonal.begin(), diagonal.end(), inverse.begin(),
@@ -285,42 +341,53 @@ namespace plumbline::algebra
         solution.n_iterations = iterate(matrix, preconditioner, x, b, options);
         return;
       }
-      const TrilinosMatrix entries = to_trilinos(matrix);
+      const TrilinosMatrix entries = matrix.to_trilinos();
       AMG preconditioner;
-      preconditioner.initialize(entries, multigrid_data(matrix, diagonal, options.n_components));
+      initialize(preconditioner, matrix, entries, diagonal, options);
       solution.bytes += heap_bytes() - bytes_before;
       solution.n_iterations = iterate(matrix, preconditioner, x, b, options);
     }
 
-    SparseSolver choose(std::size_t n, std::uint64_t n_nonzeros)
+    SparseSolver choose(std::size_t n, std::uint64_t n_nonzeros, unsigned int n_components)
     {
       if (n <= most_unknowns_for_direct)
         return SparseSolver::direct;
       const double row_length = static_cast<double>(n_nonzeros) / n;
-      return n / row_length > multigrid_pays ? SparseSolver::amg : SparseSolver::jacobi;
+      return n / row_length * n_components * n_components > multigrid_pays ? SparseSolver::amg
+                                                                           : SparseSolver::jacobi;
     }
 
-    const std::map<std::string, SparseSolver> solver_names = {
-        {"automatic", SparseSolver::automatic},
-        {"direct", SparseSolver::direct},
-        {"amg", SparseSolver::amg},
-        {"jacobi", SparseSolver::jacobi}};
+    void check_symmetry(const SharedRows &matrix)
+    {
+      const double asymmetry = matrix.asymmetry();
+      if (!(asymmetry > largest_asymmetry))
+        return;
+      std::ostringstream message;
+      message << "the iteration cg (Solver/iteration) needs a symmetric matrix, but max |A_ij - "
+                 "A_ji| is "
+              << asymmetry << " max |A_ij|; write automatic, gmres or bicgstab";
+      throw InputError(message.str());
+    }
   } // namespace
 
   SparseSolver sparse_solver_from_name(const std::string &name)
   {
-    const auto solver = solver_names.find(name);
-    if (solver == solver_names.end())
-      throw InputError("sparse solver '" + name +
-                       "' is not known; allowed are automatic, direct, amg and jacobi");
-    return solver->second;
+    return from_name(name, solver_names, "sparse solver");
+  }
+
+  Iteration iteration_from_name(const std::string &name)
+  {
+    return from_name(name, iteration_names, "iteration");
   }
 
   SparseSolution solve_sparse(const Rows &rows, const std::vector<double> &right_hand_side,
-                              const SparseOptions &options, const base::Team &team)
+                              const SparseOptions &given, const base::Team &team)
   {
+    SparseOptions options = given;
     const std::size_t n = right_hand_side.size();
-    Assert(rows.n_rows() == n && n % options.n_components == 0, dealii::ExcInternalError());
+    Assert(rows.n_rows() == n && n % options.n_components == 0 &&
+               (options.nodes.empty() || options.nodes.size() == n / options.n_components),
+           dealii::ExcInternalError());
     if (n == 0)
       return {};
 
@@ -341,6 +408,8 @@ namespace plumbline::algebra
     const Shares shares(n, options.n_components, team);
     const SharedRows matrix(rows, shares);
     check_rows(matrix, options.n_components);
+    if (options.iteration == Iteration::cg)
+      check_symmetry(matrix);
     Vector b(shares.own(), team.communicator), x(b), residual(b);
     MPI_Reduce_scatter(right_hand_side.data(), b.begin(), shares.size.data(), MPI_DOUBLE, MPI_SUM,
                        team.communicator);
@@ -352,17 +421,19 @@ namespace plumbline::algebra
                      dealii::MemoryConsumption::memory_consumption(own.value);
     solution.n_nonzeros = dealii::Utilities::MPI::sum(static_cast<std::uint64_t>(own.value.size()),
                                                       team.communicator);
-    const SparseSolver solver =
-        options.solver == SparseSolver::automatic ? choose(n, solution.n_nonzeros) : options.solver;
-    for (const auto &[name, named] : solver_names)
-      if (named == solver)
-        solution.solver = name;
-    together(team, [&] { solve_by(solver, matrix, x, b, options, solution); });
+    if (options.solver == SparseSolver::automatic)
+      options.solver = choose(n, solution.n_nonzeros, options.n_components);
+    if (options.iteration == Iteration::automatic)
+      options.iteration = options.is_symmetric ? Iteration::cg : Iteration::gmres;
+    solution.solver = name_of(options.solver, solver_names);
+    if (options.solver != SparseSolver::direct)
+      solution.solver = name_of(options.iteration, iteration_names) + " + " + solution.solver;
+    together(team, [&] { solve_by(matrix, x, b, options, solution); });
 
     // A x cannot be computed more accurately than this
     const double norm = b.l2_norm(), scale = norm > 0 ? norm : 1;
     const double round_off = 10 * eps * team.largest(largest_row_sum(own)) * x.l2_norm() / scale;
-    const double allowed = solver == SparseSolver::direct
+    const double allowed = options.solver == SparseSolver::direct
                                ? largest_residual
                                : 10 * options.tolerance + std::min(round_off, largest_residual);
     matrix.vmult(residual, x);

@@ -2,6 +2,8 @@
 
 #include "algebra/rows.h"
 
+#include <deal.II/base/point.h>
+
 #include <string>
 
 namespace plumbline::algebra
@@ -9,22 +11,38 @@ namespace plumbline::algebra
   /// How a sparse system is solved.
   enum class SparseSolver
   {
-    automatic, ///< direct up to 1000 unknowns; above, amg if they outnumber the entries of a row by
-               ///< more than 150, else jacobi
-    direct,    ///< MUMPS
-    amg,       ///< conjugate gradients or GMRES, preconditioned by ML's algebraic multigrid
-    jacobi     ///< the same, preconditioned by the diagonal
+    automatic, ///< direct up to 1000 unknowns; above, amg if unknowns × n_components² outnumber the
+               ///< entries of a row by more than 100, else jacobi
+    direct, ///< MUMPS
+    amg,    ///< iterations preconditioned by ML's algebraic multigrid
+    jacobi  ///< iterations preconditioned by the diagonal
+  };
+
+  /// What amg and jacobi iterate with.
+  enum class Iteration
+  {
+    automatic, ///< cg if is_symmetric, else gmres
+    cg,        ///< conjugate gradients
+    gmres,
+    bicgstab ///< two products an iteration, and a few vectors where GMRES keeps a hundred
   };
 
   /// @throws InputError  not one of automatic, direct, amg, jacobi
   SparseSolver sparse_solver_from_name(const std::string &name);
 
+  /// @throws InputError  not one of automatic, cg, gmres, bicgstab
+  Iteration iteration_from_name(const std::string &name);
+
   struct SparseOptions
   {
-    bool is_symmetric = true; ///< and positive definite: conjugate gradients, else GMRES
+    bool is_symmetric = true; ///< and positive definite
+    Iteration iteration = Iteration::automatic;
     SparseSolver solver = SparseSolver::automatic;
-    unsigned int n_components = 1; ///< unknowns a node, numbered node by node: AMG's constant modes
-    double tolerance = 1e-12;      ///< relative residual
+    unsigned int n_components = 1; ///< unknowns a node, numbered node by node
+    /// Places of all nodes, for amg and two components: rotations are among its near-null modes
+    /// then, besides the constants, which saves one iteration in six of elastic solids.
+    std::vector<dealii::Point<2>> nodes;
+    double tolerance = 1e-12; ///< relative residual
     unsigned int max_iterations = 1000;
   };
 
@@ -33,7 +51,7 @@ namespace plumbline::algebra
     std::vector<double> values; ///< all of them, on every rank
     unsigned int n_iterations;  ///< 0 for direct
     double relative_residual;   ///< computed afterwards from the matrix itself
-    std::string solver;         ///< "direct", "amg" or "jacobi"
+    std::string solver;         ///< "direct", or the iteration and its preconditioner: "cg + amg"
     std::uint64_t n_nonzeros;   ///< of the whole matrix
     std::size_t bytes;          ///< of rows, and factors or preconditioner, on this rank
   };
@@ -44,6 +62,7 @@ namespace plumbline::algebra
   /// @param rows  this rank's part of A: any rows, shape (n, n), < 2^31 entries
   /// @param right_hand_side  this rank's part of b, shape (n), n a multiple of n_components
   /// @note Collective; errors are thrown on all ranks.
+  /// @throws InputError  cg was asked for, but A is not symmetric
   /// @throws NumericalError  a row without entries, a singular matrix, no convergence, a value that
   /// is not finite, a residual above 1e-8 (direct) or 10 tolerances and the round-off of A x
   /// Accuracy: the same on any number of ranks to condition × tolerance (direct: × round-off).

@@ -8,7 +8,9 @@
 namespace plumbline::physics
 {
   /// Constants of an isotropic linear elastic solid in the plane [force/length^2]:
-  /// σ = λ tr(ε) I + 2μ ε.
+  /// σ = λ tr(ε) I + 2μ ε. Plane strain: those of the solid. Plane stress: λ of the plane is
+  /// 2λμ/(λ + 2μ) = Eν/(1 - ν²). (In 3D, which is not modelled: ∫K|ξ|² = 3, bonds 10μ K ξ⊗ξ/|ξ|²,
+  /// k = λ + 2μ/3, l = 15μ, bond-based if l = 9k.)
   struct Lame
   {
     double lambda, mu;

@@ -192,6 +192,9 @@ namespace plumbline::scene
           mesh_remedy);
     needs(!mesh.is_lattice() || scene.local_solution != "computed",
           "Problem/local solution = computed", mesh_remedy);
+    if (scene.local_solution == "computed" && (scene.is_free_body || scene.is_damaged()))
+      throw InputError("Problem/local solution = computed needs u all around a domain without "
+                       "cracks and free surfaces; write none, or an expression");
     needs(mesh.is_lattice() || !scene.collar, "Domain/collar is given",
           "a mesh has the collar it has, and is checked; write Domain/collar = auto");
     needs(mesh.is_lattice() || scene.operator_road == "automatic",

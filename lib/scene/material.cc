@@ -53,9 +53,7 @@ namespace plumbline::scene
   {
     const Expression first("Material/" + keys[0], expressions[0]),
         second("Material/" + keys[1], expressions[1]);
-    if (is_homogeneous)
-      return [lame = convert(*this, first({}), second({}))](const Point<2> &) { return lame; };
-    return [material = *this, first, second](const Point<2> &x)
+    const auto at = [material = *this, first, second](const Point<2> &x)
     {
       try
       {
@@ -64,11 +62,16 @@ namespace plumbline::scene
       catch (const InputError &error)
       {
         std::ostringstream message;
-        message << "Material/" << material.keys[0] << " and " << material.keys[1] << " at (" << x
-                << "): " << error.what();
+        message << "Material/" << material.keys[0] << " and " << material.keys[1];
+        if (!material.is_homogeneous)
+          message << " at (" << x << ")";
+        message << ": " << error.what();
         throw InputError(message.str());
       }
     };
+    if (is_homogeneous)
+      return [lame = at({})](const Point<2> &) { return lame; };
+    return at;
   }
 
   Material make_material(const std::function<std::string(const std::string &key)> &value)

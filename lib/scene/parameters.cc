@@ -215,12 +215,18 @@ namespace plumbline::scene
            "lattice and a stencil would do, the dilatation also where lambda = mu; same numbers, "
            "to show that nothing is missed."},
           {"Solver", "linear solver", "automatic", one_of("automatic|direct|amg|jacobi"),
-           "Of sparse systems, on meshes and scattered nodes: direct, or conjugate gradients "
-           "(GMRES "
-           "where not symmetric) with algebraic multigrid or Jacobi."},
+           "Of sparse systems, on meshes and scattered nodes: direct, or iterations with algebraic "
+           "multigrid or Jacobi."},
+          {"Solver", "iteration", "automatic", one_of("automatic|cg|gmres|bicgstab"),
+           "What iterates: automatic (cg where the operator is symmetric, else gmres), cg "
+           "(conjugate gradients, refused where it is not), gmres or bicgstab (for sparse "
+           "systems)."},
+          {"Solver", "dilatation", "eliminated", one_of("eliminated|kept"),
+           "Of state-based solids on scattered nodes: eliminated, or kept as a third unknown of "
+           "each node, with a direct solver. Both yield the same u."},
           {"Solver", "tolerance", "1e-12", std::make_shared<Patterns::Double>(1e-15, 1e-3),
            "Relative residual of the linear system."},
-          {"Solver", "max iterations", "1000", count(1), "Most iterations of conjugate gradients."},
+          {"Solver", "max iterations", "1000", count(1), "Most iterations."},
 
           {"Output", "fields", "false", yes_or_no(),
            "Write the solutions of the finest levels as VTU files."},
@@ -235,6 +241,11 @@ namespace plumbline::scene
           {"Expected", "rate tolerance", "0.1", positive(), "Absolute, of Expected/rates."},
           {"Expected", "bounds", "", text(),
            "'method[, case][, series]: e', the decisive error stays below e at every level."},
+          {"Expected", "monotone", "", text(),
+           "'method[, case][, series]: yes' or 'no', whether the decisive error falls from every "
+           "level to the next."},
+          {"Expected", "stability", "", text(),
+           "'method: stable', 'conditionally stable' or 'unstable', of 'plumbline stability'."},
       };
       return table;
     }

@@ -52,38 +52,29 @@ namespace plumbline::scene
       return result;
     }
 
-    /// Add the series to a field, if it is smooth on the bounding box of Ω.
+    /// The series of a field that is smooth on a box.
+    /// @param is_filled  by the domain: elsewhere, in a hole, the field may have no value
+    std::optional<ChebyshevField> series_of(const ChebyshevField::Function &value,
+                                            unsigned int n_components, const geometry::Box &box,
+                                            double noise, bool is_filled)
+    try
+    {
+      return ChebyshevField::resolve(value, n_components, box.lower, box.upper, noise);
+    }
+    catch (const std::runtime_error &)
+    {
+      if (is_filled)
+        throw;
+      return {};
+    }
+
+    /// A field, with its series on the bounding box of Ω.
     Field with_series(ChebyshevField::Function value, unsigned int n_components,
                       const Extent &extent, double noise)
     {
       Field field{std::move(value), std::nullopt};
-      try
-      {
-        field.series = ChebyshevField::resolve(field.value, n_components, extent.box.lower,
-                                               extent.box.upper, noise);
-      }
-      catch (const std::runtime_error &)
-      {
-        // the bounding box of Ω may hold points, in a hole, where the field has no value
-        if (extent.is_rectangle)
-          throw;
-      }
+      field.series = series_of(field.value, n_components, extent.box, noise, extent.is_rectangle);
       return field;
-    }
-
-    /// θ of a field, as a series where it is smooth: a load asks for it all over the ball.
-    std::function<double(const Point<2> &)>
-    dilatation_of(const Expression &u, const physics::Dilatation &dilatation, const Extent &extent)
-    {
-      const physics::FieldDilatation theta(dilatation.influence, u);
-      const double horizon = dilatation.influence.horizon();
-      const Point<2> margin(horizon, horizon);
-      if (extent.is_rectangle)
-        if (const auto series = ChebyshevField::resolve(
-                [&](const Point<2> &x, unsigned int) { return theta(x); }, 1,
-                Point<2>(extent.box.lower - margin), extent.box.upper + margin))
-          return [series = *series](const Point<2> &x) { return series(x, 0); };
-      return theta;
     }
 
     /// The largest value of a field over the samples: for noise levels.
@@ -94,6 +85,29 @@ namespace plumbline::scene
         for (unsigned int c = 0; c < n_components; ++c)
           largest = std::max(largest, std::abs(field.value(x, c)));
       return largest;
+    }
+
+    /// Round-off of an operator of this kernel on a field.
+    double noise_of(const physics::Kernel<2> &kernel, const Field &field, unsigned int n_components,
+                    const Extent &extent)
+    {
+      return 2 * std::numeric_limits<double>::epsilon() * physics::operator_scale(kernel) *
+             magnitude(field, n_components, extent);
+    }
+
+    /// θ of a field, as a series where it is smooth: a load asks for it all over the ball.
+    std::function<double(const Point<2> &)> dilatation_of(const Expression &u,
+                                                          const physics::Dilatation &dilatation,
+                                                          double noise, const Extent &extent)
+    {
+      const physics::FieldDilatation theta(dilatation.influence, u);
+      const double horizon = dilatation.influence.horizon();
+      const Point<2> margin(horizon, horizon);
+      const geometry::Box reached{Point<2>(extent.box.lower - margin), extent.box.upper + margin};
+      const auto value = [&](const Point<2> &x, unsigned int) { return theta(x); };
+      if (const auto series = series_of(value, 1, reached, noise, extent.is_rectangle))
+        return [series = *series](const Point<2> &x) { return series(x, 0); };
+      return theta;
     }
 
     /// Nodes on the vertices of a lattice; the mesh is that of their cells, or one of the boxes.
@@ -152,12 +166,16 @@ namespace plumbline::scene
       const physics::ManufacturedLoad bonds(kernel, u, problem.coefficient);
       ChebyshevField::Function load = bonds;
       if (problem.dilatation)
-        load = [bonds, force = physics::DilatationForce(
-                           *problem.dilatation, dilatation_of(u, *problem.dilatation, omega))](
+      {
+        const physics::Kernel<2> &influence = problem.dilatation->influence;
+        const double noise =
+            influence.horizon() * noise_of(influence, *problem.solution, n_components, omega);
+        load = [bonds,
+                force = physics::DilatationForce(
+                    *problem.dilatation, dilatation_of(u, *problem.dilatation, noise, omega))](
                    const Point<2> &x, unsigned int c) { return bonds(x, c) + force(x, c); };
-      const double noise = 2 * std::numeric_limits<double>::epsilon() *
-                           physics::operator_scale(kernel) *
-                           magnitude(*problem.solution, n_components, omega);
+      }
+      const double noise = noise_of(kernel, *problem.solution, n_components, omega);
       problem.load = with_series(load, n_components, omega, noise);
     }
     return problem;

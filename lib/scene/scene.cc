@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 namespace plumbline::scene
@@ -80,6 +81,35 @@ namespace plumbline::scene
       return profile;
     }
 
+    /// Solver/iteration and Solver/dilatation fit the rest.
+    void check_solver(const Scene &scene)
+    {
+      const auto needs = [](bool is_good, const std::string &what)
+      {
+        if (!is_good)
+          throw InputError("Solver/" + what);
+      };
+      const bool is_chosen = scene.iteration != "automatic";
+      const bool is_scattered = !scene.mesh.is_lattice() && !scene.is_free_body;
+      const std::string iteration = "iteration = " + scene.iteration, kept = "dilatation = kept";
+      needs(!is_chosen || scene.linear_solver != "direct",
+            iteration + ", but nothing iterates with Solver/linear solver = direct; write "
+                        "Solver/iteration = automatic, or another linear solver");
+      needs(!is_chosen || scene.iteration == "cg" || is_scattered,
+            iteration + " on a " + (scene.is_free_body ? "free body" : "lattice") +
+                ": its operator is symmetric positive definite; write automatic or cg");
+      if (!scene.keeps_dilatation)
+        return;
+      needs(scene.has_dilatation(),
+            kept + ", but the model has none, being that of state-based solids with lambda != mu; "
+                   "write eliminated, or Material/model = LPS");
+      needs(is_scattered, kept + " is for scattered nodes, not for lattices and free bodies; write "
+                                 "eliminated, or Domain/mesh = squares with a collar");
+      needs(!is_chosen && (scene.linear_solver == "automatic" || scene.linear_solver == "direct"),
+            kept + " makes a system that is solved directly; write Solver/linear solver = direct "
+                   "and Solver/iteration = automatic");
+    }
+
     Scene build(const std::string &file, dealii::ParameterHandler &parameters)
     {
       const auto value = [&](const std::string &key) { return get(parameters, key); };
@@ -121,7 +151,7 @@ namespace plumbline::scene
 
       scene.material = make_material(value);
       scene.is_full_model = value("Solver/model") == "full";
-      if (scene.is_full_model && scene.mesh.is_lattice())
+      if (scene.is_full_model && scene.mesh.is_lattice() && !scene.is_free_body)
         scene.mesh.kind = "squares";
 
       scene.solutions = to_cases(value("Problem/solution"));
@@ -167,16 +197,25 @@ namespace plumbline::scene
       scene.operator_road = value("Solver/operator");
       check_mesh_and_nodes(scene);
       scene.linear_solver = value("Solver/linear solver");
+      scene.iteration = value("Solver/iteration");
+      scene.keeps_dilatation = value("Solver/dilatation") == "kept";
+      check_solver(scene);
       scene.tolerance = to_number("Solver/tolerance", value("Solver/tolerance"));
       scene.max_iterations = std::stoi(value("Solver/max iterations"));
       scene.write_fields = value("Output/fields") == "true";
 
-      const auto expected = [&](const std::string &key, bool is_verdict = false)
-      { return to_expected(key, value(key), scene.case_names(), is_verdict); };
-      scene.expected_verdicts = expected("Expected/verdicts", true);
+      const auto expected = [&](const std::string &key, const std::set<std::string> &words = {})
+      { return to_expected(key, value(key), scene.case_names(), words); };
+      scene.expected_verdicts =
+          expected("Expected/verdicts",
+                   {"AC", "not AC", "m-convergent", "not m-convergent", "delta-m-convergent",
+                    "not delta-m-convergent", "undecided", "failed"});
       scene.expected_errors = expected("Expected/errors");
       scene.expected_rates = expected("Expected/rates");
       scene.expected_bounds = expected("Expected/bounds");
+      scene.expected_monotone = expected("Expected/monotone", {"yes", "no"});
+      scene.expected_stability =
+          expected("Expected/stability", {"stable", "conditionally stable", "unstable"});
       scene.error_tolerance =
           to_number("Expected/error tolerance", value("Expected/error tolerance"));
       scene.rate_tolerance = to_number("Expected/rate tolerance", value("Expected/rate tolerance"));

@@ -158,13 +158,16 @@ namespace plumbline::scene
     geometry::Backend backend;
     unsigned int n_geometry_checks, seed;
 
-    std::string operator_road, linear_solver;
+    std::string operator_road, linear_solver, iteration;
+    bool keeps_dilatation; ///< as an unknown of each scattered node
     double tolerance;
     unsigned int max_iterations;
 
     bool write_fields;
 
     std::vector<Expected> expected_verdicts, expected_errors, expected_rates, expected_bounds;
+    std::vector<Expected> expected_monotone;  ///< verdicts: yes or no
+    std::vector<Expected> expected_stability; ///< of `plumbline stability`
     double error_tolerance, rate_tolerance;
 
     /// The names of its cases: of the solutions, or of the loads.

@@ -133,8 +133,10 @@ namespace plumbline::scene
   }
 
   std::vector<Expected> to_expected(const std::string &key, const std::string &text,
-                                    const std::vector<std::string> &cases, bool is_verdict)
+                                    const std::vector<std::string> &cases,
+                                    const std::set<std::string> &words)
   {
+    const bool is_verdict = !words.empty();
     std::vector<Expected> list;
     for (const std::string &part : split_outside_brackets(text, ';'))
     {
@@ -163,19 +165,14 @@ namespace plumbline::scene
         expected.values = to_numbers(key, part.substr(colon + 1), ' ');
       if (!is_verdict && expected.values.empty())
         throw InputError(key + ": '" + part + "' has no numbers after the ':'");
-      static const std::set<std::string> verdicts = {"AC",
-                                                     "not AC",
-                                                     "m-convergent",
-                                                     "not m-convergent",
-                                                     "delta-m-convergent",
-                                                     "not delta-m-convergent",
-                                                     "undecided",
-                                                     "failed"};
-      if (is_verdict && verdicts.count(expected.verdict) == 0)
-        throw InputError(
-            key + ": '" + expected.verdict +
-            "' is not a verdict; write AC, m-convergent or delta-m-convergent, each with or "
-            "without 'not', undecided, or failed");
+      if (is_verdict && words.count(expected.verdict) == 0)
+      {
+        std::string allowed;
+        for (const std::string &word : words)
+          allowed += (allowed.empty() ? "" : ", ") + word;
+        throw InputError(key + ": '" + expected.verdict + "' is not a verdict; write one of " +
+                         allowed);
+      }
       list.push_back(expected);
     }
     return list;

@@ -2,6 +2,7 @@
 
 #include "scene/scene.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,11 @@ namespace plumbline::scene
   /// "name: expression; ..." or a single expression, whose case is called "u".
   std::vector<Case> to_cases(const std::string &text);
 
-  /// "method[, case][, series]: value; ..."; the series is the part with '='.
+  /// "method[, case][, series]: value; ..."; the series is the part with '='. Values are
+  /// numbers, or one of the given words.
   std::vector<Expected> to_expected(const std::string &key, const std::string &text,
-                                    const std::vector<std::string> &cases, bool is_verdict);
+                                    const std::vector<std::string> &cases,
+                                    const std::set<std::string> &words = {});
 
   /// A short decimal text, as in series names: 3, 0.4, 2.5.
   std::string short_number(double value);

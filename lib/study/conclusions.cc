@@ -213,6 +213,14 @@ namespace plumbline::study
                                          expected.values.size() == 1 &&
                                          largest <= expected.values[0]};
                 });
+      check_all(
+          scene.expected_monotone, results, "error falls at every level",
+          [](const scene::Expected &expected, const Trend &trend)
+          {
+            const bool falls = std::is_sorted(trend.values.rbegin(), trend.values.rend());
+            const std::string found = trend.values.size() < 2 ? "one level" : falls ? "yes" : "no";
+            return Expectation{"", expected.verdict, found, found == expected.verdict};
+          });
     }
 
     /// The cheapest run of methods that converge with an error of at most a target, or nullptr.
@@ -311,8 +319,9 @@ namespace plumbline::study
                 : "one solve of " + std::to_string(largest->cost.n_iterations) +
                       " iterations a level") +
                where});
-      results.omissions.push_back({"bond state", "no fracture: no bond can break",
-                                   megabytes(bonds / 8) + " at one bit a bond" + where});
+      if (!scene.is_damaged())
+        results.omissions.push_back({"bond state", "no fracture: no bond can break",
+                                     megabytes(bonds / 8) + " at one bit a bond" + where});
     }
   } // namespace
 

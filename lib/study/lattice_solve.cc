@@ -1,8 +1,10 @@
 #include "study/lattice_solve.h"
 
 #include "algebra/solve.h"
+#include "algebra/sparse.h"
 #include "base/error.h"
 
+#include <cmath>
 #include <sstream>
 
 namespace plumbline::study
@@ -87,6 +89,41 @@ namespace plumbline::study
         static_cast<unsigned int>(stencil.n_entries() / stencil.n_blocks() - 1);
     result.diagnostics.relative_residual = solved.relative_residual;
     result.diagnostics.operator_road = matrix->road();
+    return result;
+  }
+
+  DiscreteOperator show_on_lattice(const geometry::Lattice &lattice, const geometry::NodeSet &nodes,
+                                   const algebra::Stencil &stencil, const std::vector<double> &mass)
+  {
+    constexpr std::size_t most_entries = 20000000;
+    DiscreteOperator result;
+    result.n_components = nodes.n_components;
+    for (unsigned int s = 0; s < nodes.n_families(); ++s)
+      for (int j = 0; j < nodes.n[1]; ++j)
+        for (int i = 0; i < nodes.n[0]; ++i)
+          if (nodes.free(s, i, j))
+          {
+            const auto place = nodes.place(s, i, j);
+            result.nodes.push_back(lattice.point(place[0], place[1]));
+            result.mass.push_back(mass[s]);
+          }
+    if (stencil.n_entries() / stencil.n_blocks() * nodes.n_unknowns() <= most_entries)
+      result.rows = algebra::assemble(stencil, nodes);
+    for (int k2 = -stencil.reach(); k2 <= stencil.reach() && stencil.n_blocks() == 1; ++k2)
+      for (int k1 = -stencil.reach(); k1 <= stencil.reach(); ++k1)
+        result.second_moment -= stencil(0, 0, k1, k2) * std::pow(k1 * lattice.h(), 2) / mass[0];
+    result.reach = stencil.n_blocks() == 1 ? stencil.reach() * lattice.h() : 0;
+    const std::shared_ptr<const algebra::Operator> matrix = make_operator(stencil, nodes);
+    result.action = [matrix, positions = algebra::free_positions(nodes),
+                     n = nodes.size()](const std::vector<double> &x, std::vector<double> &y)
+    {
+      algebra::Vector in(n), out(n);
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        in[positions[i]] = x[i];
+      matrix->vmult(out, in);
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        y[i] = out[positions[i]];
+    };
     return result;
   }
 } // namespace plumbline::study

@@ -21,4 +21,10 @@ namespace plumbline::study
   LatticeSolve solve_on_lattice(const scene::Scene &scene, const scene::Problem &problem,
                                 const geometry::NodeSet &nodes, const algebra::Stencil &stencil,
                                 const std::function<algebra::Vector()> &load);
+
+  /// Show a stencil on the free nodes: its action, and its rows up to 2e7 entries.
+  /// @param mass  of the nodes of each family
+  DiscreteOperator show_on_lattice(const geometry::Lattice &lattice, const geometry::NodeSet &nodes,
+                                   const algebra::Stencil &stencil,
+                                   const std::vector<double> &mass);
 } // namespace plumbline::study

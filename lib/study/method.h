@@ -1,10 +1,12 @@
 #pragma once
 
+#include "algebra/spectrum.h"
 #include "scene/problem.h"
 #include "study/results.h"
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,24 @@ namespace plumbline::study
     Diagnostics diagnostics;
   };
 
+  /// The operator that a method solves with, on its free unknowns: Σ_j A_ij u_j = m_i b(x_i) and
+  /// what the collar adds.
+  struct DiscreteOperator
+  {
+    unsigned int n_components = 1;
+    std::vector<dealii::Point<2>> nodes; ///< unknowns are numbered node by node
+    std::vector<double> mass; ///< m of each node [length^2], or 1 where all are alike; > 0
+    /// Of one component on a lattice with one node a cell: -Σ_j A_ij (x_j - x_i)_1² / m_i over all
+    /// neighbours of a node, in the collar too, and how far they are along an axis; else 0.
+    double second_moment = 0, reach = 0;
+    bool is_collocated = true; ///< row i states the equation at node i: no Galerkin method
+    algebra::Rows rows;        ///< A; empty where only its action is there
+    algebra::Action action;    ///< of a symmetric A, matrix-free; empty where only rows are there
+    Diagnostics diagnostics;   ///< weights, moments
+
+    std::size_t size() const { return nodes.size() * n_components; }
+  };
+
   /// A way to solve scenes, on either side.
   class Method
   {
@@ -38,6 +58,15 @@ namespace plumbline::study
 
     /// @throws NumericalError  no solution; @throws InputError  data that is not finite
     virtual Solution solve(const scene::Scene &scene, const scene::Problem &problem) const = 0;
+
+    /// The operator at one level, for its stability; empty: the method does not show it. Meshes: by
+    /// the first outer rule. On this rank alone.
+    /// @throws NumericalError  there is none, e.g. weights are infeasible
+    virtual std::optional<DiscreteOperator> discrete_operator(const scene::Scene &,
+                                                              const scene::Problem &) const
+    {
+      return {};
+    }
 
     /// The same method one polynomial degree higher, if it has one: for its error estimate.
     virtual std::shared_ptr<const Method> higher_degree() const { return nullptr; }

@@ -15,15 +15,17 @@ namespace plumbline::study
     /// Bonds of one family, or entries of a Galerkin row besides the diagonal.
     unsigned int n_neighbours = 0;
     double smallest_weight_ratio = 1; ///< min over a family of weight / (ball ∩ cell area or cell)
-    unsigned int n_negative_weights = 0; ///< in the family of a lattice, or in all families
-    double relative_residual = 0;        ///< of the linear system when the solver stopped
-    std::string operator_road;           ///< "fft", "direct", "sparse" or "sparse, <solver>"
-    unsigned int n_geometry_checks = 0;  ///< cut cells recomputed with the exact backend
-    double geometry_difference = 0;      ///< worst difference among them, relative to the cell
-    double outer_change = 0;             ///< L2, relative: the last refinement of outer quadrature
-    bool is_outer_error_known = true;    ///< false: outer quadrature was not refined
-    unsigned int n_refinements = 0;      ///< of outer quadrature
-    std::vector<std::string> notes;      ///< what the method had to do, e.g. clip a negative kernel
+    unsigned int n_negative_weights = 0;     ///< in the family of a lattice, or in all families
+    unsigned int n_conditions = 0, rank = 0; ///< moments asked of the family of lowest rank
+    double smallest_pivot = 1;               ///< of such conditions, see meshfree::Fit
+    double relative_residual = 0;            ///< of the linear system when the solver stopped
+    std::string operator_road;               ///< "fft", "direct", "sparse" or "sparse, <solver>"
+    unsigned int n_geometry_checks = 0;      ///< cut cells recomputed with the exact backend
+    double geometry_difference = 0;          ///< worst difference among them, relative to the cell
+    double outer_change = 0;          ///< L2, relative: the last refinement of outer quadrature
+    bool is_outer_error_known = true; ///< false: outer quadrature was not refined
+    unsigned int n_refinements = 0;   ///< of outer quadrature
+    std::vector<std::string> notes;   ///< what the method had to do, e.g. clip a negative kernel
   };
 
   /// One method on one case at one level.

@@ -298,8 +298,9 @@ namespace plumbline::study
         throw InputError("Reference/method: '" + scene.reference +
                          "' cannot do this scene: " + reason);
     }
-    for (const auto *list : {&scene.expected_verdicts, &scene.expected_errors,
-                             &scene.expected_rates, &scene.expected_bounds})
+    for (const auto *list :
+         {&scene.expected_verdicts, &scene.expected_errors, &scene.expected_rates,
+          &scene.expected_bounds, &scene.expected_monotone, &scene.expected_stability})
       for (const scene::Expected &expected : *list)
         (void)find_method(available, expected.method, "Expected");
     return chosen;

@@ -247,8 +247,72 @@ TEST(SparseSystem, AutomaticTakesDirectForFewUnknownsJacobiForWideAndMultigridFo
     return solve(known({n, reach, 1, true, true}), with(SparseSolver::automatic)).solver;
   };
   EXPECT_EQ(chosen(20, 3.2), "direct");
-  EXPECT_EQ(chosen(50, 6.2), "jacobi");
-  EXPECT_EQ(chosen(100, 3.2), "amg");
+  EXPECT_EQ(chosen(50, 6.2), "cg + jacobi");
+  EXPECT_EQ(chosen(100, 3.2), "cg + amg");
+}
+
+TEST(SparseSystem, AutomaticTakesMultigridEarlierForTwoComponents)
+{
+  const auto chosen = [](unsigned int n_components, int n)
+  {
+    SparseOptions options = with(SparseSolver::automatic);
+    options.n_components = n_components;
+    return solve(known({n, 3.2, n_components, true, true}), options).solver;
+  };
+  EXPECT_EQ(chosen(1, 45), "cg + jacobi"); // 60 times more unknowns than entries in a row
+  EXPECT_EQ(chosen(2, 45), "cg + amg");
+}
+
+TEST(SparseSystem, RotationsSaveMultigridIterationsOfSolids)
+{
+  const int n = 50;
+  const System system = known({n, 3.2, 2, true, true});
+  SparseOptions options = with(SparseSolver::amg);
+  options.n_components = 2;
+  const SparseSolution constants = solve(system, options);
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i)
+      options.nodes.emplace_back(i - 1e4, j + 1e4); // far from the origin, which does not matter
+  const SparseSolution rigid = solve(system, options);
+  EXPECT_LE(10 * rigid.n_iterations, 9 * constants.n_iterations);
+  EXPECT_LE(distance(rigid.values, constants.values), 1e-10 * norm(rigid.values));
+}
+
+TEST(SparseSystem, EveryIterationFindsTheSolution)
+{
+  const System system = known({40, 3.2, 1, false, true});
+  const auto exact = wave(system.right_hand_side.size());
+  for (const auto solver : {SparseSolver::amg, SparseSolver::jacobi})
+    for (const std::string name : {"gmres", "bicgstab"})
+    {
+      SparseOptions options = with(solver);
+      options.iteration = iteration_from_name(name);
+      const SparseSolution solution = solve(system, options);
+      EXPECT_LE(distance(solution.values, exact), 1e-10 * norm(exact)) << solution.solver;
+      EXPECT_GT(solution.n_iterations, 0u);
+      EXPECT_EQ(solution.solver.substr(0, name.size()), name);
+    }
+}
+
+TEST(SparseSystem, ConjugateGradientsAreRefusedWhereTheMatrixIsNotSymmetric)
+{
+  SparseOptions options = with(SparseSolver::jacobi);
+  options.iteration = Iteration::cg;
+  options.is_symmetric = false; // not known to be, but it is
+  EXPECT_EQ(solve(known({20, 3.2, 1, true, true}), options).solver, "cg + jacobi");
+  options.solver = SparseSolver::direct; // as automatic may take
+  System system = known({20, 3.2, 1, true, true});
+  system.rows.value[system.rows.start[150]] *= 1.001; // one entry among thousands
+  try
+  {
+    solve(system, options);
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    for (const std::string word : {"Solver/iteration", "cg", "e-06", "symmetric", "gmres"})
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+  }
 }
 
 TEST(SparseSystem, MultigridCoarsensRowsOfManySmallEntries)
@@ -273,6 +337,8 @@ TEST(SparseSystem, ASingularSystemIsAnErrorOnEveryRank)
       options.solver = solver;
       expect_error(system, options, {"singular"});
     }
+    options.iteration = Iteration::bicgstab;
+    expect_error(system, options, {"singular"});
   }
 }
 
@@ -326,11 +392,14 @@ TEST(SparseSystem, ZeroDataGiveZero)
   System system = known({20, 3.2, 1, true, true});
   system.right_hand_side.assign(400, 0);
   for (const auto solver : solvers)
-  {
-    const SparseSolution solution = solve(system, with(solver));
-    EXPECT_EQ(norm(solution.values), 0);
-    EXPECT_EQ(solution.relative_residual, 0);
-  }
+    for (const auto iteration : {Iteration::cg, Iteration::gmres, Iteration::bicgstab})
+    {
+      SparseOptions options = with(solver);
+      options.iteration = iteration;
+      const SparseSolution solution = solve(system, options);
+      EXPECT_EQ(norm(solution.values), 0);
+      EXPECT_EQ(solution.relative_residual, 0);
+    }
 }
 
 TEST(SparseSystem, TooFewIterationsAreAnErrorThatSaysHowFarTheyCame)
@@ -359,4 +428,6 @@ TEST(SparseSystem, UnknownSolverNamesAreInputErrorsThatListTheKnown)
     EXPECT_NE(std::string(error.what()).find("'multigrid'"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("jacobi"), std::string::npos);
   }
+  EXPECT_EQ(iteration_from_name("bicgstab"), Iteration::bicgstab);
+  EXPECT_THROW(iteration_from_name("minres"), InputError);
 }

@@ -1,93 +1,26 @@
 // Bad input for meshes and scattered nodes as a user meets it: exit codes, messages, no output.
 
-#include "command.h"
+#include "refusals.h"
 
 #include <algorithm>
-#include <thread>
 
 namespace
 {
   using namespace plumbline::app;
 
-  struct Trial
-  {
-    std::string settings;               ///< after the scene
-    std::vector<std::string> fragments; ///< of what is to be on stderr
-  };
-
-  class BadMeshes : public testing::Test
+  class BadMeshes : public Refusals
   {
   protected:
-    void SetUp() override
+    BadMeshes()
+        : Refusals("bad_meshes", "set Purpose = bad input\n"
+                                 "subsection Domain\n  set mesh = squares\nend\n"
+                                 "subsection Problem\n  set solution = x^2 + y\nend\n"
+                                 "subsection Methods\n  set names = FA\nend\n"
+                                 "subsection Study\n  set h = 0.25\n  set m = 2\n"
+                                 "  set decisive error = averages L2 | exact\nend\n")
     {
-      fs::create_directory(folder_);
-      write("scene.prm", "set Purpose = bad input\n"
-                         "subsection Domain\n  set mesh = squares\nend\n"
-                         "subsection Problem\n  set solution = x^2 + y\nend\n"
-                         "subsection Methods\n  set names = FA\nend\n"
-                         "subsection Study\n  set h = 0.25\n  set m = 2\n"
-                         "  set decisive error = averages L2 | exact\nend\n");
     }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    /// Beside the scene, so that its name will do.
-    void write(const std::string &name, const std::string &text) const
-    {
-      std::ofstream(folder_ / name) << text;
-    }
-
-    fs::path output(std::size_t number) const { return folder_ / ("run" + std::to_string(number)); }
-
-    /// All of them, some at a time: most of a short run is spent waiting for its start.
-    std::vector<Outcome> run(const std::vector<Trial> &runs) const
-    {
-      std::vector<Outcome> outcomes(runs.size());
-      std::atomic<std::size_t> next{0};
-      const auto work = [&]
-      {
-        for (std::size_t i; (i = next++) < runs.size();)
-          outcomes[i] = run(runs[i].settings, output(i));
-      };
-      std::vector<std::thread> workers;
-      for (unsigned int i = 0; i < 4; ++i)
-        workers.emplace_back(work);
-      for (std::thread &worker : workers)
-        worker.join();
-      return outcomes;
-    }
-
-    void expect_refusals(const std::vector<Trial> &runs) const
-    {
-      const auto outcomes = run(runs);
-      for (std::size_t i = 0; i < runs.size(); ++i)
-      {
-        EXPECT_EQ(outcomes[i].out, "") << runs[i].settings;
-        EXPECT_FALSE(fs::exists(output(i))) << "partial output for " << runs[i].settings;
-        expect(runs[i], outcomes[i], 2);
-      }
-    }
-
-    static void expect(const Trial &run, const Outcome &outcome, int exit_code)
-    {
-      EXPECT_EQ(outcome.exit_code, exit_code) << run.settings << '\n' << outcome.err;
-      for (const std::string &fragment : run.fragments)
-        expect_found(outcome.err, fragment, "for " + run.settings);
-    }
-
-  private:
-    Outcome run(const std::string &settings, const fs::path &folder) const
-    {
-      return plumbline::app::run("run " + (folder_ / "scene.prm").string() + " --threads 1 -o " +
-                                 folder.string() + " " + settings);
-    }
-
-    const fs::path folder_ = temporary("bad_meshes");
   };
-
-  std::string set(const std::string &key, const std::string &value)
-  {
-    return "--set '" + key + "=" + value + "' ";
-  }
 
   // two triangles of Ω in [0,1]², a square of collar in [1,2] × [0,1]
   const std::string names = "2\n2 1 \"omega\"\n2 2 \"collar\"\n",

@@ -43,12 +43,13 @@ namespace
     return all(recalibrated(problem.kernel, 2), problem);
   }
 
-  MatrixCheck check_matrix(const std::vector<Family> &families, const scene::Problem &problem)
+  algebra::MatrixCheck check_matrix(const std::vector<Family> &families,
+                                    const scene::Problem &problem)
   {
-    return meshfree::check_matrix(scattered_operator([&](std::size_t i, Family &family)
-                                                     { family = families[i]; },
-                                                     problem, {0, families.size()})
-                                      .rows);
+    return algebra::check_matrix(scattered_operator([&](std::size_t i, Family &family)
+                                                    { family = families[i]; },
+                                                    problem, {0, families.size()})
+                                     .rows);
   }
 
   /// The bond of a node to the one at a distance of (1, 0) h.
@@ -215,7 +216,7 @@ TEST(CheckMatrix, finds_the_smallest_eigenvalue_of_a_known_matrix)
     std::size_t n_negative = 0;
     for (unsigned int k = 1; k <= n; ++k)
       n_negative += eigenvalue(k) < 0 ? 1 : 0;
-    const MatrixCheck check = meshfree::check_matrix(rows);
+    const algebra::MatrixCheck check = algebra::check_matrix(rows);
     EXPECT_NEAR(check.smallest_eigenvalue, eigenvalue(1), 1e-6 * std::abs(eigenvalue(1))) << s;
     EXPECT_EQ(check.n_negative_eigenvalues, n_negative);
     EXPECT_EQ(check.is_positive_definite(), s == 0);
@@ -230,7 +231,7 @@ TEST(CheckMatrix, finds_a_matrix_that_is_not_definite)
   {
     const auto problem = make_problem(is_tensor);
     auto families = good_families(problem);
-    MatrixCheck check = check_matrix(families, problem);
+    algebra::MatrixCheck check = check_matrix(families, problem);
     EXPECT_TRUE(check.is_positive_definite());
     EXPECT_GT(check.smallest_eigenvalue, 0);
     if (!is_tensor)

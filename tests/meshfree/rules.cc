@@ -356,3 +356,32 @@ TEST(LatticeMethods, vertex_nodes_have_the_boundary_among_the_data)
       EXPECT_NEAR(errors["vertices"][i] / errors["centres"][i], 1, .2) << method->name();
   }
 }
+
+// Why it is not m-convergent: weights over areas tend to a profile that is not 1, in the bonds of
+// a solid as for the bond tensor, so that it solves with another influence function.
+TEST(OptimisationBased, WeightsOverAreasDoNotTendToOne)
+{
+  const auto kernel =
+      Kernel<2>::with_bulk_modulus(physics::kernel_type("bond-tensor").profile, 1, 1);
+  for (const int m : {16, 32})
+  {
+    double near = 0, n_near = 0, far = 0, n_far = 0;
+    for (const Bond &bond :
+         lattice_bonds(optimisation_based(kernel), kernel, 1. / m, Backend::fast).family)
+    {
+      const double r = bond.xi.norm(), ratio = bond.weight * m * m;
+      if (r > .2 && r < .6)
+      {
+        near += ratio;
+        ++n_near;
+      }
+      else if (r > .8)
+      {
+        far += ratio;
+        ++n_far;
+      }
+    }
+    EXPECT_LT(near / n_near, .87) << m;
+    EXPECT_GT(far / n_far, 1.08) << m;
+  }
+}

@@ -1,5 +1,7 @@
 #include "base/error.h"
 #include "meshfree/lattice_operator.h"
+#include "meshfree/method.h"
+#include "meshfree/roads.h"
 #include "tests/meshfree/state_based_problems.h"
 
 #include <gtest/gtest.h>
@@ -152,6 +154,22 @@ namespace
     std::sort(result.begin(), result.end());
     return result;
   }
+
+  /// A heterogeneous solid with a crack on nodes that were moved.
+  scene::Scene solid_scene(const std::vector<scene::Override> &changes)
+  {
+    return scene::parse_scene(
+        "solid",
+        "subsection Domain\n set mesh = squares\n set cracks = 0.52, -1 : 0.52, 0.5\nend\n"
+        "subsection Kernel\n set type = 1/r\n set limit = Navier\nend\n"
+        "subsection Material\n set model = LPS\n set E = 1 + x^2\n set nu = 0.45\nend\n"
+        "subsection Problem\n set load = 1, y\n set constraint = x*y, x - y\nend\n"
+        "subsection Methods\n set names = OPT\n set perturbation = 0.2\nend\n"
+        "subsection Study\n set norms = averages L2\n"
+        " set decisive error = averages L2 | reference\nend\n"
+        "subsection Reference\n set method = Q1\nend\n",
+        changes);
+  }
 } // namespace
 
 TEST(StateBasedStencil, reproduces_quadratics_where_the_moments_are_exact)
@@ -240,6 +258,70 @@ TEST(StateBasedOperator, with_its_dilatation_kept_yields_the_same)
       kept.insert(kept.end(), {whole[3 * i], whole[3 * i + 1]});
     EXPECT_LT(largest_difference(eliminated, kept), 1e-12 * largest(kept));
   }
+}
+
+TEST(ScatteredRoad, yields_the_same_with_its_dilatation_kept)
+{
+  const auto solve = [](const std::string &dilatation)
+  {
+    const auto scene = solid_scene({{"Solver/dilatation", dilatation}});
+    const auto all = rules();
+    const auto rule =
+        std::find_if(all.begin(), all.end(), [](const Rule &one) { return one.name == "OPT"; });
+    return scattered_road(*rule, scene, make_problem(scene, 0, {.1, .25}));
+  };
+  const auto eliminated = solve("eliminated"), kept = solve("kept");
+  EXPECT_LT(largest_difference(eliminated.nodal, kept.nodal), 1e-10 * largest(kept.nodal));
+  EXPECT_LT(largest_difference(eliminated.averages, kept.averages), 1e-10 * largest(kept.nodal));
+  const Point<2> x(.33, .71);
+  EXPECT_NEAR(eliminated.value(x, 1), kept.value(x, 1), 1e-10 * largest(kept.nodal));
+  EXPECT_EQ(eliminated.cost.n_unknowns, 200u);
+  EXPECT_GT(kept.cost.n_unknowns, 300u); // dilatations in the collar too
+}
+
+TEST(ScatteredRoad, has_no_symmetric_operator_for_conjugate_gradients)
+{
+  const auto why_not = [](const scene::Scene &scene) {
+    return methods().front()->why_not(scene, make_problem(scene, 0, {.25, .5}));
+  };
+  const scene::Override cg{"Solver/iteration", "cg"};
+  EXPECT_EQ(why_not(solid_scene({})), "");
+  EXPECT_NE(why_not(solid_scene({cg})).find("harmonic means"), std::string::npos);
+  EXPECT_NE(why_not(solid_scene({cg, {"Material/E", "1"}})).find("crack"), std::string::npos);
+  const auto intact = solid_scene({cg, {"Material/E", "1"}, {"Domain/cracks", ""}});
+  EXPECT_NE(why_not(intact).find("Solver/iteration = cg needs a symmetric operator, but on "
+                                 "scattered nodes a bond has two weights"),
+            std::string::npos);
+}
+
+TEST(Solver, iterations_and_dilatations_that_a_scene_cannot_have_are_refused)
+{
+  const auto refusal = [](std::vector<scene::Override> changes, bool is_lattice)
+  {
+    if (is_lattice)
+      changes.insert(changes.end(), {{"Domain/mesh", "lattice"},
+                                     {"Domain/cracks", ""},
+                                     {"Material/E", "1"},
+                                     {"Methods/perturbation", "0"}});
+    return message_of([&] { (void)solid_scene(changes); });
+  };
+  const auto expect =
+      [&](const std::vector<scene::Override> &changes, bool is_lattice, const std::string &words)
+  {
+    const std::string message = refusal(changes, is_lattice);
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+  };
+  const scene::Override kept{"Solver/dilatation", "kept"};
+  EXPECT_EQ(refusal({{"Solver/iteration", "cg"}}, true), "");
+  expect({{"Solver/iteration", "gmres"}}, true,
+         "symmetric positive definite; write automatic or cg");
+  EXPECT_EQ(refusal({{"Solver/iteration", "bicgstab"}}, false), "");
+  expect({{"Solver/iteration", "bicgstab"}, {"Solver/linear solver", "direct"}}, false,
+         "nothing iterates");
+  EXPECT_EQ(refusal({kept}, false), "");
+  expect({kept}, true, "write eliminated, or Domain/mesh = squares");
+  expect({kept, {"Solver/linear solver", "amg"}}, false, "Solver/linear solver = direct");
+  expect({kept, {"Solver/iteration", "gmres"}}, false, "Solver/iteration = automatic");
 }
 
 TEST(StateBasedOperator, shares_are_parts_of_the_whole)

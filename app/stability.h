@@ -1,0 +1,23 @@
+#pragma once
+
+#include "scene/scene.h"
+
+namespace plumbline::app
+{
+  struct StabilityOptions
+  {
+    std::string scene_file, output; ///< output empty: results/<scene name>
+    std::vector<scene::Override> overrides;
+    std::string methods; ///< comma separated, instead of the scene's
+    unsigned int n_levels = 0;
+    bool check = false, quiet = false, json = false;
+  };
+
+  /// Measure the operators of all methods over the sweep of a scene; print table and verdicts,
+  /// write them to stability.json and stability.md, and the lowest mode of each series' finest
+  /// level to modes/*.vtu.
+  /// @return exit code: 0, or with check 1 if Expected/stability does not hold; that a method is
+  ///         unstable is a finding, no error
+  /// @throws InputError  a scene that cannot be used, a folder that cannot be written
+  int stability(const StabilityOptions &options);
+} // namespace plumbline::app

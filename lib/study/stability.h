@@ -1,0 +1,78 @@
+#pragma once
+
+#include "study/method.h"
+
+namespace plumbline::study
+{
+  /// How stable a discrete operator A is, in the discrete L2 inner product (u, v) = Σ m_i u_i v_i;
+  /// eigenvalues are those of M^(-1/2) A M^(-1/2) [unit of the operator: b / u].
+  struct Stability
+  {
+    std::size_t n_unknowns = 0;
+    double smallest = 0; ///< eigenvalue of the symmetric part: the coercivity constant
+    double largest = 0;
+    unsigned int n_zero = 0;  ///< zero-energy modes
+    std::vector<double> mode; ///< of the smallest eigenvalue, shape (n_nodes, n_components)
+    bool has_signs = false;   ///< rows are there, so that `signs` is known
+    algebra::SignCheck signs; ///< of A
+    double inverse_norm = 0; ///< ‖A⁻¹M‖∞: how far u moves at most by b of size 1; 0: not known
+    bool is_norm_exact = false; ///< else it is a lower bound, near it as a rule
+    Diagnostics diagnostics;    ///< weights, moments
+
+    /// Positive definite, the eigenvalues being known up to 1e-10 of the largest.
+    bool is_definite() const { return smallest > 1e-10 * largest; }
+  };
+
+  /// The norm of the inverse: of an M-matrix by one solve, A u = M 1, exact; else by Hager's
+  /// estimator on A⁻ᵀ, a lower bound. Where only A's action is there, rows are made of it up to
+  /// 1500 unknowns. Source: Hager 1984, doi:10.1137/0905023; Higham 1988, doi:10.1145/50063.214386.
+  /// @throws NumericalError  eigenvalues do not settle
+  /// Cost: `algebra::spectrum`, and up to 10 solves.
+  Stability measure(const DiscreteOperator &matrix);
+
+  /// What theory asks of an operator.
+  struct Consistency
+  {
+    std::size_t n_inner = 0; ///< nodes that nothing ties to the collar; 0: `degree` is not known
+    /// Polynomials up to this degree, at most 4, are mapped there as by the nonlocal operator, to
+    /// 1e-8. Not known for Galerkin methods, dilatations and coefficients.
+    unsigned int degree = 0;
+    /// Of scalar kernels: (a + reach)² / C, a the half-width of the nodes where they are narrower,
+    /// C the second moment. It bounds ‖A⁻¹M‖∞ of an M-matrix, since A maps the barrier (a + reach)²
+    /// - (x - centre)², which is >= 0 wherever data are given, to C or more; on scattered nodes C
+    /// is the least over inner nodes, and the bound as good as that. 0: not known. As reach → δ, h
+    /// → 0 this is Yang & Yin's (½ + δ)² / C, also where their lemma 4.2 fails.
+    double barrier = 0;
+  };
+
+  Consistency check_consistency(const DiscreteOperator &matrix, const scene::Problem &problem);
+
+  /// One method at one level of a scene.
+  struct StabilityRow
+  {
+    std::string method, series;
+    double h = 0, horizon = 0; ///< [length]
+    Stability stability;
+    Consistency consistency;
+    std::string failure; ///< empty, or why there is no operator
+
+    double m() const { return horizon / h; }
+  };
+
+  /// What the levels of one method say together.
+  struct StabilityVerdict
+  {
+    std::string method;
+    std::string verdict;     ///< "stable", "conditionally stable" or "unstable"
+    std::string condition;   ///< e.g. "m >= 2.24"; empty: none
+    std::string explanation; ///< one sentence with the numbers
+  };
+
+  /// A level is sound if A is positive definite, and good if besides no weight is negative, the
+  /// moments asked of families are independent, and bonds tie all nodes together. stable: all
+  /// levels are good, and the coercivity constant does not fall with the mesh size by a power above
+  /// ½. conditionally stable: a bound on m = δ / h parts good levels from others, or sound ones
+  /// from others, or all are sound. Else unstable.
+  /// @param rows  of one method, series by series, coarse to fine
+  StabilityVerdict judge(const std::vector<StabilityRow> &rows);
+} // namespace plumbline::study

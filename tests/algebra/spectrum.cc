@@ -1,0 +1,169 @@
+#include "algebra/spectrum.h"
+#include "algebra/sparse.h"
+#include "base/error.h"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace plumbline;
+using namespace plumbline::algebra;
+
+namespace
+{
+  /// -Δ by five points, h = 1.
+  Stencil five_points()
+  {
+    Stencil stencil(1, 1);
+    stencil(0, 0, 0, 0) = 4;
+    for (const int k : {-1, 1})
+      stencil(0, 0, k, 0) = stencil(0, 0, 0, k) = -1;
+    return stencil;
+  }
+
+  geometry::NodeSet rectangle(int nx, int ny)
+  {
+    geometry::NodeSet nodes{{{.5, false, 0}}, 1, {nx, ny}, {}};
+    nodes.is_free.assign(nodes.n_positions(), 1);
+    return nodes;
+  }
+
+  Action action_of(const Rows &rows)
+  {
+    return [&rows](const std::vector<double> &x, std::vector<double> &y)
+    {
+      for (std::size_t i = 0; i < rows.n_rows(); ++i)
+      {
+        y[i] = 0;
+        for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+          y[i] += rows.value[k] * x[rows.column[k]];
+      }
+    };
+  }
+
+  Rows to_rows(const std::vector<std::vector<double>> &dense)
+  {
+    Rows rows;
+    rows.start.assign(1, 0);
+    for (const auto &row : dense)
+    {
+      for (unsigned int j = 0; j < row.size(); ++j)
+        if (row[j] != 0)
+        {
+          rows.column.push_back(j);
+          rows.value.push_back(row[j]);
+        }
+      rows.start.push_back(rows.column.size());
+    }
+    return rows;
+  }
+} // namespace
+
+TEST(Spectrum, of_the_five_point_stencil_is_that_of_sines)
+{
+  const Rows rows = assemble(five_points(), rectangle(20, 13));
+  const Spectrum found = spectrum(action_of(rows), rows.n_rows(), 1e-9);
+  const auto term = [](int p, int n) { return 2 - 2 * std::cos(M_PI * p / (n + 1)); };
+  EXPECT_NEAR(found.smallest, term(1, 20) + term(1, 13), 1e-12);
+  EXPECT_NEAR(found.largest, term(20, 20) + term(13, 13), 1e-12);
+  EXPECT_EQ(found.n_zero, 0u);
+  // its mode has one sign
+  for (const double value : found.lowest_mode)
+    EXPECT_GT(value * found.lowest_mode[0], 0);
+}
+
+TEST(Spectrum, counts_zero_modes_of_a_graph_in_three_parts)
+{
+  // the Laplacian of three chains of 5, 6 and 7 nodes: one constant each
+  std::vector<std::vector<double>> dense(18, std::vector<double>(18));
+  for (int i = 0; i + 1 < 18; ++i)
+    if (i != 4 && i != 10)
+    {
+      dense[i][i] += 1;
+      dense[i + 1][i + 1] += 1;
+      dense[i][i + 1] = dense[i + 1][i] = -1;
+    }
+  const Rows rows = to_rows(dense);
+  const Spectrum found = spectrum(action_of(rows), rows.n_rows());
+  EXPECT_EQ(found.n_zero, 3u);
+  EXPECT_NEAR(found.smallest_nonzero, 2 - 2 * std::cos(M_PI / 7), 1e-12);
+  const SignCheck signs = check_signs(rows);
+  EXPECT_EQ(signs.n_parts, 3u);
+  EXPECT_EQ(signs.n_loose, 18u); // nothing is held
+  EXPECT_FALSE(signs.is_m_matrix());
+}
+
+TEST(Spectrum, of_an_indefinite_matrix_is_found_as_well)
+{
+  const Rows rows = to_rows({{-1, 2, 0}, {2, 0, 0}, {0, 0, 5}});
+  const Spectrum found = spectrum(action_of(rows), 3);
+  EXPECT_NEAR(found.smallest, -.5 - std::sqrt(4.25), 1e-13);
+  EXPECT_NEAR(found.largest, 5, 1e-13);
+  EXPECT_EQ(found.n_zero, 0u);
+}
+
+TEST(Spectrum, says_that_an_operator_with_values_that_are_no_numbers_has_none)
+{
+  const Action nan = [](const std::vector<double> &, std::vector<double> &y)
+  { y.assign(y.size(), std::nan("")); };
+  EXPECT_THROW(spectrum(nan, 30), NumericalError);
+}
+
+TEST(SignCheck, knows_m_matrices)
+{
+  EXPECT_TRUE(check_signs(assemble(five_points(), rectangle(4, 5))).is_m_matrix());
+  // a row that is only weakly dominant, tied through another one to a strict one
+  EXPECT_TRUE(check_signs(to_rows({{1, -1, 0}, {0, 1, -1}, {0, 0, 1}})).is_m_matrix());
+  // one that is not tied
+  EXPECT_EQ(check_signs(to_rows({{1, -1, 0}, {-1, 1, 0}, {0, 0, 1}})).n_loose, 2u);
+  EXPECT_EQ(check_signs(to_rows({{2, 1}, {-1, 2}})).n_positive, 1u);
+  EXPECT_EQ(check_signs(to_rows({{1, -2}, {-2, 1}})).n_weak, 2u);
+  EXPECT_DOUBLE_EQ(check_signs(to_rows({{2, 1}, {-1, 2}})).asymmetry, 1);
+}
+
+TEST(Assembly, has_the_eigenvalues_of_the_operator_on_every_road)
+{
+  Stencil stencil(2, 2); // two coupled components
+  for (int k2 = -2; k2 <= 2; ++k2)
+    for (int k1 = -2; k1 <= 2; ++k1)
+      if (k1 != 0 || k2 != 0)
+        for (unsigned int a = 0; a < 2; ++a)
+          for (unsigned int b = 0; b < 2; ++b)
+          {
+            const double entry =
+                (a == 0 ? k1 : k2) * (b == 0 ? k1 : k2) / std::pow(std::hypot(k1, k2), 3);
+            stencil(a, b, k1, k2) -= entry;
+            stencil(a, b, 0, 0) += entry;
+          }
+  geometry::NodeSet nodes = rectangle(9, 7);
+  nodes.n_components = 2;
+  nodes.is_free[0] = nodes.is_free[30] = 0; // a corner and a hole
+  const Rows rows = assemble(stencil, nodes);
+  const auto n = static_cast<Eigen::Index>(rows.n_rows());
+  ASSERT_EQ(rows.n_rows(), nodes.n_unknowns());
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+      dense(i, rows.column[k]) = rows.value[k];
+  const Eigen::VectorXd exact = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense).eigenvalues();
+
+  const auto positions = free_positions(nodes);
+  for (const Road road : {Road::fft, Road::direct, Road::sparse})
+  {
+    const auto matrix = make_operator(stencil, nodes, road);
+    const Action action = [&](const std::vector<double> &x, std::vector<double> &y)
+    {
+      Vector in(nodes.size()), out(nodes.size());
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        in[positions[i]] = x[i];
+      matrix->vmult(out, in);
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        y[i] = out[positions[i]];
+    };
+    const Spectrum found = spectrum(action, rows.n_rows(), 1e-9);
+    EXPECT_NEAR(found.smallest, exact[0], 1e-11) << matrix->road();
+    EXPECT_NEAR(found.largest, exact[n - 1], 1e-11) << matrix->road();
+  }
+  EXPECT_NEAR(check_matrix(rows).smallest_eigenvalue, exact[0], 1e-8);
+}

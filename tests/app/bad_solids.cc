@@ -1,0 +1,191 @@
+// Bad input for state-based solids as a user meets it: exit codes, messages, no output.
+
+#include "refusals.h"
+
+namespace
+{
+  using namespace plumbline::app;
+
+  /// Of the unit square with u given around it, and nodes at the centres of its 4 × 4 cells.
+  class BadSolids : public Refusals
+  {
+  protected:
+    BadSolids()
+        : Refusals("bad_solids", "set Purpose = bad input\n"
+                                 "subsection Domain\n  set mesh = squares\nend\n"
+                                 "subsection Kernel\n  set type = 1/r\n  set limit = Navier\nend\n"
+                                 "subsection Material\n  set model = LPS\n"
+                                 "  set E = 1\n  set nu = 0.3\nend\n"
+                                 "subsection Problem\n  set solution = x^2 + y, x*y\nend\n"
+                                 "subsection Methods\n  set names = FA\nend\n"
+                                 "subsection Study\n  set h = 0.25\n  set m = 2\nend\n")
+    {
+    }
+  };
+
+  /// Of a bar that is held on the left and pulled on the right.
+  class BadBodies : public Refusals
+  {
+  protected:
+    BadBodies()
+        : Refusals(
+              "bad_bodies",
+              "set Purpose = bad input\n"
+              "subsection Domain\n  set boxes = 0, 0 : 1, 0.5\n"
+              "  set boundary = free\n  set fixed = 0, 0 : 0.25, 0.5\nend\n"
+              "subsection Kernel\n  set type = 1/r\n  set limit = Navier\nend\n"
+              "subsection Material\n  set model = variational\n"
+              "  set k = 100\n  set l = 400\nend\n"
+              "subsection Problem\n  set load = 1, 0\n  set constraint = 0, 0\n"
+              "  set local solution = none\nend\n"
+              "subsection Methods\n  set names = PA-AC\n  set nodes = vertices\nend\n"
+              "subsection Study\n  set regime = m\n  set h = 0.125\n  set horizon = 0.25\n"
+              "  set norms = averages L2\n  set decisive error = averages L2 | reference\nend\n"
+              "subsection Reference\n  set method = DGQ0\n  set estimate = none\nend\n"
+              "subsection Quadrature\n  set tolerance = 0\nend\n")
+    {
+    }
+  };
+
+  const std::string no_E = set("Material/E", "") + set("Material/nu", "");
+} // namespace
+
+TEST_F(BadSolids, the_scene_itself_is_good)
+{
+  const auto outcomes =
+      run({{set("Problem/solution", "x, y"), {}}, {set("Material/E", "1 + x/8"), {}}});
+  for (const Outcome &outcome : outcomes)
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
+TEST_F(BadSolids, constants_of_no_solid_are_refused)
+{
+  const auto variational = [](const std::string &k, const std::string &l)
+  {
+    return no_E + set("Material/model", "variational") + set("Material/k", k) +
+           set("Material/l", l);
+  };
+  expect_refusals(
+      {{set("Material/nu", "0.5"),
+        {"Material/E and nu: Poisson's ratio nu = 0.5", "larger than -1 and smaller than 1/2",
+         "for a nearly incompressible solid take .499"}},
+       {set("Material/nu", "-1"), {"Material/E and nu: Poisson's ratio nu = -1", "larger than -1"}},
+       {set("Material/E", "0"), {"Material/E and nu: Young's modulus E = 0", "must be positive"}},
+       {no_E + set("Material/lambda", "-1") + set("Material/mu", "1"),
+        {"Material/lambda and mu: lambda = -1", "larger than -mu = -1"}},
+       {variational("-1", "8"), {"Material/k and l: the bulk constant k = -1", "be positive"}},
+       {variational("1", "-8"), {"Material/k and l: the shear constant l = -8", "be positive"}},
+       {no_E, {"Material/model = LPS needs its constants once: E and nu, lambda and mu, or k"}},
+       {set("Material/model", "bond-based") + set("Kernel/type", "bond-tensor"),
+        {"Material/model = bond-based takes its constants from the kernel; clear Material/E"}}});
+}
+
+TEST_F(BadSolids, material_that_is_none_somewhere_is_refused_with_its_place)
+{
+  expect_refusals(
+      {{set("Material/E", "x + 0.9"),
+        {"Material/E and nu at (-1 ", "Young's modulus E = -0.1", "must be positive"}},
+       {set("Material/nu", "0.3 + 0.2*(x > 1.9)"),
+        {"Material/E and nu at (2 ", "Poisson's ratio nu = 0.5", "smaller than 1/2"}},
+       {set("Material/E", "1 + x^2") + set("Material/nu", "-0.1"),
+        {"Material/E and nu at (", "lambda = -0.", "harmonic means need it positive",
+         "(nu > 0), or Material/model = variational"}},
+       {set("Material/E", "1 + x^2") + set("Domain/mesh", "lattice"),
+        {"Material/E or nu varies in space with Domain/mesh = lattice", "write Domain/mesh"}}});
+}
+
+TEST_F(BadSolids, collars_of_one_horizon_are_too_thin)
+{
+  const std::string lattice = set("Domain/mesh", "lattice");
+  const std::vector<std::string> needs = {"twice the horizon, which dilatations need, 1",
+                                          "balls would reach points without data; widen"};
+  const auto refused = [&](const std::string &settings, const std::string &what)
+  {
+    Trial trial{settings, needs};
+    trial.fragments.push_back(what);
+    return trial;
+  };
+  expect_refusals(
+      {refused(lattice + set("Domain/collar", "0.75"), "Domain/collar = 0.75 is thinner than"),
+       refused(set("Domain/mesh", std::string(PLUMBLINE_SCENES) + "/meshes/disk.geo"),
+               "disk.geo: the collar is 0."),
+       refused(set("Domain/mesh", "hyper_cube") + set("Domain/arguments", "-0.5 : 1.5 : false") +
+                   set("Domain/inside", "min(x*(1 - x), y*(1 - y))"),
+               "Domain/mesh = hyper_cube: the collar is 0.5 wide")});
+  // bonds alone need no more
+  const auto outcomes =
+      run({{lattice + set("Domain/collar", "0.5") + set("Material/nu", "0.25"), {}}});
+  EXPECT_EQ(outcomes[0].exit_code, 0) << outcomes[0].err;
+}
+
+TEST_F(BadSolids, cracks_that_cannot_be_used_are_refused)
+{
+  const auto cracks = [](const std::string &value) { return set("Domain/cracks", value); };
+  const std::string good = cracks("0.5, 0.5 : 0.7, 0.5"), above = set("Domain/outside", "y - 1");
+  expect_refusals(
+      {{cracks("0.375, 0.2 : 0.375, 0.9"),
+        {"crack 0 goes through node", "at (0.375 0.375)", "move the crack"}},
+       {cracks("0.4, 0.4 : 0.4, 0.4"), {"crack 0 has its points 0 and 1 in one place", "take one"}},
+       {cracks("0.4, 0.4"), {"Domain/cracks"}},
+       {cracks("0.25, 0.25 : 0.5, 0.25 : 0.5, 0.5 : 0.25, 0.5 : 0.25, 0.25"),
+        {"all bonds of node", "at (0.375 0.375) are broken", "move the crack"}},
+       {set("Domain/outside", "x - 0.5"),
+        {"lies in the domain and is a ghost; ghosts belong to the collar"}},
+       {set("Domain/outside", "x, y"), {"Domain/outside = 'x, y' has 2 component(s), not 1"}},
+       {good + set("Domain/mesh", "lattice"),
+        {"Domain/cracks or Domain/outside is given", "write"}},
+       {good + no_E + set("Material/model", "bond-based") + set("Kernel/type", "bond-tensor"),
+        {"Domain/cracks and Domain/outside need Material/model = LPS", "choose it, or clear"}},
+       {above + set("Material/model", "variational"), {"need Material/model = LPS"}},
+       {good + "--methods Q1", {"'Q1' cannot do", "break no bonds; take meshfree methods alone"}},
+       {good + set("Reference/method", "Q1"), {"Reference/method: 'Q1' cannot", "break no bonds"}},
+       {good + "--methods LOCAL", {"'LOCAL' cannot do", "u must be given all around"}},
+       {above + set("Problem/local solution", "computed"),
+        {"Problem/local solution = computed needs u all around", "write none"}}});
+}
+
+TEST_F(BadBodies, the_scene_itself_is_good)
+{
+  const auto outcomes =
+      run({{"--methods PA-AC,Q1,DGQ0", {}},
+           {set("Domain/mesh", "triangles") + set("Reference/method", "P1"), {}}});
+  for (const Outcome &outcome : outcomes)
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
+TEST_F(BadBodies, bodies_that_are_not_held_or_not_free_are_refused)
+{
+  const auto fixed = [](const std::string &value) { return set("Domain/fixed", value); };
+  expect_refusals(
+      {{fixed(""),
+        {"Domain/boundary = free needs a part where u is given", "3 rigid modes",
+         "give Domain/fixed"}},
+       {fixed("0, 0 : 1, 0.5"), {"the fixed part covers all of the body; give a smaller one"}},
+       {fixed("2, 0 : 3, 0.5"), {"nothing of the body is fixed", "fix a part (Domain/fixed)"}},
+       {fixed("0, 0 : 0.2, 0.5"), {"does not divide the box"}},
+       {set("Domain/boundary", "constrained"),
+        {"Domain/fixed is given, but u is given in the collar", "write Domain/boundary = free"}},
+       {set("Problem/constraint", "0.5, 0"),
+        {"Problem/constraint is 0.5 at (0 0)", "hold the fixed part at 0; write 0, 0"}},
+       {set("Material/model", "LPS"),
+        {"Domain/boundary = free needs Material/model = variational"}}});
+}
+
+TEST_F(BadBodies, what_bodies_cannot_do_is_refused)
+{
+  expect_refusals(
+      {{"--methods P1", {"'P1' cannot do", "Domain/mesh = lattice", "take Q1"}},
+       {"--methods LOCAL" + std::string(" ") + set("Study/regime", "delta"),
+        {"'LOCAL' cannot do", "write Domain/boundary = constrained"}},
+       {set("Reference/method", "P1"), {"Reference/method: 'P1' cannot", "take Q1"}},
+       {set("Domain/mesh", "hyper_cube") + set("Domain/inside", "1"),
+        {"Domain/boundary = free needs one box", "Domain/mesh = lattice, squares or triangles"}},
+       {set("Domain/mesh", "squares") + set("Domain/map", "x, y"), {"free needs one box"}},
+       {set("Domain/holes", "0.5, 0.25 : 0.75, 0.5"),
+        {"free needs one box (Domain/boxes) without"}},
+       {set("Problem/solution", "x, y"), {"free needs Problem/load and", "Problem/solution empty"}},
+       {set("Domain/collar", "0.5"), {"free needs Domain/collar = auto"}},
+       {set("Domain/cracks", "0.5, 0.1 : 0.5, 0.2"), {"need Material/model = LPS"}},
+       {set("Domain/mesh", "squares") + set("Problem/local solution", "computed"),
+        {"Problem/local solution = computed needs u all around", "write none"}}});
+}

@@ -1,0 +1,57 @@
+// `plumbline stability`, and failures that are refused instead of computed.
+
+#include "command.h"
+
+namespace
+{
+  using namespace plumbline::app;
+
+  std::string scene(const std::string &name)
+  {
+    return std::string(PLUMBLINE_SCENES) + "/failures/" + name + ".prm";
+  }
+
+  void expect_end(const std::string &arguments, int exit_code, const std::string &message)
+  {
+    const fs::path folder = temporary("stability");
+    const Outcome outcome = run(arguments + " -o " + folder.string());
+    EXPECT_EQ(outcome.exit_code, exit_code) << arguments << '\n' << outcome.err;
+    expect_found(outcome.err, message);
+  }
+} // namespace
+
+TEST(StabilityCommand, says_and_writes_where_a_rule_breaks)
+{
+  const fs::path folder = temporary("stability");
+  const Outcome outcome =
+      run("stability " + scene("too_few_neighbours") + " --levels 1 --check -o " + folder.string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "OPT        conditionally stable  m >= 2.24");
+  expect_found(read(folder / "stability.md"), "| 12/18 |");
+  expect_found(read(folder / "stability.json"), "\"verdict\": \"conditionally stable\"");
+  EXPECT_TRUE(fs::exists(folder / "modes/IPA_AC_R2_m___3.vtu"));
+}
+
+TEST(StabilityCommand, fails_with_1_when_a_verdict_is_not_as_expected)
+{
+  expect_end("stability " + scene("too_few_neighbours") +
+                 " --levels 1 --check --set 'Expected/stability=OPT: stable'",
+             1, "OPT: stable: found conditionally stable");
+}
+
+TEST(Failures, that_are_refused)
+{
+  // families of nothing but their own node
+  expect_end("run " + scene("stall_in_delta") + " --set Study/m=0.9", 2, "Study/m");
+  expect_end("run " + scene("stall_in_delta") + " --set Study/regime=m --set Study/horizon=0.05", 2,
+             "horizon");
+  // a body that can move as a whole
+  expect_end("run " + std::string(PLUMBLINE_SCENES) + "/state_based/bar.prm --set Domain/fixed=", 2,
+             "3 rigid modes");
+  // incompressible
+  expect_end("run " + scene("incompressible") + " --set Material/nu=0.5", 2, "nu");
+  // an outer rule that is known to be too coarse
+  expect_end("run " + scene("coarse_outer_rule") +
+                 " --set Quadrature/tolerance=1e-9 --set 'Quadrature/max refinements=1' --levels 1",
+             3, "outer quadrature");
+}

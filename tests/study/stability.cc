@@ -1,0 +1,220 @@
+// The measures tell sound operators from unsound ones, on both sides.
+#include "study/stability.h"
+#include "meshfree/family_statistics.h"
+#include "meshfree/lattice_operator.h"
+#include "meshfree/method.h"
+#include "meshfree/roads.h"
+#include "reference/method.h"
+#include "study/lattice_solve.h"
+
+#include <Eigen/QR>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace plumbline;
+using namespace plumbline::study;
+
+namespace
+{
+  scene::Scene make_scene(bool is_tensor, const std::string &more = "")
+  {
+    return scene::parse_scene(
+        "test.prm",
+        std::string("subsection Methods\n set names = all\nend\n") +
+            (is_tensor ? "subsection Kernel\n set type = bond-tensor\n set limit = Navier\nend\n"
+                         "subsection Problem\n set solution = x, y\nend\n"
+                       : "subsection Problem\n set solution = x\nend\n") +
+            more);
+  }
+
+  const std::string squares = "subsection Domain\n set mesh = squares\nend\n";
+
+  DiscreteOperator operator_of(const std::string &name, const scene::Scene &scene,
+                               const scene::Level &level)
+  {
+    Methods methods = meshfree::methods();
+    for (const auto &method : reference::methods())
+      methods.push_back(method);
+    const auto method = std::find_if(methods.begin(), methods.end(),
+                                     [&](const auto &one) { return one->name() == name; });
+    return *(*method)->discrete_operator(scene, scene::make_problem(scene, 0, level));
+  }
+
+  /// A tensor rule with exact moments of degree 2, n_a n_b ξ^α among them, from bonds as given.
+  meshfree::Recipe tensor_rule(const physics::Kernel<2> &kernel,
+                               meshfree::Bond (*bond)(const physics::Kernel<2> &,
+                                                      const meshfree::Candidate &))
+  {
+    // entries C_ab taken at the kernel point q, the field at the node: q_a q_b ξ^α / |q|²
+    const std::vector<std::array<int, 4>> which = {
+        {0, 0, 2, 0}, {0, 0, 0, 2}, {0, 1, 1, 1}, {1, 1, 2, 0}, {1, 1, 0, 2}};
+    return {bond, [=](meshfree::Family &family)
+            {
+              // min Σ (w - A)²/A: in (w - A)/√A the solution of least norm
+              const auto n = static_cast<Eigen::Index>(family.bonds.size());
+              Eigen::MatrixXd conditions(which.size(), n);
+              Eigen::VectorXd defects(which.size());
+              for (std::size_t i = 0; i < which.size(); ++i)
+              {
+                const auto [a, b, p, q] = which[i];
+                defects[i] = kernel.moment({p, q}, a, b);
+                for (Eigen::Index k = 0; k < n; ++k)
+                {
+                  const meshfree::Bond &one = family.bonds[k];
+                  const double g = meshfree::kernel_value(kernel, one, a, b) *
+                                   std::pow(one.xi[0], p) * std::pow(one.xi[1], q);
+                  defects[i] -= one.weight * g;
+                  conditions(i, k) = g * std::sqrt(one.area);
+                }
+              }
+              const Eigen::VectorXd change =
+                  conditions.completeOrthogonalDecomposition().solve(defects);
+              for (Eigen::Index k = 0; k < n; ++k)
+                family.bonds[k].weight += change[k] * std::sqrt(family.bonds[k].area);
+            }};
+  }
+
+  Stability measure_rule(const meshfree::Recipe &recipe, const physics::Kernel<2> &kernel, double h)
+  {
+    const auto bonds = meshfree::lattice_bonds(recipe, kernel, h, geometry::Backend::fast);
+    const geometry::Lattice lattice({{{{0, 0}, {1, 1}}}, {}}, h);
+    const auto nodes = free_nodes(lattice, {{.5, false, 0}}, kernel.n_components());
+    auto matrix = show_on_lattice(lattice, nodes, meshfree::lattice_operator(kernel, bonds), {1});
+    meshfree::describe_weights(bonds.family, bonds.fit, matrix.diagnostics);
+    return measure(matrix);
+  }
+
+  StabilityRow row(double m, double h, double smallest, unsigned int n_negative = 0)
+  {
+    StabilityRow result{"rule", "m = " + std::to_string(m), h, m * h, {}, {}, {}};
+    result.stability.smallest = smallest;
+    result.stability.largest = 100;
+    result.stability.diagnostics.n_negative_weights = n_negative;
+    result.stability.diagnostics.smallest_weight_ratio = n_negative > 0 ? -1 : 1;
+    return result;
+  }
+} // namespace
+
+TEST(Stability, of_a_lattice_and_of_its_mesh_agree)
+{
+  for (const bool is_tensor : {false, true})
+    for (const std::string name : {"IPA-AC", "IPA-AC-R2", "Q1", "Q2", "DGQ0", "DGQ1"})
+    {
+      const scene::Level level{.125, .375};
+      const auto a = measure(operator_of(name, make_scene(is_tensor), level)),
+                 b = measure(operator_of(name, make_scene(is_tensor, squares), level));
+      EXPECT_EQ(a.n_unknowns, b.n_unknowns) << name;
+      EXPECT_NEAR(a.smallest, b.smallest, 1e-8 * a.smallest) << name;
+      EXPECT_NEAR(a.largest, b.largest, 1e-3 * a.largest) << name;
+      EXPECT_NEAR(a.inverse_norm, b.inverse_norm, 1e-6 * a.inverse_norm) << name;
+      EXPECT_EQ(a.signs.is_m_matrix(), b.signs.is_m_matrix()) << name;
+      EXPECT_LT(a.signs.asymmetry, 1e-12) << name;
+      EXPECT_EQ(a.signs.n_parts, 1u) << name;
+    }
+}
+
+TEST(Stability, the_barrier_bounds_the_inverse_where_the_printed_lemma_does_not)
+{
+  // Yang & Yin print .247 for δ = .8
+  for (const double horizon : {.2, .8, 1.6})
+  {
+    const auto scene = make_scene(false);
+    const scene::Level level{.1, horizon};
+    const auto matrix = operator_of("IPA-AC", scene, level);
+    const Stability found = measure(matrix);
+    const double barrier = check_consistency(matrix, scene::make_problem(scene, 0, level)).barrier;
+    EXPECT_TRUE(found.is_norm_exact);
+    EXPECT_LT(found.inverse_norm, barrier) << horizon;
+    EXPECT_GT(found.inverse_norm, horizon == .8 ? .247 : 0);
+    EXPECT_NEAR(barrier, std::pow(.5 - .05 + matrix.reach, 2) / matrix.second_moment, 1e-13);
+  }
+}
+
+TEST(Stability, finds_the_degree_that_rules_reproduce)
+{
+  const auto degree = [](const std::string &name, bool is_tensor, const std::string &more)
+  {
+    const auto scene = make_scene(is_tensor, more);
+    const scene::Level level{.0625, .1875};
+    return check_consistency(operator_of(name, scene, level), scene::make_problem(scene, 0, level))
+        .degree;
+  };
+  const std::string moved = "subsection Domain\n set mesh = squares\nend\n"
+                            "subsection Methods\n set perturbation = 0.3\nend\n";
+  EXPECT_EQ(degree("IPA-AC", false, ""), 1u); // symmetry gives it degree 1, moments no more
+  EXPECT_EQ(degree("IPA-AC-R2", false, ""), 3u);
+  EXPECT_EQ(degree("IPA-AC-R4", false, ""), 4u);
+  EXPECT_EQ(degree("IPA-AC-R2", true, ""), 3u);
+  EXPECT_EQ(degree("FA", false, moved), 0u);
+  EXPECT_EQ(degree("IPA-AC-R2", false, moved), 2u);
+  EXPECT_EQ(degree("IPA-AC-R4", true, moved), 4u);
+}
+
+TEST(Stability, tells_a_tensor_rule_at_the_centroid_from_one_at_the_node)
+{
+  for (const double m : {1.6, 1.8, 2.2, 2.3, 2.4, 2.6, 2.7, 3.3, 3.7})
+  {
+    const auto kernel = physics::Kernel<2>::with_bulk_modulus({{1, -1}}, m * .1, 1);
+    const auto centroid = measure_rule(tensor_rule(kernel, meshfree::centroid_bond), kernel, .1),
+               node = measure_rule(tensor_rule(kernel, meshfree::partial_area_bond), kernel, .1);
+    std::cout << m << ' ' << centroid.diagnostics.smallest_weight_ratio << ' ' << centroid.smallest
+              << ' ' << node.diagnostics.smallest_weight_ratio << ' ' << node.smallest << '\n';
+  }
+}
+
+TEST(Stability, of_a_free_body_has_the_three_rigid_modes_and_of_a_held_one_none)
+{
+  const geometry::Lattice lattice({{{{0, 0}, {1, 1}}}, {}}, .125);
+  const physics::Kernel<2> influence(physics::Structure::scalar, {{1, -1}}, .25, 1);
+  const auto bonds = meshfree::lattice_bonds(meshfree::partial_area(influence), influence, .125,
+                                             geometry::Backend::fast);
+  const auto constant = [](double c) { return [c](const dealii::Point<2> &) { return c; }; };
+  for (const double l : {4., 8.}) // the second one with τ < 0
+    for (const bool is_held : {false, true})
+    {
+      meshfree::Polygons fixed;
+      if (is_held)
+        fixed.push_back({{0, 0}, {.125, 0}, {.125, 1}, {0, 1}});
+      const auto body = meshfree::body_on_vertices(lattice, fixed, {constant(1), constant(l)});
+      const Stability found = measure(
+          meshfree::show(std::make_shared<meshfree::VariationalOperator>(body, influence, bonds)));
+      EXPECT_EQ(found.n_zero, is_held ? 0u : 3u);
+      EXPECT_EQ(found.is_definite(), is_held);
+      EXPECT_LT(found.signs.asymmetry, 1e-14);
+    }
+}
+
+TEST(Stability, of_bond_tensors_with_bonds_along_the_axes_alone_falls_into_lines)
+{
+  const auto lines = measure(operator_of("FA", make_scene(true), {.1, .1}));
+  EXPECT_EQ(lines.signs.n_parts, 20u); // ten lines each way
+  EXPECT_EQ(measure(operator_of("FA", make_scene(true), {.1, .15})).signs.n_parts, 1u);
+}
+
+TEST(StabilityVerdict, names_the_condition_it_finds)
+{
+  EXPECT_EQ(judge({row(2, .1, 9), row(3, .1, 9)}).verdict, "stable");
+  EXPECT_EQ(judge({row(2, .1, -9), row(3, .1, -9)}).verdict, "unstable");
+
+  const StabilityVerdict bound = judge({row(2, .1, -9), row(2, .05, -9), row(3, .1, 9)});
+  EXPECT_EQ(bound.verdict, "conditionally stable");
+  EXPECT_EQ(bound.condition, "m >= 3");
+  EXPECT_NE(bound.explanation.find("-9"), std::string::npos) << bound.explanation;
+
+  const StabilityVerdict doubtful = judge({row(3, .1, 9, 4), row(3, .05, 9)});
+  EXPECT_EQ(doubtful.verdict, "conditionally stable");
+  EXPECT_NE(doubtful.explanation.find("4 negative weights"), std::string::npos);
+
+  // a level that fails between others that do not
+  EXPECT_EQ(judge({row(3, .1, 9), row(3, .05, -9)}).verdict, "unstable");
+}
+
+TEST(StabilityVerdict, sees_coercivity_fall)
+{
+  const StabilityVerdict falls = judge({row(3, .1, 4), row(3, .05, 2), row(3, .025, 1)});
+  EXPECT_EQ(falls.verdict, "unstable");
+  EXPECT_NE(falls.explanation.find("power 1"), std::string::npos) << falls.explanation;
+  EXPECT_EQ(judge({row(3, .1, 4), row(3, .05, 3.5), row(3, .025, 3.2)}).verdict, "stable");
+}
