@@ -19,12 +19,13 @@ namespace plumbline::algebra
     using Eigen::VectorXd;
     using SparseMatrix = Eigen::SparseMatrix<double>;
 
-    /// Orthogonal to no eigenvector, most likely.
-    VectorXd start_vector(Index n)
+    /// Orthogonal to no eigenvector, most likely; independent of those of other numbers.
+    VectorXd start_vector(Index n, std::size_t number = 0)
     {
       VectorXd x(n);
       for (Index i = 0; i < n; ++i)
-        x[i] = 1 + .5 * std::sin(1. + static_cast<double>(i) * static_cast<double>(i));
+        x[i] = 1 + .5 * std::sin((1. + static_cast<double>(number)) *
+                                 (1. + static_cast<double>(i) * static_cast<double>(i)));
       return x;
     }
 
@@ -45,7 +46,8 @@ namespace plumbline::algebra
           std::min(n - static_cast<Index>(locked.size()), std::max(least_limit, memory / n));
       Eigen::MatrixXd basis(n, std::min<Index>(limit, 4 * first_check));
       std::vector<double> alpha, beta, x(n), y(n);
-      VectorXd next = start_vector(n);
+      // that of the vectors before holds nothing more of the eigenspace they were found in
+      VectorXd next = start_vector(n, locked.size());
       const auto orthogonalise = [&](Index n_basis)
       {
         for (int sweep = 0; sweep < 2; ++sweep) // twice is enough, once is not
