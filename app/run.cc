@@ -2,8 +2,7 @@
 
 #include "base/error.h"
 #include "base/team.h"
-#include "meshfree/method.h"
-#include "reference/method.h"
+#include "methods.h"
 #include "report/json.h"
 #include "report/report.h"
 #include "study/conclusions.h"
@@ -37,15 +36,6 @@ namespace plumbline::app
     {
       is_interrupted = 1;
       std::signal(signal, SIG_DFL);
-    }
-
-    /// The one place that knows both sides.
-    study::Methods all_methods()
-    {
-      study::Methods methods = meshfree::methods();
-      for (const auto &method : reference::methods())
-        methods.push_back(method);
-      return methods;
     }
 
     std::string processor()

@@ -1,9 +1,8 @@
 #include "stability.h"
 
 #include "base/error.h"
-#include "meshfree/method.h"
+#include "methods.h"
 #include "meshfree/vtu.h"
-#include "reference/method.h"
 #include "study/stability.h"
 #include "study/sweep.h"
 
@@ -235,10 +234,7 @@ namespace plumbline::app
     if (!options.methods.empty())
       overrides.push_back({"Methods/names", options.methods});
     const scene::Scene scene = scene::read_scene(options.scene_file, overrides);
-    study::Methods available = meshfree::methods();
-    for (const auto &method : reference::methods())
-      available.push_back(method);
-    const study::Methods methods = study::choose_methods(scene, available);
+    const study::Methods methods = study::choose_methods(scene, all_methods());
 
     const fs::path folder =
         options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);

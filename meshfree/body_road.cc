@@ -143,16 +143,8 @@ namespace plumbline::meshfree
         positions.push_back(i);
         positions.push_back(body.size() + i);
       }
-    result.action = [matrix = std::move(matrix), positions](const std::vector<double> &x,
-                                                            std::vector<double> &y)
-    {
-      algebra::Vector in(2 * matrix->body().size()), out(in.size());
-      for (std::size_t i = 0; i < positions.size(); ++i)
-        in[positions[i]] = x[i];
-      matrix->vmult(out, in);
-      for (std::size_t i = 0; i < positions.size(); ++i)
-        y[i] = out[positions[i]];
-    };
+    const std::size_t n = 2 * body.size();
+    result.action = algebra::restrict(std::move(matrix), n, positions);
     return result;
   }
 } // namespace plumbline::meshfree

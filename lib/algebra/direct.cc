@@ -1,31 +1,17 @@
 #include "algebra/direct.h"
 
+#include "algebra/lane.h"
+
 #include <deal.II/base/parallel.h>
 
 #include <algorithm>
 #include <cstring>
 
-// One build serves machines with and without wide vectors; the loader picks the clone. Sanitizers
-// do not work with that choice.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define PLUMBLINE_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
-#else
-#define PLUMBLINE_VECTOR_CLONES
-#endif
-
 namespace plumbline::algebra
 {
   namespace
   {
-    constexpr int lanes = 4, n_registers = 4, tile = lanes * n_registers;
-    using Lane = double __attribute__((vector_size(lanes * sizeof(double))));
-
-    [[gnu::always_inline]] inline Lane load(const double *from)
-    {
-      Lane lane;
-      std::memcpy(&lane, from, sizeof(Lane));
-      return lane;
-    }
+    constexpr int n_registers = 4, tile = lanes * n_registers;
 
     /// One tile of a scalar operator: result = a u + Σ w (u(+k) + u(-k)).
     template <class Pair>

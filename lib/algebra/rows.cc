@@ -1,6 +1,7 @@
 #include "algebra/rows.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plumbline::algebra
 {
@@ -48,5 +49,18 @@ namespace plumbline::algebra
         result.value[at] = rows.value[k];
       }
     return result;
+  }
+
+  double largest_row_sum(const Rows &rows)
+  {
+    double largest = 0;
+    for (std::size_t i = 0; i < rows.n_rows(); ++i)
+    {
+      double sum = 0;
+      for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+        sum += std::abs(rows.value[k]);
+      largest = std::max(largest, sum);
+    }
+    return largest;
   }
 } // namespace plumbline::algebra

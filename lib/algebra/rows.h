@@ -23,4 +23,7 @@ namespace plumbline::algebra
 
   /// Of a square matrix.
   Rows transpose(const Rows &rows);
+
+  /// ‖A‖_∞.
+  double largest_row_sum(const Rows &rows);
 } // namespace plumbline::algebra

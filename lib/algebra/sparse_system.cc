@@ -139,20 +139,6 @@ namespace plumbline::algebra
 
     // ---- what solvers ask of the matrix ---------------------------------------------------------
 
-    /// ‖A‖_∞ of this rank's rows.
-    double largest_row_sum(const Rows &rows)
-    {
-      double largest = 0;
-      for (std::size_t i = 0; i < rows.n_rows(); ++i)
-      {
-        double sum = 0;
-        for (std::size_t e = rows.start[i]; e < rows.start[i + 1]; ++e)
-          sum += std::abs(rows.value[e]);
-        largest = std::max(largest, sum);
-      }
-      return largest;
-    }
-
     void check_rows(const SharedRows &matrix, unsigned int n_components)
     {
       const Rows &rows = matrix.own();

@@ -265,19 +265,27 @@ namespace plumbline::algebra
     return check;
   }
 
+  Action restrict(std::shared_ptr<const Operator> matrix, std::size_t n,
+                  std::vector<std::size_t> positions)
+  {
+    return [matrix = std::move(matrix), n,
+            positions = std::move(positions)](const std::vector<double> &x, std::vector<double> &y)
+    {
+      Vector in(n), out(n);
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        in[positions[i]] = x[i];
+      matrix->vmult(out, in);
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        y[i] = out[positions[i]];
+    };
+  }
+
   MatrixCheck check_matrix(const Rows &rows)
   {
     MatrixCheck check{check_signs(rows)};
     SparseMatrix matrix = to_sparse(rows);
     matrix = (.5 * (matrix + SparseMatrix(matrix.transpose()))).eval();
-    double largest_sum = 0;
-    for (std::size_t i = 0; i < rows.n_rows(); ++i)
-    {
-      double sum = 0;
-      for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
-        sum += std::abs(rows.value[k]);
-      largest_sum = std::max(largest_sum, sum);
-    }
+    const double largest_sum = largest_row_sum(rows);
 
     // the smallest eigenvalue is the one nearest to a shift that none is below
     auto factors = std::make_unique<Factors>(matrix, 1e-14 * largest_sum);

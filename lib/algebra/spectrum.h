@@ -1,13 +1,19 @@
 #pragma once
 
+#include "algebra/operator.h"
 #include "algebra/rows.h"
 
 #include <functional>
+#include <memory>
 
 namespace plumbline::algebra
 {
   /// y = A x on vectors of A's size.
   using Action = std::function<void(const std::vector<double> &x, std::vector<double> &y)>;
+
+  /// An operator on vectors of size n at some positions, everything else being 0.
+  Action restrict(std::shared_ptr<const Operator> matrix, std::size_t n,
+                  std::vector<std::size_t> positions);
 
   /// Both ends of the spectrum of a symmetric operator.
   struct Spectrum

@@ -212,6 +212,9 @@ namespace plumbline::scene
                        "surfaces they make; choose it, or clear them");
     needs(!mesh.is_lattice() || !scene.is_damaged(), "Domain/cracks or Domain/outside is given",
           mesh_remedy);
+    if (scene.loads_are_averages && !scene.is_free_body)
+      throw InputError("Methods/load = cells is for free bodies; write nodes, or Domain/boundary = "
+                       "free");
     const std::string &nodes = scene.nodes.kind;
     const bool is_csv = nodes.size() > 4 && nodes.substr(nodes.size() - 4) == ".csv";
     if (nodes != "centres" && nodes != "vertices" && nodes != "mesh" && !is_csv)

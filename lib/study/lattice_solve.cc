@@ -113,17 +113,8 @@ namespace plumbline::study
       for (int k1 = -stencil.reach(); k1 <= stencil.reach(); ++k1)
         result.second_moment -= stencil(0, 0, k1, k2) * std::pow(k1 * lattice.h(), 2) / mass[0];
     result.reach = stencil.n_blocks() == 1 ? stencil.reach() * lattice.h() : 0;
-    const std::shared_ptr<const algebra::Operator> matrix = make_operator(stencil, nodes);
-    result.action = [matrix, positions = algebra::free_positions(nodes),
-                     n = nodes.size()](const std::vector<double> &x, std::vector<double> &y)
-    {
-      algebra::Vector in(n), out(n);
-      for (std::size_t i = 0; i < positions.size(); ++i)
-        in[positions[i]] = x[i];
-      matrix->vmult(out, in);
-      for (std::size_t i = 0; i < positions.size(); ++i)
-        y[i] = out[positions[i]];
-    };
+    result.action = algebra::restrict(make_operator(stencil, nodes), nodes.size(),
+                                      algebra::free_positions(nodes));
     return result;
   }
 } // namespace plumbline::study

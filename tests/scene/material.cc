@@ -158,5 +158,6 @@ TEST(FreeBody, IsAVariationalBoxThatIsHeldSomewhere)
   expect_bar_error({{"Methods/nodes", "centres"}}, "needs Methods/nodes = vertices");
   expect_bar_error({{"Domain/holes", "1, .5 : 1.1, .6"}}, "one box");
   expect_bar_error({{"Domain/fixed", "0, 0 : .07, 1"}}, "does not divide the box");
+  expect_solid_error({{"Methods/load", "cells"}}, "Methods/load = cells is for free bodies");
   expect_bar_error({{"Domain/boundary", "constrained"}}, "write Domain/boundary = free");
 }

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "meshfree/method.h"
+#include "reference/method.h"
+
+namespace plumbline::app
+{
+  /// Those of both sides, meshfree rules first: the one place that knows both.
+  inline study::Methods all_methods()
+  {
+    study::Methods methods = meshfree::methods();
+    for (const auto &method : reference::methods())
+      methods.push_back(method);
+    return methods;
+  }
+} // namespace plumbline::app
