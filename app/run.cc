@@ -6,6 +6,7 @@
 #include "report/json.h"
 #include "report/report.h"
 #include "study/conclusions.h"
+#include "study/preflight.h"
 #include "study/sweep.h"
 
 #include <deal.II/base/config.h>
@@ -134,6 +135,19 @@ namespace plumbline::app
       return fs::is_directory(installed) ? installed : fs::path(PLUMBLINE_SCENES);
     }
 
+    /// Of a scene, or why it is refused: some are there to be.
+    std::string purpose(const fs::path &file)
+    {
+      try
+      {
+        return scene::read_scene(file.string()).purpose;
+      }
+      catch (const InputError &error)
+      {
+        return std::string("refused: ") + error.what();
+      }
+    }
+
     std::string file_name(const study::Run &run)
     {
       std::string name = run.problem + "_" + run.series + "_" + run.method;
@@ -237,6 +251,7 @@ namespace plumbline::app
       ProgressLine progress(!is_quiet);
       study::SweepControl control;
       control.n_levels = options.n_levels;
+      control.budget = options.budget;
       control.on_progress = [&](const std::string &what, double f) { progress.show(what, f); };
       // the first rank writes; where it cannot, all end
       const auto write = [&](const std::function<void()> &action)
@@ -318,7 +333,7 @@ namespace plumbline::app
         if (entry.path().extension() == ".prm")
           files.insert(entry.path());
       for (const fs::path &file : files)
-        std::cout << file.string() << "\n    " << scene::read_scene(file.string()).purpose << '\n';
+        std::cout << file.string() << "\n    " << purpose(file) << '\n';
     }
     else
       throw InputError("list: '" + subject + "' is not known; choose methods, kernels or scenes");

@@ -14,6 +14,7 @@ namespace plumbline::app
     std::string methods; ///< comma separated, instead of the scene's
     std::string model;   ///< smallest or full, instead of the scene's
     unsigned int n_levels = 0;
+    double budget = 0; ///< of a single solve [CPU s]; 0: any
     bool check = false, quiet = false, json = false;
   };
 

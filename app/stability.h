@@ -13,11 +13,12 @@ namespace plumbline::app
     bool check = false, quiet = false, json = false;
   };
 
-  /// Measure the operators of all methods over the sweep of a scene; print table and verdicts,
-  /// write them to stability.json and stability.md, and the lowest mode of each series' finest
-  /// level to modes/*.vtu.
+  /// Measure the operators of all methods over the sweep of a scene; print tables and verdicts,
+  /// write stability.html, .md and .json with pictures in stability/, and the modes of each series'
+  /// finest level to stability/*.vtu.
   /// @return exit code: 0, or with check 1 if Expected/stability does not hold; that a method is
   ///         unstable is a finding, no error
   /// @throws InputError  a scene that cannot be used, a folder that cannot be written
+  /// @throws NumericalError  pictures cannot be drawn; all else is written before that
   int stability(const StabilityOptions &options);
 } // namespace plumbline::app

@@ -1,6 +1,8 @@
-// State-based solids: a bar of half a million unknowns, operator applications per bond, and what
-// the smallest model saves over the full one. Run: build/release/benchmarks/solids
-// All figures are CPU time on one core; compare them within one run.
+// State-based solids: a bar of half a million unknowns, operator applications per bond, linear
+// peridynamic solids with θ kept and eliminated, and what the smallest model saves over the full
+// one. Run: build/release/benchmarks/solids
+// All figures are CPU time on one core; compare them within one run, and with what that core can do
+// at most.
 
 #include "geometry/vertex_cells.h"
 #include "meshfree/families.h"
@@ -9,10 +11,9 @@
 #include "meshfree/state_based_operator.h"
 #include "meshfree/variational_operator.h"
 #include "reference/method.h"
+#include "summary.h"
 
 #include <deal.II/base/mpi.h>
-
-#include <benchmark/benchmark.h>
 
 #include <cmath>
 
@@ -62,7 +63,10 @@ namespace
   }
 
   /// Both passes, dilatation and forces, of a homogeneous solid; a bond is one neighbour of one
-  /// node.
+  /// node. At least, of two opposite bonds: 2 differences of displacements and 4 operations for θ,
+  /// then 2 sums, the difference of θ, and 6 operations for each component of the force; of a bond,
+  /// 2 loads and then 3. u and the result are moved; θ, the constants of each node and the padded
+  /// fields are touched as well.
   void apply_lattice(benchmark::State &state, algebra::Road road)
   {
     const auto m = static_cast<double>(state.range(0));
@@ -76,11 +80,17 @@ namespace
       bar.matrix.vmult(y, x);
       benchmark::DoNotOptimize(y[0]);
     }
-    state.counters["bonds/s"] = benchmark::Counter(static_cast<double>(bar.matrix.n_bonds()),
-                                                   benchmark::Counter::kIsIterationInvariantRate);
+    const auto bonds = static_cast<double>(bar.matrix.n_bonds());
+    const double vectors = 2 * 8 * static_cast<double>(x.size());
+    if (road == algebra::Road::direct)
+      benchmarks::count(state, "bonds", bonds,
+                        {10.5 * bonds, (2 + 3) * 8 * bonds, vectors, 4 * vectors});
+    else
+      benchmarks::count(state, "bonds", bonds);
   }
 
-  /// Rows of a heterogeneous solid at m = 3 by OPT, θ eliminated or kept: u, or (u, θ).
+  /// Rows of a heterogeneous solid at m = 3 by OPT, θ eliminated or kept: u, or (u, θ). At least: 2
+  /// operations, 12 bytes (value and column) and a neighbour for each value, and the vectors.
   void apply_rows(benchmark::State &state, bool is_kept)
   {
     constexpr double h = 1. / 80, horizon = 3 * h;
@@ -116,11 +126,11 @@ namespace
     }
     meshfree::Family family;
     families.make(0, family);
-    state.counters["bonds/s"] =
-        benchmark::Counter(static_cast<double>(cells.n_free * family.bonds.size()),
-                           benchmark::Counter::kIsIterationInvariantRate);
-    state.counters["blocks/s"] = benchmark::Counter(static_cast<double>(rows.value.size()) / 4,
-                                                    benchmark::Counter::kIsIterationInvariantRate);
+    const auto n_values = static_cast<double>(rows.value.size());
+    const double bytes = 12 * n_values + 16 * static_cast<double>(rows.n_rows());
+    benchmarks::count(state, "bonds", static_cast<double>(cells.n_free * family.bonds.size()),
+                      {2 * n_values, 20 * n_values, bytes, bytes});
+    benchmarks::count_also(state, "blocks", n_values / 4);
   }
 
   /// A method on a template's scene with the smallest and with the full model.
@@ -141,6 +151,38 @@ namespace
           const auto solution = one->solve(scene, problem);
           state.counters["unknowns"] = static_cast<double>(solution.cost.n_unknowns);
           state.counters["MB"] = static_cast<double>(solution.cost.peak_bytes) / 1e6;
+        }
+  }
+
+  /// A linear peridynamic solid whose Young's modulus varies, at m = 3 by OPT: all from families to
+  /// solution; `solve` is the solution alone.
+  void lps_solve(benchmark::State &state, const std::string &dilatation, const std::string &solver,
+                 const std::string &nu)
+  {
+    const double h = 1. / static_cast<double>(state.range(0));
+    const scene::Scene scene =
+        scene::parse_scene("benchmark", scene::scene_template("LPS"),
+                           {{"Domain/mesh", "squares"},
+                            {"Material/E", "2 + sin(x)*sin(y)"},
+                            {"Material/nu", nu},
+                            {"Problem/solution", ""},
+                            {"Problem/load", "0, 1"},
+                            {"Problem/constraint", "x, sin(y)"},
+                            {"Problem/local solution", "none"},
+                            {"Study/decisive error", "averages L2 | reference"},
+                            {"Reference/method", "Q1"},
+                            {"Solver/dilatation", dilatation},
+                            {"Solver/linear solver", solver}});
+    const scene::Problem problem = make_problem(scene, 0, {h, 3 * h});
+    for (const auto &one : meshfree::methods())
+      if (one->name() == "OPT")
+        for (auto _ : state)
+        {
+          const auto cost = one->solve(scene, problem).cost;
+          state.counters["unknowns"] = static_cast<double>(cost.n_unknowns);
+          state.counters["iterations"] = cost.n_iterations;
+          state.counters["solve ms"] = 1e3 * cost.solve_seconds;
+          state.counters["MB"] = static_cast<double>(cost.peak_bytes) / 1e6;
         }
   }
 
@@ -165,6 +207,16 @@ namespace
         ->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark("apply/rows/kept", apply_rows, true)
         ->Unit(benchmark::kMillisecond);
+    for (const std::string nu : {"0.3", "0.495"})
+      for (const std::string dilatation : {"kept", "eliminated"})
+        for (const std::string solver : {"amg", "direct"})
+          benchmark::RegisterBenchmark(
+              ("lps/solve/nu = " + nu + "/" + dilatation + "/" + solver).c_str(), lps_solve,
+              dilatation, solver, nu)
+              ->RangeMultiplier(2)
+              ->Range(32, 128)
+              ->Iterations(1)
+              ->Unit(benchmark::kMillisecond);
     for (const std::string one : {"scalar", "tensor", "LPS"})
       for (const std::string method : {"IPA-AC-R2", "Q1"})
         for (const std::string size : {"smallest", "full"})
@@ -180,6 +232,7 @@ int main(int argc, char **argv)
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   register_all();
   benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
+  benchmarks::Summary summary;
+  benchmark::RunSpecifiedBenchmarks(&summary);
   benchmark::Shutdown();
 }

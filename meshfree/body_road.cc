@@ -4,8 +4,6 @@
 #include "meshfree/scattered_field.h"
 #include "meshfree/variational_operator.h"
 
-#include <deal.II/base/quadrature_lib.h>
-
 #include <sstream>
 
 namespace plumbline::meshfree
@@ -14,14 +12,10 @@ namespace plumbline::meshfree
   {
     VariationalBody make_body(const scene::Scene &scene, const scene::Problem &problem)
     {
-      Polygons fixed;
-      for (const geometry::Box &box : scene.fixed)
-        fixed.push_back(
-            {box.lower, {box.upper[0], box.lower[1]}, box.upper, {box.lower[0], box.upper[1]}});
       const auto lame = scene.material.lame();
-      return body_on_vertices(*problem.body, fixed,
-                              {[lame](const Point<2> &x) { return lame(x).lambda + lame(x).mu; },
-                               [lame](const Point<2> &x) { return 8 * lame(x).mu; }});
+      return body_of_cells(*problem.body, *problem.cells,
+                           {[lame](const Point<2> &x) { return lame(x).lambda + lame(x).mu; },
+                            [lame](const Point<2> &x) { return 8 * lame(x).mu; }});
     }
 
     VariationalOperator make_operator(const VariationalBody &body, const Bonds &bonds,
@@ -31,27 +25,28 @@ namespace plumbline::meshfree
               algebra::road_from_name(scene.operator_road)};
     }
 
-    /// ∫ b over the free cells: 3 × 3 Gauss points on each quarter, so that loads may jump at
+    /// ∫ b over the free cells: on each quarter by a rule of degree 5, so that loads may jump at
     /// nodes.
     algebra::Vector cell_integrals(const VariationalBody &body, const scene::Problem &problem)
     {
-      const dealii::QGauss<2> gauss(3);
-      const geometry::Lattice &lattice = *problem.body;
+      constexpr unsigned int degree = 5;
+      const geometry::NodeCells &cells = *problem.cells;
       algebra::Vector result(2 * body.size());
-      for (int j = 0; j < lattice.n_cells()[1]; ++j)
-        for (int i = 0; i < lattice.n_cells()[0]; ++i)
-          for (unsigned int quarter = 0; quarter < 4 && lattice.is_inside(i, j); ++quarter)
+      for (std::size_t cell = 0; cell < cells.n_free; ++cell)
+        for (std::size_t piece = cells.first_piece[cell]; piece < cells.first_piece[cell + 1];
+             ++piece)
+          for (unsigned int quarter = 0; quarter < 4; ++quarter)
           {
-            const int right = quarter % 2, above = quarter / 2;
-            const std::size_t node = static_cast<std::size_t>(j + above) * body.n[0] + i + right;
-            for (unsigned int q = 0; q < gauss.size() && body.is_fixed[node] == 0; ++q)
-            {
-              const Point<2> x = lattice.point(i + .5 * (right + gauss.point(q)[0]),
-                                               j + .5 * (above + gauss.point(q)[1]));
+            const Point<2> &x = cells.nodes[cell];
+            const auto square = geometry::square(
+                {x[0] - (quarter % 2) * body.h, x[1] - (quarter / 2) * body.h}, body.h);
+            const geometry::Polygon part =
+                geometry::overlap(geometry::view(cells.pieces[piece]), geometry::view(square));
+            const auto rule = geometry::polygon_rule(geometry::view(part), degree);
+            for (std::size_t q = 0; q < rule.points.size(); ++q)
               for (unsigned int c = 0; c < 2; ++c)
-                result[c * body.size() + node] +=
-                    .25 * body.h * body.h * gauss.weight(q) * problem.load.value(x, c);
-            }
+                result[c * body.size() + cells.source[cell]] +=
+                    rule.weights[q] * problem.load.value(rule.points[q], c);
           }
       return result;
     }
@@ -101,7 +96,7 @@ namespace plumbline::meshfree
     describe_weights(bonds.family, bonds.fit, solution.diagnostics);
     solution.diagnostics.notes = bonds.notes;
 
-    const geometry::NodeCells &cells = *problem.cells; // they come from the vertices row by row
+    const geometry::NodeCells &cells = *problem.cells; // numbered as the lattice
     for (std::size_t i = 0; i < cells.n_free; ++i)
     {
       solution.nodes.push_back(cells.nodes[i]);

@@ -27,9 +27,10 @@ namespace plumbline::meshfree
     unsigned int degree = 0; ///< of the moments
     unsigned int n_conditions = 0, rank = 0;
     double residual = 0; ///< relative
-    /// Of conditions of norm 1 the shortest part orthogonal to the others that counted, by
-    /// pivoting: the smallest singular value of those up to a modest factor.
-    double smallest_pivot = 1;
+    /// Of the matrix of conditions, to 1 %: a row g_j s_j^α √ω_j for each of them, scaled to norm
+    /// 1, with s = ξ/δ and ω the rule's scale, the area as a rule (see MomentConditions). In [0,
+    /// 1]; 1: orthogonal conditions or none; round-off where they depend on one another.
+    double smallest_singular_value = 1;
   };
 
   /// What a meshfree rule yields on a lattice, where all nodes share one family:

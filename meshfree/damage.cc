@@ -11,8 +11,6 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    /// A bond or a node is at a crack's end, or on it, up to this fraction of the horizon.
-    constexpr double touch = 1e-9;
     /// Sine of the angle below which a bond runs along a crack.
     constexpr double parallel = 1e-9;
     /// Bonds lie on a line if the determinant of Σ K w ξ⊗ξ is below this fraction of its square:
@@ -26,12 +24,6 @@ namespace plumbline::meshfree
       return a[0] * b[1] - a[1] * b[0];
     }
 
-    double distance(const Point<2> &x, const Point<2> &first, const Point<2> &last)
-    {
-      const Tensor<1, 2> d = last - first;
-      return x.distance(first + std::clamp((x - first) * d / d.norm_square(), 0., 1.) * d);
-    }
-
     std::vector<geometry::Box> boxes(const std::vector<std::vector<Point<2>>> &cracks)
     {
       std::vector<geometry::Box> result;
@@ -40,57 +32,20 @@ namespace plumbline::meshfree
           result.push_back(geometry::bounding_box({&crack[i - 1], 2}));
       return result;
     }
-
-    [[noreturn]] void refuse(std::size_t crack, const std::string &why)
-    {
-      throw InputError("crack " + std::to_string(crack) + ' ' + why);
-    }
   } // namespace
 
   BrokenBonds::BrokenBonds(const Damage &damage, const geometry::NodeCells &cells, double horizon)
-      : cells_(&cells), is_ghost_(damage.is_ghost), tolerance_(touch * horizon),
+      : cells_(&cells), is_ghost_(damage.is_ghost), tolerance_(geometry::on_crack * horizon),
         search_(boxes(damage.cracks))
   {
-    std::vector<std::size_t> crack_of;
-    for (std::size_t c = 0; c < damage.cracks.size(); ++c)
+    geometry::check_ghosts(is_ghost_, cells);
+    geometry::check_cracks(damage.cracks, cells, is_ghost_, horizon);
+    for (const geometry::Polyline &crack : damage.cracks)
     {
-      const auto &crack = damage.cracks[c];
-      if (crack.size() < 2)
-        refuse(c, "has fewer than two points; give a polyline");
       const bool is_open = crack.front().distance(crack.back()) > tolerance_;
       for (std::size_t i = 1; i < crack.size(); ++i)
-      {
-        if (!(crack[i - 1].distance(crack[i]) > tolerance_))
-          refuse(c, "has its points " + std::to_string(i - 1) + " and " + std::to_string(i) +
-                        " in one place; take one of them out");
         segments_.push_back(
             {crack[i - 1], crack[i], is_open && i == 1, is_open && i + 1 == crack.size()});
-        crack_of.push_back(c);
-      }
-    }
-    std::vector<unsigned int> near;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-    {
-      const Point<2> &x = cells.nodes[i];
-      std::ostringstream node;
-      if (is_ghost(i))
-      {
-        if (i < cells.n_free)
-        {
-          node << "node " << cells.source[i] << " at (" << x << ") lies in the domain and is a "
-               << "ghost; ghosts belong to the collar";
-          throw InputError(node.str());
-        }
-        continue;
-      }
-      search_.find(box_around(x, tolerance_), near);
-      for (const unsigned int s : near)
-        if (distance(x, segments_[s].first, segments_[s].last) <= tolerance_)
-        {
-          node << "goes through node " << cells.source[i] << " at (" << x << "), so that it is not "
-               << "known on which side that is; move the crack by a part of the cell, or the node";
-          refuse(crack_of[s], node.str());
-        }
     }
   }
 

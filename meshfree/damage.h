@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/cracks.h"
 #include "meshfree/recipe.h"
 
 namespace plumbline::meshfree
@@ -9,7 +10,7 @@ namespace plumbline::meshfree
   /// What of a body is broken.
   struct Damage
   {
-    std::vector<std::vector<Point<2>>> cracks; ///< polylines, closed if they end where they begin
+    std::vector<geometry::Polyline> cracks;
     std::vector<char> is_ghost;    ///< of each node: beyond a free surface, where it only completes
                                    ///< the balls of others; empty: none is
     bool has_surface_terms = true; ///< what makes surfaces free of traction, eq. (3.19); false to
@@ -21,8 +22,7 @@ namespace plumbline::meshfree
   class BrokenBonds
   {
   public:
-    /// @throws InputError  a node on a crack, naming it by the index it was given with; a crack
-    /// without length; a ghost in Ω
+    /// @throws InputError  as geometry::check_cracks and check_ghosts
     BrokenBonds(const Damage &damage, const geometry::NodeCells &cells, double horizon);
 
     /// Thread safe.

@@ -18,7 +18,8 @@ namespace plumbline::meshfree
     if (diagnostics.n_conditions == 0 || fit.rank < diagnostics.rank)
       diagnostics.rank = fit.rank;
     diagnostics.n_conditions = fit.n_conditions;
-    diagnostics.smallest_pivot = std::min(diagnostics.smallest_pivot, fit.smallest_pivot);
+    diagnostics.smallest_singular_value =
+        std::min(diagnostics.smallest_singular_value, fit.smallest_singular_value);
   }
 
   void FamilyStatistics::add(const Kernel<2> &kernel, const Family &family)
@@ -44,7 +45,7 @@ namespace plumbline::meshfree
     result.n_conditions = static_cast<unsigned int>(team.largest(weights_.n_conditions));
     result.rank = result.n_conditions -
                   static_cast<unsigned int>(team.largest(weights_.n_conditions - weights_.rank));
-    result.smallest_pivot = -team.largest(-weights_.smallest_pivot);
+    result.smallest_singular_value = -team.largest(-weights_.smallest_singular_value);
     const std::string n_families = std::to_string(total(n_families_));
     const auto note = [&](double n, const std::string &what, const std::string &so)
     {

@@ -11,10 +11,14 @@ namespace plumbline::meshfree
     class RuleMethod : public study::Method
     {
     public:
-      explicit RuleMethod(Rule rule) : rule_(std::move(rule)) {}
+      explicit RuleMethod(Rule rule, bool is_trap = false)
+          : rule_(std::move(rule)), is_trap_(is_trap)
+      {
+      }
       std::string name() const override { return rule_.name; }
       std::string family() const override { return "meshfree"; }
       std::string help() const override { return rule_.help; }
+      bool is_in_all() const override { return !is_trap_; }
       std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const override
       {
         if (scene.iteration != "cg" || problem.lattice || problem.body)
@@ -47,6 +51,7 @@ namespace plumbline::meshfree
 
     private:
       Rule rule_;
+      bool is_trap_;
     };
   } // namespace
 
@@ -55,6 +60,8 @@ namespace plumbline::meshfree
     study::Methods methods;
     for (const Rule &rule : rules())
       methods.push_back(std::make_shared<RuleMethod>(rule));
+    for (const Rule &rule : traps())
+      methods.push_back(std::make_shared<RuleMethod>(rule, true));
     return methods;
   }
 } // namespace plumbline::meshfree

@@ -13,7 +13,8 @@ namespace plumbline::meshfree
   /// Those of them with a and b even: for families that are symmetric.
   std::vector<Exponents> even_exponents(int lowest, int highest);
 
-  /// What exact moments ask of the weights of a family: Σ_j g_j s_j^α w_j = moment_α with s = ξ/δ.
+  /// What exact moments ask of the weights of a family: Σ_j g_j s_j^α w_j = moment_α with s =
+  /// ξ/δ.
   struct MomentConditions
   {
     unsigned int degree; ///< of what is integrated exactly
@@ -22,6 +23,8 @@ namespace plumbline::meshfree
     std::vector<double> moments;
     std::function<double(const Bond &)> factor; ///< g
     std::function<double(const Bond &)> scale;  ///< ω > 0
+    /// Of condition i, multiplies g; empty: 1.
+    std::function<double(const Bond &, std::size_t i)> own_factor = {};
   };
 
   /// Change the weights as little as possible, min Σ (w - w_before)²/ω, so that they meet the

@@ -39,6 +39,37 @@ namespace plumbline::meshfree
       conditions.scale = [](const Bond &bond) { return bond.area; };
       return conditions;
     }
+
+    /// The moments of C_ab ξ^α up to a degree, C taken at the kernel point, ξ to the node.
+    /// @param is_even  those that symmetry does not meet
+    MomentConditions entry_conditions(const Kernel<2> &kernel, unsigned int degree, bool is_even)
+    {
+      struct Entry
+      {
+        unsigned int a, b;
+      };
+      const double horizon = kernel.horizon();
+      MomentConditions conditions{degree, horizon, {}, {}, {}, {}};
+      std::vector<Entry> entries;
+      for (const Exponents &alpha : exponents(1, static_cast<int>(degree)))
+        for (const auto &[a, b] : {Entry{0, 0}, Entry{0, 1}, Entry{1, 1}})
+        {
+          Exponents parity = alpha;
+          ++parity[a];
+          ++parity[b];
+          if (is_even && (parity[0] % 2 != 0 || parity[1] % 2 != 0))
+            continue;
+          conditions.exponents.push_back(alpha);
+          conditions.moments.push_back(kernel.moment(alpha, a, b) /
+                                       std::pow(horizon, alpha[0] + alpha[1]));
+          entries.push_back({a, b});
+        }
+      conditions.factor = [kernel](const Bond &bond) { return radial_value(kernel, bond); };
+      conditions.own_factor = [kernel, entries](const Bond &bond, std::size_t i)
+      { return kernel.direction_factor(entries[i].a, entries[i].b, bond.kernel_point); };
+      conditions.scale = [](const Bond &bond) { return bond.area; };
+      return conditions;
+    }
   } // namespace
 
   Recipe recalibrated(const Kernel<2> &kernel, unsigned int degree)
@@ -47,6 +78,15 @@ namespace plumbline::meshfree
     const auto even = moment_conditions(kernel, degree, even_exponents),
                all = moment_conditions(kernel, degree, exponents);
     return {kernel.n_components() > 1 ? partial_area_bond : centroid_bond,
+            [even, all](Family &family) { meet(family.neighbours.empty() ? even : all, family); }};
+  }
+
+  Recipe recalibrated_at_centroid(const Kernel<2> &kernel)
+  {
+    if (kernel.n_components() == 1)
+      return recalibrated(kernel, 2);
+    const auto even = entry_conditions(kernel, 2, true), all = entry_conditions(kernel, 2, false);
+    return {centroid_bond,
             [even, all](Family &family) { meet(family.neighbours.empty() ? even : all, family); }};
   }
 } // namespace plumbline::meshfree

@@ -18,4 +18,13 @@ namespace plumbline::meshfree
     };
     return table;
   }
+
+  const std::vector<Rule> &traps()
+  {
+    static const std::vector<Rule> table = {
+        {"IPA-AC-R2c", "IPA-AC-R2 with tensors at the centroid: negative weights, a trap",
+         recalibrated_at_centroid},
+    };
+    return table;
+  }
 } // namespace plumbline::meshfree

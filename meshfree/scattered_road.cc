@@ -3,6 +3,7 @@
 #include "meshfree/scattered_field.h"
 #include "meshfree/scattered_operator.h"
 #include "meshfree/state_based_operator.h"
+#include "scene/damage.h"
 
 namespace plumbline::meshfree
 {
@@ -17,14 +18,11 @@ namespace plumbline::meshfree
       options.is_symmetric = false;
       options.tolerance = scene.tolerance;
       options.max_iterations = scene.max_iterations;
-      if (scene.keeps_dilatation) // unknowns of several kinds, numbered in no regular way
-      {
-        options.solver = algebra::SparseSolver::direct;
-        return options;
-      }
       options.iteration = algebra::iteration_from_name(scene.iteration);
       options.solver = algebra::sparse_solver_from_name(scene.linear_solver);
       options.n_components = problem.n_components;
+      if (scene.keeps_dilatation)
+        options.n_first = problem.n_components * problem.cells->n_free;
       const auto &nodes = problem.cells->nodes;
       options.nodes.assign(nodes.begin(),
                            nodes.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free));
@@ -51,14 +49,13 @@ namespace plumbline::meshfree
     solution.cost.setup_seconds = team.sum(timer.seconds());
 
     timer.restart();
-    const unsigned int n_rows = problem.n_components + (scene.keeps_dilatation ? 1 : 0); // a node's
     team.together(
         [&]
         {
           const auto &load = problem.load;
           for (std::size_t i = share.first; i < share.second; ++i)
             for (unsigned int c = 0; c < problem.n_components; ++c)
-              matrix.right_hand_side[i * n_rows + c] +=
+              matrix.right_hand_side[i * problem.n_components + c] +=
                   load.series ? (*load.series)(cells.nodes[i], c) : load.value(cells.nodes[i], c);
         });
     const auto solved = algebra::solve_sparse(matrix.rows, matrix.right_hand_side,
@@ -74,9 +71,9 @@ namespace plumbline::meshfree
 
     const auto end = cells.nodes.begin() + static_cast<std::ptrdiff_t>(cells.n_free);
     solution.nodes.assign(cells.nodes.begin(), end);
-    for (std::size_t i = 0; i < cells.n_free; ++i)
-      for (unsigned int c = 0; c < problem.n_components; ++c)
-        solution.nodal.push_back(solved.values[i * n_rows + c]);
+    solution.nodal.assign(solved.values.begin(), // dilatations come after
+                          solved.values.begin() +
+                              static_cast<std::ptrdiff_t>(problem.n_components * cells.n_free));
     solution.averages = cell_averages(cells, solution.nodal, problem.n_components);
     const auto field =
         std::make_shared<const ScatteredField>(problem.cells, solution.nodal, problem.n_components);
@@ -87,19 +84,6 @@ namespace plumbline::meshfree
 
   namespace
   {
-    Damage damage(const scene::Scene &scene, const scene::Problem &problem)
-    {
-      Damage result{scene.cracks, {}};
-      if (!scene.outside.empty())
-      {
-        const physics::Expression outside("Domain/outside", scene.outside,
-                                          {{"delta", problem.horizon()}});
-        for (const Point<2> &x : problem.cells->nodes)
-          result.is_ghost.push_back(static_cast<char>(outside(x) > 0));
-      }
-      return result;
-    }
-
     /// @param keeps_dilatation  all of the system on the first rank, nothing on the others
     ScatteredOperator make_operator(const Rule &rule, const scene::Scene &scene,
                                     const scene::Problem &problem,
@@ -111,8 +95,12 @@ namespace plumbline::meshfree
       if (!problem.dilatation)
         return scattered_operator(families, problem, share);
       const auto make = [&](std::size_t node, Family &family) { families.make(node, family); };
-      const StateBasedBody body{problem.cells.get(), *problem.dilatation, problem.constraint.value,
-                                damage(scene, problem)};
+      const StateBasedBody body{
+          problem.cells.get(),
+          *problem.dilatation,
+          problem.constraint.value,
+          {scene.cracks, find_ghosts(scene, problem.horizon(), *problem.cells)},
+          scene.material.has_collar_dilatation};
       if (!keeps_dilatation)
         return state_based_operator(make, body, share);
       const bool is_first = base::Team::all().rank() == 0;

@@ -146,9 +146,10 @@ namespace plumbline::meshfree
       Assembly(const FamilySource &families, const StateBasedBody &body,
                std::pair<std::size_t, std::size_t> share, bool keeps_dilatation)
           : cells_(*body.cells), dilatation_(body.dilatation),
-            has_surface_terms_(body.damage.has_surface_terms), keeps_dilatation_(keeps_dilatation),
-            n_rows_(keeps_dilatation ? 3 : 2), share_(share), links_(families, body, share),
-            row_(cells_.size())
+            has_surface_terms_(body.damage.has_surface_terms),
+            has_collar_dilatation_(body.has_collar_dilatation), keeps_dilatation_(keeps_dilatation),
+            share_(share), links_(families, body, share), row_(cells_.size()),
+            n_unknowns_(2 * cells_.n_free)
       {
         for (const Point<2> &x : cells_.nodes)
           material_.push_back(dilatation_.is_homogeneous && !material_.empty()
@@ -160,20 +161,19 @@ namespace plumbline::meshfree
           for (unsigned int c = 0; c < 2; ++c)
             data_.push_back(is_ghost ? 0 : body.data(cells_.nodes[i], c));
         }
-        n_unknowns_ = n_rows_ * cells_.n_free;
         for (std::size_t i = 0; i < cells_.size(); ++i)
-          first_unknown_.push_back(static_cast<unsigned int>(
-              i < cells_.n_free ? n_rows_ * i : (has_row(i) ? n_unknowns_++ : 0)));
+          number_of_dilatation_.push_back(
+              static_cast<unsigned int>(has_row(i) ? n_unknowns_++ : 0));
       }
 
       ScatteredOperator make()
       {
         result_.statistics = links_.statistics;
         result_.right_hand_side.assign(n_unknowns_, 0);
-        result_.rows.start.assign(n_rows_ * share_.first + 1, 0);
+        result_.rows.start.assign(2 * share_.first + 1, 0);
         for (auto i = static_cast<unsigned int>(share_.first); i < share_.second; ++i)
           add_node(i);
-        for (auto i = static_cast<unsigned int>(cells_.n_free); i < cells_.size(); ++i)
+        for (unsigned int i = 0; i < cells_.size(); ++i)
           if (has_row(i))
           {
             row_.clear();
@@ -185,8 +185,12 @@ namespace plumbline::meshfree
       }
 
     private:
-      /// A node of the collar whose θ is unknown.
-      bool has_row(std::size_t node) const { return keeps_dilatation_ && links_.has(node); }
+      /// A node whose θ is unknown.
+      bool has_row(std::size_t node) const
+      {
+        return keeps_dilatation_ && links_.has(node) &&
+               (node < cells_.n_free || has_collar_dilatation_);
+      }
 
       Lame between(const Lame &a, const Lame &b) const
       {
@@ -195,7 +199,7 @@ namespace plumbline::meshfree
         return {physics::mean(kind, a.lambda, b.lambda), physics::mean(kind, a.mu, b.mu)};
       }
 
-      /// All rows of a node of Ω.
+      /// The force on a node of Ω.
       void add_node(unsigned int i)
       {
         row_.clear();
@@ -227,10 +231,8 @@ namespace plumbline::meshfree
           }
         }
         add_dilatation(i, own_factor);
-        if (keeps_dilatation_)
-          define_dilatation(i);
-        for (unsigned int c = 0; c < n_rows_; ++c)
-          put_row(c);
+        put_row(0);
+        put_row(1);
       }
 
       void add(unsigned int node, const Tensor<2, 2> &block)
@@ -244,6 +246,8 @@ namespace plumbline::meshfree
       /// The force factor θ_j.
       void add_dilatation(unsigned int j, const Tensor<1, 2> &factor)
       {
+        if (j >= cells_.n_free && !has_collar_dilatation_)
+          return;
         if (keeps_dilatation_)
         {
           Tensor<2, 3> &whole = row_[j];
@@ -278,40 +282,41 @@ namespace plumbline::meshfree
           }
       }
 
-      /// Row c of a node: what is known goes to the right.
+      /// Row c of a node, u before θ: what is known goes to the right.
       void put_row(unsigned int c)
       {
         const std::size_t number = result_.rows.start.size() - 1;
-        for (const unsigned int j : row_.sorted_nodes())
+        const auto put = [&](unsigned int column, double entry)
         {
-          const Tensor<2, 3> &block = row_[j];
-          const bool is_free = j < cells_.n_free;
-          for (unsigned int d = 0; d < 3; ++d)
-            if (const double entry = block[c][d]; entry != 0)
+          result_.rows.column.push_back(column);
+          result_.rows.value.push_back(entry);
+        };
+        const std::vector<unsigned int> &nodes = row_.sorted_nodes();
+        for (const unsigned int j : nodes)
+          for (unsigned int d = 0; d < 2; ++d)
+            if (const double entry = row_[j][c][d]; entry != 0)
             {
-              if (!is_free && d < 2)
-                result_.right_hand_side[number] -= entry * data_[2 * (j - cells_.n_free) + d];
+              if (j < cells_.n_free)
+                put(2 * j + d, entry);
               else
-              {
-                result_.rows.column.push_back(first_unknown_[j] + (is_free ? d : 0));
-                result_.rows.value.push_back(entry);
-              }
+                result_.right_hand_side[number] -= entry * data_[2 * (j - cells_.n_free) + d];
             }
-        }
+        for (const unsigned int j : nodes)
+          if (const double entry = row_[j][c][2]; entry != 0)
+            put(number_of_dilatation_[j], entry);
         result_.rows.start.push_back(result_.rows.column.size());
       }
 
       const geometry::NodeCells &cells_;
       const physics::Dilatation &dilatation_;
-      bool has_surface_terms_, keeps_dilatation_;
-      unsigned int n_rows_; ///< of a node of Ω
+      bool has_surface_terms_, has_collar_dilatation_, keeps_dilatation_;
       std::pair<std::size_t, std::size_t> share_;
       Links links_;
       BlockRow row_;
       std::vector<Lame> material_;
       std::vector<double> data_; ///< shape (n_collar, 2)
-      std::vector<unsigned int> first_unknown_;
       std::size_t n_unknowns_;
+      std::vector<unsigned int> number_of_dilatation_; ///< θ of each node is this unknown, if any
       ScatteredOperator result_;
     };
   } // namespace

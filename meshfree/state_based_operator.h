@@ -13,6 +13,9 @@ namespace plumbline::meshfree
     physics::Dilatation dilatation;
     std::function<double(const Point<2> &, unsigned int component)> data; ///< u in the collar
     Damage damage = {};
+    /// Else θ counts as 0 in the collar. That is wrong, of first order in the horizon and the more
+    /// so the less compressible the solid is; it is there to be shown.
+    bool has_collar_dilatation = true;
   };
 
   /// The operator of `Dilatation` with the bonds that a rule yields for the deviatoric kernel,
@@ -33,8 +36,10 @@ namespace plumbline::meshfree
   ScatteredOperator state_based_operator(const FamilySource &families, const StateBasedBody &body,
                                          std::pair<std::size_t, std::size_t> share);
 
-  /// The same with θ kept: a system in (u_1, u_2, θ) of each node of Ω, then θ of the nodes in the
-  /// collar that these reach, ascending. Loads belong to rows 3 i + component.
+  /// The same with θ kept: a system in u, numbered as above, then θ of the nodes of Ω and of those
+  /// in the collar that these reach, ascending, A u + B θ = f and θ - D u = g. A is the operator
+  /// where θ is left out, that of a solid with λ = μ: in the local limit A ≤ A + B D ≤ (λ + 2μ) /
+  /// (3μ) A where λ >= μ, so that A preconditions what eliminating θ yields.
   /// Not for: shares; on several ranks one gives the system to `solve_sparse` and the others
   /// nothing.
   ScatteredOperator state_based_system(const FamilySource &families, const StateBasedBody &body);

@@ -16,26 +16,7 @@ namespace plumbline::meshfree
     template <class Visit>
     void for_cells_in(const VariationalBody &body, const Polygon &polygon, const Visit &visit)
     {
-      std::array<int, 2> from, to;
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        const auto [low, high] =
-            std::minmax_element(polygon.begin(), polygon.end(),
-                                [d](const auto &a, const auto &b) { return a[d] < b[d]; });
-        from[d] = std::max(0, static_cast<int>(((*low)[d] - body.origin[d]) / body.h - .5));
-        to[d] =
-            std::min(body.n[d] - 1, static_cast<int>(((*high)[d] - body.origin[d]) / body.h + .5));
-      }
-      const Tensor<1, 2> half = Point<2>(.5 * body.h, .5 * body.h);
-      for (int i2 = from[1]; i2 <= to[1]; ++i2)
-        for (int i1 = from[0]; i1 <= to[0]; ++i1)
-        {
-          const std::size_t i = static_cast<std::size_t>(i2) * body.n[0] + i1;
-          const auto cell = geometry::square(body.node(i) - half, body.h);
-          const Polygon common = geometry::overlap(geometry::view(cell), geometry::view(polygon));
-          if (!common.empty())
-            visit(i, common);
-        }
+      geometry::for_squares_in({body.h, body.origin, body.n}, polygon, visit);
     }
 
     void add_constraint_and_material(VariationalBody &body, const Polygons &fixed,
@@ -84,6 +65,25 @@ namespace plumbline::meshfree
         body.V.push_back(.25 * n_quarters * body.h * body.h);
       }
     add_constraint_and_material(body, fixed, material);
+    return body;
+  }
+
+  VariationalBody body_of_cells(const geometry::NodeLattice &lattice,
+                                const geometry::NodeCells &cells,
+                                const VariationalMaterial &material)
+  {
+    VariationalBody body{lattice.h, lattice.origin, lattice.n, {}, {}, {}, {}};
+    body.V.assign(body.size(), 0);
+    body.is_fixed.assign(body.size(), 0);
+    body.k = body.l = body.V;
+    for (std::size_t c = 0; c < cells.size(); ++c)
+    {
+      const std::size_t i = cells.source[c];
+      body.V[i] = cells.area[c];
+      body.is_fixed[i] = static_cast<char>(c >= cells.n_free);
+      body.k[i] = material.k(cells.nodes[c]);
+      body.l[i] = material.l(cells.nodes[c]);
+    }
     return body;
   }
 

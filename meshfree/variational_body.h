@@ -2,7 +2,7 @@
 
 #include "algebra/operator.h"
 #include "geometry/lattice.h"
-#include "geometry/polygon.h"
+#include "geometry/vertex_cells.h"
 
 #include <functional>
 
@@ -41,6 +41,12 @@ namespace plumbline::meshfree
   /// @throws InputError  the fixed region leaves no node free
   VariationalBody body_on_vertices(const geometry::Lattice &lattice, const Polygons &fixed,
                                    const VariationalMaterial &material);
+
+  /// A solid on the cells of lattice nodes.
+  /// @param cells  of the lattice, by `source`; those beyond n_free are fixed
+  VariationalBody body_of_cells(const geometry::NodeLattice &lattice,
+                                const geometry::NodeCells &cells,
+                                const VariationalMaterial &material);
 
   /// A solid of any shape on the nodes hZ².
   /// @param pieces  convex, disjoint; their union is Ω (a curved boundary by its polygon)

@@ -49,7 +49,7 @@ namespace plumbline::reference
 
       void integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks)
       {
-        if (is_exact(outer, inner))
+        if (is_exact(outer, inner) && !by_quadrature_.is_product(outer, inner))
           by_correlation_->integrate(cells_[outer].box(), cells_[inner].box(), blocks);
         else
           by_quadrature_.integrate(outer, inner, blocks);

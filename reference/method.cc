@@ -4,6 +4,8 @@
 #include "reference/local_limit.h"
 #include "reference/mesh_method.h"
 
+#include <algorithm>
+
 namespace plumbline::reference
 {
   namespace
@@ -39,9 +41,18 @@ namespace plumbline::reference
           return std::string("the cells of Domain/mesh = ") + scene.mesh.kind + " are not all " +
                  (n_vertices_ == 4 ? "quadrilaterals" : "triangles") + "; take " +
                  (is_continuous_ ? "" : "DG") + other + std::to_string(degree_);
+        if (problem.body && !scene.is_unheld &&
+            std::all_of(problem.mesh->cells.begin(), problem.mesh->cells.end(),
+                        [](const geometry::MeshCell &cell) { return cell.is_inside; }))
+          return "no cell of Domain/mesh = " + scene.mesh.kind +
+                 " has its centroid in Domain/fixed, so that nothing holds the body; give smaller "
+                 "cells there, or take meshfree methods alone";
         if (scene.is_damaged())
           return "Galerkin methods break no bonds; take meshfree methods alone, or clear "
                  "Domain/cracks and Domain/outside";
+        if (!scene.material.has_collar_dilatation)
+          return "Galerkin methods take dilatations of the collar from its data; write "
+                 "Material/collar dilatation = from data, or take meshfree methods alone";
         if (scene.keeps_dilatation)
           return "Galerkin methods eliminate the dilatation; write Solver/dilatation = eliminated, "
                  "or take meshfree methods alone";

@@ -127,16 +127,19 @@ namespace plumbline::reference
                 : integrate_as<1, 0>(outer, inner, blocks);
   }
 
+  bool PairQuadrature::is_product(std::size_t outer, std::size_t inner) const
+  {
+    return profile_.is_constant() && !coefficient_ && cells_.farthest(outer, inner) <= horizon_ &&
+           space_.map(outer).is_affine() && space_.map(inner).is_affine();
+  }
+
   template <int n_entries, int n_shapes>
   void PairQuadrature::integrate_as(std::size_t outer, std::size_t inner, PairBlocks &blocks)
   {
     blocks.reset(n_, n_entries);
-    const bool is_whole = cells_.farthest(outer, inner) <= horizon_;
-    const CellMap &map = space_.map(outer);
-    if (is_whole && profile_.is_constant() && !coefficient_ && map.is_affine() &&
-        space_.map(inner).is_affine())
+    if (is_product(outer, inner))
       return integrate_constant(outer, inner, blocks);
-
+    const bool is_whole = cells_.farthest(outer, inner) <= horizon_;
     const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
     const bool is_smooth =
         is_whole && (profile_.is_polynomial() ||

@@ -40,6 +40,9 @@ namespace plumbline::reference
 
     void integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks);
 
+    /// No quadrature is needed: a constant kernel, and all of E' in the ball of all of E.
+    bool is_product(std::size_t outer, std::size_t inner) const;
+
   private:
     struct Tables
     {

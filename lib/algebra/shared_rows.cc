@@ -95,9 +95,22 @@ namespace plumbline::algebra
     own_size = size[team.rank()];
   }
 
+  Shares::Shares(const Shares &others, std::size_t n) : Shares(others)
+  {
+    const int end = static_cast<int>(n);
+    for (std::size_t rank = 0; rank < first.size(); ++rank)
+    {
+      first[rank] = std::min(first[rank], end);
+      size[rank] = std::min(others.first[rank] + others.size[rank], end) - first[rank];
+      size[rank] = std::max(size[rank], 0);
+    }
+    own_first = first[team.rank()];
+    own_size = size[team.rank()];
+  }
+
   dealii::IndexSet Shares::own() const
   {
-    dealii::IndexSet rows(first.back() + size.back());
+    dealii::IndexSet rows(size_of_all());
     rows.add_range(own_first, own_first + own_size);
     return rows;
   }
@@ -113,7 +126,7 @@ namespace plumbline::algebra
       sum_ = add(sum_, slice(all, rank * n, n));
   }
 
-  void SharedRows::vmult(Vector &y, const Vector &x) const
+  void SharedRows::vmult(Vector &y, const Vector &x, std::size_t first_row) const
   {
     const double *all = x.begin();
     std::vector<double> gathered;
@@ -127,8 +140,9 @@ namespace plumbline::algebra
     }
     const Rows &rows = own();
     constexpr unsigned int grain = 128;
+    const std::size_t begin = std::max(first_row, shares_.own_first) - shares_.own_first;
     dealii::parallel::apply_to_subranges(
-        static_cast<std::size_t>(0), shares_.own_size,
+        std::min(begin, shares_.own_size), shares_.own_size,
         [&, to = y.begin()](std::size_t first, std::size_t last)
         {
           for (std::size_t row = first; row < last; ++row)
@@ -144,7 +158,7 @@ namespace plumbline::algebra
   double SharedRows::asymmetry() const
   {
     const Rows &rows = own();
-    const std::size_t n = shares_.first.back() + shares_.size.back();
+    const std::size_t n = shares_.size_of_all();
     Rows transposed{std::vector<std::size_t>(n + 1), std::vector<unsigned int>(rows.column.size()),
                     std::vector<double>(rows.value.size())}; // this rank's part of -Aᵀ
     for (const unsigned int column : rows.column)
@@ -169,16 +183,15 @@ namespace plumbline::algebra
     return largest(add(rows, other.own()).value) / largest(rows.value);
   }
 
-  dealii::TrilinosWrappers::SparseMatrix SharedRows::to_trilinos() const
+  dealii::TrilinosWrappers::SparseMatrix to_trilinos(const Rows &own, const Shares &shares)
   {
-    const Rows &rows = own();
-    std::vector<unsigned int> length(rows.n_rows() + 1); // one more, deal.II looks at the first
-    for (std::size_t i = 0; i < rows.n_rows(); ++i)
-      length[i] = rows.start[i + 1] - rows.start[i];
-    dealii::TrilinosWrappers::SparseMatrix result(shares_.own(), shares_.team.communicator, length);
-    for (std::size_t i = 0; i < rows.n_rows(); ++i)
-      result.set(shares_.own_first + i, length[i], &rows.column[rows.start[i]],
-                 &rows.value[rows.start[i]]);
+    std::vector<unsigned int> length(own.n_rows() + 1); // one more, deal.II looks at the first
+    for (std::size_t i = 0; i < own.n_rows(); ++i)
+      length[i] = own.start[i + 1] - own.start[i];
+    dealii::TrilinosWrappers::SparseMatrix result(shares.own(), shares.team.communicator, length);
+    for (std::size_t i = 0; i < own.n_rows(); ++i)
+      result.set(shares.own_first + i, length[i], &own.column[own.start[i]],
+                 &own.value[own.start[i]]);
     result.compress(dealii::VectorOperation::insert);
     return result;
   }

@@ -18,6 +18,10 @@ namespace plumbline::algebra
     /// @note Collective.
     Shares(std::size_t n, unsigned int n_components, const base::Team &team);
 
+    /// The first n rows of others, each on the rank where it was; some ranks may have none.
+    Shares(const Shares &others, std::size_t n);
+
+    std::size_t size_of_all() const { return first.back() + size.back(); }
     dealii::IndexSet own() const;
   };
 
@@ -35,18 +39,21 @@ namespace plumbline::algebra
     const Shares &shares() const { return shares_; }
     const Rows &own() const { return sum_.start.empty() ? given_ : sum_; }
 
-    /// y = A x, threads sharing the rows; the same on any number of them. @note Collective.
-    void vmult(Vector &y, const Vector &x) const;
+    /// y = A x, threads sharing the rows; the same on any number of them. Values of y before
+    /// first_row stay as they are. @note Collective.
+    void vmult(Vector &y, const Vector &x, std::size_t first_row = 0) const;
 
     /// max |A_ij - A_ji| / max |A_ij|; takes a copy of the rows. @note Collective.
     double asymmetry() const;
-
-    /// A copy. @note Collective.
-    dealii::TrilinosWrappers::SparseMatrix to_trilinos() const;
 
   private:
     const Shares &shares_;
     const Rows &given_;
     Rows sum_; ///< empty on one rank
   };
+
+  /// A copy of a square matrix.
+  /// @param own  this rank's share of the rows
+  /// @note Collective.
+  dealii::TrilinosWrappers::SparseMatrix to_trilinos(const Rows &own, const Shares &shares);
 } // namespace plumbline::algebra

@@ -1,6 +1,6 @@
 #include "algebra/sparse_system.h"
 
-#include "algebra/shared_rows.h"
+#include "algebra/block_preconditioner.h"
 #include "base/error.h"
 
 #include <deal.II/base/memory_consumption.h>
@@ -9,13 +9,9 @@
 #include <deal.II/lac/solver_bicgstab.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
-#include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <Amesos_Mumps.h>
 #include <Epetra_LinearProblem.h>
-#include <Epetra_MultiVector.h>
-#include <Teuchos_ParameterList.hpp>
 #include <malloc.h>
 
 #include <algorithm>
@@ -29,7 +25,6 @@ namespace plumbline::algebra
   namespace
   {
     using base::Team;
-    using TrilinosMatrix = dealii::TrilinosWrappers::SparseMatrix;
     using Vector = SharedRows::Vector;
 
     constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -98,14 +93,19 @@ namespace plumbline::algebra
     constexpr int none = std::numeric_limits<int>::max();
 
     /// Throws on every rank if the row, of this rank or another, is not none.
-    void reject(int row, const std::string &fault, unsigned int n_components, const Team &team)
+    void reject(int row, const std::string &fault, const SparseOptions &options, const Team &team)
     {
       row = dealii::Utilities::MPI::min(row, team.communicator);
       if (row == none)
         return;
       std::ostringstream message;
-      message << "row " << row << " of the sparse system (node " << row / n_components
-              << ", component " << row % n_components << ") " << fault;
+      message << "row " << row << " of the sparse system (";
+      if (options.n_first > 0 && row >= static_cast<int>(options.n_first))
+        message << "unknown " << row - options.n_first << " of those that the first ones give";
+      else
+        message << "node " << row / options.n_components << ", component "
+                << row % options.n_components;
+      message << ") " << fault;
       throw NumericalError(message.str());
     }
 
@@ -139,7 +139,7 @@ namespace plumbline::algebra
 
     // ---- what solvers ask of the matrix ---------------------------------------------------------
 
-    void check_rows(const SharedRows &matrix, unsigned int n_components)
+    void check_rows(const SharedRows &matrix, const SparseOptions &options)
     {
       const Rows &rows = matrix.own();
       int bad = none;
@@ -149,11 +149,11 @@ namespace plumbline::algebra
       reject(bad,
              "has no entries: nothing ties this unknown to the others; raise the horizon or leave "
              "the node out",
-             n_components, matrix.shares().team);
+             options, matrix.shares().team);
     }
 
-    /// Of this rank's rows.
-    std::vector<double> find_diagonal(const SharedRows &matrix, unsigned int n_components)
+    /// Of this rank's rows. @throws NumericalError  an entry is missing, on all ranks
+    std::vector<double> find_diagonal(const SharedRows &matrix, const SparseOptions &options)
     {
       const Rows &rows = matrix.own();
       std::vector<double> result(rows.n_rows());
@@ -168,7 +168,7 @@ namespace plumbline::algebra
           bad = static_cast<int>(row);
       }
       reject(bad, "has no diagonal entry, which iterations need; take the sparse solver direct",
-             n_components, matrix.shares().team);
+             options, matrix.shares().team);
       return result;
     }
 
@@ -186,7 +186,7 @@ namespace plumbline::algebra
     std::size_t solve_directly(const SharedRows &rows, Vector &x, const Vector &b)
     {
       const std::size_t bytes_before = heap_bytes();
-      const TrilinosMatrix matrix = rows.to_trilinos();
+      const auto matrix = to_trilinos(rows.own(), rows.shares());
       Epetra_LinearProblem problem(const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()),
                                    &x.trilinos_vector(),
                                    const_cast<Epetra_MultiVector *>(&b.trilinos_vector()));
@@ -209,68 +209,6 @@ namespace plumbline::algebra
       if (!fault.str().empty())
         throw NumericalError(fault.str());
       return bytes;
-    }
-
-    /// Couplings below this fraction of the diagonal do not join nodes into ML's aggregates. At
-    /// most .02, which suits finite elements, but below the strongest coupling of all but a few
-    /// rows: rows of many small entries would otherwise not be coarsened at all.
-    double aggregation_threshold(const SharedRows &matrix, const std::vector<double> &diagonal,
-                                 unsigned int n_components)
-    {
-      const Rows &rows = matrix.own();
-      std::vector<double> strongest(rows.n_rows() + 1, 1); // one more, a rank may have none
-      for (std::size_t i = 0; i < rows.n_rows(); ++i)
-      {
-        const std::size_t node = (matrix.shares().own_first + i) / n_components;
-        double coupling = 0;
-        for (std::size_t e = rows.start[i]; e < rows.start[i + 1]; ++e)
-          if (rows.column[e] / n_components != node)
-            coupling = std::max(coupling, std::abs(rows.value[e]));
-        strongest[i] = coupling / std::abs(diagonal[i]);
-      }
-      const auto low = strongest.begin() + strongest.size() / 20;
-      std::nth_element(strongest.begin(), low, strongest.end());
-      return std::min(.02,
-                      .7 * dealii::Utilities::MPI::min(*low, matrix.shares().team.communicator));
-    }
-
-    /// Modes of little energy, a column each: the constants and, where places are known, the
-    /// rotation.
-    Epetra_MultiVector near_null_space(const Shares &shares, const TrilinosMatrix &matrix,
-                                       const SparseOptions &options)
-    {
-      const unsigned int n_components = options.n_components;
-      const bool has_rotation = n_components == 2 && !options.nodes.empty();
-      Epetra_MultiVector modes(matrix.trilinos_matrix().RowMap(),
-                               static_cast<int>(n_components + (has_rotation ? 1 : 0)));
-      for (std::size_t i = 0; i < shares.own_size; ++i)
-      {
-        const std::size_t node = (shares.own_first + i) / n_components, c = i % n_components;
-        modes[static_cast<int>(c)][i] = 1;
-        if (has_rotation)
-        {
-          const auto arm = options.nodes[node] - options.nodes.front();
-          modes[2][i] = c == 0 ? -arm[1] : arm[0];
-        }
-      }
-      return modes;
-    }
-
-    using AMG = dealii::TrilinosWrappers::PreconditionAMG;
-
-    void initialize(AMG &preconditioner, const SharedRows &matrix, const TrilinosMatrix &entries,
-                    const std::vector<double> &diagonal, const SparseOptions &options)
-    {
-      AMG::AdditionalData data; // elliptic, also if not symmetric: measured to be the more robust
-      data.aggregation_threshold = aggregation_threshold(matrix, diagonal, options.n_components);
-      Teuchos::ParameterList parameters;
-      std::unique_ptr<Epetra_MultiVector> deals_own;
-      data.set_parameters(parameters, deals_own, entries);
-      const Epetra_MultiVector modes = near_null_space(matrix.shares(), entries, options);
-      parameters.set("null space: type", "pre-computed");
-      parameters.set("null space: dimension", modes.NumVectors());
-      parameters.set("null space: vectors", modes.Values());
-      preconditioner.initialize(entries, parameters);
     }
 
     /// @return  the number of iterations
@@ -316,31 +254,48 @@ namespace plumbline::algebra
         return;
       }
       const std::size_t bytes_before = heap_bytes();
-      const std::vector<double> diagonal = find_diagonal(matrix, options.n_components);
+      const std::vector<double> diagonal = find_diagonal(matrix, options);
+      const auto precondition = [&](const auto &preconditioner)
+      {
+        solution.bytes += heap_bytes() - bytes_before;
+        solution.n_iterations = iterate(matrix, preconditioner, x, b, options);
+      };
       if (options.solver == SparseSolver::jacobi)
       {
         Vector inverse(b);
         std::transform(diagonal.begin(), diagonal.end(), inverse.begin(),
                        [](double value) { return 1 / value; });
-        const dealii::DiagonalMatrix<Vector> preconditioner(inverse);
-        solution.bytes += heap_bytes() - bytes_before;
-        solution.n_iterations = iterate(matrix, preconditioner, x, b, options);
-        return;
+        precondition(dealii::DiagonalMatrix<Vector>(inverse));
       }
-      const TrilinosMatrix entries = matrix.to_trilinos();
-      AMG preconditioner;
-      initialize(preconditioner, matrix, entries, diagonal, options);
-      solution.bytes += heap_bytes() - bytes_before;
-      solution.n_iterations = iterate(matrix, preconditioner, x, b, options);
+      else if (options.n_first > 0)
+      {
+        const BlockPreconditioner blocks(matrix, options.n_first, options.n_components,
+                                         options.nodes);
+        blocks.vmult(x, b); // from here on the rows of what others give hold exactly
+        precondition(blocks);
+      }
+      else
+        precondition(Multigrid(matrix.own(), matrix.shares(), options.n_components, options.nodes));
     }
 
-    SparseSolver choose(std::size_t n, std::uint64_t n_nonzeros, unsigned int n_components)
+    SparseSolver choose(std::size_t n, std::uint64_t n_nonzeros, const SparseOptions &options)
     {
+      const unsigned int n_components = options.n_components;
       if (n <= most_unknowns_for_direct)
         return SparseSolver::direct;
+      if (options.n_first > 0)
+        return SparseSolver::amg;
       const double row_length = static_cast<double>(n_nonzeros) / n;
       return n / row_length * n_components * n_components > multigrid_pays ? SparseSolver::amg
                                                                            : SparseSolver::jacobi;
+    }
+
+    /// Options are of a system of n unknowns.
+    [[maybe_unused]] bool fits(const SparseOptions &options, std::size_t n)
+    {
+      const std::size_t n_of_nodes = options.n_first > 0 ? options.n_first : n;
+      return n_of_nodes <= n && n_of_nodes % options.n_components == 0 &&
+             (options.nodes.empty() || options.nodes.size() == n_of_nodes / options.n_components);
     }
 
     void check_symmetry(const SharedRows &matrix)
@@ -371,9 +326,7 @@ namespace plumbline::algebra
   {
     SparseOptions options = given;
     const std::size_t n = right_hand_side.size();
-    Assert(rows.n_rows() == n && n % options.n_components == 0 &&
-               (options.nodes.empty() || options.nodes.size() == n / options.n_components),
-           dealii::ExcInternalError());
+    Assert(rows.n_rows() == n && fits(options, n), dealii::ExcInternalError());
     if (n == 0)
       return {};
 
@@ -389,11 +342,11 @@ namespace plumbline::algebra
     reject(bad,
            "holds a value, in the matrix or the right-hand side, that is not a finite number; look "
            "at the kernel and the load there",
-           options.n_components, team);
+           options, team);
 
-    const Shares shares(n, options.n_components, team);
+    const Shares shares(n, options.n_first > 0 ? 1 : options.n_components, team);
     const SharedRows matrix(rows, shares);
-    check_rows(matrix, options.n_components);
+    check_rows(matrix, options);
     if (options.iteration == Iteration::cg)
       check_symmetry(matrix);
     Vector b(shares.own(), team.communicator), x(b), residual(b);
@@ -408,7 +361,7 @@ namespace plumbline::algebra
     solution.n_nonzeros = dealii::Utilities::MPI::sum(static_cast<std::uint64_t>(own.value.size()),
                                                       team.communicator);
     if (options.solver == SparseSolver::automatic)
-      options.solver = choose(n, solution.n_nonzeros, options.n_components);
+      options.solver = choose(n, solution.n_nonzeros, options);
     if (options.iteration == Iteration::automatic)
       options.iteration = options.is_symmetric ? Iteration::cg : Iteration::gmres;
     solution.solver = name_of(options.solver, solver_names);

@@ -12,7 +12,7 @@ namespace plumbline::algebra
   enum class SparseSolver
   {
     automatic, ///< direct up to 1000 unknowns; above, amg if unknowns × n_components² outnumber the
-               ///< entries of a row by more than 100, else jacobi
+               ///< entries of a row by more than 100, or n_first > 0, else jacobi
     direct, ///< MUMPS
     amg,    ///< iterations preconditioned by ML's algebraic multigrid
     jacobi  ///< iterations preconditioned by the diagonal
@@ -39,6 +39,10 @@ namespace plumbline::algebra
     Iteration iteration = Iteration::automatic;
     SparseSolver solver = SparseSolver::automatic;
     unsigned int n_components = 1; ///< unknowns a node, numbered node by node
+    /// If not 0, unknowns from this one on are given by those before it: their rows have a 1 on the
+    /// diagonal and nothing else among themselves. Only the first ones belong to nodes then, and
+    /// amg is a `BlockPreconditioner`.
+    std::size_t n_first = 0;
     /// Places of all nodes, for amg and two components: rotations are among its near-null modes
     /// then, besides the constants, which saves one iteration in six of elastic solids.
     std::vector<dealii::Point<2>> nodes;

@@ -213,17 +213,16 @@ namespace plumbline::algebra
   Spectrum spectrum(const Action &symmetric, std::size_t n, double tolerance)
   {
     constexpr double zero = 1e-10; // relative to the largest eigenvalue
-    constexpr unsigned int most_zeros = 12;
     const auto size = static_cast<Index>(n);
     std::vector<VectorXd> locked;
     Ends ends = lanczos(symmetric, size, tolerance, locked);
     Spectrum result{
-        ends.smallest, ends.largest, 0, ends.smallest, {ends.lowest.begin(), ends.lowest.end()}};
+        ends.smallest, ends.largest, {}, ends.smallest, {ends.lowest.begin(), ends.lowest.end()}};
     while (std::abs(ends.smallest) <= zero * std::abs(result.largest) &&
-           result.n_zero < std::min<std::size_t>(most_zeros, n - 1))
+           locked.size() < std::min(most_zero_modes, n - 1))
     {
-      ++result.n_zero;
       locked.push_back(ends.lowest.normalized());
+      result.zero_modes.emplace_back(locked.back().begin(), locked.back().end());
       ends = lanczos(symmetric, size, tolerance, locked);
       result.smallest_nonzero = ends.smallest;
     }

@@ -15,13 +15,16 @@ namespace plumbline::algebra
   Action restrict(std::shared_ptr<const Operator> matrix, std::size_t n,
                   std::vector<std::size_t> positions);
 
+  /// Zero modes are counted up to here.
+  constexpr std::size_t most_zero_modes = 12;
+
   /// Both ends of the spectrum of a symmetric operator.
   struct Spectrum
   {
     double smallest, largest;
-    /// Eigenvalues below 1e-10 of the largest in absolute value, each as often as it occurs, up to
-    /// 12; 0 if the smallest is negative.
-    unsigned int n_zero;
+    /// Of norm 1, of the eigenvalues below 1e-10 of the largest in absolute value: as many as there
+    /// are, up to most_zero_modes; none if the smallest is negative.
+    std::vector<std::vector<double>> zero_modes;
     double smallest_nonzero;         ///< the smallest one besides those
     std::vector<double> lowest_mode; ///< eigenvector of norm 1 of the smallest
   };

@@ -107,6 +107,22 @@ namespace plumbline::geometry
       Gmsh &operator=(const Gmsh &) = delete;
     };
 
+    /// Meshes the model. Errors are read from gmsh's log: gmsh's exceptions would have to leave an
+    /// OpenMP region, which ends the program.
+    void generate()
+    {
+      gmsh::option::setNumber("General.AbortOnError", 0);
+      gmsh::logger::start();
+      gmsh::model::mesh::generate(2);
+      std::vector<std::string> log;
+      gmsh::logger::get(log);
+      gmsh::logger::stop();
+      const std::string mark = "Error: ";
+      for (const std::string &line : log)
+        if (line.compare(0, mark.size(), mark) == 0)
+          throw line.substr(mark.size());
+    }
+
     bool ends_with(const std::string &word, const std::string &end)
     {
       return word.size() >= end.size() &&
@@ -127,7 +143,7 @@ namespace plumbline::geometry
       std::string name;
     };
 
-    std::vector<Surface> physical_surfaces()
+    std::vector<Surface> physical_surfaces(bool wants_collar)
     {
       gmsh::vectorpair groups;
       gmsh::model::getPhysicalGroups(groups, 2);
@@ -141,7 +157,7 @@ namespace plumbline::geometry
         const bool is_omega = begins_with(name, "omega"), is_collar = begins_with(name, "collar");
         has_omega = has_omega || is_omega;
         has_collar = has_collar || is_collar;
-        has_other = has_other || !(is_omega || is_collar);
+        has_other = has_other || !(is_omega || (is_collar && wants_collar));
         names += (names.empty() ? "" : ", ") +
                  (name.empty() ? "number " + std::to_string(group) : "'" + name + "'");
         std::vector<int> entities;
@@ -149,15 +165,18 @@ namespace plumbline::geometry
         for (const int entity : entities)
           surfaces.push_back({entity, is_omega, name});
       }
-      if (!has_omega || !has_collar || has_other)
+      if (!has_omega || has_collar != wants_collar || has_other)
         throw InputError("has the physical surfaces " + (names.empty() ? "(none)" : names) +
-                         "; give names that begin with 'omega' and 'collar', at least one of each "
-                         "and no others");
+                         (wants_collar
+                              ? "; give names that begin with 'omega' and 'collar', at least one "
+                                "of each and no others"
+                              : "; a body with a free boundary has no collar: give names that "
+                                "begin with 'omega', at least one and no others"));
       return surfaces;
     }
 
     /// Vertices of the whole model, and cells of the physical surfaces.
-    Mesh model()
+    Mesh model(bool has_collar)
     {
       Mesh mesh;
       std::vector<std::size_t> tags;
@@ -177,7 +196,7 @@ namespace plumbline::geometry
         throw InputError("reaches z = " + text(height) +
                          "; only triangles and quadrilaterals in the plane z = 0 are allowed");
 
-      for (const Surface &surface : physical_surfaces())
+      for (const Surface &surface : physical_surfaces(has_collar))
       {
         if (mesh.groups.empty() || mesh.groups.back() != surface.name)
           mesh.groups.push_back(surface.name);
@@ -267,7 +286,7 @@ namespace plumbline::geometry
     }
   } // namespace
 
-  Mesh read_mesh(const std::string &file, double h, double delta)
+  Mesh read_mesh(const std::string &file, double h, double delta, bool has_collar)
   {
     const std::string source = "mesh file '" + file + "'";
     const bool is_script = ends_with(file, ".geo");
@@ -282,8 +301,8 @@ namespace plumbline::geometry
     {
       gmsh::open(file);
       if (is_script)
-        gmsh::model::mesh::generate(2);
-      mesh = model();
+        generate();
+      mesh = model(has_collar);
     }
     catch (const std::string &error) // gmsh's own
     {

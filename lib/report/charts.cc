@@ -42,6 +42,8 @@ namespace plumbline::report
         return {positive(run.cost.seconds()), error};
       case ChartKind::memory:
         return {positive(1e-6 * static_cast<double>(run.cost.peak_bytes)), error};
+      case ChartKind::pairs:
+        return {positive(static_cast<double>(run.cost.n_bonds)), error};
       case ChartKind::iterations:
         return {positive(is_horizon ? run.horizon : run.h),
                 run.failure.empty() ? positive(run.cost.n_iterations)
@@ -61,6 +63,8 @@ namespace plumbline::report
         return "work-precision";
       case ChartKind::memory:
         return "memory";
+      case ChartKind::pairs:
+        return "pairs";
       case ChartKind::iterations:
         return "iterations";
       case ChartKind::error_map:
@@ -79,6 +83,8 @@ namespace plumbline::report
         return "error against work";
       case ChartKind::memory:
         return "error against memory";
+      case ChartKind::pairs:
+        return "error against unknowns × bonds";
       case ChartKind::iterations:
         return "iterations of the solver";
       case ChartKind::error_map:
@@ -86,6 +92,13 @@ namespace plumbline::report
         break;
       }
       return "convergence";
+    }
+
+    /// The decisive error against something to be spared: there is a Pareto front.
+    bool is_cost(ChartKind kind)
+    {
+      return kind == ChartKind::work_precision || kind == ChartKind::memory ||
+             kind == ChartKind::pairs;
     }
 
     std::string x_label(ChartKind kind, bool is_horizon)
@@ -96,6 +109,8 @@ namespace plumbline::report
         return "work: setup and solve [CPU s]";
       case ChartKind::memory:
         return "peak memory [MB]";
+      case ChartKind::pairs:
+        return "unknowns × bonds of each: pairs in one application [1]";
       case ChartKind::iterations:
       case ChartKind::convergence:
       case ChartKind::error_map:
@@ -203,7 +218,7 @@ namespace plumbline::report
             plot.x_ticks.push_back(point.x);
         }
       plot.is_y_log = !is_iterations || most > wide * least;
-      if (chart.kind == ChartKind::work_precision)
+      if (is_cost(chart.kind))
         plot.frontier = frontier(points);
 
       for (const MethodName &method : methods)
@@ -283,7 +298,7 @@ namespace plumbline::report
                             problem, ""});
     }
     for (const ChartKind kind : {ChartKind::work_precision, ChartKind::convergence,
-                                 ChartKind::memory, ChartKind::iterations})
+                                 ChartKind::memory, ChartKind::pairs, ChartKind::iterations})
       for (const Case &one : all)
         candidates.push_back({kind, kind_slug(kind) + "_" + one.slug,
                               one.title() + ": " + kind_title(kind), one.problem, one.series});

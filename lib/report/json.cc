@@ -42,6 +42,9 @@ namespace plumbline::report
       a("n_neighbours", diagnostics.n_neighbours);
       a("smallest_weight_ratio", diagnostics.smallest_weight_ratio);
       a("n_negative_weights", diagnostics.n_negative_weights);
+      a("n_conditions", diagnostics.n_conditions);
+      a("rank", diagnostics.rank);
+      a("smallest_singular_value", diagnostics.smallest_singular_value);
       a("relative_residual", diagnostics.relative_residual);
       a("operator_road", diagnostics.operator_road);
       a("n_geometry_checks", diagnostics.n_geometry_checks);
@@ -118,6 +121,17 @@ namespace plumbline::report
     }
 
     template <typename Archive>
+    void visit(Archive &a, study::Saving &saving)
+    {
+      a("method", saving.method);
+      a("h", saving.h);
+      a("horizon", saving.horizon);
+      a("smallest", saving.smallest);
+      a("full", saving.full);
+      a("difference", saving.difference);
+    }
+
+    template <typename Archive>
     void visit(Archive &a, study::Expectation &expectation)
     {
       a("subject", expectation.subject);
@@ -178,6 +192,8 @@ namespace plumbline::report
       a("omissions", results.omissions);
       a("maps", results.maps);
       a("runs", results.runs);
+      a("savings", results.savings);
+      a("left_out", results.left_out);
       a("scene_text", results.scene_text);
     }
 

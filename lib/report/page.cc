@@ -166,6 +166,15 @@ namespace plumbline::report
       const Table others = other_errors_table(results);
       if (!others.rows.empty())
         text += folded("Other errors", to_html(others));
+      if (!results.left_out.empty())
+      {
+        std::string list;
+        for (const std::string &solve : results.left_out)
+          list += "<li>" + escape_html(solve) + "</li>";
+        text += folded("Left out by the budget (" + std::to_string(results.left_out.size()) +
+                           " solves)",
+                       "<ul>" + list + "</ul>\n");
+      }
       const Table failures = failure_table(results);
       if (!failures.rows.empty())
         text += folded("Levels without a solution (" + std::to_string(failures.rows.size()) + ")",
@@ -272,6 +281,11 @@ namespace plumbline::report
               {text_cell(omission.what), text_cell(omission.why), text_cell(omission.saving)});
         text = to_html(table);
       }
+      if (!results.savings.empty())
+        text += paragraph("Measured: the coarsest level by the full model, too, which leaves out "
+                          "nothing (a mesh and a sparse matrix where a stencil would do, the "
+                          "dilatation even where it is zero).") +
+                to_html(saving_table(results));
       text +=
           paragraph(n_checks == 0 ? "Geometry: no cut cell was recomputed with the exact backend."
                                   : "Geometry: " + std::to_string(n_checks) + " cut cells in " +

@@ -67,6 +67,9 @@ namespace plumbline::report::page
          "methods; dark is "
          "accurate, white lies outside the domain."},
         {ChartKind::memory, "memory", "Memory", "Error against the largest memory in use."},
+        {ChartKind::pairs, "pairs", "Unknowns × bonds",
+         "Error against the pairs of unknowns that one application of the operator sums over: a "
+         "cost that no machine or program changes."},
         {ChartKind::iterations, "iterations", "Iterations",
          "Iterations of the linear solver as the mesh is refined."}};
   } // namespace
@@ -127,8 +130,8 @@ namespace plumbline::report::page
     {
       std::string large, small;
       std::size_t n_small = 0;
-      const bool is_minor =
-          section.kind == ChartKind::memory || section.kind == ChartKind::iterations;
+      const bool is_minor = section.kind == ChartKind::memory || section.kind == ChartKind::pairs ||
+                            section.kind == ChartKind::iterations;
       for (const Chart &chart : all)
       {
         if (chart.kind != section.kind)

@@ -263,6 +263,22 @@ namespace plumbline::report
     return table;
   }
 
+  Table saving_table(const study::Results &results)
+  {
+    Table table;
+    table.caption = "What the smallest model saved";
+    table.columns = {"method", "h [length]",   "CPU time", "full",
+                     "times",  "pairs summed", "full",     "largest difference"};
+    for (const study::Saving &saving : results.savings)
+      table.rows.push_back({text_cell(saving.method), number_cell(saving.h),
+                            text_cell(rounded_seconds(saving.smallest.seconds())),
+                            text_cell(rounded_seconds(saving.full.seconds())),
+                            text_cell(rounded(saving.full.seconds() / saving.smallest.seconds())),
+                            count_cell(saving.smallest.n_bonds), count_cell(saving.full.n_bonds),
+                            error_cell(saving.difference)});
+    return table;
+  }
+
   Table failure_table(const study::Results &results)
   {
     Table table;

@@ -34,6 +34,9 @@ namespace plumbline::report
   /// Of each method over all its runs: neighbours, weights, residual, road, notes.
   Table diagnostics_table(const study::Results &results);
 
+  /// What the smallest model saved, where the full one was solved too.
+  Table saving_table(const study::Results &results);
+
   /// The runs without a solution, and why.
   Table failure_table(const study::Results &results);
 

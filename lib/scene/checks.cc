@@ -139,18 +139,20 @@ namespace plumbline::scene
           throw InputError("Domain/boundary = free needs " + what);
       };
       needs(scene.material.model == "variational", "Material/model = variational");
-      needs(scene.mesh.is_of_boxes() && scene.domain.include.size() == 1 &&
-                scene.domain.exclude.empty() && scene.mesh.map.empty(),
-            "one box (Domain/boxes) without holes or map, and Domain/mesh = lattice, squares or "
-            "triangles");
+      needs(!scene.mesh.is_lattice() ||
+                (scene.domain.include.size() == 1 && scene.domain.exclude.empty()),
+            "one box (Domain/boxes) without holes where Domain/mesh = lattice; write squares or "
+            "triangles for several boxes, a .geo or .msh file for any other shape");
       needs(
-          !scene.fixed.empty(),
+          !scene.fixed.empty() || scene.is_unheld,
           "a part where u is given, or the body can move as a whole (3 rigid modes in the plane); "
           "give Domain/fixed");
       needs(scene.nodes.kind == "vertices", "Methods/nodes = vertices");
       needs(scene.solutions.empty() && !scene.loads.empty(),
             "Problem/load and Problem/constraint as expressions, Problem/solution empty");
       needs(!scene.collar, "Domain/collar = auto: there is none");
+      if (!scene.mesh.is_of_boxes() || !scene.mesh.map.empty())
+        return; // fixed boxes may cut the cells
       for (const Series &series : scene.series)
         for (const Level &level : series.levels)
         {
@@ -178,7 +180,7 @@ namespace plumbline::scene
           "Domain/arguments or Domain/inside is given",
           "they belong to deal.II's generators; clear them");
     needs(
-        !is_generator || !mesh.inside.empty(), "Domain/inside is empty",
+        !is_generator || !mesh.inside.empty() || scene.is_free_body, "Domain/inside is empty",
         "lattice, squares, triangles and files .msh or .geo do without, any other name is a "
         "generator of deal.II; tell which of its cells are in Omega, the others being the collar, "
         "by an expression that is positive there");
@@ -197,16 +199,21 @@ namespace plumbline::scene
                        "cracks and free surfaces; write none, or an expression");
     needs(mesh.is_lattice() || !scene.collar, "Domain/collar is given",
           "a mesh has the collar it has, and is checked; write Domain/collar = auto");
-    needs(mesh.is_lattice() || scene.operator_road == "automatic",
+    needs(mesh.is_lattice() || scene.is_free_body || scene.operator_road == "automatic",
           "Solver/operator = " + scene.operator_road,
           "operators on meshes are sparse matrices; write automatic");
     needs(mesh.is_of_boxes() || scene.domain.exclude.empty(), "Domain/holes is given",
           "holes are for boxes; cut them out of the mesh itself");
     if (scene.is_free_body)
       check_free_body(scene);
-    else if (!scene.fixed.empty())
+    else if (!scene.fixed.empty() || scene.is_unheld)
       throw InputError("Domain/fixed is given, but u is given in the collar all around; write "
                        "Domain/boundary = free, or clear it");
+    if (!scene.material.has_collar_dilatation &&
+        (!scene.has_dilatation() || mesh.is_lattice() || scene.is_free_body))
+      throw InputError("Material/collar dilatation = zero needs a state-based solid with lambda != "
+                       "mu on scattered nodes with a collar; write from data, or Material/model = "
+                       "LPS with Domain/mesh = squares");
     if (scene.is_damaged() && scene.material.model != "LPS")
       throw InputError("Domain/cracks and Domain/outside need Material/model = LPS, whose free "
                        "surfaces they make; choose it, or clear them");
@@ -222,7 +229,7 @@ namespace plumbline::scene
                        "' is not known; write centres, vertices, mesh, or a file .csv");
     needs(!mesh.is_lattice() || nodes == "centres" || nodes == "vertices",
           "Methods/nodes = " + nodes, mesh_remedy);
-    needs((mesh.is_of_boxes() && mesh.map.empty()) || nodes != "vertices",
+    needs((mesh.is_of_boxes() && mesh.map.empty()) || scene.is_free_body || nodes != "vertices",
           "Methods/nodes = vertices",
           "vertices are those of the boxes; write centres, mesh, or a file .csv");
     if (scene.nodes.perturbation > 0 && nodes != "centres")

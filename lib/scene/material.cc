@@ -78,6 +78,7 @@ namespace plumbline::scene
   {
     Material material;
     material.model = value("Material/model");
+    material.has_collar_dilatation = value("Material/collar dilatation") == "from data";
     material.plane = value("Material/plane") == "stress" ? physics::PlaneState::stress
                                                          : physics::PlaneState::strain;
     unsigned int n_pairs = 0;

@@ -2,10 +2,10 @@
 
 #include "base/error.h"
 #include "geometry/mesh_input.h"
-#include "geometry/vertex_cells.h"
 #include "physics/expression.h"
 #include "scene/csv.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -25,7 +25,8 @@ namespace plumbline::scene
       const MeshSource &source = scene.mesh;
       const std::map<std::string, double> constants = {{"delta", level.horizon}};
       if (source.is_file())
-        return geometry::read_mesh(path(scene, source.kind), level.h, level.horizon);
+        return geometry::read_mesh(path(scene, source.kind), level.h, level.horizon,
+                                   !scene.is_free_body);
       if (source.is_of_boxes())
       {
         std::function<Point<2>(const Point<2> &)> map;
@@ -36,9 +37,20 @@ namespace plumbline::scene
                                       scene.is_free_body ? 0 : scene.reach(level.horizon),
                                       source.kind == "triangles", map);
       }
-      const physics::Expression inside("Domain/inside", source.inside, constants);
+      const std::string everywhere = "1";
+      const physics::Expression inside(
+          "Domain/inside", source.inside.empty() ? everywhere : source.inside, constants);
       return geometry::generate_mesh(source.kind, source.arguments, level.h,
                                      [&](const Point<2> &x) { return inside(x) > 0; });
+    }
+
+    /// A body has no collar.
+    void keep_inside(geometry::Mesh &mesh)
+    {
+      mesh.cells.erase(std::remove_if(mesh.cells.begin(), mesh.cells.end(),
+                                      [](const geometry::MeshCell &cell)
+                                      { return !cell.is_inside; }),
+                       mesh.cells.end());
     }
 
     /// Cells with their centroid in one of the boxes are fixed.
@@ -56,11 +68,6 @@ namespace plumbline::scene
   geometry::Mesh make_mesh(const Scene &scene, const Level &level)
   {
     geometry::Mesh mesh = read_or_make(scene, level);
-    if (scene.is_free_body)
-    {
-      fix_parts(scene.fixed, mesh);
-      return mesh;
-    }
     const double width = geometry::collar_width(mesh);
     if (width < scene.reach(level.horizon) * (1 - 1e-9))
     {
@@ -75,6 +82,29 @@ namespace plumbline::scene
       throw InputError(message.str());
     }
     return mesh;
+  }
+
+  geometry::VertexCells make_body(const Scene &scene, const Level &level)
+  {
+    const MeshSource &source = scene.mesh;
+    const bool is_on_boxes = source.is_of_boxes() && source.map.empty();
+    const auto lame = scene.material.lame();
+    const auto on_lattice = [&]
+    { return geometry::vertex_cells(geometry::Lattice(scene.domain, level.h), scene.fixed); };
+    const auto on_mesh = [&]
+    {
+      geometry::Mesh mesh = read_or_make(scene, level);
+      keep_inside(mesh);
+      fix_parts(scene.fixed, mesh);
+      const Point<2> origin =
+          is_on_boxes ? geometry::Lattice(scene.domain, level.h).origin() : Point<2>();
+      return geometry::vertex_cells(std::make_shared<const geometry::Mesh>(std::move(mesh)), origin,
+                                    level.h, scene.fixed);
+    };
+    geometry::VertexCells body = source.is_lattice() ? on_lattice() : on_mesh();
+    for (const Point<2> &node : body.cells->nodes)
+      (void)lame(node);
+    return body;
   }
 
   std::vector<Point<2>> read_nodes(const std::string &file)

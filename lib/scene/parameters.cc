@@ -84,9 +84,14 @@ namespace plumbline::scene
 
           {"Domain", "boundary", "constrained", one_of("constrained|free"),
            "constrained: u is given all around Omega, in its collar. free: no collar; families end "
-           "at the boundary, and u is given in Domain/fixed (Material/model = variational)."},
+           "at the boundary, and u is given in Domain/fixed (Material/model = variational). The "
+           "body is one box (Domain/mesh = lattice), or whatever the cells of a mesh cover; they "
+           "cut the squares about the nodes, which are hZ^2 where no boxes set them."},
           {"Domain", "fixed", "", text(),
-           "Boxes within the boxes of a free body where u is given, written like these. [length]"},
+           "Boxes where u is given in a free body, written like boxes: of nodes whose cell shares "
+           "area with them, of mesh cells whose centroid is in them. none: the "
+           "body can move as a whole; 'plumbline stability' measures it, and run refuses it. "
+           "[length]"},
           {"Domain", "cracks", "", text(),
            "Cracks as lines 'x0, y0 : x1, y1', with more points where they bend, separated by ';'. "
            "Bonds across them are broken, their faces free of traction (Material/model = LPS). "
@@ -133,6 +138,9 @@ namespace plumbline::scene
            "Lame's first constant in the plane, instead of E and nu. [force/length^2]"},
           {"Material", "mu", "", text(),
            "The shear modulus > 0, given with lambda, which is > -mu. [force/length^2]"},
+          {"Material", "collar dilatation", "from data", one_of("from data|zero"),
+           "theta in the collar, of state-based solids on scattered nodes: from data, or zero, "
+           "which is wrong and there to show by how much."},
           {"Material", "k", "", text(),
            "lambda + mu > 0 of the variational model, instead. [force/length^2]"},
           {"Material", "l", "", text(), "8 mu > 0, given with k. [force/length^2]"},
@@ -222,8 +230,9 @@ namespace plumbline::scene
            "(conjugate gradients, refused where it is not), gmres or bicgstab (for sparse "
            "systems)."},
           {"Solver", "dilatation", "eliminated", one_of("eliminated|kept"),
-           "Of state-based solids on scattered nodes: eliminated, or kept as a third unknown of "
-           "each node, with a direct solver. Both yield the same u."},
+           "Of state-based solids on scattered nodes: eliminated, or kept as unknowns besides u, "
+           "for half the memory; amg is multigrid of the rest of the system then. Both yield the "
+           "same u."},
           {"Solver", "tolerance", "1e-12", std::make_shared<Patterns::Double>(1e-15, 1e-3),
            "Relative residual of the linear system."},
           {"Solver", "max iterations", "1000", count(1), "Most iterations."},
@@ -244,6 +253,9 @@ namespace plumbline::scene
           {"Expected", "monotone", "", text(),
            "'method[, case][, series]: yes' or 'no', whether the decisive error falls from every "
            "level to the next."},
+          {"Expected", "jitter", "", text(),
+           "'method[, case][, series]: least most', bounds of the sum of all rises of the decisive "
+           "error from a level to the next, over its first value; 0 where it falls throughout."},
           {"Expected", "stability", "", text(),
            "'method: stable', 'conditionally stable' or 'unstable', of 'plumbline stability'."},
       };

@@ -1,7 +1,6 @@
 #include "scene/problem.h"
 
 #include "base/error.h"
-#include "geometry/vertex_cells.h"
 #include "physics/load.h"
 #include "scene/material.h"
 #include "scene/mesh.h"
@@ -110,17 +109,6 @@ namespace plumbline::scene
       return theta;
     }
 
-    /// Nodes on the vertices of a lattice; the mesh is that of their cells, or one of the boxes.
-    void make_body(const Scene &scene, const Level &level, Problem &problem)
-    {
-      problem.body.emplace(scene.domain, level.h);
-      const auto vertices = geometry::vertex_cells(*problem.body, scene.fixed);
-      problem.cells = vertices.cells;
-      problem.mesh = scene.mesh.is_lattice()
-                         ? vertices.mesh
-                         : std::make_shared<const geometry::Mesh>(make_mesh(scene, level));
-      problem.coefficient = make_coefficient(scene, *problem.mesh);
-    }
   } // namespace
 
   Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level)
@@ -131,7 +119,12 @@ namespace plumbline::scene
         {},           {}, {}, {}, level.h, kernel, {}, make_dilatation(scene, level.horizon),
         n_components, {}, {}, {}, {}};
     if (scene.is_free_body)
-      make_body(scene, level, problem);
+    {
+      const geometry::VertexCells body = make_body(scene, level);
+      problem.body = body.lattice;
+      problem.cells = body.cells;
+      problem.mesh = body.mesh;
+    }
     else if (scene.mesh.is_lattice())
       problem.lattice.emplace(scene.domain, level.h);
     else
@@ -139,8 +132,9 @@ namespace plumbline::scene
       problem.mesh = std::make_shared<const geometry::Mesh>(make_mesh(scene, level));
       problem.cells =
           std::make_shared<const geometry::NodeCells>(make_node_cells(scene, level, *problem.mesh));
-      problem.coefficient = make_coefficient(scene, *problem.mesh);
     }
+    if (problem.mesh)
+      problem.coefficient = make_coefficient(scene, *problem.mesh);
     const Extent omega = problem.lattice ? extent(*problem.lattice) : extent(*problem.mesh);
     const auto expression = [&](const std::string &key, const std::string &text) {
       return Expression(key, text, {{"delta", level.horizon}});

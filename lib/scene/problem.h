@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/node_cells.h"
+#include "geometry/vertex_cells.h"
 #include "physics/chebyshev.h"
 #include "physics/coefficient.h"
 #include "physics/kernel.h"
@@ -26,8 +26,8 @@ namespace plumbline::scene
     std::optional<geometry::Lattice> lattice;
     std::shared_ptr<const geometry::Mesh> mesh;       ///< of Ω and its collar; empty on a lattice
     std::shared_ptr<const geometry::NodeCells> cells; ///< of the nodes; empty on a lattice
-    /// Of a free body on the vertices of a lattice, which mesh and cells belong to.
-    std::optional<geometry::Lattice> body;
+    /// Of a body with a free boundary: the lattice of its nodes, which `cells` number by `source`.
+    std::optional<geometry::NodeLattice> body;
     double h; ///< of the level [length]
     physics::Kernel<2> kernel;
     std::optional<physics::Coefficient> coefficient; ///< of the bonds; empty: homogeneous

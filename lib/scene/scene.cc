@@ -105,9 +105,12 @@ namespace plumbline::scene
                    "write eliminated, or Material/model = LPS");
       needs(is_scattered, kept + " is for scattered nodes, not for lattices and free bodies; write "
                                  "eliminated, or Domain/mesh = squares with a collar");
-      needs(!is_chosen && (scene.linear_solver == "automatic" || scene.linear_solver == "direct"),
-            kept + " makes a system that is solved directly; write Solver/linear solver = direct "
-                   "and Solver/iteration = automatic");
+      needs(scene.linear_solver != "jacobi",
+            kept + " makes a system that jacobi does not precondition; write Solver/linear solver "
+                   "= automatic, direct or amg");
+      needs(scene.iteration != "cg",
+            kept + " makes a system that is not symmetric, as cg needs it; write Solver/iteration "
+                   "= automatic, gmres or bicgstab");
     }
 
     Scene build(const std::string &file, dealii::ParameterHandler &parameters)
@@ -130,7 +133,9 @@ namespace plumbline::scene
         scene.collar = to_number("Domain/collar", value("Domain/collar"));
 
       scene.is_free_body = value("Domain/boundary") == "free";
-      scene.fixed = to_boxes("Domain/fixed", value("Domain/fixed"));
+      scene.is_unheld = value("Domain/fixed") == "none";
+      if (!scene.is_unheld)
+        scene.fixed = to_boxes("Domain/fixed", value("Domain/fixed"));
       scene.cracks = to_polylines("Domain/cracks", value("Domain/cracks"));
       scene.outside = value("Domain/outside");
 
@@ -150,9 +155,8 @@ namespace plumbline::scene
                                  : physics::Mean::arithmetic;
 
       scene.material = make_material(value);
-      scene.is_full_model = value("Solver/model") == "full";
-      if (scene.is_full_model && scene.mesh.is_lattice() && !scene.is_free_body)
-        scene.mesh.kind = "squares";
+      if (value("Solver/model") == "full")
+        scene = full_model(std::move(scene));
 
       scene.solutions = to_cases(value("Problem/solution"));
       if (value("Problem/load") != "manufactured")
@@ -214,6 +218,7 @@ namespace plumbline::scene
       scene.expected_rates = expected("Expected/rates");
       scene.expected_bounds = expected("Expected/bounds");
       scene.expected_monotone = expected("Expected/monotone", {"yes", "no"});
+      scene.expected_jitter = expected("Expected/jitter");
       scene.expected_stability =
           expected("Expected/stability", {"stable", "conditionally stable", "unstable"});
       scene.error_tolerance =
@@ -272,6 +277,14 @@ namespace plumbline::scene
     for (const Case &one : solutions.empty() ? loads : solutions)
       names.push_back(one.name);
     return names;
+  }
+
+  Scene full_model(Scene scene)
+  {
+    scene.is_full_model = true;
+    if (scene.mesh.is_lattice() && !scene.is_free_body)
+      scene.mesh.kind = "squares";
+    return scene;
   }
 
   bool Scene::has_dilatation() const

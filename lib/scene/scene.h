@@ -52,6 +52,7 @@ namespace plumbline::scene
     std::array<std::string, 2> keys;        ///< E and nu, lambda and mu, or k and l
     std::array<std::string, 2> expressions; ///< in x and y
     bool is_homogeneous = true;             ///< neither x nor y is in them
+    bool has_collar_dilatation = true;      ///< else θ counts as 0 there: wrong, to be shown
 
     bool is_state_based() const { return model != "bond-based"; }
 
@@ -101,6 +102,7 @@ namespace plumbline::scene
     /// The boundary is free of traction and families end there; u is given in `fixed` parts of Ω.
     bool is_free_body;
     std::vector<geometry::Box> fixed;
+    bool is_unheld = false; ///< nothing of it is fixed: it can be measured, not solved for
     /// Lines that break the bonds across them, and an expression that is positive beyond free
     /// surfaces; empty: none.
     std::vector<std::vector<dealii::Point<2>>> cracks;
@@ -114,7 +116,7 @@ namespace plumbline::scene
     std::string coefficient;     ///< an expression; empty: homogeneous, or by materials
     std::vector<Case> materials; ///< a coefficient for each group of the mesh, or empty
     Material material;
-    bool is_full_model; ///< nothing is left out, to show that what is left out is not missed
+    bool is_full_model = false; ///< see full_model()
     bool is_homogeneous() const
     {
       return coefficient.empty() && materials.empty() && material.is_homogeneous;
@@ -167,6 +169,7 @@ namespace plumbline::scene
 
     std::vector<Expected> expected_verdicts, expected_errors, expected_rates, expected_bounds;
     std::vector<Expected> expected_monotone;  ///< verdicts: yes or no
+    std::vector<Expected> expected_jitter;    ///< values: least, most
     std::vector<Expected> expected_stability; ///< of `plumbline stability`
     double error_tolerance, rate_tolerance;
 
@@ -175,6 +178,9 @@ namespace plumbline::scene
 
     physics::Kernel<2> kernel(double horizon) const;
   };
+
+  /// The same scene with nothing left out, to show that what is left out is not missed.
+  Scene full_model(Scene scene);
 
   /// Section/key = value, given on the command line after the file was read.
   struct Override

@@ -296,10 +296,11 @@ namespace plumbline::study
     {
       std::array<std::size_t, 2> block{};
       for (unsigned int d = 0; d < 2; ++d)
-        // nodes on the upper boundary belong to the last block
-        block[d] = std::min<std::size_t>(
-            static_cast<std::size_t>((x[d] - map.lower[d]) / (map.h * per_block) + 1e-9),
-            (d == 0 ? map.n_x : map.n_y) - 1);
+        // nodes on the boundary, or beyond it, belong to the last or first block
+        block[d] =
+            std::min<std::size_t>(static_cast<std::size_t>(std::max(
+                                      0., (x[d] - map.lower[d]) / (map.h * per_block) + 1e-9)),
+                                  (d == 0 ? map.n_x : map.n_y) - 1);
       double &value = map.values[block[1] * map.n_x + block[0]];
       value = std::fmax(value, std::abs(difference)); // takes the number where it is still NaN
     };

@@ -221,6 +221,20 @@ namespace plumbline::study
             const std::string found = trend.values.size() < 2 ? "one level" : falls ? "yes" : "no";
             return Expectation{"", expected.verdict, found, found == expected.verdict};
           });
+      check_all(scene.expected_jitter, results, "rises of the error over its first value",
+                [](const scene::Expected &expected, const Trend &trend)
+                {
+                  double rises = 0;
+                  for (std::size_t i = 1; i < trend.values.size(); ++i)
+                    rises += std::max(0., trend.values[i] - trend.values[i - 1]);
+                  if (!trend.values.empty())
+                    rises /= trend.values.front();
+                  const bool is_range = expected.values.size() == 2;
+                  return Expectation{
+                      "", is_range ? join(expected.values) : "least and most", number(rises),
+                      is_range && trend.values.size() > 1 && expected.values[0] <= rises &&
+                          rises <= expected.values[1]};
+                });
     }
 
     /// The cheapest run of methods that converge with an error of at most a target, or nullptr.

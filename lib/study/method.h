@@ -52,6 +52,9 @@ namespace plumbline::study
     virtual std::string family() const = 0; ///< "meshfree", "reference" or "local"
     virtual std::string help() const = 0;
 
+    /// Whether Methods/names = all takes it: not where it is there to show how it fails.
+    virtual bool is_in_all() const { return true; }
+
     /// Empty if the method can do the scene, else the reason.
     /// @param problem  of any case and level
     virtual std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const = 0;

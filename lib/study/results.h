@@ -17,15 +17,15 @@ namespace plumbline::study
     double smallest_weight_ratio = 1; ///< min over a family of weight / (ball ∩ cell area or cell)
     unsigned int n_negative_weights = 0;     ///< in the family of a lattice, or in all families
     unsigned int n_conditions = 0, rank = 0; ///< moments asked of the family of lowest rank
-    double smallest_pivot = 1;               ///< of such conditions, see meshfree::Fit
-    double relative_residual = 0;            ///< of the linear system when the solver stopped
-    std::string operator_road;               ///< "fft", "direct", "sparse" or "sparse, <solver>"
-    unsigned int n_geometry_checks = 0;      ///< cut cells recomputed with the exact backend
-    double geometry_difference = 0;          ///< worst difference among them, relative to the cell
-    double outer_change = 0;          ///< L2, relative: the last refinement of outer quadrature
-    bool is_outer_error_known = true; ///< false: outer quadrature was not refined
-    unsigned int n_refinements = 0;   ///< of outer quadrature
-    std::vector<std::string> notes;   ///< what the method had to do, e.g. clip a negative kernel
+    double smallest_singular_value = 1; ///< of such conditions, least of all, see meshfree::Fit
+    double relative_residual = 0;       ///< of the linear system when the solver stopped
+    std::string operator_road;          ///< "fft", "direct", "sparse" or "sparse, <solver>"
+    unsigned int n_geometry_checks = 0; ///< cut cells recomputed with the exact backend
+    double geometry_difference = 0;     ///< worst difference among them, relative to the cell
+    double outer_change = 0;            ///< L2, relative: the last refinement of outer quadrature
+    bool is_outer_error_known = true;   ///< false: outer quadrature was not refined
+    unsigned int n_refinements = 0;     ///< of outer quadrature
+    std::vector<std::string> notes;     ///< what the method had to do, e.g. clip a negative kernel
   };
 
   /// One method on one case at one level.
@@ -91,6 +91,15 @@ namespace plumbline::study
     std::string what, why, saving;
   };
 
+  /// One level solved by the full model too.
+  struct Saving
+  {
+    std::string method;
+    double h = 0, horizon = 0; ///< [length]
+    base::Cost smallest, full;
+    double difference = 0; ///< of nodal values, relative to the largest
+  };
+
   /// One line of the scene's Expected section.
   struct Expectation
   {
@@ -134,10 +143,12 @@ namespace plumbline::study
     std::map<std::string, std::string> provenance; ///< version, libraries, machine
     std::string decisive_error;                    ///< the "norm | target" that verdicts rest on
     std::vector<Run> runs;
+    std::vector<std::string> left_out; ///< solves that the budget did not allow
     std::vector<Trend> trends;
     std::vector<ErrorEstimate> references; ///< of the scene's reference
     std::vector<ErrorEstimate> estimates;  ///< of other Galerkin solutions
     std::vector<Omission> omissions;
+    std::vector<Saving> savings; ///< at the coarsest level, of the first method of each side
     std::vector<Expectation> expectations;
     std::vector<Advice> advice;
     std::vector<ErrorMap> maps;

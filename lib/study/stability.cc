@@ -140,6 +140,24 @@ namespace plumbline::study
       return norm;
     }
 
+    /// Of M⁻¹A, by the ends of the symmetric part's spectrum where that tells them.
+    algebra::Eigenvalues eigenvalues_of(Rows rows, const Values &mass, const Stability &known)
+    {
+      if (known.is_symmetric() && known.smallest >= -1e-10 * known.largest)
+        return {known.smallest, std::abs(known.smallest), known.largest, 0, 2};
+      for (std::size_t i = 0; i < rows.n_rows(); ++i)
+        for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+          rows.value[k] /= mass[i];
+      try
+      {
+        return known.has_signs ? algebra::eigenvalues(rows) : algebra::Eigenvalues();
+      }
+      catch (const NumericalError &)
+      {
+        return {}; // they do not settle: not known
+      }
+    }
+
     double binomial(int n, int k)
     {
       return k == 0 ? 1 : binomial(n - 1, k - 1) * n / k;
@@ -166,24 +184,27 @@ namespace plumbline::study
     const auto spectrum = algebra::spectrum(symmetric_part(matrix), matrix.size());
     result.smallest = spectrum.smallest;
     result.largest = spectrum.largest;
-    result.n_zero = spectrum.n_zero;
-    result.mode = spectrum.lowest_mode;
+    result.n_zero = static_cast<unsigned int>(spectrum.zero_modes.size());
+    result.modes = {matrix.n_components, matrix.nodes, spectrum.zero_modes};
+    if (result.n_zero == 0)
+      result.modes.values = {spectrum.lowest_mode};
     const Values mass = masses(matrix);
-    for (std::size_t i = 0; i < mass.size(); ++i)
-      result.mode[i] /= std::sqrt(mass[i]);
+    for (Values &mode : result.modes.values)
+      for (std::size_t i = 0; i < mass.size(); ++i)
+        mode[i] /= std::sqrt(mass[i]);
 
     const Rows rows = rows_of(matrix);
     result.has_signs = rows.n_rows() > 0;
-    if (!result.has_signs)
-      return result;
-    constexpr double rounding = 1e-12;
-    result.signs = algebra::check_signs(rows);
-    result.is_norm_exact = result.signs.is_m_matrix();
-    if (result.is_definite())
+    if (result.has_signs)
+    {
+      result.signs = algebra::check_signs(rows);
+      result.is_norm_exact = result.signs.is_m_matrix();
+    }
+    result.eigenvalues = eigenvalues_of(rows, mass, result);
+    if (result.has_signs && result.is_definite())
       try
       {
-        result.inverse_norm =
-            inverse_norm(rows, mass, result.is_norm_exact, result.signs.asymmetry < rounding);
+        result.inverse_norm = inverse_norm(rows, mass, result.is_norm_exact, result.is_symmetric());
       }
       catch (const NumericalError &)
       {

@@ -1,9 +1,18 @@
 #pragma once
 
+#include "algebra/eigenvalues.h"
 #include "study/method.h"
 
 namespace plumbline::study
 {
+  /// Fields of a discrete operator.
+  struct Modes
+  {
+    unsigned int n_components = 1;
+    std::vector<dealii::Point<2>> nodes;
+    std::vector<std::vector<double>> values; ///< of each, shape (n_nodes, n_components)
+  };
+
   /// How stable a discrete operator A is, in the discrete L2 inner product (u, v) = Σ m_i u_i v_i;
   /// eigenvalues are those of M^(-1/2) A M^(-1/2) [unit of the operator: b / u].
   struct Stability
@@ -11,13 +20,24 @@ namespace plumbline::study
     std::size_t n_unknowns = 0;
     double smallest = 0; ///< eigenvalue of the symmetric part: the coercivity constant
     double largest = 0;
-    unsigned int n_zero = 0;  ///< zero-energy modes
-    std::vector<double> mode; ///< of the smallest eigenvalue, shape (n_nodes, n_components)
+    unsigned int n_zero = 0; ///< zero-energy modes, up to algebra::most_zero_modes
+    Modes modes;             ///< those, or else the one of the smallest eigenvalue
+    /// Of M⁻¹A itself, which differ from those of the symmetric part where A is not symmetric;
+    /// n_computed = 0: not known.
+    algebra::Eigenvalues eigenvalues;
     bool has_signs = false;   ///< rows are there, so that `signs` is known
     algebra::SignCheck signs; ///< of A
     double inverse_norm = 0; ///< ‖A⁻¹M‖∞: how far u moves at most by b of size 1; 0: not known
     bool is_norm_exact = false; ///< else it is a lower bound, near it as a rule
     Diagnostics diagnostics;    ///< weights, moments
+
+    /// "3", or "12 or more".
+    std::string zero_modes() const
+    {
+      return std::to_string(n_zero) + (n_zero < algebra::most_zero_modes ? "" : " or more");
+    }
+
+    bool is_symmetric() const { return !has_signs || signs.asymmetry < 1e-12; }
 
     /// Positive definite, the eigenvalues being known up to 1e-10 of the largest.
     bool is_definite() const { return smallest > 1e-10 * largest; }
@@ -27,7 +47,8 @@ namespace plumbline::study
   /// estimator on A⁻ᵀ, a lower bound. Where only A's action is there, rows are made of it up to
   /// 1500 unknowns. Source: Hager 1984, doi:10.1137/0905023; Higham 1988, doi:10.1145/50063.214386.
   /// @throws NumericalError  eigenvalues do not settle
-  /// Cost: `algebra::spectrum`, and up to 10 solves.
+  /// Cost: `algebra::spectrum`, up to 10 solves, and `algebra::eigenvalues` where A is not
+  /// symmetric.
   Stability measure(const DiscreteOperator &matrix);
 
   /// What theory asks of an operator.
@@ -50,14 +71,28 @@ namespace plumbline::study
   /// One method at one level of a scene.
   struct StabilityRow
   {
-    std::string method, series;
-    double h = 0, horizon = 0; ///< [length]
+    std::string method, family, series; ///< family: "meshfree", "reference" or "local"
+    double h = 0, horizon = 0;          ///< [length]
     Stability stability;
     Consistency consistency;
     std::string failure; ///< empty, or why there is no operator
 
     double m() const { return horizon / h; }
   };
+
+  /// How the measures of one method vary over one series: the powers of `parameter` at the finest
+  /// three levels. Not a number: fewer levels have the measure, or their sizes are within a
+  /// factor 2.
+  struct StabilityTrend
+  {
+    std::string method, series;
+    std::string parameter; ///< "h", or "horizon" where h is fixed
+    double smallest, largest, inverse_norm;
+  };
+
+  /// One for each method and series, as they stand in the rows.
+  /// @param rows  coarse to fine in each series
+  std::vector<StabilityTrend> stability_trends(const std::vector<StabilityRow> &rows);
 
   /// What the levels of one method say together.
   struct StabilityVerdict
@@ -75,4 +110,13 @@ namespace plumbline::study
   /// from others, or all are sound. Else unstable.
   /// @param rows  of one method, series by series, coarse to fine
   StabilityVerdict judge(const std::vector<StabilityRow> &rows);
+
+  /// All that is measured of a scene.
+  struct StabilityResults
+  {
+    std::string scene_name, purpose;
+    std::vector<StabilityRow> rows; ///< method by method, coarse to fine in each series
+    std::vector<StabilityTrend> trends;
+    std::vector<StabilityVerdict> verdicts;
+  };
 } // namespace plumbline::study

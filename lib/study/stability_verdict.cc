@@ -60,7 +60,7 @@ namespace plumbline::study
         return row.failure;
       const Stability &s = row.stability;
       if (s.n_zero > 0)
-        return std::to_string(s.n_zero) + " zero-energy modes";
+        return s.zero_modes() + " zero-energy modes";
       if (!s.is_definite())
         return "the symmetric part is not positive definite, smallest eigenvalue " +
                number(s.smallest) + " of " + number(s.largest);
@@ -82,28 +82,51 @@ namespace plumbline::study
       return {};
     }
 
-    /// The power of h, or of the horizon, with which the coercivity constant falls at the finest
-    /// three levels of a series; 0 if there are fewer.
-    double decay(const std::vector<StabilityRow> &rows, const std::string &series)
+    /// The slope of log y over log x at the finest three levels that have a value.
+    double power(const std::vector<double> &x, const std::vector<double> &y)
     {
       constexpr std::size_t n_levels = 3;
       constexpr double least_ratio = 2; // between sizes, for a trend
-      std::vector<double> h, horizon, smallest;
-      for (const StabilityRow &row : rows)
-        if (row.series == series && is_sound(row))
+      std::vector<double> last_x, last_y;
+      for (std::size_t i = x.size(); i-- > 0 && last_x.size() < n_levels;)
+        if (y[i] > 0)
         {
-          h.push_back(row.h);
-          horizon.push_back(row.horizon);
-          smallest.push_back(row.stability.smallest);
+          last_x.insert(last_x.begin(), x[i]);
+          last_y.insert(last_y.begin(), y[i]);
         }
-      std::vector<double> &x = h.empty() || h.front() == h.back() ? horizon : h;
-      if (x.size() < n_levels || x[x.size() - n_levels] < least_ratio * x.back())
-        return 0;
-      const auto last = [](const std::vector<double> &values)
-      { return std::vector<double>(values.end() - n_levels, values.end()); };
-      return fit_slope(last(x), last(smallest)).value;
+      if (last_x.size() < n_levels || last_x.front() < least_ratio * last_x.back())
+        return std::numeric_limits<double>::quiet_NaN();
+      return fit_slope(last_x, last_y).value;
     }
   } // namespace
+
+  std::vector<StabilityTrend> stability_trends(const std::vector<StabilityRow> &rows)
+  {
+    std::vector<StabilityTrend> trends;
+    for (const StabilityRow &first : rows)
+    {
+      if (std::any_of(trends.begin(), trends.end(),
+                      [&](const StabilityTrend &t)
+                      { return t.method == first.method && t.series == first.series; }))
+        continue;
+      std::vector<double> h, horizon, smallest, largest, inverse_norm;
+      for (const StabilityRow &row : rows)
+        if (row.method == first.method && row.series == first.series)
+        {
+          const Stability &s = row.stability; // all 0 where there is no operator
+          h.push_back(row.h);
+          horizon.push_back(row.horizon);
+          smallest.push_back(is_sound(row) ? s.smallest : 0);
+          largest.push_back(s.largest);
+          inverse_norm.push_back(s.inverse_norm);
+        }
+      const bool is_horizon = h.front() == h.back();
+      const auto &x = is_horizon ? horizon : h;
+      trends.push_back({first.method, first.series, is_horizon ? "horizon" : "h",
+                        power(x, smallest), power(x, largest), power(x, inverse_norm)});
+    }
+    return trends;
+  }
 
   StabilityVerdict judge(const std::vector<StabilityRow> &rows)
   {
@@ -111,20 +134,19 @@ namespace plumbline::study
     StabilityVerdict result{rows.front().method, "unstable", "", ""};
     const auto first_not = [&](const auto &is)
     { return std::find_if_not(rows.begin(), rows.end(), is); };
-    const StabilityRow *lowest = nullptr;
-    for (const StabilityRow &row : rows)
-    {
-      if (const double power = decay(rows, row.series); power > most_decay)
+    for (const StabilityTrend &trend : stability_trends(rows))
+      if (trend.smallest > most_decay)
       {
-        result.explanation = "the coercivity constant falls like the mesh size or horizon to the "
-                             "power " +
-                             number(power) + " in series " + row.series;
+        result.explanation = "the coercivity constant falls like " + trend.parameter +
+                             " to the power " + number(trend.smallest) + " in series " +
+                             trend.series;
         return result;
       }
+    const StabilityRow *lowest = nullptr;
+    for (const StabilityRow &row : rows)
       if (is_sound(row) &&
           (lowest == nullptr || row.stability.smallest < lowest->stability.smallest))
         lowest = &row;
-    }
     if (lowest == nullptr)
     {
       result.explanation = "no level is sound: " + defect(rows.back());

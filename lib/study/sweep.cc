@@ -2,32 +2,21 @@
 
 #include "base/error.h"
 #include "base/team.h"
-#include "scene/mesh.h"
 #include "study/comparison.h"
 #include "study/conclusions.h"
+#include "study/preflight.h"
 #include "study/reference_estimate.h"
+#include "study/saving.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace plumbline::study
 {
   namespace
   {
-    std::shared_ptr<const Method> find_method(const Methods &available, const std::string &name,
-                                              const std::string &key)
-    {
-      std::string names;
-      for (const auto &method : available)
-      {
-        if (method->name() == name)
-          return method;
-        names += (names.empty() ? "" : ", ") + method->name();
-      }
-      throw InputError(key + ": method '" + name + "' is not known; choose of " + names);
-    }
-
     const char *regime_name(scene::Regime regime)
     {
       switch (regime)
@@ -93,17 +82,66 @@ namespace plumbline::study
         return control_.n_levels == 0 ? n : std::min(n, control_.n_levels);
       }
 
+      const Run *find_run(const Method &method, const std::string &name,
+                          const scene::Series &series, unsigned int level) const
+      {
+        for (const Run &run : results_.runs)
+          if (is_same_run(run, method.name(), name, series.name, level))
+            return &run;
+        return nullptr;
+      }
+
+      /// What this level is expected to cost, from the two before it [CPU s]; nothing if the one
+      /// before was left out itself.
+      std::optional<double> expected_seconds(const Method &method, const std::string &name,
+                                             const scene::Series &series, unsigned int level) const
+      {
+        constexpr double usual_growth = 4; // unknowns, as h halves
+        if (level == 0)
+          return 0;
+        const Run *last = find_run(method, name, series, level - 1);
+        if (last == nullptr)
+          return {};
+        const Run *before = level < 2 ? nullptr : find_run(method, name, series, level - 2);
+        const double growth = before == nullptr || before->cost.seconds() == 0
+                                  ? usual_growth
+                                  : last->cost.seconds() / before->cost.seconds();
+        return growth * last->cost.seconds();
+      }
+
+      /// Methods that the budget allows at this level.
+      Methods affordable(const std::string &name, const scene::Series &series, unsigned int level)
+      {
+        Methods result;
+        for (const auto &method : methods_)
+          if (const auto seconds = expected_seconds(*method, name, series, level);
+              control_.budget == 0 || (seconds && *seconds <= control_.budget))
+            result.push_back(method);
+          else
+          {
+            std::ostringstream what;
+            what << method->name() << ", " << name << ", " << series.name
+                 << ", h = " << series.levels[level].h;
+            if (seconds)
+              what << ": some " << *seconds << " CPU s";
+            results_.left_out.push_back(what.str());
+          }
+        return result;
+      }
+
       /// Take over what an earlier run of the same scene has for this level.
-      bool take_earlier(const std::string &name, const scene::Series &series, unsigned int level)
+      bool take_earlier(const Methods &due, const std::string &name, const scene::Series &series,
+                        unsigned int level)
       {
         std::vector<Run> known;
-        for (const auto &method : methods_)
+        for (const auto &method : due)
           for (const Run &run : earlier_.runs)
             if (is_same_run(run, method->name(), name, series.name, level))
               known.push_back(run);
-        if (known.size() != methods_.size())
+        if (known.size() != due.size())
           return false;
         results_.runs.insert(results_.runs.end(), known.begin(), known.end());
+        results_.savings = earlier_.savings; // of the first level, which is known then
         for (const ErrorMap &map : earlier_.maps)
           if (map.problem == name && map.series == series.name && level + 1 == n_levels(series))
             results_.maps.push_back(map);
@@ -119,7 +157,8 @@ namespace plumbline::study
       void run_level(unsigned int case_index, const std::string &name, const scene::Series &series,
                      unsigned int level, std::size_t n_done, std::size_t n_all)
       {
-        if (take_earlier(name, series, level))
+        const Methods due = affordable(name, series, level);
+        if (take_earlier(due, name, series, level))
           return;
         const scene::Level &sizes = series.levels[level];
         if (control_.on_progress)
@@ -138,7 +177,7 @@ namespace plumbline::study
         }
         if (scene_.local_solution == "computed")
           targets.local = local_averages(problem);
-        for (const auto &method : methods_)
+        for (const auto &method : due)
         {
           if (control_.should_stop && control_.should_stop())
           {
@@ -172,6 +211,17 @@ namespace plumbline::study
                                                scene_.reference == "none" && !problem.solution));
       }
 
+      /// At the first level that is run, for the first method of each side, where it is cheap.
+      bool is_saving_due(const Method &method, const Run &run) const
+      {
+        constexpr std::uint64_t most_bonds = 100000;
+        return run.problem == scene_.case_names().front() &&
+               run.series == scene_.series.front().name && run.level == 0 &&
+               run.cost.n_bonds <= most_bonds && has_fuller_model(scene_) &&
+               std::none_of(results_.runs.begin(), results_.runs.end(),
+                            [&](const Run &other) { return other.family == method.family(); });
+      }
+
       void run_method(const Method &method, unsigned int case_index, const std::string &name,
                       const scene::Series &series, unsigned int level,
                       const scene::Problem &problem, const Targets &targets)
@@ -199,6 +249,10 @@ namespace plumbline::study
             results_.estimates.push_back(
                 placed(estimate_error(scene_, problem, case_index, method, solution, true), name,
                        series, level));
+          if (is_saving_due(method, run))
+            if (const auto saving =
+                    measure_saving(scene_, case_index, series.levels[level], method, solution))
+              results_.savings.push_back(*saving);
           if (level + 1 == n_levels(series))
             finish_series(solution, run, problem,
                           targets.reference.empty() ? targets.local : targets.reference);
@@ -263,146 +317,6 @@ namespace plumbline::study
       bool is_stopped_ = false;
     };
   } // namespace
-
-  Methods choose_methods(const scene::Scene &scene, const Methods &available)
-  {
-    const scene::Problem problem = make_problem(scene, 0, scene.series.front().levels.front());
-    Methods chosen;
-    const auto add = [&](const std::shared_ptr<const Method> &method)
-    {
-      if (std::find(chosen.begin(), chosen.end(), method) == chosen.end())
-        chosen.push_back(method);
-    };
-    for (const std::string &name : scene.methods)
-      if (name == "all")
-      {
-        for (const auto &method : available)
-          if (method->why_not(scene, problem).empty())
-            add(method);
-      }
-      else
-      {
-        const auto method = find_method(available, name, "Methods/names");
-        add(method);
-        if (const std::string reason = method->why_not(scene, problem); !reason.empty())
-          throw InputError("Methods/names: '" + name + "' cannot do this scene: " + reason);
-      }
-    if (scene.reference != "none")
-    {
-      const auto reference = find_method(available, scene.reference, "Reference/method");
-      if (reference->family() != "reference")
-        throw InputError("Reference/method: '" + scene.reference +
-                         "' is no Galerkin method, so nothing is known of its error; choose Q2, P2 "
-                         "or another ('plumbline list methods')");
-      if (const std::string reason = reference->why_not(scene, problem); !reason.empty())
-        throw InputError("Reference/method: '" + scene.reference +
-                         "' cannot do this scene: " + reason);
-    }
-    for (const auto *list :
-         {&scene.expected_verdicts, &scene.expected_errors, &scene.expected_rates,
-          &scene.expected_bounds, &scene.expected_monotone, &scene.expected_stability})
-      for (const scene::Expected &expected : *list)
-        (void)find_method(available, expected.method, "Expected");
-    return chosen;
-  }
-
-  namespace
-  {
-    /// The constraint is finite around Ω and the load in it, on a grid of samples.
-    void check_lattice_data(const scene::Problem &problem)
-    {
-      constexpr int n_samples = 24;
-      const geometry::Lattice &lattice = *problem.lattice;
-      const auto &n = lattice.n_cells();
-      const double margin = problem.horizon() / problem.h + 1;
-      for (int j = 0; j <= n_samples; ++j)
-        for (int i = 0; i <= n_samples; ++i)
-        {
-          const double s = -margin + i * (n[0] + 2 * margin) / n_samples;
-          const double t = -margin + j * (n[1] + 2 * margin) / n_samples;
-          const bool is_inside =
-              lattice.is_inside(static_cast<int>(std::floor(s)), static_cast<int>(std::floor(t)));
-          for (unsigned int component = 0; component < problem.n_components; ++component)
-          {
-            (void)problem.constraint.value(lattice.point(s, t), component);
-            if (is_inside)
-              (void)problem.load.value(lattice.point(s, t), component);
-          }
-        }
-    }
-
-    /// The same at nodes of a mesh problem.
-    void check_node_data(const scene::Problem &problem)
-    {
-      constexpr std::size_t n_samples = 600;
-      const auto &cells = *problem.cells;
-      const std::size_t step = std::max<std::size_t>(1, cells.size() / n_samples);
-      for (std::size_t i = 0; i < cells.size(); i += step)
-        for (unsigned int component = 0; component < problem.n_components; ++component)
-        {
-          const auto &field = i < cells.n_free ? problem.load : problem.constraint;
-          (void)field.value(cells.nodes[i], component);
-          if (problem.coefficient)
-            (void)problem.coefficient->at(cells.nodes[i]);
-        }
-    }
-  } // namespace
-
-  namespace
-  {
-    /// Meshes and nodes of all levels can be used, and differ where h does.
-    void check_meshes(const scene::Scene &scene)
-    {
-      for (const auto &series : scene.series)
-      {
-        std::size_t before = 0;
-        for (std::size_t i = 0; i < series.levels.size(); ++i)
-        {
-          const scene::Level &level = series.levels[i];
-          std::ostringstream where;
-          where << "level h = " << level.h << ", horizon = " << level.horizon << ": ";
-          try
-          {
-            const geometry::Mesh mesh = make_mesh(scene, level);
-            (void)make_node_cells(scene, level, mesh);
-            const std::size_t n_cells = static_cast<std::size_t>(
-                std::count_if(mesh.cells.begin(), mesh.cells.end(),
-                              [](const geometry::MeshCell &cell) { return cell.is_inside; }));
-            if (n_cells == before && level.h != series.levels[i - 1].h)
-              throw InputError("Domain/mesh = " + scene.mesh.kind + " has the " +
-                               std::to_string(n_cells) +
-                               " cells of the level before, so that rates would mean nothing; give "
-                               "a mesh that follows h, or a single value of Study/h");
-            before = n_cells;
-          }
-          catch (const InputError &error)
-          {
-            throw InputError(where.str() + error.what());
-          }
-        }
-      }
-    }
-  } // namespace
-
-  void check_data(const scene::Scene &scene)
-  {
-    if (!scene.mesh.is_lattice())
-      check_meshes(scene);
-    const auto names = scene.case_names();
-    for (unsigned int c = 0; c < names.size(); ++c)
-      for (const auto &series : scene.series)
-      {
-        const scene::Level &level =
-            *std::max_element(series.levels.begin(), series.levels.end(),
-                              [](const scene::Level &a, const scene::Level &b)
-                              { return a.horizon + a.h < b.horizon + b.h; });
-        const scene::Problem problem = make_problem(scene, c, level);
-        if (problem.lattice)
-          check_lattice_data(problem);
-        else
-          check_node_data(problem);
-      }
-  }
 
   Results run_sweep(const scene::Scene &scene, const Methods &methods, const Methods &available,
                     const SweepControl &control, const Results &earlier)

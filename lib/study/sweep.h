@@ -10,21 +10,15 @@ namespace plumbline::study
   struct SweepControl
   {
     unsigned int n_levels = 0; ///< take the first so many levels only; 0: all
+    /// Leave out solves that are expected to take longer [CPU s], by how the two levels before
+    /// grew; 0: none.
+    double budget = 0;
     std::function<void(const std::string &what, double fraction)> on_progress;
     std::function<void(const Results &)> on_result; ///< after each solve, to store what is finished
     std::function<bool()> should_stop;              ///< asked before each solve
     std::function<void(const Solution &, const Run &)>
         on_finest; ///< solutions of the finest levels
   };
-
-  /// The methods that a scene names, in order; "all" gives those that can do it.
-  /// @throws InputError  unknown name, or a named method that cannot do the scene, with the reason
-  Methods choose_methods(const scene::Scene &scene, const Methods &available);
-
-  /// Check that expressions are finite in Ω and its collar on a grid of samples: for all cases and
-  /// series, at the level whose ball reaches farthest.
-  /// @throws InputError  naming key and place
-  void check_data(const scene::Scene &scene);
 
   /// Run all methods over all cases, series and levels; hold them against exact solution, local
   /// limit and reference; judge.

@@ -124,7 +124,14 @@ TEST_F(BadSolids, cracks_that_cannot_be_used_are_refused)
   const std::string good = cracks("0.5, 0.5 : 0.7, 0.5"), above = set("Domain/outside", "y - 1");
   expect_refusals(
       {{cracks("0.375, 0.2 : 0.375, 0.9"),
-        {"crack 0 goes through node", "at (0.375 0.375)", "move the crack"}},
+        {"level h = 0.25", "Domain/cracks: crack 0 goes through node", "at (0.375 0.375)",
+         "on its way from (0.375 0.2) to (0.375 0.9)", "move the crack"}},
+       // between the nodes of the first level, through one of the second
+       {cracks("0.5, 0.4 : 0.5, 0.9; 0.1, 0.3125 : 0.8, 0.3125") + set("Study/h", "0.25, 0.125"),
+        {"level h = 0.125, horizon = 0.25: Domain/cracks: crack 1 goes through node",
+         "0.3125) on its way from (0.1 0.3125) to (0.8 0.3125)", "move the crack"}},
+       {set("Domain/outside", "delta < 0.3 ? y - 0.5 : y - 1") + set("Study/h", "0.25, 0.125"),
+        {"level h = 0.125", "Domain/outside: node", "lies in the domain and is a ghost"}},
        {cracks("0.4, 0.4 : 0.4, 0.4"), {"crack 0 has its points 0 and 1 in one place", "take one"}},
        {cracks("0.4, 0.4"), {"Domain/cracks"}},
        {cracks("0.25, 0.25 : 0.5, 0.25 : 0.5, 0.5 : 0.25, 0.5 : 0.25, 0.25"),
@@ -178,9 +185,9 @@ TEST_F(BadBodies, what_bodies_cannot_do_is_refused)
        {"--methods LOCAL" + std::string(" ") + set("Study/regime", "delta"),
         {"'LOCAL' cannot do", "write Domain/boundary = constrained"}},
        {set("Reference/method", "P1"), {"Reference/method: 'P1' cannot", "take Q1"}},
-       {set("Domain/mesh", "hyper_cube") + set("Domain/inside", "1"),
-        {"Domain/boundary = free needs one box", "Domain/mesh = lattice, squares or triangles"}},
-       {set("Domain/mesh", "squares") + set("Domain/map", "x, y"), {"free needs one box"}},
+       {set("Domain/boxes", "0, 0 : 1, 0.5; 0, 0 : 0.5, 1"),
+        {"Domain/boundary = free needs one box", "write squares or triangles for several boxes, a "
+                                                 ".geo or .msh file for any other shape"}},
        {set("Domain/holes", "0.5, 0.25 : 0.75, 0.5"),
         {"free needs one box (Domain/boxes) without"}},
        {set("Problem/solution", "x, y"), {"free needs Problem/load and", "Problem/solution empty"}},
@@ -188,4 +195,47 @@ TEST_F(BadBodies, what_bodies_cannot_do_is_refused)
        {set("Domain/cracks", "0.5, 0.1 : 0.5, 0.2"), {"need Material/model = LPS"}},
        {set("Domain/mesh", "squares") + set("Problem/local solution", "computed"),
         {"Problem/local solution = computed needs u all around", "write none"}}});
+}
+
+TEST_F(BadBodies, meshes_that_are_no_body_are_refused)
+{
+  const std::string corners = "Point(1) = {0, 0, 0, .2}; Point(2) = {1, 0, 0, .2};"
+                              "Point(3) = {1, .5, 0, .2}; Point(4) = {0, .5, 0, .2};",
+                    square = corners + "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4};"
+                                       "Line(4) = {4, 1}; Curve Loop(1) = {1:4};"
+                                       "Plane Surface(1) = {1};\n",
+                    crossed = corners + "Line(1) = {1, 2}; Line(2) = {2, 4}; Line(3) = {4, 3};"
+                                        "Line(4) = {3, 1}; Curve Loop(1) = {1:4};"
+                                        "Plane Surface(1) = {1};\n",
+                    omega = "Physical Surface(\"omega\") = {1};\n";
+  write("body.geo", square + omega);
+  write("nameless.geo", square);
+  write("collar.geo", square + "Physical Surface(\"collar\") = {1};\n");
+  write("crossed.geo", crossed + omega);
+  const auto mesh = [](const std::string &name)
+  { return set("Domain/mesh", name) + "--methods FA "; };
+  const std::string no_reference = set("Reference/method", "DGP0");
+  expect_refusals(
+      {{mesh("nowhere.geo") + no_reference, {"nowhere.geo' cannot be read", "check its name"}},
+       {mesh("nameless.geo") + no_reference,
+        {"has the physical surfaces (none)", "begin with 'omega', at least one and no others"}},
+       {mesh("collar.geo") + no_reference,
+        {"has the physical surfaces 'collar'", "a body with a free boundary has no collar"}},
+       {mesh("crossed.geo") + no_reference, {"crossed.geo' is refused by gmsh", "mend the file"}},
+       {mesh("body.geo") + no_reference + set("Domain/fixed", "-1, -1 : 2, 2"),
+        {"the fixed part covers all of the body"}},
+       {mesh("body.geo") + no_reference + set("Domain/fixed", "0, 0.6 : 1, 1"),
+        {"nothing of the body is fixed", "fix a part (Domain/fixed)"}},
+       {mesh("body.geo") + no_reference + set("Domain/fixed", "0, 0 : 0.2, 1; 0, 0.6 : 1, 1"),
+        {"the fixed box 0, 0.6 : 1, 1 lies beside the body", "(Domain/fixed)"}},
+       {mesh("body.geo") + no_reference + set("Domain/fixed", "0, 0 : 0.02, 0.02"),
+        {"Reference/method: 'DGP0' cannot", "no cell of Domain/mesh = body.geo has its centroid in "
+                                            "Domain/fixed"}},
+       {mesh("body.geo") + no_reference + set("Material/k", "1.04 - x") +
+            set("Study/h", "0.25, 0.15"),
+        {"level h = 0.15", "Material/k and l at (1.05",
+         "the bulk constant k = -0.01, but it must be positive"}},
+       {mesh("body.geo"), {"'DGQ0' cannot do", "are not all quadrilaterals; take DGP0"}}});
+  const auto outcomes = run({{mesh("body.geo") + no_reference, {}}});
+  EXPECT_EQ(outcomes[0].exit_code, 0) << outcomes[0].err;
 }

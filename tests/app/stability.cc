@@ -27,9 +27,12 @@ TEST(StabilityCommand, says_and_writes_where_a_rule_breaks)
       run("stability " + scene("too_few_neighbours") + " --levels 1 --check -o " + folder.string());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_found(outcome.out, "OPT        conditionally stable  m >= 2.24");
+  expect_found(outcome.out, "IPA-AC-R2  stable");
   expect_found(read(folder / "stability.md"), "| 12/18 |");
   expect_found(read(folder / "stability.json"), "\"verdict\": \"conditionally stable\"");
-  EXPECT_TRUE(fs::exists(folder / "modes/IPA_AC_R2_m___3.vtu"));
+  EXPECT_TRUE(fs::exists(folder / "stability/ipa-ac-r2_m-3.vtu"));
+  EXPECT_TRUE(fs::exists(folder / "stability/lowest-modes_m-3.svg"));
+  expect_found(read(folder / "stability.html"), "m &gt;= 2.24");
 }
 
 TEST(StabilityCommand, fails_with_1_when_a_verdict_is_not_as_expected)

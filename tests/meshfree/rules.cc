@@ -197,6 +197,26 @@ TEST(Recalibrated, tensor_weights_meet_the_moments_and_stay_positive_for_every_r
   EXPECT_GT(smallest, .8);
 }
 
+// 5.15: where an independent prototype found weights down to -203 areas
+TEST(Recalibrated, tensors_at_the_centroid_meet_their_moments_by_negative_weights)
+{
+  const auto kernel = tensor_kernel(5.15);
+  const auto centroid = make(recalibrated_at_centroid(kernel), kernel),
+             node = make(recalibrated(kernel, 2), kernel);
+  for (const Bonds &bonds : {centroid, node})
+    for (const auto &[a, b, p, q] :
+         {std::array<int, 4>{0, 0, 2, 0}, {0, 0, 0, 2}, {0, 1, 1, 1}, {1, 1, 2, 0}, {1, 1, 0, 2}})
+      EXPECT_NEAR(moment(kernel, bonds, a, b, p, q), kernel.moment({p, q}, a, b), 1e-9);
+  EXPECT_NEAR(smallest_ratio(centroid), -203, .5);
+  EXPECT_GT(smallest_ratio(node), .85);
+  EXPECT_EQ(centroid.fit.n_conditions, 5u);
+  EXPECT_EQ(node.fit.n_conditions, 3u);
+
+  const auto scalar = scalar_kernel(3);
+  EXPECT_EQ(smallest_ratio(make(recalibrated_at_centroid(scalar), scalar)),
+            smallest_ratio(make(recalibrated(scalar, 2), scalar)));
+}
+
 TEST(Recalibrated, tensor_degree_4_has_negative_weights_for_some_small_ratios)
 {
   const auto smallest = [](double m)

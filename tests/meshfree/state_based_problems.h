@@ -157,19 +157,17 @@ namespace plumbline::meshfree
                                      : state_based_operator(make, body, {0, square.cells.n_free});
       for (std::size_t i = 0; i < square.cells.n_free; ++i)
         for (unsigned int c = 0; c < 2; ++c)
-          result.right_hand_side[(keeps_dilatation ? 3 : 2) * i + c] +=
-              problem.load(square.cells.nodes[i])[c];
+          result.right_hand_side[2 * i + c] += problem.load(square.cells.nodes[i])[c];
       return result;
     }
 
-    /// √(h² Σ |u_i - u0|²), by the values of the first two of so many unknowns a node.
-    double l2_error(const std::vector<double> &values, unsigned int n_unknowns = 2) const
+    /// √(h² Σ |u_i - u0|²); dilatations may come after the displacements.
+    double l2_error(const std::vector<double> &values) const
     {
       double sum = 0;
       for (std::size_t i = 0; i < square.cells.n_free; ++i)
         for (unsigned int c = 0; c < 2; ++c)
-          sum +=
-              std::pow(values[n_unknowns * i + c] - problem.solution(square.cells.nodes[i])[c], 2);
+          sum += std::pow(values[2 * i + c] - problem.solution(square.cells.nodes[i])[c], 2);
       return square.h * std::sqrt(sum);
     }
   };

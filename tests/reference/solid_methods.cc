@@ -238,6 +238,41 @@ TEST(FreeBody, RulesApproachTheExactModel)
   }
 }
 
+TEST(FreeBody, TurnedAndCutByItsMeshIsTheSame)
+{
+  // all sides on nodes, so that cells of the turned bar are those of the bar
+  const Settings cells = {{"Methods/load", "cells"}};
+  const Scene upright = bar(cells);
+  const Problem problem = make_problem(upright, 0, {.05, .1});
+  const Solution expected = solve(upright, problem, "PA-AC");
+  const auto compare = [&](const Settings &settings, const std::function<Point<2>(Point<2>)> &turn)
+  {
+    const Scene scene = bar(cells + Settings{{"Domain/mesh", "squares"}} + settings);
+    const Problem turned = make_problem(scene, 0, {.05, .1});
+    const Solution found = solve(scene, turned, "PA-AC");
+    ASSERT_EQ(found.nodes.size(), expected.nodes.size());
+    double largest = 0, difference = 0;
+    for (std::size_t i = 0; i < expected.nodes.size(); ++i)
+    {
+      const Point<2> x = turn(expected.nodes[i]),
+                     u = turn({expected.nodal[2 * i], expected.nodal[2 * i + 1]});
+      for (unsigned int c = 0; c < 2; ++c)
+      {
+        largest = std::max(largest, std::abs(u[c]));
+        difference = std::max(difference, std::abs(u[c] - found.value(x, c)));
+      }
+    }
+    EXPECT_LT(difference, 1e-9 * largest);
+    EXPECT_NEAR(size(turned, found.averages), size(problem, expected.averages),
+                1e-9 * size(problem, expected.averages));
+  };
+  compare({{"Domain/map", "x, y"}}, [](const Point<2> &x) { return x; });
+  compare({{"Domain/map", "-y, x"},
+           {"Domain/fixed", "-0.5, 0 : 0, 0.2"},
+           {"Problem/load", "0, 100*(y > 0.8 - 1e-9)"}},
+          [](const Point<2> &x) { return Point<2>(-x[1], x[0]); });
+}
+
 TEST(FreeBody, SpacesApproachEachOther)
 {
   struct Choice

@@ -26,7 +26,7 @@ namespace plumbline::report
     const fixture::Folder folder;
     const study::Results results = fixture::results();
     const std::vector<Chart> charts = write_charts(results, folder.path());
-    ASSERT_EQ(charts.size(), 1 + 4 * 4 + 1u); // overall, four kinds for four cases, error maps
+    ASSERT_EQ(charts.size(), 1 + 5 * 4 + 1u); // overall, five kinds for four cases, error maps
     EXPECT_TRUE(is_overall(charts.front()));
     for (const Chart &chart : charts)
     {
@@ -53,6 +53,7 @@ namespace plumbline::report
     EXPECT_TRUE(holds(svg("convergence"), "nodal L∞ against exact [unit of the solution]"));
     EXPECT_TRUE(holds(svg("work-precision"), "[CPU s]"));
     EXPECT_TRUE(holds(svg("memory"), "[MB]"));
+    EXPECT_TRUE(holds(svg("pairs"), "pairs in one application [1]"));
     EXPECT_TRUE(holds(svg("iterations"), "iterations [1]"));
   }
 

@@ -141,6 +141,13 @@ namespace plumbline::report::fixture
     }
     results.omissions = {{"outer quadrature", "the lattice has exact entries", "9 of 10 CPU s"},
                          {"the matrix", "one stencil <serves> all nodes", "memory of 1e6 bonds"}};
+    base::Cost cheap, dear;
+    cheap.solve_seconds = 2e-4;
+    cheap.n_bonds = 2800;
+    dear.setup_seconds = .05;
+    dear.n_bonds = 2801;
+    results.savings = {{"FA", .1, .3, cheap, dear, 3e-14}};
+    results.left_out = {"Q1, case1, m = 4, h = 0.00625: some 77 CPU s"};
     results.expectations = {{"IPA-AC, case1, m = 3", "not AC", "not AC", true},
                             {"FA, case1, m = 3", "AC", "not AC", false}};
     return results;

@@ -72,6 +72,9 @@ namespace plumbline::report
     EXPECT_EQ(back.provenance, results.provenance);
     EXPECT_EQ(back.is_complete, results.is_complete);
     EXPECT_EQ(back.references.size(), results.references.size());
+    EXPECT_EQ(back.savings.at(0).full.setup_seconds, results.savings.at(0).full.setup_seconds);
+    EXPECT_EQ(back.savings.at(0).difference, results.savings.at(0).difference);
+    EXPECT_EQ(back.left_out, results.left_out);
     EXPECT_EQ(back.omissions.at(1).what, results.omissions.at(1).what);
     EXPECT_EQ(back.expectations.at(1).holds, false);
     ASSERT_EQ(back.advice.size(), results.advice.size());

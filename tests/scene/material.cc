@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 using namespace plumbline;
 using namespace plumbline::scene;
 
@@ -157,7 +159,62 @@ TEST(FreeBody, IsAVariationalBoxThatIsHeldSomewhere)
   expect_bar_error({{"Material/model", "LPS"}}, "needs Material/model = variational");
   expect_bar_error({{"Methods/nodes", "centres"}}, "needs Methods/nodes = vertices");
   expect_bar_error({{"Domain/holes", "1, .5 : 1.1, .6"}}, "one box");
+  expect_bar_error({{"Domain/boxes", "0, 0 : 1, 1; 1, 0 : 2, 0.5"}}, "write squares or triangles");
   expect_bar_error({{"Domain/fixed", "0, 0 : .07, 1"}}, "does not divide the box");
   expect_solid_error({{"Methods/load", "cells"}}, "Methods/load = cells is for free bodies");
   expect_bar_error({{"Domain/boundary", "constrained"}}, "write Domain/boundary = free");
+}
+
+TEST(FreeBody, IsOfAnyShapeThatAMeshSays)
+{
+  const auto area = [](const Settings &settings, double h)
+  {
+    Settings all = {{"Study/h", "0.1"}, {"Study/horizon", "0.2"}};
+    all.insert(all.end(), settings.begin(), settings.end());
+    const Problem problem = make_problem(bar(all), 0, {h, .2});
+    EXPECT_EQ(problem.body->h, h);
+    EXPECT_LT(problem.cells->n_free, problem.cells->size());
+    double sum = 0;
+    for (std::size_t c = 0; c < problem.mesh->cells.size(); ++c)
+      sum += geometry::area(geometry::view(problem.mesh->polygon(c)));
+    EXPECT_NEAR(std::accumulate(problem.cells->area.begin(), problem.cells->area.end(), 0.), sum,
+                1e-12 * sum);
+    return sum;
+  };
+  // an L, whose lattice begins with its boxes; a slanted bar; a disk; the lower half of a square
+  EXPECT_NEAR(area({{"Domain/boxes", "0.03, 0 : 1.03, 0.5; 0.03, 0 : 0.53, 1"},
+                    {"Domain/fixed", "0.03, 0 : 0.13, 1"},
+                    {"Domain/mesh", "triangles"}},
+                   .1),
+              .75, 1e-12);
+  EXPECT_NEAR(area({{"Domain/mesh", "squares"}, {"Domain/map", "x - .3*y, .2*x + y"}}, .1), 2.12,
+              1e-12);
+  EXPECT_NEAR(area({{"Domain/mesh", "hyper_ball_balanced"},
+                    {"Domain/arguments", "0, 0 : 1"},
+                    {"Domain/fixed", "-2, -2 : -0.5, 2"}},
+                   .1),
+              3.14159, .02);
+  EXPECT_NEAR(area({{"Domain/mesh", "hyper_cube"},
+                    {"Domain/arguments", "0 : 1 : false"},
+                    {"Domain/inside", "0.5 - y"},
+                    {"Domain/fixed", "0, 0 : 0.1, 2"}},
+                   .1),
+              .5, 1e-12);
+  expect_error(
+      [&]
+      {
+        area(
+            {{"Domain/mesh", "squares"}, {"Domain/map", "x, 2*y"}, {"Domain/fixed", "3, 0 : 4, 1"}},
+            .1);
+      },
+      "nothing of the body is fixed");
+  expect_error(
+      [&]
+      {
+        area({{"Domain/mesh", "hyper_ball_balanced"},
+              {"Domain/arguments", "0, 0 : 1"},
+              {"Domain/fixed", "-2, -2 : -0.5, 2; 1.5, 0 : 2, 1"}},
+             .1);
+      },
+      "the fixed box 1.5, 0 : 2, 1 lies beside the body");
 }

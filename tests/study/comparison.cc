@@ -1,5 +1,6 @@
 #include "study/comparison.h"
 #include "base/error.h"
+#include "study/preflight.h"
 #include "study/sweep.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,10 @@ namespace
     std::string name() const override { return "fake"; }
     std::string family() const override { return "meshfree"; }
     std::string help() const override { return ""; }
-    std::string why_not(const scene::Scene &, const scene::Problem &) const override { return {}; }
+    std::string why_not(const scene::Scene &, const scene::Problem &problem) const override
+    {
+      return problem.lattice ? "" : "it is for lattices";
+    }
     Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
     {
       ++n_solves;

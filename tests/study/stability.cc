@@ -2,10 +2,9 @@
 #include "study/stability.h"
 #include "meshfree/family_statistics.h"
 #include "meshfree/lattice_operator.h"
-#include "meshfree/method.h"
 #include "meshfree/roads.h"
-#include "reference/method.h"
 #include "study/lattice_solve.h"
+#include "tests/study/operators.h"
 
 #include <Eigen/QR>
 #include <gtest/gtest.h>
@@ -18,30 +17,6 @@ using namespace plumbline::study;
 
 namespace
 {
-  scene::Scene make_scene(bool is_tensor, const std::string &more = "")
-  {
-    return scene::parse_scene(
-        "test.prm",
-        std::string("subsection Methods\n set names = all\nend\n") +
-            (is_tensor ? "subsection Kernel\n set type = bond-tensor\n set limit = Navier\nend\n"
-                         "subsection Problem\n set solution = x, y\nend\n"
-                       : "subsection Problem\n set solution = x\nend\n") +
-            more);
-  }
-
-  const std::string squares = "subsection Domain\n set mesh = squares\nend\n";
-
-  DiscreteOperator operator_of(const std::string &name, const scene::Scene &scene,
-                               const scene::Level &level)
-  {
-    Methods methods = meshfree::methods();
-    for (const auto &method : reference::methods())
-      methods.push_back(method);
-    const auto method = std::find_if(methods.begin(), methods.end(),
-                                     [&](const auto &one) { return one->name() == name; });
-    return *(*method)->discrete_operator(scene, scene::make_problem(scene, 0, level));
-  }
-
   /// A tensor rule with exact moments of degree 2, n_a n_b ξ^α among them, from bonds as given.
   meshfree::Recipe tensor_rule(const physics::Kernel<2> &kernel,
                                meshfree::Bond (*bond)(const physics::Kernel<2> &,
@@ -88,7 +63,7 @@ namespace
 
   StabilityRow row(double m, double h, double smallest, unsigned int n_negative = 0)
   {
-    StabilityRow result{"rule", "m = " + std::to_string(m), h, m * h, {}, {}, {}};
+    StabilityRow result{"rule", "meshfree", "m = " + std::to_string(m), h, m * h, {}, {}, {}};
     result.stability.smallest = smallest;
     result.stability.largest = 100;
     result.stability.diagnostics.n_negative_weights = n_negative;
@@ -195,6 +170,28 @@ TEST(Stability, of_a_free_body_has_the_three_rigid_modes_and_of_a_held_one_none)
       const Stability found = measure(
           meshfree::show(std::make_shared<meshfree::VariationalOperator>(body, influence, bonds)));
       EXPECT_EQ(found.n_zero, is_held ? 0u : 3u);
+      EXPECT_EQ(found.modes.values.size(), is_held ? 1u : 3u);
+      for (const auto &mode : found.modes.values)
+        if (!is_held)
+        {
+          // rigid: (u, v) = (a - c y, b + c x), by its values at three nodes far apart
+          const auto at = [&](std::size_t i, unsigned int d) { return mode[2 * i + d]; };
+          const auto &nodes = found.modes.nodes;
+          const std::size_t last = nodes.size() - 1;
+          const auto span = nodes[last] - nodes[0];
+          const double c =
+              (span[0] * (at(last, 1) - at(0, 1)) - span[1] * (at(last, 0) - at(0, 0))) /
+              span.norm_square();
+          double defect = 0, size = 0;
+          for (std::size_t i = 0; i < nodes.size(); ++i)
+          {
+            const auto x = nodes[i] - nodes[0];
+            defect = std::max({defect, std::abs(at(i, 0) - at(0, 0) + c * x[1]),
+                               std::abs(at(i, 1) - at(0, 1) - c * x[0])});
+            size = std::max({size, std::abs(at(i, 0)), std::abs(at(i, 1))});
+          }
+          EXPECT_LT(defect, 1e-6 * size);
+        }
       EXPECT_EQ(found.is_definite(), is_held);
       EXPECT_LT(found.signs.asymmetry, 1e-14);
     }
@@ -229,6 +226,35 @@ TEST(StabilityVerdict, sees_coercivity_fall)
 {
   const StabilityVerdict falls = judge({row(3, .1, 4), row(3, .05, 2), row(3, .025, 1)});
   EXPECT_EQ(falls.verdict, "unstable");
-  EXPECT_NE(falls.explanation.find("power 1"), std::string::npos) << falls.explanation;
+  EXPECT_NE(falls.explanation.find("h to the power 1"), std::string::npos) << falls.explanation;
   EXPECT_EQ(judge({row(3, .1, 4), row(3, .05, 3.5), row(3, .025, 3.2)}).verdict, "stable");
+}
+
+TEST(StabilityTrends, are_the_powers_at_the_finest_three_levels_of_each_series)
+{
+  std::vector<StabilityRow> rows;
+  for (const double m : {2., 3.})
+    for (const double h : {.4, .2, .1, .05})
+    {
+      rows.push_back(row(m, h, m == 2 ? 7 * std::pow(h, .5) : 7));
+      rows.back().stability.largest = 3 * std::pow(h, -2);
+      rows.back().stability.inverse_norm = h > .15 ? 0 : 1; // not known at the coarse levels
+    }
+  rows[0].stability.smallest = 1e9; // too coarse to count
+  const auto trends = stability_trends(rows);
+  ASSERT_EQ(trends.size(), 2u);
+  EXPECT_EQ(trends[0].parameter, "h");
+  EXPECT_NEAR(trends[0].smallest, .5, 1e-12);
+  EXPECT_NEAR(trends[1].smallest, 0, 1e-12);
+  EXPECT_NEAR(trends[1].largest, -2, 1e-12);
+  EXPECT_TRUE(std::isnan(trends[1].inverse_norm));
+
+  // at a fixed h it is the horizon that varies
+  const auto of_horizon = stability_trends({row(4, .1, 8), row(2, .1, 4), row(1, .1, 2)});
+  EXPECT_EQ(of_horizon.size(), 3u); // series are by m here
+  std::vector<StabilityRow> one = {row(4, .1, 8), row(2, .1, 4), row(1, .1, 2)};
+  for (StabilityRow &level : one)
+    level.series = "h = 0.1";
+  EXPECT_EQ(stability_trends(one)[0].parameter, "horizon");
+  EXPECT_NEAR(stability_trends(one)[0].smallest, 1, 1e-12);
 }

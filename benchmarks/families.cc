@@ -1,0 +1,125 @@
+// Ball ∩ cell per call; families of every rule, on lattices and on scattered nodes.
+
+#include "meshfree/families.h"
+#include "geometry/ball_cell.h"
+#include "geometry/mesh_input.h"
+#include "meshfree/rules.h"
+#include "parts.h"
+#include "summary.h"
+
+#include <cmath>
+#include <random>
+
+namespace plumbline::benchmarks
+{
+  namespace
+  {
+    using geometry::Backend;
+    using geometry::Point;
+
+    physics::Kernel<2> make_kernel(double horizon)
+    {
+      return physics::Kernel<2>::with_diffusion(physics::kernel_type("linear-decay").profile,
+                                                horizon, .5);
+    }
+
+    /// Unit squares whose centres lie on the circle of a radius, the argument.
+    void intersect(benchmark::State &state, Backend backend)
+    {
+      std::mt19937 random(1);
+      std::uniform_real_distribution<double> angle(0, 2 * M_PI);
+      const auto ratio = static_cast<double>(state.range(0));
+      std::vector<std::array<Point<2>, 4>> cells;
+      for (int i = 0; i < 512; ++i)
+      {
+        const double a = angle(random);
+        cells.push_back(
+            geometry::square(Point<2>(ratio * std::cos(a) - .5, ratio * std::sin(a) - .5), 1));
+      }
+      const geometry::Ball ball{Point<2>(), ratio};
+      std::size_t i = 0;
+      for (auto _ : state)
+        benchmark::DoNotOptimize(
+            geometry::intersect(ball, geometry::view(cells[i++ % cells.size()]), backend).area);
+      count(state, "calls", 1);
+    }
+
+    void polar_rule(benchmark::State &state)
+    {
+      const auto cell = geometry::square(Point<2>(2, 1), 1);
+      geometry::CutRule rule;
+      for (auto _ : state)
+      {
+        geometry::polar_rule({Point<2>(), 3}, geometry::view(cell), 16, 10, rule);
+        benchmark::DoNotOptimize(rule.weights.data());
+      }
+      count(state, "calls", 1);
+      count_also(state, "points", static_cast<double>(rule.weights.size()));
+    }
+
+    /// The argument: m.
+    void lattice_family(benchmark::State &state, const meshfree::Rule &rule)
+    {
+      const auto kernel = make_kernel(static_cast<double>(state.range(0)));
+      std::size_t n_bonds = 0;
+      for (auto _ : state)
+        benchmark::DoNotOptimize(
+            n_bonds = meshfree::lattice_bonds(rule.recipe(kernel), kernel, 1, Backend::fast)
+                          .family.size());
+      count(state, "families", 1);
+      state.counters["bonds/family"] = static_cast<double>(n_bonds);
+      count_also(state, "bonds", static_cast<double>(n_bonds));
+    }
+
+    /// Nodes of the unit square, moved by up to .2 h each, with their Voronoi cells; the argument:
+    /// m.
+    void scattered_families(benchmark::State &state, const meshfree::Rule &rule)
+    {
+      constexpr double h = 1. / 24, perturbation = .2;
+      const auto kernel = make_kernel(static_cast<double>(state.range(0)) * h);
+      const geometry::Mesh mesh =
+          geometry::lattice_mesh({{{Point<2>(0, 0), Point<2>(1, 1)}}, {}}, h,
+                                 kernel.horizon() + (1 + perturbation) * h, false);
+      const auto cells =
+          geometry::voronoi_cells(geometry::lattice_nodes(mesh, h, perturbation, 1), mesh);
+      const meshfree::Families families(rule.recipe(kernel), kernel, cells, Backend::fast);
+      meshfree::Family family;
+      std::size_t n_bonds = 0;
+      // one iteration is all families: the same nodes whatever the number of iterations
+      for (auto _ : state)
+      {
+        n_bonds = 0;
+        for (std::size_t node = 0; node < families.size(); ++node)
+        {
+          families.make(node, family);
+          n_bonds += family.bonds.size();
+        }
+        benchmark::DoNotOptimize(n_bonds);
+      }
+      const auto n = static_cast<double>(families.size());
+      count(state, "families", n);
+      state.counters["bonds/family"] = static_cast<double>(n_bonds) / n;
+      count_also(state, "bonds", static_cast<double>(n_bonds));
+    }
+  } // namespace
+
+  void register_families()
+  {
+    for (const int ratio : {1, 3, 32, 1000})
+      benchmark::RegisterBenchmark("intersect/fast", intersect, Backend::fast)->Arg(ratio);
+    benchmark::RegisterBenchmark("intersect/cgal", intersect, Backend::cgal)->Arg(3);
+    benchmark::RegisterBenchmark("polar rule", polar_rule);
+    for (const meshfree::Rule &one : meshfree::rules())
+      benchmark::RegisterBenchmark(("rule/lattice/" + one.name).c_str(), lattice_family, one)
+          ->ArgName("m")
+          ->Arg(3)
+          ->Arg(16)
+          ->Unit(benchmark::kMicrosecond);
+    for (const meshfree::Rule &one : meshfree::rules())
+      benchmark::RegisterBenchmark(("rule/scattered/" + one.name).c_str(), scattered_families, one)
+          ->ArgName("m")
+          ->Arg(3)
+          ->Arg(6)
+          ->Unit(benchmark::kMillisecond);
+  }
+} // namespace plumbline::benchmarks

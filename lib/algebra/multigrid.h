@@ -1,0 +1,31 @@
+#pragma once
+
+#include "algebra/shared_rows.h"
+
+#include <deal.II/base/point.h>
+#include <deal.II/lac/trilinos_precondition.h>
+
+namespace plumbline::algebra
+{
+  /// One cycle of ML's smoothed aggregation, for elliptic systems, symmetric or not.
+  class Multigrid
+  {
+  public:
+    using Vector = SharedRows::Vector;
+
+    /// @param own           this rank's share of the rows, each with a diagonal entry
+    /// @param n_components  unknowns a node, numbered node by node
+    /// @param nodes         places of all nodes, or none: with two components rotations are among
+    ///                      the near-null modes then, besides the constants
+    /// @note Collective. What Trilinos throws is thrown.
+    Multigrid(const Rows &own, const Shares &shares, unsigned int n_components,
+              const std::vector<dealii::Point<2>> &nodes);
+
+    /// y ≈ A⁻¹ x. @note Collective.
+    void vmult(Vector &y, const Vector &x) const { cycle_.vmult(y, x); }
+
+  private:
+    dealii::TrilinosWrappers::SparseMatrix entries_; ///< a copy, which the cycle refers to
+    dealii::TrilinosWrappers::PreconditionAMG cycle_;
+  };
+} // namespace plumbline::algebra

@@ -1,0 +1,237 @@
+#include "report/stability_page.h"
+
+#include "base/error.h"
+#include "report/page_parts.h"
+#include "report/stability_pictures.h"
+#include "report/stability_tables.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    using study::StabilityResults;
+    using Json = nlohmann::ordered_json;
+
+    struct Part
+    {
+      const char *id, *head, *words;
+      Table table;
+    };
+
+    /// The tables that have rows, verdicts apart.
+    std::vector<Part> parts(const StabilityResults &results)
+    {
+      std::vector<Part> all = {
+          {"measures", "Measures", measures_words, measures_table(results)},
+          {"eigenvalues", "Eigenvalues where A is not symmetric", eigenvalues_words,
+           eigenvalues_table(results)},
+          {"powers", "Over the sweep", powers_words, powers_table(results)},
+          {"missing", "Levels without an operator", "", missing_operators_table(results)}};
+      all.erase(std::remove_if(all.begin(), all.end(),
+                               [](const Part &part) { return part.table.rows.empty(); }),
+                all.end());
+      return all;
+    }
+
+    std::string markdown(const StabilityResults &results)
+    {
+      std::string text = "# Stability: " + results.scene_name + "\n\n" +
+                         to_markdown(stability_verdicts_table(results));
+      for (const Part &part : parts(results))
+        text += std::string("\n## ") + part.head + "\n\n" + to_markdown(part.table) + "\n" +
+                part.words + "\n";
+      return text;
+    }
+
+    std::string verdict_class(const std::string &verdict)
+    {
+      return verdict == "stable" ? "converges" : verdict == "unstable" ? "stalls" : "undecided";
+    }
+
+    std::string header(const StabilityResults &results)
+    {
+      std::string text = "<header>\n<div class=\"brand\">Plumbline stability</div>\n<h1>" +
+                         escape_html(results.scene_name) + "</h1>\n";
+      if (!results.purpose.empty())
+        text += "<p class=\"purpose\">" + escape_html(results.purpose) + "</p>\n";
+      text += "<ul class=\"facts\">\n<li>" + std::to_string(results.verdicts.size()) +
+              " methods</li><li>" + std::to_string(results.rows.size()) + " operators</li>";
+      for (const auto &[verdict, sign] :
+           {std::pair{"stable", "✓"}, std::pair{"conditionally stable", "?"},
+            std::pair{"unstable", "✗"}})
+        text += std::string("<li>") + sign + " " +
+                std::to_string(std::count_if(
+                    results.verdicts.begin(), results.verdicts.end(),
+                    [&, verdict = std::string(verdict)](const study::StabilityVerdict &v)
+                    { return v.verdict == verdict; })) +
+                " " + verdict + "</li>";
+      return text + "\n</ul>\n</header>\n";
+    }
+
+    std::string verdicts(const StabilityResults &results)
+    {
+      std::string text = "<div class=\"wide\"><table class=\"verdicts\">\n<tbody>\n";
+      for (const study::StabilityVerdict &v : results.verdicts)
+        text += "<tr><th class=\"method\" scope=\"row\">" + escape_html(v.method) +
+                "</th><td class=\"" + verdict_class(v.verdict) + "\"><b>" + escape_html(v.verdict) +
+                "</b>" +
+                (v.condition.empty() ? "" : "<small>" + escape_html(v.condition) + "</small>") +
+                "</td><td style=\"max-width: 100ch\">" + escape_html(v.explanation) +
+                "</td></tr>\n";
+      return page::section("verdicts", "Verdicts",
+                           text +
+                               "</tbody></table></div>\n<p class=\"soft\">stable: the symmetric "
+                               "part is positive definite at all levels with a constant that "
+                               "does not fall, no weight is negative, moments are independent, "
+                               "and bonds tie all nodes. conditionally stable: under the "
+                               "condition given. unstable: no condition on m = δ/h helps.</p>\n");
+    }
+
+    std::string pictures(const std::vector<StabilityPicture> &all, bool are_modes,
+                         const std::filesystem::path &dir)
+    {
+      std::string text;
+      for (std::size_t i = 0; i < all.size(); ++i)
+      {
+        if (all[i].is_mode != are_modes)
+          continue;
+        std::ifstream in(dir / "stability" / (all[i].name + ".svg"), std::ios::binary);
+        const std::string svg((std::istreambuf_iterator<char>(in)), {});
+        text += are_modes ? "<figure class=\"large\">\n" : "<figure>\n";
+        text += svg.empty() ? "<p class=\"warning\">" + escape_html(all[i].title) +
+                                  ": not drawn; install gnuplot-nox and run again.</p>\n"
+                            : page::inline_svg(svg, "s" + std::to_string(i) + "-", all[i].title);
+        text += "<figcaption>" + std::string(are_modes ? "Picture" : "Data") +
+                ": <code>stability/" + escape_html(all[i].name) + (are_modes ? ".svg" : ".csv") +
+                "</code></figcaption>\n</figure>\n";
+      }
+      return text;
+    }
+
+    std::string page_of(const StabilityResults &results, const std::filesystem::path &dir)
+    {
+      const std::vector<StabilityPicture> all = list_pictures(results);
+      std::string text =
+          "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
+          "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+          escape_html(results.scene_name) + " – Plumbline stability</title>\n<style>" +
+          page::style_sheet + "</style>\n</head>\n<body>\n" + header(results) + "<main>\n" +
+          verdicts(results);
+      for (const Part &part : parts(results))
+        text += page::section(part.id, part.head,
+                              to_html(part.table) + "<p class=\"soft\">" + escape_html(part.words) +
+                                  "</p>\n");
+      if (const std::string charts = pictures(all, false, dir); !charts.empty())
+        text += page::section("charts", "Measures over the sweep",
+                              page::paragraph("Levels where a value is not positive, or not known, "
+                                              "have no point.") +
+                                  "<div class=\"grid\">\n" + charts + "</div>\n");
+      if (const std::string modes = pictures(all, true, dir); !modes.empty())
+        text += page::section(
+            "modes", "Modes",
+            page::paragraph("The field that costs the least energy, or all that cost none (any "
+                            "basis of them), at the finest level with at most 1600 nodes. Smooth "
+                            "and spread over the domain is as it should be; what changes from "
+                            "node to node, or sits at a few nodes, is the method's own.") +
+                modes + "<p class=\"soft\">The finest level: <code>stability/*.vtu</code></p>\n");
+      return text + "</main>\n</body>\n</html>\n";
+    }
+
+    Json level_json(const study::StabilityRow &row)
+    {
+      const study::Stability &s = row.stability;
+      const algebra::Eigenvalues &e = s.eigenvalues;
+      return {{"method", row.method},
+              {"family", row.family},
+              {"series", row.series},
+              {"h", row.h},
+              {"horizon", row.horizon},
+              {"failure", row.failure},
+              {"unknowns", s.n_unknowns},
+              {"smallest_eigenvalue", s.smallest},
+              {"largest_eigenvalue", s.largest},
+              {"zero_modes", s.n_zero},
+              {"is_symmetric", s.is_symmetric()},
+              {"eigenvalues_of_a", e.n_computed == 0
+                                       ? Json()
+                                       : Json{{"least_real_part", e.smallest_real},
+                                              {"least_modulus", e.smallest_modulus},
+                                              {"largest_modulus", e.largest_modulus},
+                                              {"largest_imaginary_part", e.largest_imaginary}}},
+              {"has_signs", s.has_signs},
+              {"asymmetry", s.signs.asymmetry},
+              {"rows_with_positive_entries", s.signs.n_positive},
+              {"rows_not_dominant", s.signs.n_weak},
+              {"rows_not_tied", s.signs.n_loose},
+              {"parts", s.signs.n_parts},
+              {"is_m_matrix", s.has_signs && s.signs.is_m_matrix()},
+              {"inverse_norm", s.inverse_norm},
+              {"is_inverse_norm_exact", s.is_norm_exact},
+              {"barrier", row.consistency.barrier},
+              {"negative_weights", s.diagnostics.n_negative_weights},
+              {"smallest_weight", s.diagnostics.smallest_weight_ratio},
+              {"moment_conditions", s.diagnostics.n_conditions},
+              {"moment_rank", s.diagnostics.rank},
+              {"moment_singular_value", s.diagnostics.smallest_singular_value},
+              {"inner_nodes", row.consistency.n_inner},
+              {"exact_degree", row.consistency.degree},
+              {"notes", s.diagnostics.notes}};
+    }
+  } // namespace
+
+  std::string stability_text(const StabilityResults &results)
+  {
+    std::string text = results.scene_name + "\n";
+    for (const Part &part : parts(results))
+    {
+      const std::string words = part.words;
+      text += "\n" + to_text(part.table) + (words.empty() ? "" : wrapped(words, 120) + "\n");
+    }
+    return text + "\n" + to_text(stability_verdicts_table(results));
+  }
+
+  std::string stability_json(const StabilityResults &results)
+  {
+    Json json{{"scene", results.scene_name},
+              {"levels", Json::array()},
+              {"powers", Json::array()},
+              {"verdicts", Json::array()}};
+    for (const study::StabilityRow &row : results.rows)
+      json["levels"].push_back(level_json(row));
+    for (const study::StabilityTrend &t : results.trends)
+      json["powers"].push_back({{"method", t.method},
+                                {"series", t.series},
+                                {"parameter", t.parameter},
+                                {"smallest_eigenvalue", t.smallest},
+                                {"largest_eigenvalue", t.largest},
+                                {"inverse_norm", t.inverse_norm}});
+    for (const study::StabilityVerdict &v : results.verdicts)
+      json["verdicts"].push_back({{"method", v.method},
+                                  {"verdict", v.verdict},
+                                  {"condition", v.condition},
+                                  {"explanation", v.explanation}});
+    return json.dump(2) + "\n";
+  }
+
+  void write_stability(const StabilityResults &results, const std::filesystem::path &dir)
+  {
+    write_file(dir / "stability.json", stability_json(results));
+    write_file(dir / "stability.md", markdown(results));
+    try
+    {
+      write_pictures(results, dir);
+    }
+    catch (const NumericalError &)
+    {
+      write_file(dir / "stability.html", page_of(results, dir)); // it says what is missing
+      throw;
+    }
+    write_file(dir / "stability.html", page_of(results, dir));
+  }
+} // namespace plumbline::report

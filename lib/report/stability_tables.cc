@@ -1,0 +1,192 @@
+#include "report/stability_tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    constexpr std::size_t terminal = 160; // columns
+
+    Table without_empty_columns(const Table &table)
+    {
+      Table result;
+      result.rows.resize(table.rows.size());
+      const std::string empty = empty_cell().text;
+      for (std::size_t j = 0; j < table.columns.size(); ++j)
+      {
+        if (std::all_of(table.rows.begin(), table.rows.end(),
+                        [&](const auto &row) { return row[j].text == empty; }))
+          continue;
+        result.columns.push_back(table.columns[j]);
+        for (std::size_t i = 0; i < table.rows.size(); ++i)
+          result.rows[i].push_back(table.rows[i][j]);
+      }
+      return result;
+    }
+
+    Cell known(bool is, const Cell &cell)
+    {
+      return is ? cell : empty_cell();
+    }
+
+    /// Characters of a text in UTF-8.
+    std::size_t length(const std::string &text)
+    {
+      return static_cast<std::size_t>(
+          std::count_if(text.begin(), text.end(),
+                        [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+    }
+  } // namespace
+
+  std::string wrapped(const std::string &words, std::size_t width, std::size_t indent)
+  {
+    std::string text = words;
+    for (std::size_t start = 0; text.size() - start > width;)
+    {
+      const std::size_t blank = text.rfind(' ', start + width);
+      if (blank == std::string::npos || blank <= start)
+        break;
+      text.replace(blank, 1, "\n" + std::string(indent, ' '));
+      start = blank + 1 + indent;
+    }
+    return text;
+  }
+
+  const char *const measures_words =
+      "smallest, largest: eigenvalues of the symmetric part in the discrete L2 inner product; the "
+      "smallest is the coercivity constant. asymmetry: of A, relative to its largest entry. "
+      "|A^-1|: how far u moves at most by a load of size 1; barrier: what the maximum principle "
+      "bounds it by, of M-matrices. min weight: relative to its area. rank, singular: of the "
+      "moments asked of a family, and the smallest singular value of their matrix scaled to norm "
+      "1. degree: of polynomials that are mapped exactly, at inner nodes.";
+
+  const char *const eigenvalues_words =
+      "Of A itself in the discrete L2 inner product, where A is not symmetric; elsewhere they are "
+      "those of the symmetric part. The imaginary part is the largest of those computed: the ones "
+      "nearest to 0 and the outermost.";
+
+  const char *const powers_words =
+      "The powers of h, or of the horizon where h is fixed, that the measures follow at the finest "
+      "three levels: 0 is bounded, -2 grows fourfold as it is halved.";
+
+  Table measures_table(const study::StabilityResults &results)
+  {
+    Table table;
+    table.columns = {"method",     "m",         "h",        "unknowns", "smallest", "largest",
+                     "zero modes", "asymmetry", "M-matrix", "parts",    "|A^-1|",   "barrier",
+                     "min weight", "rank",      "singular", "degree"};
+    for (const study::StabilityRow &row : results.rows)
+    {
+      if (!row.failure.empty())
+        continue;
+      const study::Stability &s = row.stability;
+      const study::Diagnostics &d = s.diagnostics;
+      const study::Consistency &c = row.consistency;
+      Cell norm = number_cell(s.inverse_norm);
+      if (!s.is_norm_exact)
+        norm.text = ">= " + norm.text;
+      Cell zeros = count_cell(s.n_zero);
+      zeros.text = s.zero_modes();
+      const std::string rank = std::to_string(d.rank) + "/" + std::to_string(d.n_conditions);
+      table.rows.push_back(
+          {text_cell(row.method), number_cell(row.m()), number_cell(row.h),
+           count_cell(s.n_unknowns), number_cell(s.smallest), number_cell(s.largest), zeros,
+           known(s.has_signs, number_cell(s.signs.asymmetry)),
+           known(s.has_signs, text_cell(s.signs.is_m_matrix() ? "yes" : "no")),
+           known(s.has_signs, count_cell(s.signs.n_parts)), known(s.inverse_norm > 0, norm),
+           known(c.barrier > 0 && s.signs.is_m_matrix(), number_cell(c.barrier)),
+           known(d.n_neighbours > 0, number_cell(d.smallest_weight_ratio)),
+           known(d.n_conditions > 0, text_cell(rank)),
+           known(d.n_conditions > 0, number_cell(d.smallest_singular_value)),
+           known(c.n_inner > 0, count_cell(c.degree))});
+    }
+    return without_empty_columns(table);
+  }
+
+  Table eigenvalues_table(const study::StabilityResults &results)
+  {
+    Table table;
+    table.columns = {"method",
+                     "m",
+                     "h",
+                     "least real part",
+                     "least modulus",
+                     "largest modulus",
+                     "largest |imaginary part|"};
+    for (const study::StabilityRow &row : results.rows)
+    {
+      const study::Stability &s = row.stability;
+      const algebra::Eigenvalues &e = s.eigenvalues;
+      const auto value = [&](double v) { return known(e.n_computed > 0, number_cell(v)); };
+      if (row.failure.empty() && !s.is_symmetric())
+        table.rows.push_back({text_cell(row.method), number_cell(row.m()), number_cell(row.h),
+                              value(e.smallest_real), value(e.smallest_modulus),
+                              value(e.largest_modulus), value(e.largest_imaginary)});
+    }
+    return without_empty_columns(table);
+  }
+
+  Table powers_table(const study::StabilityResults &results)
+  {
+    Table table;
+    table.columns = {"method", "series", "powers of", "smallest", "largest", "|A^-1|"};
+    const auto power = [](double value) { return known(std::isfinite(value), rate_cell(value)); };
+    for (const study::StabilityTrend &t : results.trends)
+      if (std::isfinite(t.smallest) || std::isfinite(t.largest) || std::isfinite(t.inverse_norm))
+        table.rows.push_back({text_cell(t.method), text_cell(t.series), text_cell(t.parameter),
+                              power(t.smallest), power(t.largest), power(t.inverse_norm)});
+    return without_empty_columns(table);
+  }
+
+  Table stability_verdicts_table(const study::StabilityResults &results)
+  {
+    Table table;
+    table.columns = {"method", "verdict", "condition", "explanation"};
+    for (const study::StabilityVerdict &v : results.verdicts)
+      table.rows.push_back({text_cell(v.method), text_cell(v.verdict), text_cell(v.condition),
+                            text_cell(v.explanation)});
+    return table;
+  }
+
+  Table missing_operators_table(const study::StabilityResults &results)
+  {
+    Table table;
+    table.columns = {"method", "m", "h", "no operator, because"};
+    for (const study::StabilityRow &row : results.rows)
+      if (!row.failure.empty())
+        table.rows.push_back({text_cell(row.method), number_cell(row.m()), number_cell(row.h),
+                              text_cell(row.failure)});
+    return table;
+  }
+
+  std::string to_text(const Table &table)
+  {
+    std::vector<std::size_t> width;
+    for (std::size_t j = 0; j < table.columns.size(); ++j)
+    {
+      width.push_back(length(table.columns[j].head));
+      for (const auto &row : table.rows)
+        width[j] = std::max(width[j], length(row[j].text));
+    }
+    // the last column is wrapped, in lines as wide as is left of the terminal
+    std::size_t indent = 0;
+    for (std::size_t j = 0; j + 1 < width.size(); ++j)
+      indent += width[j] + 2;
+    const std::size_t room = std::max<std::size_t>(40, terminal - std::min(terminal, indent));
+    std::string text;
+    const auto add = [&](const std::string &cell, std::size_t j)
+    {
+      const bool is_last = j + 1 == width.size();
+      text += is_last ? wrapped(cell, room, indent) + "\n"
+                      : cell + std::string(width[j] + 2 - length(cell), ' ');
+    };
+    for (std::size_t j = 0; j < width.size(); ++j)
+      add(table.columns[j].head, j);
+    for (const auto &row : table.rows)
+      for (std::size_t j = 0; j < width.size(); ++j)
+        add(row[j].text, j);
+    return text;
+  }
+} // namespace plumbline::report

@@ -1,0 +1,36 @@
+#include "scene/damage.h"
+
+#include "base/error.h"
+#include "geometry/cracks.h"
+#include "physics/expression.h"
+
+namespace plumbline::scene
+{
+  std::vector<char> find_ghosts(const Scene &scene, double horizon,
+                                const geometry::NodeCells &cells)
+  {
+    std::vector<char> is_ghost;
+    if (scene.outside.empty())
+      return is_ghost;
+    const physics::Expression outside("Domain/outside", scene.outside, {{"delta", horizon}});
+    for (const dealii::Point<2> &x : cells.nodes)
+      is_ghost.push_back(static_cast<char>(outside(x) > 0));
+    return is_ghost;
+  }
+
+  void check_damage(const Scene &scene, double horizon, const geometry::NodeCells &cells)
+  {
+    const auto is_ghost = find_ghosts(scene, horizon, cells);
+    std::string key = "Domain/outside";
+    try
+    {
+      geometry::check_ghosts(is_ghost, cells);
+      key = "Domain/cracks";
+      geometry::check_cracks(scene.cracks, cells, is_ghost, horizon);
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(key + ": " + error.what());
+    }
+  }
+} // namespace plumbline::scene

@@ -1,0 +1,171 @@
+#include "study/preflight.h"
+
+#include "base/error.h"
+#include "scene/damage.h"
+#include "scene/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace plumbline::study
+{
+  std::shared_ptr<const Method> find_method(const Methods &available, const std::string &name,
+                                            const std::string &key)
+  {
+    std::string names;
+    for (const auto &method : available)
+    {
+      if (method->name() == name)
+        return method;
+      names += (names.empty() ? "" : ", ") + method->name();
+    }
+    throw InputError(key + ": method '" + name + "' is not known; choose of " + names);
+  }
+
+  Methods choose_methods(const scene::Scene &scene, const Methods &available)
+  {
+    const scene::Problem problem = make_problem(scene, 0, scene.series.front().levels.front());
+    Methods chosen;
+    const auto add = [&](const std::shared_ptr<const Method> &method)
+    {
+      if (std::find(chosen.begin(), chosen.end(), method) == chosen.end())
+        chosen.push_back(method);
+    };
+    for (const std::string &name : scene.methods)
+      if (name == "all")
+      {
+        for (const auto &method : available)
+          if (method->is_in_all() && method->why_not(scene, problem).empty())
+            add(method);
+      }
+      else
+      {
+        const auto method = find_method(available, name, "Methods/names");
+        add(method);
+        if (const std::string reason = method->why_not(scene, problem); !reason.empty())
+          throw InputError("Methods/names: '" + name + "' cannot do this scene: " + reason);
+      }
+    if (scene.reference != "none")
+    {
+      const auto reference = find_method(available, scene.reference, "Reference/method");
+      if (reference->family() != "reference")
+        throw InputError("Reference/method: '" + scene.reference +
+                         "' is no Galerkin method, so nothing is known of its error; choose Q2, P2 "
+                         "or another ('plumbline list methods')");
+      if (const std::string reason = reference->why_not(scene, problem); !reason.empty())
+        throw InputError("Reference/method: '" + scene.reference +
+                         "' cannot do this scene: " + reason);
+    }
+    for (const auto *list :
+         {&scene.expected_verdicts, &scene.expected_errors, &scene.expected_rates,
+          &scene.expected_bounds, &scene.expected_monotone, &scene.expected_jitter,
+          &scene.expected_stability})
+      for (const scene::Expected &expected : *list)
+        (void)find_method(available, expected.method, "Expected");
+    return chosen;
+  }
+
+  namespace
+  {
+    /// The constraint is finite around Ω and the load in it, on a grid of samples.
+    void check_lattice_data(const scene::Problem &problem)
+    {
+      constexpr int n_samples = 24;
+      const geometry::Lattice &lattice = *problem.lattice;
+      const auto &n = lattice.n_cells();
+      const double margin = problem.horizon() / problem.h + 1;
+      for (int j = 0; j <= n_samples; ++j)
+        for (int i = 0; i <= n_samples; ++i)
+        {
+          const double s = -margin + i * (n[0] + 2 * margin) / n_samples;
+          const double t = -margin + j * (n[1] + 2 * margin) / n_samples;
+          const bool is_inside =
+              lattice.is_inside(static_cast<int>(std::floor(s)), static_cast<int>(std::floor(t)));
+          for (unsigned int component = 0; component < problem.n_components; ++component)
+          {
+            (void)problem.constraint.value(lattice.point(s, t), component);
+            if (is_inside)
+              (void)problem.load.value(lattice.point(s, t), component);
+          }
+        }
+    }
+
+    /// The same at nodes of a mesh problem.
+    void check_node_data(const scene::Problem &problem)
+    {
+      constexpr std::size_t n_samples = 600;
+      const auto &cells = *problem.cells;
+      const std::size_t step = std::max<std::size_t>(1, cells.size() / n_samples);
+      for (std::size_t i = 0; i < cells.size(); i += step)
+        for (unsigned int component = 0; component < problem.n_components; ++component)
+        {
+          const auto &field = i < cells.n_free ? problem.load : problem.constraint;
+          (void)field.value(cells.nodes[i], component);
+          if (problem.coefficient)
+            (void)problem.coefficient->at(cells.nodes[i]);
+        }
+    }
+    /// Meshes and nodes of all levels can be used, and differ where h does.
+    void check_meshes(const scene::Scene &scene)
+    {
+      for (const auto &series : scene.series)
+      {
+        std::size_t before = 0;
+        for (std::size_t i = 0; i < series.levels.size(); ++i)
+        {
+          const scene::Level &level = series.levels[i];
+          std::ostringstream where;
+          where << "level h = " << level.h << ", horizon = " << level.horizon << ": ";
+          try
+          {
+            if (scene.is_free_body)
+            {
+              (void)make_body(scene, level);
+              continue;
+            }
+            const geometry::Mesh mesh = make_mesh(scene, level);
+            check_damage(scene, level.horizon, make_node_cells(scene, level, mesh));
+            const std::size_t n_cells = static_cast<std::size_t>(
+                std::count_if(mesh.cells.begin(), mesh.cells.end(),
+                              [](const geometry::MeshCell &cell) { return cell.is_inside; }));
+            if (n_cells == before && level.h != series.levels[i - 1].h)
+              throw InputError("Domain/mesh = " + scene.mesh.kind + " has the " +
+                               std::to_string(n_cells) +
+                               " cells of the level before, so that rates would mean nothing; give "
+                               "a mesh that follows h, or a single value of Study/h");
+            before = n_cells;
+          }
+          catch (const InputError &error)
+          {
+            throw InputError(where.str() + error.what());
+          }
+        }
+      }
+    }
+  } // namespace
+
+  void check_data(const scene::Scene &scene)
+  {
+    if (scene.is_unheld)
+      throw InputError("Domain/fixed = none: the body can move as a whole (3 rigid modes in the "
+                       "plane) and there is no one solution; give Domain/fixed ('plumbline "
+                       "stability' measures the body as it is)");
+    if (!scene.mesh.is_lattice() || scene.is_free_body)
+      check_meshes(scene);
+    const auto names = scene.case_names();
+    for (unsigned int c = 0; c < names.size(); ++c)
+      for (const auto &series : scene.series)
+      {
+        const scene::Level &level =
+            *std::max_element(series.levels.begin(), series.levels.end(),
+                              [](const scene::Level &a, const scene::Level &b)
+                              { return a.horizon + a.h < b.horizon + b.h; });
+        const scene::Problem problem = make_problem(scene, c, level);
+        if (problem.lattice)
+          check_lattice_data(problem);
+        else
+          check_node_data(problem);
+      }
+  }
+} // namespace plumbline::study

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "study/method.h"
+
+// What is settled before anything is solved.
+namespace plumbline::study
+{
+  /// @param key  of the scene, for the message
+  /// @throws InputError  unknown name; the message names the known ones
+  std::shared_ptr<const Method> find_method(const Methods &available, const std::string &name,
+                                            const std::string &key);
+
+  /// The methods that a scene names, in order; "all" gives those that can do it.
+  /// @throws InputError  unknown name, or a named method that cannot do the scene, with the reason
+  Methods choose_methods(const scene::Scene &scene, const Methods &available);
+
+  /// Check that meshes, nodes and cracks of all levels can be used, and that expressions are finite
+  /// in Ω and its collar on a grid of samples: for all cases and series, at the level whose ball
+  /// reaches farthest.
+  /// @throws InputError  naming key and place
+  void check_data(const scene::Scene &scene);
+} // namespace plumbline::study

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "study/method.h"
+
+#include <optional>
+
+namespace plumbline::study
+{
+  /// Whether Solver/model = full would build anything besides what this scene's solves build, and
+  /// can: not with a given collar or operator, which a full model has no use for.
+  bool has_fuller_model(const scene::Scene &scene);
+
+  /// One level by the full model as well: what the smallest one saves, and that nothing is missed.
+  /// @param solution  by the smallest model, and its cost
+  /// Nothing if the method cannot solve the full model.
+  /// Cost: that of the full model, 6 to 450 times the smallest one's.
+  std::optional<Saving> measure_saving(const scene::Scene &scene, unsigned int case_index,
+                                       const scene::Level &level, const Method &method,
+                                       const Solution &solution);
+} // namespace plumbline::study

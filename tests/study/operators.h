@@ -1,0 +1,38 @@
+#pragma once
+
+#include "meshfree/method.h"
+#include "reference/method.h"
+#include "study/stability.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+/// Operators of methods on small scenes.
+namespace plumbline::study
+{
+  inline scene::Scene make_scene(bool is_tensor, const std::string &more = "")
+  {
+    return scene::parse_scene(
+        "test.prm",
+        std::string("subsection Methods\n set names = all\nend\n") +
+            (is_tensor ? "subsection Kernel\n set type = bond-tensor\n set limit = Navier\nend\n"
+                         "subsection Problem\n set solution = x, y\nend\n"
+                       : "subsection Problem\n set solution = x\nend\n") +
+            more);
+  }
+
+  inline const std::string squares = "subsection Domain\n set mesh = squares\nend\n";
+
+  inline DiscreteOperator operator_of(const std::string &name, const scene::Scene &scene,
+                                      const scene::Level &level)
+  {
+    Methods methods = meshfree::methods();
+    for (const auto &method : reference::methods())
+      methods.push_back(method);
+    const auto method = std::find_if(methods.begin(), methods.end(),
+                                     [&](const auto &one) { return one->name() == name; });
+    return *(*method)->discrete_operator(scene, scene::make_problem(scene, 0, level));
+  }
+} // namespace plumbline::study

@@ -1,0 +1,151 @@
+// What a sweep adds to its solves: estimates, what the smallest model saved, what a budget leaves
+// out.
+#include "study/sweep.h"
+
+#include "meshfree/method.h"
+#include "reference/method.h"
+#include "study/comparison.h"
+#include "study/preflight.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace plumbline;
+using namespace plumbline::study;
+
+namespace
+{
+  Results sweep(const std::vector<scene::Override> &settings)
+  {
+    const scene::Scene scene = scene::parse_scene("test.prm", "", settings);
+    Methods available = meshfree::methods();
+    for (const auto &method : reference::methods())
+      available.push_back(method);
+    return run_sweep(scene, choose_methods(scene, available), available, {});
+  }
+
+  /// A cubic, which the nonlocal operator maps as the local one does, but the scene does not know
+  /// that it solves the problem.
+  const std::vector<scene::Override> unknown = {{"Problem/load", "-(3*x + 2)"},
+                                                {"Problem/constraint", "x^3 + 2*y^2"},
+                                                {"Problem/local solution", "x^3 + 2*y^2"},
+                                                {"Study/regime", "delta"},
+                                                {"Study/m", "3"},
+                                                {"Study/h", "0.1, 0.05, 0.025"},
+                                                {"Study/decisive error", "averages L2 | local"},
+                                                {"Study/norms", "averages L2"},
+                                                {"Geometry/checks", "0"}};
+
+  std::vector<scene::Override> with(std::vector<scene::Override> settings,
+                                    const std::vector<scene::Override> &more)
+  {
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+  }
+} // namespace
+
+TEST(SweepEstimates, bound_the_error_of_galerkin_solutions_that_nothing_stands_beside)
+{
+  constexpr double generous = 10; // an estimate this far above the error would be of no use
+  const Results results = sweep(with(unknown, {{"Methods/names", "IPA-AC, Q1, DGQ1"}}));
+  ASSERT_EQ(results.estimates.size(), 2 * 3u); // of Q1 and DGQ1 at three levels
+  for (const ErrorEstimate &one : results.estimates)
+    for (const study::Run &run : results.runs)
+      if (run.method == one.method && run.level == one.level)
+      {
+        const double error = run.errors.at("averages L2 | local");
+        EXPECT_LE(error, one.estimate) << run.method << ' ' << run.h;
+        EXPECT_LE(one.estimate, generous * error) << run.method << ' ' << run.h;
+      }
+}
+
+TEST(SweepEstimates, are_made_where_the_scene_asks_for_them)
+{
+  const std::vector<scene::Override> small = {
+      {"Study/h", "0.125"}, {"Methods/names", "FA, Q1"}, {"Geometry/checks", "0"}};
+  const auto known = with(small, {{"Problem/solution", "x^3"}});
+  EXPECT_EQ(sweep(known).estimates.size(), 0u);
+  EXPECT_EQ(sweep(with(known, {{"Reference/estimate", "every"}})).estimates.size(), 1u);
+  const auto open = with(with(unknown, small), {{"Study/h", "0.1"}});
+  EXPECT_EQ(sweep(open).estimates.size(), 1u);
+  EXPECT_EQ(sweep(with(open, {{"Reference/estimate", "none"}})).estimates.size(), 0u);
+  const auto referred = with(open, {{"Reference/method", "Q2"}});
+  EXPECT_EQ(sweep(referred).estimates.size(), 0u);
+  EXPECT_EQ(sweep(referred).references.size(), 1u);
+}
+
+TEST(SweepSavings, are_measured_at_the_first_level_of_the_first_method_of_each_side)
+{
+  constexpr double rounding = 1e-11;
+  const std::vector<scene::Override> small = {{"Study/h", "0.125, 0.0625"},
+                                              {"Methods/names", "FA, IPA-AC, Q1, DGQ0"},
+                                              {"Problem/solution", "x^3"},
+                                              {"Solver/tolerance", "1e-13"},
+                                              {"Geometry/checks", "0"}};
+  const Results results = sweep(small);
+  ASSERT_EQ(results.savings.size(), 2u);
+  EXPECT_EQ(results.savings[0].method, "FA");
+  EXPECT_EQ(results.savings[1].method, "Q1");
+  for (const Saving &saving : results.savings)
+  {
+    EXPECT_EQ(saving.h, .125);
+    EXPECT_GT(saving.smallest.seconds(), 0);
+    EXPECT_GT(saving.full.seconds(), 0);
+    EXPECT_EQ(saving.full.n_unknowns, saving.smallest.n_unknowns);
+    EXPECT_LT(saving.difference, rounding) << saving.method;
+  }
+  for (const scene::Override &same : {scene::Override{"Solver/model", "full"},
+                                      {"Solver/operator", "sparse"},
+                                      {"Domain/mesh", "squares"}})
+    EXPECT_TRUE(sweep(with(small, {same})).savings.empty()) << same.key;
+}
+
+namespace
+{
+  /// Each level costs four times the one before, as it says.
+  class DearMethod : public Method
+  {
+  public:
+    std::string name() const override { return "dear"; }
+    std::string family() const override { return "meshfree"; }
+    std::string help() const override { return ""; }
+    std::string why_not(const scene::Scene &, const scene::Problem &) const override { return {}; }
+    Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
+    {
+      ++n_solves;
+      Solution solution;
+      solution.cost.solve_seconds = std::pow(.1 / problem.h, 2);
+      solution.averages.assign(comparison_points(scene, problem).size(), 0.);
+      return solution;
+    }
+    mutable unsigned int n_solves = 0;
+  };
+} // namespace
+
+TEST(SweepBudget, leaves_out_what_the_levels_before_say_is_too_dear)
+{
+  const auto dear = std::make_shared<DearMethod>();
+  const Methods methods = {dear};
+  const scene::Scene scene = scene::parse_scene("test.prm", "",
+                                                {{"Problem/solution", "x"},
+                                                 {"Methods/names", "dear"},
+                                                 {"Solver/operator", "sparse"},
+                                                 {"Study/norms", "averages L2"},
+                                                 {"Study/decisive error", "averages L2 | exact"},
+                                                 {"Study/h", "0.1, 0.05, 0.025, 0.0125"}});
+  SweepControl control;
+  control.budget = 5; // levels of 1 and 4 seconds; the next ones would take 16 and 64
+  const Results results = run_sweep(scene, methods, methods, control);
+  EXPECT_EQ(results.runs.size(), 2u);
+  ASSERT_EQ(results.left_out.size(), 2u);
+  EXPECT_NE(results.left_out[0].find("h = 0.025: some 16 CPU s"), std::string::npos)
+      << results.left_out[0];
+  EXPECT_EQ(dear->n_solves, 2u);
+  // what is finished is not run again, and a larger budget goes on from there
+  control.budget = 20;
+  const Results more = run_sweep(scene, methods, methods, control, results);
+  EXPECT_EQ(more.runs.size(), 3u);
+  EXPECT_EQ(more.left_out.size(), 1u);
+  EXPECT_EQ(dear->n_solves, 3u);
+}
