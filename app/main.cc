@@ -56,8 +56,7 @@ int main(int argc, char **argv)
   run->add_option("--model", options.model, "smallest (what the scene needs) or full");
   run->add_option("--levels", options.n_levels, "The first so many levels of each sweep only");
   run->add_option("--budget", options.budget,
-                  "Leave out solves that are expected to take more CPU seconds")
-      ->check(CLI::PositiveNumber);
+                  "Leave out solves that are expected to take more CPU seconds");
   run->add_option("--threads", n_threads, "Threads (default: all cores)");
   run->add_flag("--check", options.check, "Exit with 1 if the Expected section does not hold");
   run->add_flag("--quiet", options.quiet, "Print nothing but errors");

@@ -221,6 +221,8 @@ namespace plumbline::app
 
   int run(const RunOptions &options)
   {
+    if (!(options.budget >= 0))
+      throw InputError("--budget is negative; give CPU seconds of a solve, or leave it out");
     // every rank runs the scene, and they share the work on meshes; the first one talks and writes
     const base::Team team = base::Team::all();
     const bool is_first = team.rank() == 0, is_quiet = options.quiet || !is_first;

@@ -25,8 +25,15 @@ namespace plumbline::scene
       const MeshSource &source = scene.mesh;
       const std::map<std::string, double> constants = {{"delta", level.horizon}};
       if (source.is_file())
-        return geometry::read_mesh(path(scene, source.kind), level.h, level.horizon,
-                                   !scene.is_free_body);
+        try
+        {
+          return geometry::read_mesh(path(scene, source.kind), level.h, level.horizon,
+                                     !scene.is_free_body);
+        }
+        catch (const InputError &error)
+        {
+          throw InputError("Domain/mesh: " + std::string(error.what()));
+        }
       if (source.is_of_boxes())
       {
         std::function<Point<2>(const Point<2> &)> map;
