@@ -159,7 +159,8 @@ namespace plumbline::atlas
           text += "<tr><th class=\"method\">" + name + "</th><td class=\"failed\" colspan=\"8\">" +
                   "refused: " + escape_html(entry.refusal) + "</td></tr>\n";
         else if (has_errors(entry))
-          text += row("<a href=\"#" + entry.group + "-" + entry.name + "\">" + name + "</a>",
+          text += row("<a href=\"#" + entry.group + "-" + entry.name + "\">" + name + "</a>" +
+                          (entry.results.is_complete ? "" : " <small>in part</small>"),
                       main_question(entry));
         else
           text += "<tr><th class=\"method\">" + name +
@@ -185,9 +186,11 @@ namespace plumbline::atlas
       for (const report::Case &one : report::cases(entry.results))
         rows += row(escape_html(one.title()), {&entry.results, one.problem, one.series});
       std::string left_out;
+      if (!entry.results.is_complete)
+        left_out = page::paragraph("Its time was over before all methods and levels were run.");
       if (!entry.results.left_out.empty())
-        left_out = page::paragraph(std::to_string(entry.results.left_out.size()) +
-                                   " solves were left out, being dearer than the budget.");
+        left_out += page::paragraph(std::to_string(entry.results.left_out.size()) +
+                                    " solves were left out, being dearer than the budget.");
       return "<h3 id=\"" + entry.group + "-" + entry.name + "\"><a href=\"" + folder +
              "/report.html\">" + escape_html(entry.group + "/" + entry.name) + "</a></h3>\n" +
              page::paragraph(entry.results.purpose) + "<div class=\"grid\">\n" + pictures +
