@@ -13,7 +13,7 @@ namespace plumbline::study
   /// One level by the full model as well: what the smallest one saves, and that nothing is missed.
   /// @param solution  by the smallest model, and its cost
   /// Nothing if the method cannot solve the full model.
-  /// Cost: that of the full model, 6 to 450 times the smallest one's.
+  /// Cost: that of the full model, tens to hundreds of times the smallest one's.
   std::optional<Saving> measure_saving(const scene::Scene &scene, unsigned int case_index,
                                        const scene::Level &level, const Method &method,
                                        const Solution &solution);
