@@ -18,11 +18,6 @@ namespace plumbline::benchmarks
     using geometry::Backend;
     using geometry::Point;
 
-    physics::Kernel<2> make_kernel(const std::string &type, double horizon)
-    {
-      return physics::Kernel<2>::with_diffusion(physics::kernel_type(type).profile, horizon, .5);
-    }
-
     void lattice_entries(benchmark::State &state, unsigned int degree)
     {
       const auto kernel = make_kernel("linear-decay", static_cast<double>(state.range(0)));

@@ -7,6 +7,7 @@
 #include "meshfree/lattice_operator.h"
 #include "meshfree/rules.h"
 #include "meshfree/state_based_operator.h"
+#include "parts.h"
 #include "reference/lattice_stencil.h"
 #include "reference/pair_quadrature.h"
 #include "reference/rectangle_pairs.h"
@@ -20,11 +21,6 @@ namespace plumbline::benchmarks
   {
     using geometry::Backend;
     using geometry::Point;
-
-    physics::Kernel<2> make_kernel(const std::string &type, double horizon)
-    {
-      return physics::Kernel<2>::with_diffusion(physics::kernel_type(type).profile, horizon, .5);
-    }
 
     volatile double sink; ///< what is computed is used
 

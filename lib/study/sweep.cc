@@ -112,20 +112,25 @@ namespace plumbline::study
       /// Methods that the budget allows at this level.
       Methods affordable(const std::string &name, const scene::Series &series, unsigned int level)
       {
+        if (control_.budget == 0)
+          return methods_;
         Methods result;
         for (const auto &method : methods_)
-          if (const auto seconds = expected_seconds(*method, name, series, level);
-              control_.budget == 0 || (seconds && *seconds <= control_.budget))
-            result.push_back(method);
-          else
+        {
+          const auto seconds = expected_seconds(*method, name, series, level);
+          const bool is_dear = !seconds || *seconds > control_.budget;
+          if (!base::Team::all().any(is_dear)) // each rank has its own clock, and all must agree
           {
-            std::ostringstream what;
-            what << method->name() << ", " << name << ", " << series.name
-                 << ", h = " << series.levels[level].h;
-            if (seconds)
-              what << ": some " << *seconds << " CPU s";
-            results_.left_out.push_back(what.str());
+            result.push_back(method);
+            continue;
           }
+          std::ostringstream what;
+          what << method->name() << ", " << name << ", " << series.name
+               << ", h = " << series.levels[level].h;
+          if (seconds)
+            what << ": some " << *seconds << " CPU s";
+          results_.left_out.push_back(what.str());
+        }
         return result;
       }
 
