@@ -64,7 +64,8 @@ namespace plumbline::atlas
       if (trend.error == question.results->decisive_error && trend.method == method &&
           trend.problem == question.problem &&
           (question.series.empty() || trend.series == question.series))
-        found.push_back(trend.outcome);
+        // a limit that is wrong for other fields is no better than a stall
+        found.push_back(trend.outcome == Outcome::field_only ? Outcome::stalls : trend.outcome);
     for (const Outcome outcome : {Outcome::failed, Outcome::stalls, Outcome::undecided})
       if (std::count(found.begin(), found.end(), outcome) > 0)
         return outcome;

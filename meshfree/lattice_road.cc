@@ -3,6 +3,7 @@
 #include "meshfree/nodal_field.h"
 #include "meshfree/roads.h"
 #include "study/lattice_solve.h"
+#include "study/limit_proof.h"
 
 #include <utility>
 
@@ -83,6 +84,7 @@ namespace plumbline::meshfree
     solution.cost.peak_bytes = memory.peak_bytes();
     solution.diagnostics = solved.diagnostics;
     solution.diagnostics.n_neighbours = 0;
+    solution.diagnostics.limit = study::prove_by_moments(scene, problem, stencil, 1);
     describe_weights(bonds.family, bonds.fit, solution.diagnostics);
     solution.diagnostics.notes = bonds.notes;
     const auto field =

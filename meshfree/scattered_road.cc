@@ -46,6 +46,8 @@ namespace plumbline::meshfree
     matrix.rows.start.resize(n + 1);
     study::Solution solution;
     solution.diagnostics = matrix.statistics.diagnostics(team);
+    if (scene.regime != scene::Regime::delta || scene.is_damaged() || !scene.is_homogeneous())
+      solution.diagnostics.limit = {}; // the moments of whole families decide nothing there
     solution.cost.setup_seconds = team.sum(timer.seconds());
 
     timer.restart();

@@ -4,6 +4,7 @@
 #include "reference/lattice_dilatation.h"
 #include "reference/lattice_stencil.h"
 #include "study/lattice_solve.h"
+#include "study/limit_proof.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -137,6 +138,9 @@ namespace plumbline::reference
     const double stencil_seconds = timer.seconds();
     study::LatticeSolve solved = study::solve_on_lattice(
         scene, problem, nodes, stencil, [&] { return load_vector(problem, shapes, nodes); });
+    if (shapes.degree() == 0)
+      solved.diagnostics.limit =
+          study::prove_by_moments(scene, problem, stencil, problem.h * problem.h);
     LatticeField field(*problem.lattice, shapes, problem.n_components, std::move(solved.values));
     solved.cost.setup_seconds += stencil_seconds;
     solved.cost.peak_bytes = memory.peak_bytes();

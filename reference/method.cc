@@ -3,6 +3,7 @@
 #include "reference/lattice_method.h"
 #include "reference/local_limit.h"
 #include "reference/mesh_method.h"
+#include "study/limit_proof.h"
 
 #include <algorithm>
 
@@ -68,9 +69,12 @@ namespace plumbline::reference
       }
       study::Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
       {
-        if (problem.lattice)
-          return lattice_solution(scene, problem, AxisShapes(is_continuous_, degree_));
-        return mesh_solution(scene, problem, is_continuous_, degree_);
+        study::Solution solution =
+            problem.lattice ? lattice_solution(scene, problem, AxisShapes(is_continuous_, degree_))
+                            : mesh_solution(scene, problem, is_continuous_, degree_);
+        if (degree_ > 0)
+          solution.diagnostics.limit = study::prove_galerkin(scene, problem, solution.diagnostics);
+        return solution;
       }
       std::optional<study::DiscreteOperator>
       discrete_operator(const scene::Scene &scene, const scene::Problem &problem) const override

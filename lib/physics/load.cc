@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <sstream>
@@ -25,18 +26,19 @@ namespace plumbline::physics
       return rules.try_emplace(n, n).first->second;
     }
 
-    /// An integrand at ξ, and the difference of values of which its round-off is made.
+    /// An integrand at ξ, the difference of values that it is made of, and their own size, whose
+    /// rounding no quadrature can mend.
     struct Sample
     {
-      double value, difference;
+      double value, difference, size;
     };
 
-    /// ∫_{|ξ|<δ} g(ξ) dξ and the largest difference, with so many radii and angles.
+    /// ∫_{|ξ|<δ} g(ξ) dξ, the largest difference and size, with so many radii and angles.
     template <typename Integrand>
     Sample over_ball(double horizon, unsigned int n_radii, unsigned int n_angles,
                      const Integrand &g)
     {
-      Sample result{0, 0};
+      Sample result{0, 0, 0};
       for (unsigned int q = 0; q < n_radii; ++q)
       {
         const double r = horizon * gauss(n_radii).point(q)[0];
@@ -47,6 +49,7 @@ namespace plumbline::physics
           const Sample sample = g(Point<2>(r * std::cos(angle), r * std::sin(angle)));
           ring += sample.value;
           result.difference = std::max(result.difference, std::abs(sample.difference));
+          result.size = std::max(result.size, std::abs(sample.size));
         }
         result.value += ring * r * gauss(n_radii).weight(q) * horizon * 2 * M_PI / n_angles;
       }
@@ -61,18 +64,20 @@ namespace plumbline::physics
                             const Integrand &g)
     {
       constexpr double settled = 1e-14, acceptable = 1e-12;
+      constexpr double round_off = 2 * std::numeric_limits<double>::epsilon(); // of a difference
       Sample coarse = over_ball(horizon, 6, 12, g);
-      double change = 0, size = 0;
+      double change = 0, size = 0, noise = 0;
       for (unsigned int n = 12; n <= 192; n *= 2)
       {
         const Sample fine = over_ball(horizon, n, 2 * n, g);
         change = std::abs(fine.value - coarse.value);
         size = std::abs(fine.value) + scale * fine.difference;
-        if (change <= settled * size)
+        noise = round_off * scale * fine.size;
+        if (change <= settled * size + noise)
           return fine.value;
         coarse = fine;
       }
-      if (change <= acceptable * size)
+      if (change <= acceptable * size + noise)
         return coarse.value;
       std::ostringstream message;
       message << what << " at (" << x << ") does not settle: still moving by " << change
@@ -101,10 +106,11 @@ namespace plumbline::physics
     const double a0 = a_ ? a_->at(x) : 1;
     const auto integrand = [&](const Point<2> &xi)
     {
-      Sample result{0, 0};
+      Sample result{0, 0, 0};
       for (unsigned int b = 0; b < n_components; ++b)
       {
         const double difference = u_(x + xi, is_scalar ? component : b) - u0[b];
+        result.size = std::max(result.size, std::abs(u0[b]));
         result.value -= difference * (is_scalar ? 1. : kernel_.direction_factor(component, b, xi));
         result.difference = std::max(result.difference, std::abs(difference));
       }
@@ -122,7 +128,8 @@ namespace plumbline::physics
     {
       const double first = u_(x + xi, 0) - u0[0], second = u_(x + xi, 1) - u0[1];
       return Sample{influence_.radial(xi.norm()) * (xi[0] * first + xi[1] * second),
-                    std::max(std::abs(first), std::abs(second))};
+                    std::max(std::abs(first), std::abs(second)),
+                    std::max(std::abs(u0[0]), std::abs(u0[1]))};
     };
     return settled_integral(influence_.horizon(), influence_.horizon() * operator_scale(influence_),
                             "the dilatation of u", x, integrand);
@@ -139,9 +146,10 @@ namespace plumbline::physics
       const Lame other = dilatation_.material(x + xi);
       const double sum =
           dilatation_.factor(own, other) * theta0 + dilatation_.factor(other, own) * theta;
-      return Sample{-influence.radial(xi.norm()) * xi[component] * sum,
-                    std::max(std::abs(own.lambda - own.mu), std::abs(other.lambda - other.mu)) *
-                        std::max(std::abs(theta), std::abs(theta0))};
+      const double size =
+          std::max(std::abs(own.lambda - own.mu), std::abs(other.lambda - other.mu)) *
+          std::max(std::abs(theta), std::abs(theta0));
+      return Sample{-influence.radial(xi.norm()) * xi[component] * sum, size, size};
     };
     return settled_integral(influence.horizon(), influence.horizon() * operator_scale(influence),
                             "the load of the dilatation", x, integrand);

@@ -161,7 +161,9 @@ namespace plumbline::report
       std::size_t n_stalls = 0;
       for (const Case *one : chosen)
         if (const study::Trend *trend = decisive_trend(results, method.name, *one))
-          if (trend->outcome == study::Outcome::stalls && says_not(*trend))
+          if ((trend->outcome == study::Outcome::stalls ||
+               trend->outcome == study::Outcome::field_only) &&
+              says_not(*trend))
           {
             verdict = verdict_words(*trend);
             ++n_stalls;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <fstream>
@@ -18,11 +19,18 @@ namespace plumbline::report
   {
     using Json = nlohmann::ordered_json;
 
-    const std::pair<study::Outcome, const char *> outcome_names[] = {
-        {study::Outcome::converges, "converges"},
-        {study::Outcome::stalls, "stalls"},
-        {study::Outcome::undecided, "undecided"},
-        {study::Outcome::failed, "failed"}};
+    using study::Outcome;
+    using Answer = study::LimitProof::Answer;
+
+    // How the values of enumerations are called, in their order.
+    constexpr std::array<const char *, 5> names(Outcome)
+    {
+      return {"converges", "stalls", "undecided", "failed", "field only"};
+    }
+    constexpr std::array<const char *, 3> names(Answer)
+    {
+      return {"unknown", "compatible", "incompatible"};
+    }
 
     // Each key stands here once; the same list writes and reads.
     template <typename Archive>
@@ -34,6 +42,16 @@ namespace plumbline::report
       a("n_unknowns", cost.n_unknowns);
       a("n_bonds", cost.n_bonds);
       a("n_iterations", cost.n_iterations);
+    }
+
+    template <typename Archive>
+    void visit(Archive &a, study::LimitProof &proof)
+    {
+      a("answer", proof.answer);
+      a("defect", proof.defect);
+      a("mean_defect", proof.mean_defect);
+      a("spread", proof.spread);
+      a("reason", proof.reason);
     }
 
     template <typename Archive>
@@ -52,6 +70,7 @@ namespace plumbline::report
       a("outer_change", diagnostics.outer_change);
       a("is_outer_error_known", diagnostics.is_outer_error_known);
       a("n_refinements", diagnostics.n_refinements);
+      a("limit", diagnostics.limit);
       a("notes", diagnostics.notes);
     }
 
@@ -68,6 +87,7 @@ namespace plumbline::report
       a("cost", run.cost);
       a("diagnostics", run.diagnostics);
       a("size", run.size);
+      a("round_off", run.round_off);
       a("errors", run.errors);
       a("failure", run.failure);
     }
@@ -84,6 +104,7 @@ namespace plumbline::report
       a("x", trend.x);
       a("values", trend.values);
       a("size", trend.size);
+      a("round_off", trend.round_off);
       a("rates", trend.rates);
       a("rate", trend.rate);
       a("rate_uncertainty", trend.rate_uncertainty);
@@ -92,6 +113,7 @@ namespace plumbline::report
       a("outcome", trend.outcome);
       a("verdict", trend.verdict);
       a("reason", trend.reason);
+      a("proof", trend.proof);
     }
 
     template <typename Archive>
@@ -157,6 +179,7 @@ namespace plumbline::report
       a("series", advice.series);
       a("choices", advice.choices);
       a("stalling", advice.stalling);
+      a("field_only", advice.field_only);
     }
 
     template <typename Archive>
@@ -213,19 +236,14 @@ namespace plumbline::report
       {
         if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>)
           return value; // the library writes NaN and infinity as null
+        else if constexpr (std::is_enum_v<T>)
+          return names(value).at(static_cast<std::size_t>(value));
         else
         {
           Writer writer;
           visit(writer, value);
           return writer.take();
         }
-      }
-      static Json json(study::Outcome &outcome)
-      {
-        for (const auto &[known, name] : outcome_names)
-          if (known == outcome)
-            return name;
-        return nullptr;
       }
       template <typename Sequence>
       static Json array(Sequence &values)
@@ -297,16 +315,6 @@ namespace plumbline::report
         expect(json.is_string(), place, "a text");
         value = json.get<std::string>();
       }
-      void read(const Json &json, study::Outcome &value, const std::string &place) const
-      {
-        for (const auto &[outcome, name] : outcome_names)
-          if (json == name)
-          {
-            value = outcome;
-            return;
-          }
-        expect(false, place, "one of converges, stalls, undecided, failed");
-      }
       template <typename T>
       void read(const Json &json, std::vector<T> &values, const std::string &place) const
       {
@@ -338,6 +346,16 @@ namespace plumbline::report
                  place,
                  "a whole number in [0, " + std::to_string(std::numeric_limits<T>::max()) + "]");
           value = json.get<T>();
+        }
+        else if constexpr (std::is_enum_v<T>)
+        {
+          const auto known = names(value);
+          const auto found = std::find(known.begin(), known.end(), json);
+          std::string list;
+          for (const char *name : known)
+            list += (list.empty() ? "one of " : ", ") + std::string(name);
+          expect(found != known.end(), place, list);
+          value = static_cast<T>(found - known.begin());
         }
         else
         {

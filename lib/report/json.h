@@ -7,7 +7,7 @@
 namespace plumbline::report
 {
   /// The number that stands under "schema"; it changes when a key changes its meaning or goes away.
-  constexpr unsigned int schema = 4;
+  constexpr unsigned int schema = 5;
 
   /// Everything of one run, as schema.md describes it. The file is replaced at once, never half
   /// written. Numbers are the shortest decimals (at most 17 digits) that read back to the same

@@ -33,9 +33,24 @@ namespace plumbline::report
 
       std::string outcome_class(study::Outcome outcome)
       {
-        static const std::array<const char *, 4> names = {"converges", "stalls", "undecided",
-                                                          "failed"};
+        static const std::array<const char *, 5> names = {"converges", "stalls", "undecided",
+                                                          "failed", "stalls"};
         return names[static_cast<std::size_t>(outcome)];
+      }
+
+      /// What is known apart from the field, where it says the same as the verdict or the contrary.
+      std::string proof_mark(const study::Trend &trend)
+      {
+        using Answer = study::LimitProof::Answer;
+        const study::LimitProof &proof = trend.proof;
+        const bool is_good = trend.outcome == study::Outcome::converges;
+        const bool is_bad = trend.outcome == study::Outcome::stalls;
+        if ((is_good && proof.answer == Answer::compatible) ||
+            (is_bad && proof.answer == Answer::incompatible))
+          return "<small>proven</small>";
+        if (!proof.has_wrong_moments())
+          return "";
+        return "<small>moments off by " + rounded(100 * proof.defect) + " %</small>";
       }
 
       std::string verdict_cell(const study::Trend *trend)
@@ -49,8 +64,8 @@ namespace plumbline::report
           text += "<small>" + rounded_error(trend->values.back()) + "</small>";
         // Between errors of the size of rounding a rate is noise.
         const std::size_t n = trend->values.size();
-        if (n > 0 && std::max(trend->values[n - 1], trend->values[n < 2 ? 0 : n - 2]) <
-                         round_off * trend->size)
+        if (n > 0 &&
+            std::max(trend->values[n - 1], trend->values[n < 2 ? 0 : n - 2]) < trend->round_off)
           text += "<small>round-off</small>";
         else if (!trend->rates.empty() && std::isfinite(trend->rates.back()))
         {
@@ -59,7 +74,7 @@ namespace plumbline::report
           rate << std::fixed << trend->rates.back();
           text += "<small>rate " + rate.str() + "</small>";
         }
-        return text + "</td>";
+        return text + proof_mark(*trend) + "</td>";
       }
     } // namespace
 
@@ -157,9 +172,14 @@ namespace plumbline::report
       text +=
           "</tbody></table></div>\n<p class=\"soft\">In each cell: the verdict, the error at the "
           "finest level, and the rate over the last two levels. ✓&nbsp;converges: no plateau, rate "
-          "at least ¾. ✗&nbsp;stalls: a significant plateau, or a growing error. ?&nbsp;undecided: "
-          "one "
-          "finer level would help. –&nbsp;failed: no solution at some level.</p>\n";
+          "at least ¾. ✗&nbsp;stalls: a significant plateau, or a growing error; or for this field "
+          "only: it converges, but second moments say that other fields tend to a wrong limit. "
+          "?&nbsp;undecided: one finer level would help, or four levels are not there yet. "
+          "–&nbsp;failed: no solution at some level. Proven: what theory says of every smooth "
+          "field "
+          "agrees with what is observed here (second moments of the weights; for Galerkin spaces "
+          "Tian "
+          "&amp; Du 2014, doi:10.1137/130942644).</p>\n";
       text += folded("Fitted rates and plateaus, with the reason of each verdict",
                      to_html(verdict_table(results)) +
                          "<p class=\"soft\">Data: <code>tables/verdicts.csv</code></p>\n");
@@ -195,6 +215,11 @@ namespace plumbline::report
                        is_first);
         is_first = false;
       }
+      text +=
+          "<p class=\"soft\">Nodal errors: at each method’s own nodes, which count alike in "
+          "L2, √(area · mean e²). Averages: of the solution over the comparison cells, each by its "
+          "area. In the collar every space takes the constraint at its nodes: DGQ0 and DGP0 at "
+          "cell centres, as one-point rules do, not its averages.</p>\n";
       text += folded("Cost of each run", to_html(cost_table(results)) +
                                              "<p class=\"soft\">CPU seconds are summed over "
                                              "threads. Data: <code>tables/cost.csv</code></p>\n");

@@ -1,8 +1,10 @@
 #include "report/page_parts.h"
 
 #include "report/formats.h"
+#include "study/trend.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -67,6 +69,11 @@ namespace plumbline::report::page
         join(stalling, escape_html(method));
       if (!stalling.empty())
         text += "<p class=\"avoid\">✗ stalls: " + stalling + "</p>\n";
+      std::string blind;
+      for (const std::string &method : advice.field_only)
+        join(blind, escape_html(method));
+      if (!blind.empty())
+        text += "<p class=\"avoid\">✗ right for this field only: " + blind + "</p>\n";
       return text + "</div>\n";
     }
 
@@ -74,7 +81,8 @@ namespace plumbline::report::page
     struct Tally
     {
       std::string method;
-      std::size_t n = 0, n_converge = 0, n_stall = 0, n_fail = 0;
+      std::size_t n = 0, n_converge = 0, n_field_only = 0, n_stall = 0, n_fail = 0;
+      std::size_t n_levels = study::levels_for_verdict; ///< the fewest of an undecided trend
     };
 
     std::vector<Tally> tally(const study::Results &results, const std::vector<MethodName> &methods)
@@ -92,6 +100,9 @@ namespace plumbline::report::page
             one.n_converge += trend->outcome == study::Outcome::converges ? 1 : 0;
             one.n_stall += trend->outcome == study::Outcome::stalls ? 1 : 0;
             one.n_fail += trend->outcome == study::Outcome::failed ? 1 : 0;
+            one.n_field_only += trend->outcome == study::Outcome::field_only ? 1 : 0;
+            if (trend->outcome == study::Outcome::undecided)
+              one.n_levels = std::min(one.n_levels, trend->x.size());
           }
         if (one.n > 0)
           tallies.push_back(one);
@@ -125,7 +136,8 @@ namespace plumbline::report::page
     /// The answer for a reader of nothing else: each method in the worst class that it belongs to.
     std::string summary(const study::Results &results, const std::vector<MethodName> &methods)
     {
-      std::string good, bad, mixed, failed, open;
+      std::string good, bad, mixed, blind, failed, open;
+      std::map<std::size_t, std::string> too_few; // by the number of levels there are
       for (const Tally &one : tally(results, methods))
       {
         const std::string name = escape_html(one.method);
@@ -136,26 +148,43 @@ namespace plumbline::report::page
         else if (one.n_stall > 0)
           join(mixed,
                name + " (" + std::to_string(one.n_stall) + " of " + std::to_string(one.n) + ")");
+        else if (one.n_field_only > 0)
+          join(blind, name);
         else if (one.n_fail > 0)
           join(failed, name);
+        else if (one.n_levels < study::levels_for_verdict)
+          join(too_few[one.n_levels], name);
         else
           join(open, name);
       }
       const bool is_one = results.advice.size() == 1;
       const std::string n_cases = std::to_string(results.advice.size());
-      std::string text =
-          good.empty()
-              ? std::string("<b>No method converges") +
-                    (is_one ? ".</b>" : " in all " + n_cases + " cases.</b>")
-              : (is_one ? "<b>✓ Converge: " : "<b>✓ Converge everywhere: ") + good + ".</b>";
+      const std::string everywhere = is_one ? "" : " in all " + n_cases + " cases";
+      const bool is_open = !open.empty() || !too_few.empty();
+      std::string text;
+      if (!good.empty())
+        text = (is_one ? "<b>✓ Converge: " : "<b>✓ Converge everywhere: ") + good + ".</b>";
+      else if (!is_open)
+        text = "<b>No method converges" + everywhere + ".</b>";
+      else if (!bad.empty() || !mixed.empty() || !blind.empty())
+        text = "<b>No method is known yet to converge" + everywhere + ".</b>";
+      else
+        text = "<b>?&nbsp;Not decided yet" + everywhere + ".</b>";
       if (!bad.empty())
         text += (is_one ? " <b class=\"no\">✗ Stall, however fine the mesh: "
                         : " <b class=\"no\">✗ Stall everywhere, however fine the mesh: ") +
                 bad + ".</b>";
       if (!mixed.empty())
         text += " <b class=\"no\">✗ Stall in some cases: " + mixed + ".</b>";
+      if (!blind.empty())
+        text += " <b class=\"no\">✗ Right for this field only, their second moments are wrong: " +
+                blind + ".</b>";
       if (!failed.empty())
         text += " –&nbsp;No solution at some level: " + failed + ".";
+      for (const auto &[n_levels, names] : too_few)
+        text += " ?&nbsp;Not decided, " + std::to_string(n_levels) + " of the " +
+                std::to_string(study::levels_for_verdict) +
+                " levels that a verdict needs: " + names + ".";
       if (!open.empty())
         text += " ?&nbsp;Undecided" + std::string(is_one ? "" : " in some cases") +
                 ", one finer level would help: " + open + ".";
@@ -173,11 +202,12 @@ namespace plumbline::report::page
     std::string open, more;
     for (std::size_t i = 0; i < results.advice.size(); ++i)
       (i < n_open_cards ? open : more) += card(results, results.advice[i], names);
-    std::string text = summary(results, names) +
-                       "<p class=\"soft\">The cheapest run for an error of that size: method, mesh "
-                       "size, CPU time of setup and solve. Only methods that converge are "
-                       "named.</p>\n<div class=\"cards\">\n" +
-                       open + "</div>\n";
+    std::string text =
+        summary(results, names) +
+        "<p class=\"soft\">The cheapest run for an error of that size: method, mesh "
+        "size, CPU time of setup and solve. Only methods that converge, and "
+        "whose second moments are not known to be wrong, are named.</p>\n<div class=\"cards\">\n" +
+        open + "</div>\n";
     if (!more.empty())
       text += folded(std::to_string(results.advice.size() - n_open_cards) + " more cases",
                      "<div class=\"cards\">\n" + more + "</div>\n");

@@ -136,6 +136,7 @@ namespace plumbline::report
     case study::Outcome::converges:
       return "✓";
     case study::Outcome::stalls:
+    case study::Outcome::field_only:
       return "✗";
     case study::Outcome::undecided:
       return "?";
@@ -155,6 +156,8 @@ namespace plumbline::report
       return "converges";
     case study::Outcome::stalls:
       return "stalls";
+    case study::Outcome::field_only:
+      return "converges for this field only";
     case study::Outcome::undecided:
       return "undecided";
     case study::Outcome::failed:

@@ -34,6 +34,8 @@ namespace plumbline::study
       {
       case Outcome::converges:
         return name;
+      case Outcome::field_only:
+        return name + " for this field only";
       case Outcome::stalls:
         return "not " + name;
       default:
@@ -68,6 +70,46 @@ namespace plumbline::study
       }
     }
 
+    /// Of the proofs at two levels the one that promises less.
+    const LimitProof &weaker(const LimitProof &a, const LimitProof &b)
+    {
+      using Answer = LimitProof::Answer;
+      const auto rank = [](const LimitProof &proof) {
+        return proof.answer == Answer::incompatible ? 0 : proof.answer == Answer::unknown ? 1 : 2;
+      };
+      if (rank(a) != rank(b))
+        return rank(a) < rank(b) ? a : b;
+      return a.defect > b.defect ? a : b;
+    }
+
+    /// Proof beside observation: a field may hide what is wrong, never a proof.
+    void weigh_proof(Trend &trend)
+    {
+      const LimitProof &proof = trend.proof;
+      if (proof.reason.empty() || trend.outcome == Outcome::failed)
+        return;
+      std::string beside = proof.reason;
+      if (proof.answer == LimitProof::Answer::compatible)
+        beside = (trend.outcome == Outcome::converges ? "proven: "
+                  : trend.outcome == Outcome::stalls
+                      ? "although its limit is right for every field; look at load, constraint and "
+                        "quadrature: "
+                      : "its limit is right for every field: ") +
+                 beside;
+      else if (proof.answer == LimitProof::Answer::incompatible)
+      {
+        beside = (trend.outcome == Outcome::stalls      ? "proven: "
+                  : trend.outcome == Outcome::converges ? "other fields tend to a wrong limit: "
+                                                        : "its limit is wrong for most fields: ") +
+                 beside;
+        if (trend.outcome == Outcome::converges)
+          trend.outcome = Outcome::field_only;
+      }
+      else
+        beside = "not proven: " + beside;
+      trend.reason += "; " + beside;
+    }
+
     /// The errors of one method, case and series over its levels.
     Trend collect(const scene::Scene &scene, const Results &results, const Run &first,
                   const std::string &error)
@@ -93,12 +135,16 @@ namespace plumbline::study
         if (value == run.errors.end())
           continue;
         trend.size = std::max(trend.size, run.size);
+        trend.round_off = std::max(trend.round_off, run.round_off);
+        const LimitProof &proof = run.diagnostics.limit;
+        trend.proof = trend.x.empty() ? proof : weaker(trend.proof, proof);
         trend.x.push_back(trend.parameter == "h" ? run.h : run.horizon);
         trend.values.push_back(value->second);
       }
       if (trend.outcome != Outcome::failed)
         judge(trend);
       doubt_reference(results, trend);
+      weigh_proof(trend);
       if (scene.regime == scene::Regime::horizon && trend.outcome != Outcome::failed)
       {
         // no limit is approached: the rate tells how the error depends on the horizon
@@ -237,7 +283,8 @@ namespace plumbline::study
                 });
     }
 
-    /// The cheapest run of methods that converge with an error of at most a target, or nullptr.
+    /// The cheapest run of methods that converge, to this field and to others, with an error of at
+    /// most a target, or nullptr.
     const Run *cheapest(const Results &results, const std::set<std::string> &methods,
                         const std::string &problem, const std::string &series, double target)
     {
@@ -258,16 +305,18 @@ namespace plumbline::study
       for (const std::string &problem : scene.case_names())
         for (const auto &series : scene.series)
         {
-          Advice advice{problem, series.name, {}, {}};
+          Advice advice{problem, series.name, {}, {}, {}};
           std::set<std::string> good;
           for (const Trend &trend : results.trends)
             if (trend.error == results.decisive_error && trend.problem == problem &&
                 trend.series == series.name)
             {
-              if (trend.outcome == Outcome::converges)
+              if (trend.outcome == Outcome::converges && !trend.proof.has_wrong_moments())
                 good.insert(trend.method);
               else if (trend.outcome == Outcome::stalls)
                 advice.stalling.push_back(trend.method);
+              else if (trend.outcome == Outcome::field_only)
+                advice.field_only.push_back(trend.method);
             }
           for (const double target : {1e-2, 1e-4, 1e-6, 1e-8})
             if (const Run *run = cheapest(results, good, problem, series.name, target))

@@ -4,38 +4,59 @@
 #include "algebra/sparse.h"
 #include "base/error.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace plumbline::study
 {
   namespace
   {
-    /// The constraint at all positions within `margin` of the bounding box that are not free.
-    std::vector<double> collar_data(const scene::Problem &problem, const geometry::NodeSet &nodes,
-                                    int margin)
+    /// The constraint at all positions within `margin` of the bounding box that are not free, less
+    /// the middle of its range: the operator does not see a constant, but the solver's tolerance
+    /// and rounding would.
+    struct CollarData
     {
-      std::vector<double> data;
-      data.reserve(static_cast<std::size_t>(nodes.n_blocks()) * (nodes.n[0] + 2 * margin) *
-                   (nodes.n[1] + 2 * margin));
+      std::vector<double> values; ///< 0 where nodes are free
+      std::vector<double> middle; ///< of each component
+    };
+
+    CollarData collar_data(const scene::Problem &problem, const geometry::NodeSet &nodes,
+                           int margin)
+    {
+      CollarData data;
+      data.values.reserve(static_cast<std::size_t>(nodes.n_blocks()) * (nodes.n[0] + 2 * margin) *
+                          (nodes.n[1] + 2 * margin));
       for (unsigned int c = 0; c < nodes.n_components; ++c)
+      {
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        std::vector<std::size_t> held;
         for (unsigned int s = 0; s < nodes.n_families(); ++s)
           for (int j = -margin; j < nodes.n[1] + margin; ++j)
             for (int i = -margin; i < nodes.n[0] + margin; ++i)
-              if (nodes.free(s, i, j))
-                data.push_back(0);
-              else
+            {
+              double value = 0;
+              if (!nodes.free(s, i, j))
               {
                 const auto place = nodes.place(s, i, j);
-                data.push_back(
-                    problem.constraint.value(problem.lattice->point(place[0], place[1]), c));
+                value = problem.constraint.value(problem.lattice->point(place[0], place[1]), c);
+                low = std::min(low, value);
+                high = std::max(high, value);
+                held.push_back(data.values.size());
               }
+              data.values.push_back(value);
+            }
+        data.middle.push_back(held.empty() ? 0 : low + (high - low) / 2);
+        for (const std::size_t place : held)
+          data.values[place] -= data.middle.back();
+      }
       return data;
     }
 
     /// Solution and data together on positions -1 ... n.
     std::vector<double> merge(const geometry::NodeSet &nodes, const algebra::Vector &solution,
-                              const std::vector<double> &data, int margin)
+                              const CollarData &data, int margin)
     {
       std::vector<double> values;
       const std::size_t width = nodes.n[0] + 2 * margin, height = nodes.n[1] + 2 * margin;
@@ -45,10 +66,10 @@ namespace plumbline::study
         for (int j = -1; j <= nodes.n[1]; ++j)
           for (int i = -1; i <= nodes.n[0]; ++i)
           {
-            double value = data[(s * height + j + margin) * width + i + margin];
+            double value = data.values[(s * height + j + margin) * width + i + margin];
             if (i >= 0 && j >= 0 && i < nodes.n[0] && j < nodes.n[1])
               value += solution[(s * nodes.n[1] + j) * nodes.n[0] + i];
-            values.push_back(value);
+            values.push_back(value + data.middle[s / nodes.n_families()]);
           }
       return values;
     }
@@ -76,7 +97,7 @@ namespace plumbline::study
     const int margin = stencil.reach();
     const auto data = collar_data(problem, nodes, margin);
     algebra::Vector right_hand_side = load();
-    right_hand_side -= collar_action(stencil, nodes, data);
+    right_hand_side -= collar_action(stencil, nodes, data.values);
     algebra::Vector solution(nodes.size());
     const auto solved = algebra::solve(*matrix, preconditioner, solution, right_hand_side,
                                        scene.tolerance, scene.max_iterations);

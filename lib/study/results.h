@@ -9,6 +9,30 @@
 
 namespace plumbline::study
 {
+  /// What theory says of a method's limit as h and horizon go to 0 at a fixed ratio, whatever the
+  /// field: see study/limit_proof.h.
+  struct LimitProof
+  {
+    enum class Answer
+    {
+      unknown,     ///< no theory applies, or it was not asked: another regime
+      compatible,  ///< it tends to the local limit of every smooth field
+      incompatible ///< its local limit is another operator
+    };
+    Answer answer = Answer::unknown;
+    /// Of the second moments from those of the local operator, relative to the largest of these; 0
+    /// where they play no part. On scattered nodes: the worst of all families.
+    double defect = 0;
+    /// On scattered nodes: mean and standard deviation over the families of Σ w tr C |ξ|² relative
+    /// to its exact value, less 1. On a lattice all families are one.
+    double mean_defect = 0, spread = 0;
+    std::string reason; ///< one clause with the numbers or the theorem; empty: not asked
+
+    /// Known to be wrong somewhere: such a method is never advised.
+    bool has_wrong_moments() const { return defect > tolerance; }
+    static constexpr double tolerance = 1e-8; ///< for moments to count as exact
+  };
+
   /// What a method says about its own solution.
   struct Diagnostics
   {
@@ -25,6 +49,7 @@ namespace plumbline::study
     double outer_change = 0;            ///< L2, relative: the last refinement of outer quadrature
     bool is_outer_error_known = true;   ///< false: outer quadrature was not refined
     unsigned int n_refinements = 0;     ///< of outer quadrature
+    LimitProof limit;                   ///< at this ratio of horizon to h
     std::vector<std::string> notes;     ///< what the method had to do, e.g. clip a negative kernel
   };
 
@@ -39,7 +64,10 @@ namespace plumbline::study
     double h = 0, horizon = 0; ///< [length]
     base::Cost cost;
     Diagnostics diagnostics;
-    double size = 0;                      ///< of the solution: max |cell average|
+    /// Of the solution: largest less least cell average of a component. A constant counts for
+    /// nothing, as for the operator.
+    double size = 0;
+    double round_off = 0; ///< errors up to this are round-off, see study/round_off.h
     std::map<std::string, double> errors; ///< by "norm | target", e.g. "nodal Linf | exact"
     std::string failure;                  ///< empty, or why there is no solution
   };
@@ -49,25 +77,30 @@ namespace plumbline::study
   {
     converges, ///< plateau statistically nil, rate at least 3/4
     stalls,    ///< significant plateau, or the error grows again
-    undecided, ///< neither; one finer level would help
-    failed     ///< no solution at some level
+    undecided, ///< neither; the reason says what would help
+    failed,    ///< no solution at some level
+    field_only ///< it converges for this field, but its second moments are wrong: not for others
   };
 
   /// One error over a sweep, and what it says.
   struct Trend
   {
     std::string method, family, problem, series;
-    std::string error;          ///< "norm | target"
-    std::string parameter;      ///< what varies: "h" or "horizon"
-    std::vector<double> x;      ///< its values, coarse to fine [length]
-    std::vector<double> values; ///< the errors
-    double size = 0;            ///< of the solution, max |u|: what round-off is relative to
-    std::vector<double> rates;  ///< between neighbours, size x.size() - 1
+    std::string error;                           ///< "norm | target"
+    std::string parameter;                       ///< what varies: "h" or "horizon"
+    std::vector<double> x;                       ///< its values, coarse to fine [length]
+    std::vector<double> values;                  ///< the errors
+    double size = 0;                             ///< of the solution, how far it varies: see Run
+    std::vector<double> rates;                   ///< between neighbours, size x.size() - 1
     double rate = 0, rate_uncertainty = 0;       ///< slope of the last three levels, log over log
     double plateau = 0, plateau_uncertainty = 0; ///< a of the fit
     Outcome outcome = Outcome::undecided;
-    std::string verdict; ///< "AC", "not AC", "m-convergent", "not m-convergent", "undecided" ...
-    std::string reason;  ///< one sentence with the numbers
+    /// "AC", "not AC", "AC for this field only", "m-convergent", "not m-convergent", "undecided"
+    /// ...
+    std::string verdict;
+    std::string reason;    ///< one sentence with the numbers
+    double round_off = 0;  ///< errors up to this are round-off
+    LimitProof proof = {}; ///< apart from this field; of the level with the worst moments
   };
 
   /// How far a Galerkin solution of one level may be wrong: how much it moves.
@@ -121,6 +154,7 @@ namespace plumbline::study
     std::string problem, series;
     std::vector<Choice> choices;       ///< targets 1e-2, 1e-4, ... as far as a run reaches them
     std::vector<std::string> stalling; ///< methods that do not converge to this limit
+    std::vector<std::string> field_only = {}; ///< methods that do, but not for other fields
   };
 
   /// Where a method errs at the finest level of the last problem and the first series: the largest

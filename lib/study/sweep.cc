@@ -6,6 +6,7 @@
 #include "study/conclusions.h"
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
+#include "study/round_off.h"
 #include "study/saving.h"
 
 #include <algorithm>
@@ -243,8 +244,8 @@ namespace plumbline::study
         {
           const Solution solution = solve_and_time(method, problem);
           run.cost = solution.cost;
-          for (const double average : solution.averages)
-            run.size = std::max(run.size, std::abs(average));
+          run.size = variation(problem, solution);
+          run.round_off = round_off_error(scene_, problem, solution);
           run.diagnostics = solution.diagnostics;
           run.errors = errors(scene_, problem, solution, targets);
           for (const auto &[error, value] : run.errors)

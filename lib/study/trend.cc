@@ -9,8 +9,8 @@ namespace plumbline::study
 {
   namespace
   {
-    /// Errors below this, relative to the solution, are round-off of entries, loads and solver.
-    constexpr double round_off = 1e-10;
+    /// Round-off above this fraction of how far the solution varies hides what is to be judged.
+    constexpr double blurred = 1e-4;
 
     struct LinearFit
     {
@@ -106,33 +106,39 @@ namespace plumbline::study
       trend.rates.push_back(std::log(trend.values[i] / trend.values[i - 1]) /
                             std::log(trend.x[i] / trend.x[i - 1]));
     trend.outcome = Outcome::undecided;
-    if (trend.x.size() < 4)
+    if (trend.x.size() < levels_for_verdict)
     {
-      trend.reason = "fewer than four levels: run more (Study/h, --levels)";
+      trend.reason = std::to_string(trend.x.size()) + " of the " +
+                     std::to_string(levels_for_verdict) +
+                     " levels that a verdict needs: run more (Study/h, --levels)";
       return;
     }
 
-    const double floor = round_off * trend.size;
-    std::vector<double> x, e;
-    for (std::size_t i = 0; i < trend.x.size(); ++i)
-      if (trend.values[i] > floor)
-      {
-        x.push_back(trend.x[i]);
-        e.push_back(trend.values[i]);
-      }
+    const double floor = trend.round_off;
+    const double largest = *std::max_element(trend.values.begin(), trend.values.end());
+    if (trend.values.back() <= floor && !(floor <= blurred * trend.size))
+    {
+      trend.reason = "round-off, up to " + number(floor) +
+                     ", hides the errors of a solution that "
+                     "varies by " +
+                     number(trend.size) +
+                     " only: subtract a constant from the data, which the operator does not see, "
+                     "or lower Solver/tolerance";
+      return;
+    }
     if (trend.values.back() <= floor)
     {
       trend.outcome = Outcome::converges;
       trend.reason =
-          (e.empty() ? "exact to round-off, largest error " : "reaches round-off, from ") +
-          number(*std::max_element(trend.values.begin(), trend.values.end()));
+          (largest <= floor ? "exact to round-off, largest error " : "reaches round-off, from ") +
+          number(largest);
       return;
     }
-    if (x.size() < 4)
-    {
-      trend.reason = "fewer than four levels above round-off";
-      return;
-    }
+    // an error that falls below round-off and rises again has passed through 0
+    const std::vector<double> &x = trend.x;
+    std::vector<double> e;
+    for (const double value : trend.values)
+      e.push_back(std::max(value, floor));
 
     const PlateauFit fit = fit_plateau(x, e);
     const Slope slope = fit_slope({x.end() - 3, x.end()}, {e.end() - 3, e.end()});

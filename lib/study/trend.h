@@ -14,6 +14,9 @@ namespace plumbline::study
   /// @pre at least four levels, x decreasing, e > 0
   PlateauFit fit_plateau(const std::vector<double> &x, const std::vector<double> &e);
 
+  /// Fewer levels decide nothing.
+  constexpr std::size_t levels_for_verdict = 4;
+
   /// Slope of log e over log x by least squares, with its standard error.
   struct Slope
   {
@@ -21,16 +24,16 @@ namespace plumbline::study
   };
   Slope fit_slope(const std::vector<double> &x, const std::vector<double> &e);
 
-  /// Rates, plateau and outcome from trend.x, trend.values and trend.size; the rest is left alone.
+  /// Rates, plateau and outcome from trend.x, values, size and round_off; the rest is left alone.
   ///
-  /// - converges: the last error is round-off (1e-10 of the solution's size); or the plateau a is
-  /// nil, under
+  /// - converges: the last error is round-off, where that is at most 1e-4 of how far the solution
+  ///   varies; or the plateau a is nil, under
   ///   1/10 of the last error, or under 3/10 and within three uncertainties, and the slope of the
   ///   last three levels is at least 3/4 with two standard errors to spare;
   /// - stalls: a is at least 3/10 of the last error and exceeds three uncertainties, or 1/10 and
   /// ten; or the
   ///   error grew to twice the smallest one;
-  /// - undecided: neither, or fewer than four levels.
+  /// - undecided: neither, or fewer than four levels, or round-off hides the answer.
   /// The answer is about the given solution: a method may do better for one than for another.
   void judge(Trend &trend);
 } // namespace plumbline::study

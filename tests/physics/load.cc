@@ -148,3 +148,26 @@ TEST(ChebyshevField, does_not_claim_to_resolve_a_kink)
                                        { return std::abs(x[0] - .3); },
                                        1, Point<2>(), Point<2>(1, 1)));
 }
+
+// The operator does not see a constant, but rounding of the field does.
+TEST(ManufacturedLoad, settles_on_a_large_constant_down_to_its_round_off)
+{
+  const std::string wave = "0.01*sin(3*x)*cos(2*y)";
+  for (const double small : {.4, .0375})
+  {
+    const auto kernel = Kernel<2>::with_diffusion(kernel_type("linear-decay").profile, small, .5);
+    const ManufacturedLoad plain(kernel, Expression("Problem/solution", wave));
+    for (const double offset : {1e4, -1e6})
+    {
+      const ManufacturedLoad shifted(
+          kernel, Expression("Problem/solution", std::to_string(offset) + " + " + wave));
+      const double noise = 4e-16 * std::abs(offset) * operator_scale(kernel);
+      for (const Point<2> &x : {Point<2>(.99, .99), Point<2>(.2, .7)})
+        EXPECT_NEAR(shifted(x, 0), plain(x, 0), noise) << offset << ' ' << small;
+    }
+  }
+  // what is not smooth is refused on a constant too
+  const ManufacturedLoad kinked(linear_decay(),
+                                Expression("Problem/solution", "1e4 + abs(x - .43)"));
+  EXPECT_THROW(kinked(Point<2>(.4, .5), 0), NumericalError);
+}

@@ -185,7 +185,7 @@ namespace plumbline::report
       EXPECT_NE(message.find("; "), std::string::npos) << "no remedy in: " << message;
     };
     expect("cannot be read");
-    write(file, "{\"schema\": 4, ");
+    write(file, "{\"schema\": 5, ");
     expect("is not JSON");
     write(file, "[1]");
     expect("is not an object");
@@ -193,7 +193,7 @@ namespace plumbline::report
     expect("schema is missing");
     write(file, "{\"schema\": 2}");
     expect("schema = 2");
-    write(file, "{\"schema\": 4}");
+    write(file, "{\"schema\": 5}");
     expect("scene_name is missing");
 
     const auto damaged = [&](const std::string &from, const std::string &to)

@@ -16,6 +16,7 @@ namespace
     Trend trend;
     trend.x = x;
     trend.size = 1;
+    trend.round_off = 1e-10;
     trend.values = errors;
     judge(trend);
     return trend;
@@ -88,6 +89,21 @@ TEST(Judge, round_off_converges_and_levels_at_round_off_do_not_count)
   EXPECT_EQ(judged(h, {1e-3, 6.25e-5, 3.9e-6, 2.4e-7, 2e-11}).outcome, Outcome::converges);
 }
 
+TEST(Judge, round_off_that_is_not_small_beside_the_solution_decides_nothing)
+{
+  Trend trend;
+  trend.x = {.1, .05, .025, .0125};
+  trend.values = {2.6e-4, 9e-5, 6e-5, 5e-5}; // a stall that 1e-10 of an offset of 1e6 would hide
+  trend.size = .02;
+  trend.round_off = 1e-4;
+  judge(trend);
+  EXPECT_EQ(trend.outcome, Outcome::undecided);
+  EXPECT_NE(trend.reason.find("subtract a constant"), std::string::npos) << trend.reason;
+  trend.round_off = 1e-6;
+  judge(trend);
+  EXPECT_EQ(trend.outcome, Outcome::stalls);
+}
+
 TEST(Judge, fewer_than_four_levels_are_not_enough)
 {
   EXPECT_EQ(judged({.1, .05, .025}, {1e-2, 2.5e-3, 6.25e-4}).outcome, Outcome::undecided);
@@ -106,6 +122,7 @@ TEST(Judge, the_unit_of_the_solution_does_not_matter)
       Trend trend;
       trend.x = h;
       trend.size = scale;
+      trend.round_off = 1e-10 * scale;
       for (const double error : errors)
         trend.values.push_back(scale * error);
       judge(trend);

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "study/method.h"
+
+namespace plumbline::study
+{
+  /// Up to which size errors of a solution are round-off: 10 (ε (A v + max|u|) + r s). A = ∫|C|
+  /// ‖L⁻¹‖ is by how much the operator's two terms, which cancel, exceed their difference; r the
+  /// solver's relative residual, at least ε; s what is solved for: max|u|, or on lattices, where a
+  /// constant is taken off first, how far u varies; v the same, but max|u| where the load is
+  /// manufactured from u. ‖L⁻¹‖∞ is bounded by the barrier a² / ∫C ξ_1² of a strip of half-width a
+  /// = half the domain's smaller side and the horizon (Yang & Yin, lemma 4.2, with the bound that
+  /// holds for large horizons too). The factor 10 covers sums of many terms and transforms.
+  /// @return  absolute, in the unit of the solution
+  double round_off_error(const scene::Scene &scene, const scene::Problem &problem,
+                         const Solution &solution);
+
+  /// How far a solution varies: largest less least cell average, of the component where it is most.
+  double variation(const scene::Problem &problem, const Solution &solution);
+} // namespace plumbline::study

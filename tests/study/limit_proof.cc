@@ -1,0 +1,149 @@
+#include "study/limit_proof.h"
+
+#include "meshfree/method.h"
+#include "reference/method.h"
+#include "study/conclusions.h"
+#include "study/preflight.h"
+#include "study/round_off.h"
+
+#include <gtest/gtest.h>
+
+using namespace plumbline;
+using Answer = study::LimitProof::Answer;
+
+namespace
+{
+  study::Methods all()
+  {
+    study::Methods methods = meshfree::methods();
+    for (const auto &method : reference::methods())
+      methods.push_back(method);
+    return methods;
+  }
+
+  scene::Scene scene_of(const std::string &text, const std::vector<scene::Override> &changes = {})
+  {
+    return scene::parse_scene("test", "subsection Methods\n set names = FA\nend\n" + text, changes);
+  }
+
+  /// The proof of a method at the scene's first level, and the field solved for.
+  study::LimitProof proof(const scene::Scene &scene, const std::string &name)
+  {
+    const scene::Problem problem = make_problem(scene, 0, scene.series.front().levels.front());
+    return study::find_method(all(), name, "test")->solve(scene, problem).diagnostics.limit;
+  }
+
+  const std::string harmonic = "subsection Problem\n set solution = exp(x)*cos(y)\nend\n";
+  const std::string solid = "subsection Kernel\n set type = bond-tensor\n set limit = Navier\nend\n"
+                            "subsection Problem\n set solution = exp(x)*cos(y), x*y\nend\n";
+  const std::string lps = "subsection Kernel\n set type = 1/r\n set limit = Navier\nend\n"
+                          "subsection Material\n set model = LPS\n set E = 1\n set nu = .3\nend\n"
+                          "subsection Problem\n set solution = exp(x)*cos(y), x*y\nend\n";
+} // namespace
+
+// C(m) - 1 of Yang & Yin, "Analysis of convergence for the IPA-AC method", in closed form
+TEST(LimitProof, knows_by_how_much_second_moments_are_off_though_the_field_hides_it)
+{
+  const std::vector<std::pair<std::string, double>> known = {
+      {"2", .197213}, {"3", .091336}, {"4", .051250}, {"5", .032889}, {"2.5", .138128}};
+  for (const auto &[m, defect] : known)
+  {
+    const auto found = proof(scene_of(harmonic, {{"Study/m", m}, {"Study/h", ".125"}}), "IPA-AC");
+    EXPECT_EQ(found.answer, Answer::incompatible);
+    EXPECT_NEAR(found.defect, defect, 1e-6) << m;
+  }
+}
+
+TEST(LimitProof, tells_right_rules_from_wrong_ones_for_every_model)
+{
+  const auto scalar = scene_of(harmonic), tensor = scene_of(solid), state = scene_of(lps);
+  for (const char *name : {"FA", "LAMMPS", "QWJ", "PA-AC", "IPA-AC", "DGQ0"})
+    for (const auto *scene : {&scalar, &tensor, &state})
+    {
+      const auto found = proof(*scene, name);
+      EXPECT_EQ(found.answer, Answer::incompatible) << name;
+      EXPECT_GT(found.defect, 1e-4) << name;
+    }
+  for (const char *name : {"IPA-AC-R2", "IPA-AC-R4", "Q1", "Q2", "DGQ1"})
+    for (const auto *scene : {&scalar, &tensor, &state})
+      EXPECT_EQ(proof(*scene, name).answer, Answer::compatible) << name;
+  EXPECT_EQ(proof(scalar, "OPT").answer, Answer::incompatible);
+  EXPECT_EQ(proof(tensor, "OPT").answer, Answer::compatible);
+  EXPECT_EQ(proof(state, "OPT").answer, Answer::compatible);
+}
+
+TEST(LimitProof, an_error_of_one_part_in_a_million_is_an_error)
+{
+  const auto scene = scene_of(harmonic);
+  const scene::Problem problem = make_problem(scene, 0, scene.series.front().levels.front());
+  // the five-point stencil of -1/2 Laplace, with reach 1
+  algebra::Stencil stencil(1, 1);
+  const double a = .5 / (problem.h * problem.h);
+  stencil(0, 0, 0, 0) = 4 * a;
+  for (const auto &[i, j] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
+    stencil(0, 0, i, j) = -a;
+  EXPECT_EQ(study::prove_by_moments(scene, problem, stencil, 1).answer, Answer::compatible);
+  stencil(0, 0, 0, 1) *= 1 + 1e-6;
+  EXPECT_EQ(study::prove_by_moments(scene, problem, stencil, 1).answer, Answer::incompatible);
+  stencil(0, 0, 0, 1) /= 1 + 1e-6;
+  stencil(0, 0, 0, 0) *= 1 + 1e-6; // a constant is no longer mapped to 0
+  EXPECT_EQ(study::prove_by_moments(scene, problem, stencil, 1).answer, Answer::incompatible);
+}
+
+TEST(LimitProof, promises_nothing_where_no_theorem_applies)
+{
+  EXPECT_EQ(proof(scene_of(harmonic, {{"Study/regime", "m"}}), "IPA-AC-R2").answer,
+            Answer::unknown);
+  EXPECT_EQ(proof(scene_of(harmonic, {{"Study/regime", "m"}}), "Q1").answer, Answer::unknown);
+  const auto rising = scene_of(harmonic, {{"Kernel/type", "polynomial"},
+                                          {"Kernel/coefficients", "1, 1"},
+                                          {"Kernel/limit", "-Laplace"}});
+  EXPECT_EQ(proof(rising, "Q1").answer, Answer::unknown);
+  EXPECT_EQ(proof(rising, "IPA-AC-R2").answer, Answer::compatible); // moments need no sign
+  const auto varying = scene_of(harmonic, {{"Domain/mesh", "squares"},
+                                           {"Study/h", ".25"},
+                                           {"Study/m", "2"},
+                                           {"Kernel/coefficient", "2 + x"}});
+  EXPECT_EQ(proof(varying, "Q1").answer, Answer::unknown);
+  EXPECT_EQ(proof(varying, "FA").answer, Answer::unknown);
+}
+
+TEST(LimitProof, of_moved_nodes_rests_on_the_moments_of_all_families)
+{
+  const auto moved = scene_of(
+      harmonic, {{"Domain/mesh", "squares"}, {"Study/h", ".1"}, {"Methods/perturbation", ".2"}});
+  const auto wrong = proof(moved, "IPA-AC");
+  EXPECT_EQ(wrong.answer, Answer::incompatible);
+  EXPECT_NEAR(wrong.mean_defect, .0913, .02); // about that of the lattice
+  EXPECT_GT(wrong.spread, 1e-3);
+  EXPECT_GT(wrong.defect, std::abs(wrong.mean_defect) + wrong.spread);
+  const auto right = proof(moved, "IPA-AC-R2");
+  EXPECT_LT(right.defect, 1e-10);
+  EXPECT_EQ(right.answer, Answer::compatible) << right.reason;
+}
+
+TEST(RoundOff, grows_with_the_offset_and_size_does_not)
+{
+  const auto make = [](double offset, bool is_manufactured)
+  {
+    const std::string u = std::to_string(offset) + " + sin(3*x)*cos(2*y)";
+    const auto scene =
+        is_manufactured
+            ? scene_of("subsection Problem\n set solution = " + u + "\nend\n")
+            : scene_of("subsection Problem\n set load = 6.5*sin(3*x)*cos(2*y)\n set constraint = " +
+                           u + "\n set local solution = " + u + "\nend\n",
+                       {{"Study/decisive error", "nodal Linf | local"}});
+    const scene::Problem problem = make_problem(scene, 0, scene.series.front().levels.front());
+    const auto solution = study::find_method(all(), "FA", "test")->solve(scene, problem);
+    return std::pair(study::variation(problem, solution),
+                     study::round_off_error(scene, problem, solution));
+  };
+  const auto [size, noise] = make(0, false);
+  const auto [size_far, noise_far] = make(1e6, false);
+  const auto [size_made, noise_made] = make(1e6, true);
+  EXPECT_NEAR(size_far, size, 1e-6 * size);
+  EXPECT_LT(noise, 1e-10 * size);
+  EXPECT_GT(noise_far, 1e-9 * size); // 1e6 is known to 1e-10
+  EXPECT_LT(noise_far, 1e-8 * size);
+  EXPECT_GT(noise_made, 3 * noise_far); // its load is known to less
+}
