@@ -213,7 +213,7 @@ namespace plumbline::scene
       scene.expected_verdicts =
           expected("Expected/verdicts",
                    {"AC", "not AC", "m-convergent", "not m-convergent", "delta-m-convergent",
-                    "not delta-m-convergent", "undecided", "failed"});
+                    "not delta-m-convergent", "AC for this field only", "undecided", "failed"});
       scene.expected_errors = expected("Expected/errors");
       scene.expected_rates = expected("Expected/rates");
       scene.expected_bounds = expected("Expected/bounds");
