@@ -1,5 +1,6 @@
 // plumbline: Galerkin reference solutions for nonlocal models, and verification of meshfree rules.
 
+#include "arguments.h"
 #include "base/error.h"
 #include "base/team.h"
 #include "check.h"
@@ -98,9 +99,14 @@ int main(int argc, char **argv)
   {
     app.parse(argc, argv);
   }
+  catch (const CLI::Success &answer) // --help, --version
+  {
+    return app.exit(answer);
+  }
   catch (const CLI::ParseError &error)
   {
-    return app.exit(error) == 0 ? 0 : 2;
+    std::cerr << "plumbline: " << plumbline::app::explain(error) << '\n';
+    return 2;
   }
 
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(

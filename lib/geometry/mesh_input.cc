@@ -1,26 +1,26 @@
 #include "geometry/mesh_input.h"
 
 #include "base/error.h"
+#include "geometry/gmsh_process.h"
+#include "geometry/gmsh_script.h"
+#include "geometry/msh_file.h"
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/tria.h>
 
-#include <gmsh.h>
-
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <cstdlib>
+#include <deque>
+#include <filesystem>
 #include <fstream>
-#include <map>
+#include <mutex>
 #include <sstream>
 
 namespace plumbline::geometry
 {
   namespace
   {
-    /// Out of the plane z = 0 by more than this fraction of the largest coordinate.
-    constexpr double off_plane = 1e-10;
-
     /// The collar is as wide as asked for up to this fraction: h times a count is rounded.
     constexpr double rounding = 1e-10;
 
@@ -86,42 +86,44 @@ namespace plumbline::geometry
       return mesh;
     }
 
-    // ---- gmsh -----------------------------------------------------------------------------------
+    // ---- deal.II's generators -------------------------------------------------------------------
 
-    /// Gmsh between initialize and finalize, with the constants h and delta set.
-    class Gmsh
+    /// Numbers of cells are whole numbers; deal.II makes what it is told, and some square them.
+    void check_counts(const std::string &arguments, const std::string &source)
     {
-    public:
-      Gmsh(double h, double delta)
+      const double most = std::floor(std::sqrt(most_cells));
+      for (std::size_t i = 0; i < arguments.size(); ++i)
       {
-        std::vector<std::string> words{"plumbline", "-setnumber",   "h", text(h, 17), "-setnumber",
-                                       "delta",     text(delta, 17)};
-        std::vector<char *> arguments;
-        for (std::string &word : words)
-          arguments.push_back(word.data());
-        gmsh::initialize(static_cast<int>(arguments.size()), arguments.data(), false);
-        gmsh::option::setNumber("General.Terminal", 0);
+        const std::size_t begin = i;
+        while (i < arguments.size() && std::string(" ,:;").find(arguments[i]) == std::string::npos)
+          ++i;
+        const std::string word = arguments.substr(begin, i - begin);
+        const bool is_whole =
+            !word.empty() && word.find_first_not_of("+-0123456789") == std::string::npos;
+        if (is_whole && std::abs(std::strtod(word.c_str(), nullptr)) > most)
+          throw InputError(source + ": " + word + " may be a number of cells, of which " +
+                           text(most) +
+                           " along a side are allowed; give fewer, h refines them, or "
+                           "write a length with its decimal point, '" +
+                           word + ".'");
       }
-      ~Gmsh() { gmsh::finalize(); }
-      Gmsh(const Gmsh &) = delete;
-      Gmsh &operator=(const Gmsh &) = delete;
-    };
-
-    /// Meshes the model. Errors are read from gmsh's log: gmsh's exceptions would have to leave an
-    /// OpenMP region, which ends the program.
-    void generate()
-    {
-      gmsh::option::setNumber("General.AbortOnError", 0);
-      gmsh::logger::start();
-      gmsh::model::mesh::generate(2);
-      std::vector<std::string> log;
-      gmsh::logger::get(log);
-      gmsh::logger::stop();
-      const std::string mark = "Error: ";
-      for (const std::string &line : log)
-        if (line.compare(0, mark.size(), mark) == 0)
-          throw line.substr(mark.size());
     }
+
+    /// deal.II's words in ours.
+    std::string generator_fault(const std::string &words)
+    {
+      const auto has = [&](const char *part) { return words.find(part) != std::string::npos; };
+      const std::string remedy =
+          "; see deal.II's namespace GridGenerator, and give the name by "
+          "Domain/mesh and all arguments by Domain/arguments, separated by ':'";
+      if (has("not implemented") || has("unknown"))
+        return "is not known: deal.II has no such generator of meshes in the plane" + remedy;
+      if (has("pattern") || has("number of"))
+        return "does not fit: too few or too many arguments, or one of another kind" + remedy;
+      return "cannot be made: its arguments are out of range" + remedy;
+    }
+
+    // ---- gmsh -----------------------------------------------------------------------------------
 
     bool ends_with(const std::string &word, const std::string &end)
     {
@@ -129,97 +131,26 @@ namespace plumbline::geometry
              word.compare(word.size() - end.size(), end.size(), end) == 0;
     }
 
-    bool begins_with(std::string word, const std::string &begin)
+    /// A .geo script as a .msh text. The cases of a scene ask for the same mesh at the same levels:
+    /// the last few texts are kept, each under all that it was made from.
+    std::string mesh_script(const std::string &file, double h, double delta,
+                            const std::string &source)
     {
-      std::transform(word.begin(), word.end(), word.begin(),
-                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-      return word.compare(0, begin.size(), begin) == 0;
-    }
+      constexpr std::size_t n_kept = 8, longest_kept = 20'000'000;
+      static std::mutex mutex;
+      static std::deque<std::pair<std::string, std::string>> kept;
 
-    struct Surface
-    {
-      int entity;
-      bool is_inside;
-      std::string name;
-    };
-
-    std::vector<Surface> physical_surfaces(bool wants_collar)
-    {
-      gmsh::vectorpair groups;
-      gmsh::model::getPhysicalGroups(groups, 2);
-      std::vector<Surface> surfaces;
-      std::string names;
-      bool has_omega = false, has_collar = false, has_other = false;
-      for (const auto &[dimension, group] : groups)
-      {
-        std::string name;
-        gmsh::model::getPhysicalName(dimension, group, name);
-        const bool is_omega = begins_with(name, "omega"), is_collar = begins_with(name, "collar");
-        has_omega = has_omega || is_omega;
-        has_collar = has_collar || is_collar;
-        has_other = has_other || !(is_omega || (is_collar && wants_collar));
-        names += (names.empty() ? "" : ", ") +
-                 (name.empty() ? "number " + std::to_string(group) : "'" + name + "'");
-        std::vector<int> entities;
-        gmsh::model::getEntitiesForPhysicalGroup(dimension, group, entities);
-        for (const int entity : entities)
-          surfaces.push_back({entity, is_omega, name});
-      }
-      if (!has_omega || has_collar != wants_collar || has_other)
-        throw InputError("has the physical surfaces " + (names.empty() ? "(none)" : names) +
-                         (wants_collar
-                              ? "; give names that begin with 'omega' and 'collar', at least one "
-                                "of each and no others"
-                              : "; a body with a free boundary has no collar: give names that "
-                                "begin with 'omega', at least one and no others"));
-      return surfaces;
-    }
-
-    /// Vertices of the whole model, and cells of the physical surfaces.
-    Mesh model(bool has_collar)
-    {
-      Mesh mesh;
-      std::vector<std::size_t> tags;
-      std::vector<double> coordinates, parameters;
-      gmsh::model::mesh::getNodes(tags, coordinates, parameters);
-      std::map<std::size_t, unsigned int> number;
-      double largest = 0, height = 0;
-      for (std::size_t i = 0; i < tags.size(); ++i)
-      {
-        const double *const at = &coordinates[3 * i];
-        number[tags[i]] = static_cast<unsigned int>(i);
-        mesh.vertices.emplace_back(at[0], at[1]);
-        largest = std::max({largest, std::abs(at[0]), std::abs(at[1])});
-        height = std::max(height, std::abs(at[2]));
-      }
-      if (height > off_plane * largest)
-        throw InputError("reaches z = " + text(height) +
-                         "; only triangles and quadrilaterals in the plane z = 0 are allowed");
-
-      for (const Surface &surface : physical_surfaces(has_collar))
-      {
-        if (mesh.groups.empty() || mesh.groups.back() != surface.name)
-          mesh.groups.push_back(surface.name);
-        const auto group = static_cast<unsigned int>(mesh.groups.size() - 1);
-        std::vector<int> types;
-        std::vector<std::vector<std::size_t>> elements, nodes;
-        gmsh::model::mesh::getElements(types, elements, nodes, 2, surface.entity);
-        for (std::size_t t = 0; t < types.size(); ++t)
-        {
-          if (types[t] != 2 && types[t] != 3)
-            throw InputError("has cells of gmsh's type " + std::to_string(types[t]) +
-                             "; only triangles and quadrilaterals of first order are allowed "
-                             "(Mesh.ElementOrder = 1)");
-          const unsigned int n = types[t] == 2 ? 3 : 4;
-          for (std::size_t first = 0; first < nodes[t].size(); first += n)
-          {
-            MeshCell cell{{}, n, surface.is_inside, group};
-            for (unsigned int i = 0; i < n; ++i)
-              cell.vertex[i] = number.at(nodes[t][first + i]);
-            mesh.cells.push_back(cell);
-          }
-        }
-      }
+      const std::string script =
+          text(h, 17) + ' ' + text(delta, 17) + ' ' + file + '\n' + check_script(file);
+      const std::lock_guard<std::mutex> lock(mutex);
+      for (const auto &[key, mesh] : kept)
+        if (key == script)
+          return mesh;
+      std::string mesh = mesh_by_gmsh(file, h, delta, GmshLimits::from_environment(), source);
+      if (mesh.size() < longest_kept)
+        kept.emplace_front(script, mesh);
+      if (kept.size() > n_kept)
+        kept.pop_back();
       return mesh;
     }
 
@@ -292,26 +223,22 @@ namespace plumbline::geometry
     const bool is_script = ends_with(file, ".geo");
     if (!is_script && !ends_with(file, ".msh"))
       throw InputError(source + " is of unknown kind; its name must end in .msh or .geo");
-    if (!std::ifstream(file))
-      throw InputError(source + " cannot be read; check its name and folder");
-
-    const Gmsh session(h, delta);
-    Mesh mesh;
-    try
+    if (!(h > 0) || !std::isfinite(h) || !std::isfinite(delta))
+      throw InputError(source + ": h = " + text(h) + " and delta = " + text(delta) +
+                       " must be lengths");
+    std::string msh;
+    if (is_script)
+      msh = mesh_script(file, h, delta, source);
+    else
     {
-      gmsh::open(file);
-      if (is_script)
-        generate();
-      mesh = model(has_collar);
+      std::ifstream in(file, std::ios::binary);
+      if (!in || std::filesystem::is_directory(file))
+        throw InputError(source + " cannot be read; check its name and folder");
+      msh.assign(std::istreambuf_iterator<char>(in), {});
+      if (is_other_msh(msh))
+        msh = convert_by_gmsh(file, GmshLimits::from_environment(), source);
     }
-    catch (const std::string &error) // gmsh's own
-    {
-      throw InputError(source + " is refused by gmsh: " + error + "; mend the file");
-    }
-    catch (const InputError &error)
-    {
-      throw InputError(source + " " + error.what());
-    }
+    Mesh mesh = read_msh(msh, source, has_collar);
     turn_if_clockwise(mesh);
     return finish(std::move(mesh), source);
   }
@@ -322,6 +249,7 @@ namespace plumbline::geometry
     if (!(h > 0))
       throw InputError("mesh size h = " + text(h) + " must be a positive length");
     const std::string source = "mesh generator " + generator + " (" + arguments + ")";
+    check_counts(arguments, source);
     dealii::Triangulation<2> triangulation;
     try
     {
@@ -329,15 +257,13 @@ namespace plumbline::geometry
     }
     catch (const dealii::ExceptionBase &error)
     {
-      std::stringstream words;
+      std::ostringstream words;
       error.print_info(words);
-      std::string sentence;
-      for (std::string word; words >> word;)
-        sentence += " " + word;
-      throw InputError(
-          source + " is refused by deal.II:" + sentence +
-          "; give one of its GridGenerator functions (Domain/mesh) with all its arguments "
-          "(Domain/arguments)");
+      throw InputError(source + " " + generator_fault(words.str()));
+    }
+    catch (const std::exception &) // of the standard library, where it converts arguments
+    {
+      throw InputError(source + " " + generator_fault(""));
     }
     const auto longest_side = [&]
     {

@@ -7,15 +7,16 @@
 
 namespace plumbline::geometry
 {
-  /// A mesh from a gmsh file. .msh (2.2 or 4.1): as it is, first-order triangles and
-  /// quadrilaterals. .geo: run through gmsh in two dimensions with the constants h and delta set,
-  /// for DefineConstant[ h = .1, delta = .3 ]. Physical surfaces whose name begins with 'omega'
+  /// A mesh from a gmsh file. .msh: as it is, first-order triangles and quadrilaterals. .geo:
+  /// meshed by gmsh in two dimensions with the constants h and delta set, for
+  /// DefineConstant[ h = .1, delta = .3 ]. Physical surfaces whose name begins with 'omega'
   /// make up Ω, those that begin with 'collar' the collar, if it has one, in small letters or
   /// capitals; surfaces that are not physical are left out. A surface seen from behind, all cells
   /// clockwise, is turned around.
-  /// @throws InputError  file not readable, gmsh's own error, physical surfaces missing or others
-  /// than these, cells of higher order, cells that are no triangles or quadrilaterals, a mesh out
-  /// of the plane z = 0, and as `check` Not for: two threads at a time, gmsh being global.
+  /// gmsh runs as a process of its own with limits (GmshLimits), and scripts that would start
+  /// programs or write files are refused (check_script).
+  /// @throws InputError  file not readable, as read_msh, check_script and mesh_by_gmsh, and as
+  /// `check`
   Mesh read_mesh(const std::string &file, double h, double delta, bool has_collar = true);
 
   /// One of deal.II's GridGenerator functions by name, e.g. "hyper_ball_balanced" with "0, 0 : 1",

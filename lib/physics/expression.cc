@@ -1,6 +1,7 @@
 #include "physics/expression.h"
 
 #include "base/error.h"
+#include "base/text_file.h"
 
 #include <muParser.h>
 
@@ -22,6 +23,59 @@ namespace plumbline::physics
         if (text[i] == '=' && !is_one_of(i + 1, "=") && !(i > 0 && is_one_of(i - 1, "=<>!")))
           return true;
       return false;
+    }
+
+    /// What muParser does not understand, in our words.
+    std::string reason(const mu::ParserError &error)
+    {
+      const std::string token = base::shown(error.GetToken());
+      const std::string place =
+          error.GetPos() < 0 ? "" : " at character " + std::to_string(error.GetPos() + 1);
+      const auto about = [&](const std::string &what)
+      { return what + (token.empty() ? "" : " '" + token + "'") + place; };
+      switch (error.GetCode())
+      {
+      case mu::ecUNASSIGNABLE_TOKEN:
+      case mu::ecINVALID_NAME:
+        return about("there is an unknown name or sign");
+      case mu::ecUNEXPECTED_EOF:
+      case mu::ecEMPTY_EXPRESSION:
+        return "it ends where a number, a name or a bracket is missing";
+      case mu::ecMISSING_PARENS:
+        return "a bracket is not closed";
+      case mu::ecUNEXPECTED_OPERATOR:
+        return about("an operator stands where a value must be,");
+      case mu::ecUNEXPECTED_VAL:
+      case mu::ecUNEXPECTED_VAR:
+      case mu::ecUNEXPECTED_FUN:
+        return about("an operator is missing before");
+      case mu::ecUNEXPECTED_PARENS:
+        return about("there is a bracket too many or an operator too few,");
+      case mu::ecUNEXPECTED_ARG_SEP:
+      case mu::ecUNEXPECTED_ARG:
+        return about("there is a comma outside of a function's arguments,");
+      case mu::ecTOO_MANY_PARAMS:
+        return about("there are too many arguments of");
+      case mu::ecTOO_FEW_PARAMS:
+        return about("there are too few arguments of");
+      case mu::ecUNEXPECTED_STR:
+      case mu::ecSTRING_EXPECTED:
+      case mu::ecVAL_EXPECTED:
+      case mu::ecUNTERMINATED_STRING:
+      case mu::ecSTR_RESULT:
+        return "there are quotes, and values are numbers";
+      case mu::ecUNEXPECTED_CONDITIONAL:
+      case mu::ecMISSING_ELSE_CLAUSE:
+      case mu::ecMISPLACED_COLON:
+        return "a condition is not of the form a ? b : c";
+      case mu::ecINVALID_CHARACTERS_FOUND:
+        return "it holds characters other than letters, digits and signs";
+      case mu::ecEXPRESSION_TOO_LONG:
+      case mu::ecIDENTIFIER_TOO_LONG:
+        return "it, or a name in it, is too long";
+      default:
+        return about("it is no formula");
+      }
     }
   } // namespace
 
@@ -56,8 +110,8 @@ namespace plumbline::physics
         std::string names = "x, y, pi";
         for (const auto &constant : constants_)
           names += ", " + constant.first;
-        throw InputError(key_ + " = '" + part + "' does not parse: " + error.GetMsg() +
-                         "; write a muParser expression in " + names + ".");
+        throw InputError(key_ + " = '" + base::shown(part, 200) + "' does not parse: " +
+                         reason(error) + "; write a muParser expression in " + names + ".");
       }
   }
 

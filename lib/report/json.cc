@@ -1,14 +1,14 @@
 #include "report/json.h"
 
 #include "base/error.h"
+#include "base/json_text.h"
+#include "base/text_file.h"
 #include "report/formats.h"
-
-#include <nlohmann/json.hpp>
+#include "report/json_checks.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -31,6 +31,8 @@ namespace plumbline::report
     {
       return {"unknown", "compatible", "incompatible"};
     }
+    /// Maps and runs of a thousand methods are less.
+    constexpr std::size_t most_bytes = 1'000'000'000;
 
     // Each key stands here once; the same list writes and reads.
     template <typename Archive>
@@ -383,21 +385,10 @@ namespace plumbline::report
 
   study::Results read_json(const std::filesystem::path &file)
   {
-    const std::string name = file.string();
-    std::ifstream in(file, std::ios::binary);
-    if (!in || std::filesystem::is_directory(file))
-      throw InputError("results file '" + name +
-                       "' cannot be read; give the folder that 'plumbline run' has written");
-    Json json;
-    try
-    {
-      json = Json::parse(in);
-    }
-    catch (const Json::parse_error &error)
-    {
-      throw InputError("results file '" + name + "' is not JSON (" + error.what() +
-                       "); run the scene again");
-    }
+    const std::string name = file.string(), what = "results file '" + name + "'";
+    const Json json = base::parse_json(
+        base::read_text_file(name, what, most_bytes, "the folder that 'plumbline run' has written"),
+        what, "run the scene again");
     unsigned int found = 0;
     const Reader reader(json, "", name);
     reader("schema", found);
@@ -407,16 +398,7 @@ namespace plumbline::report
                        "; run the scene again, or use the version named under provenance");
     study::Results results;
     visit(reader, results);
-    for (std::size_t i = 0; i < results.maps.size(); ++i)
-    {
-      const study::ErrorMap &map = results.maps[i];
-      if (map.values.size() != std::size_t{map.n_x} * map.n_y)
-        throw InputError(
-            "results file '" + name + "': maps[" + std::to_string(i) + "].values has " +
-            std::to_string(map.values.size()) +
-            " numbers, not n_x * n_y = " + std::to_string(std::size_t{map.n_x} * map.n_y) +
-            "; run the scene again, or mend the file by schema.md");
-    }
+    check_results(results, what);
     return results;
   }
 } // namespace plumbline::report

@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -339,12 +338,10 @@ namespace plumbline::report
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR)
       ;
-    std::ifstream in(log);
-    const std::string message((std::istreambuf_iterator<char>(in)), {});
-    in.close();
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
       throw NumericalError("charts cannot be drawn, gnuplot stopped on '" +
-                           (folder / script).string() + "': " + message.substr(0, 400));
+                           (folder / script).string() + "' and says why in '" + log_name +
+                           "'; mend that, then 'plumbline report' on the folder");
     std::filesystem::remove(log);
   }
 } // namespace plumbline::report

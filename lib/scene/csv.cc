@@ -1,6 +1,7 @@
 #include "scene/csv.h"
 
 #include "base/error.h"
+#include "base/text_file.h"
 
 #include <algorithm>
 #include <charconv>
@@ -35,6 +36,8 @@ namespace plumbline::scene
     std::getline(in_, header);
     if (!in_.is_open() || in_.bad())
       throw InputError("'" + file + "' cannot be read; check its name and folder");
+    if (header.compare(0, 3, "\xEF\xBB\xBF") == 0) // a byte order mark, as spreadsheets write it
+      header.erase(0, 3);
     columns_ = split(header);
     std::string names;
     for (const std::string &column : required)
@@ -42,10 +45,10 @@ namespace plumbline::scene
     for (const std::string &column : required)
       if (!has(column))
         throw InputError("'" + file + "' has no column " + column + " in its first line '" +
-                         header + "'; name the columns there: " + names);
+                         base::shown(header, 80) + "'; name the columns there: " + names);
     for (auto column = columns_.begin(); column != columns_.end(); ++column)
       if (!column->empty() && std::find(columns_.begin(), column, *column) != column)
-        fail("two columns are named " + *column + "; rename one of them");
+        fail("two columns are named " + base::shown(*column) + "; rename one of them");
   }
 
   bool Csv::has(const std::string &column) const
@@ -62,7 +65,7 @@ namespace plumbline::scene
       if (std::all_of(row_.begin(), row_.end(), [](auto &value) { return value.empty(); }))
         continue;
       if (row_.size() > columns_.size())
-        fail("'" + text + "' has " + std::to_string(row_.size()) + " values for " +
+        fail("'" + base::shown(text) + "' has " + std::to_string(row_.size()) + " values for " +
              std::to_string(columns_.size()) +
              " columns; take some out, or name their columns in the first line");
       row_.resize(columns_.size());
@@ -105,7 +108,8 @@ namespace plumbline::scene
     Number number{};
     const auto parsed = std::from_chars(text.data() + (has_plus ? 1 : 0), end, number);
     if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(double(number)))
-      fail(column + " = '" + text + "' is not " + wanted + "; mend or take out the line");
+      fail(column + " = '" + base::shown(text) + "' is not " + wanted +
+           "; mend or take out the line");
     return number;
   }
 } // namespace plumbline::scene

@@ -1,6 +1,7 @@
 #include "scene/parameters.h"
 
 #include "base/error.h"
+#include "base/text_file.h"
 
 #include <algorithm>
 #include <sstream>
@@ -67,7 +68,10 @@ namespace plumbline::scene
            "as a mesh with entries of its own. A file .msh, or .geo with the constants h and "
            "delta, "
            "and physical surfaces omega... and collar...; or one of deal.II's generators by name, "
-           "e.g. hyper_ball_balanced."},
+           "e.g. hyper_ball_balanced. gmsh meshes .geo files as a process of its own with limits "
+           "(120 CPU seconds, 4 GiB; the environment's PLUMBLINE_GMSH_SECONDS and "
+           "PLUMBLINE_GMSH_GIBIBYTES change them); commands that start programs or write files "
+           "(SystemCall, Save, Print, Plugin, ...) are refused."},
           {"Domain", "arguments", "", text(),
            "Of a generator, as deal.II takes them, e.g. '0, 0 : 1'. Its cells must reach over the "
            "collar."},
@@ -317,6 +321,14 @@ namespace plumbline::scene
   void set(dealii::ParameterHandler &parameters, const std::string &name, const std::string &value)
   {
     const Key &key = find(name);
+    const bool is_text =
+        std::none_of(value.begin(), value.end(),
+                     [](unsigned char c) { return c == '#' || c == 127 || (c < 32 && c != '\t'); });
+    if (!is_text || (!value.empty() && value.back() == '\\'))
+      throw InputError(
+          name + " = '" + base::shown(value) +
+          "' cannot be written in a scene: '#' begins a comment, a '\\' at the end "
+          "continues the line; take them, line breaks and other control characters out");
     if (!key.pattern->match(value))
       throw InputError(name + " = '" + value + "' is not allowed; it must be " +
                        key.pattern->description(Patterns::PatternBase::Text));

@@ -1,15 +1,16 @@
 #include "scene/scene.h"
 
 #include "base/error.h"
+#include "base/text_file.h"
 #include "scene/checks.h"
 #include "scene/material.h"
 #include "scene/parameters.h"
+#include "scene/scene_file.h"
 #include "scene/values.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <sstream>
 
@@ -227,42 +228,45 @@ namespace plumbline::scene
       return scene;
     }
 
-    /// deal.II's own words about a bad file, without its frame.
-    std::string reason(const dealii::ExceptionBase &error)
-    {
-      std::ostringstream text;
-      error.print_info(text);
-      std::string line = text.str();
-      std::replace(line.begin(), line.end(), '\n', ' ');
-      return trim(line);
-    }
-
-    Scene parse(const std::string &name, std::istream &input, bool is_json,
-                const std::vector<Override> &overrides)
-    try
+    /// @param what  opens messages
+    Scene build(const std::string &name, const std::string &what,
+                const std::vector<Setting> &settings, const std::vector<Override> &overrides)
     {
       dealii::ParameterHandler parameters;
       declare(parameters);
+      const auto change =
+          [&](const std::string &key, const std::string &value, const std::string &place)
+      {
+        try
+        {
+          set(parameters, key, value);
+        }
+        catch (const InputError &error)
+        {
+          throw InputError(what + place + ": " + error.what());
+        }
+      };
+      for (const Setting &setting : settings)
+        change(setting.key, setting.value, ", " + setting.place);
+      for (const Override &setting : overrides)
+        change(setting.key, setting.value, "");
       try
       {
-        if (is_json)
-          parameters.parse_input_from_json(input);
-        else
-          parameters.parse_input(input, name, "", false);
+        return build(name, parameters);
       }
-      catch (const dealii::ExceptionBase &error)
+      catch (const InputError &error)
       {
-        throw InputError(reason(error) +
-                         " ('plumbline describe Section' lists the keys of a section)");
+        throw InputError(what + ": " + error.what());
       }
-      for (const Override &change : overrides)
-        set(parameters, change.key, change.value);
-      return build(name, parameters);
     }
-    catch (const InputError &error)
+
+    std::string opening(const std::string &file)
     {
-      throw InputError("scene '" + name + "': " + error.what());
+      return "scene '" + file + "'";
     }
+
+    /// A scene is a page or two.
+    constexpr std::size_t most_bytes = 10'000'000;
   } // namespace
 
   bool MeshSource::is_file() const
@@ -312,18 +316,19 @@ namespace plumbline::scene
 
   Scene read_scene(const std::string &file, const std::vector<Override> &overrides)
   {
-    std::ifstream input(file);
-    if (!input || std::filesystem::is_directory(file))
-      throw InputError("scene '" + file + "' cannot be read; give a .prm or .json file");
-    const std::string ending = std::filesystem::path(file).extension().string();
-    return parse(file, input, ending == ".json", overrides);
+    const std::string what = opening(file);
+    const std::string text = base::read_text_file(file, what, most_bytes, "a .prm or .json file");
+    const bool is_json = std::filesystem::path(file).extension() == ".json";
+    return build(file, what,
+                 is_json ? read_json_settings(text, what) : read_settings(file, text, what),
+                 overrides);
   }
 
   Scene parse_scene(const std::string &name, const std::string &text,
                     const std::vector<Override> &overrides)
   {
-    std::istringstream input(text);
-    return parse(name, input, false, overrides);
+    base::check_text(text, opening(name));
+    return build(name, opening(name), read_settings(name, text, opening(name)), overrides);
   }
 
   std::string scene_template(const std::string &model)

@@ -89,7 +89,7 @@ TEST_F(BadMeshes, mesh_files_that_cannot_be_used_are_refused)
        refused("solid.msh",
                {"reaches z = 1; only triangles and quadrilaterals in the plane z = 0"}),
        refused("missing.msh", {"cannot be read; check its name and folder"}),
-       refused("broken.geo", {"refused by gmsh", "syntax error", "; mend the file"}),
+       refused("broken.geo", {"line 1 is refused by gmsh: a syntax error at ';'; mend the line"}),
        refused("thin.msh", {"the collar is 0 wide", "thinner than the horizon 0.5", "; widen"})});
 }
 
@@ -99,9 +99,9 @@ TEST_F(BadMeshes, generators_and_maps_that_do_not_work_are_refused)
                     arguments = set("Domain/arguments", "0, 0 : 1 : false");
   expect_refusals(
       {{set("Domain/mesh", "hyper_blob") + inside,
-        {"mesh generator hyper_blob ()", "not implemented; give", "(Domain/mesh)"}},
+        {"mesh generator hyper_blob ()", "deal.II has no such generator", "by Domain/mesh"}},
        {ball + inside + set("Domain/arguments", "0, 0 : x"),
-        {"(0, 0 : x) is refused", "does not match the pattern", "(Domain/arguments)"}},
+        {"(0, 0 : x) does not fit", "one of another kind", "by Domain/arguments"}},
        {ball + arguments, {"Domain/inside is empty", "an expression that is positive there"}},
        {set("Domain/mesh", "Squares"),
         {"Domain/mesh = Squares: lattice, squares, triangles and files .msh or .geo do without"}},

@@ -81,7 +81,7 @@ TEST(Command, an_unknown_key_in_a_file_is_refused_with_its_line)
   const Outcome outcome = run("run " + file + " -o " + folder.string());
   EXPECT_EQ(outcome.exit_code, 2);
   expect_found(outcome.err, "hh");
-  expect_found(outcome.err, "Line <2>");
+  expect_found(outcome.err, "line 2: key 'Study/hh' is not known; write one of: Study/regime");
   EXPECT_FALSE(fs::exists(folder));
 }
 

@@ -1,5 +1,6 @@
 #include "geometry/mesh_input.h"
 
+#include "geometry/gmsh_process.h"
 #include "meshes.h"
 
 #include <filesystem>
@@ -169,12 +170,15 @@ TEST(GenerateMesh, says_what_is_wrong)
         [&] { generate_mesh(generator, arguments, h, [](const Point<2> &) { return true; }); });
   };
   EXPECT_EQ(fault("hyper_ball", "0, 0 : 1 : false"), "no error");
-  EXPECT_TRUE(says(fault("hyper_blob", "0, 0 : 1"), "not implemented"));
-  EXPECT_TRUE(says(fault("hyper_ball", "0, 0 : 1"), "does not match the pattern"));
+  EXPECT_TRUE(says(fault("hyper_blob", "0, 0 : 1"), "is not known: deal.II has no such generator"));
+  EXPECT_TRUE(says(fault("hyper_ball", "0, 0 : 1"), "too few or too many arguments"));
   EXPECT_TRUE(says(fault("hyper_ball", "0, 0 : 0 : false"), "degenerate"));
   EXPECT_TRUE(says(fault("hyper_cube_slit", "0 : 1 : false"), "has another vertex"));
   EXPECT_TRUE(
       says(fault("hyper_ball", "0, 0 : 1 : false", 1e-5), "h = 1e-05 makes more than 1e+07 cells"));
+  EXPECT_TRUE(says(fault("subdivided_hyper_cube", "4000 : 0 : 1"),
+                   "4000 may be a number of cells, of which 3162 along a side are allowed"));
+  EXPECT_EQ(fault("hyper_cube", "0. : 4000. : false", 2000), "no error");
   EXPECT_TRUE(says(fault("hyper_ball", "0, 0 : 1 : false", 0), "must be a positive length"));
 }
 
@@ -240,9 +244,13 @@ TEST_F(MeshFile, that_cannot_be_used_is_refused)
   EXPECT_TRUE(says(error_of([] { read_mesh("no_such_file.msh", 1, 1); }), "cannot be read"));
   EXPECT_TRUE(says(fault_of("mesh.stl", ""), "must end in .msh or .geo"));
   const std::string gmsh = fault_of("bad.geo", "Point(1) = {0, 0;");
-  EXPECT_TRUE(says(gmsh, "is refused by gmsh: "));
-  EXPECT_TRUE(says(gmsh, "syntax error"));
-  EXPECT_TRUE(says(fault_of("bad.msh", "nonsense"), "bad.msh'"));
+  EXPECT_TRUE(
+      says(gmsh, "bad.geo', line 1 is refused by gmsh: a syntax error at ';'; mend the line"));
+  EXPECT_TRUE(says(fault_of("bad.geo", "a = 1;\nb = c;\n"),
+                   "bad.geo', line 2 is refused by gmsh: Unknown variable 'c'; mend the line"));
+  EXPECT_TRUE(says(fault_of("exit.geo", disc + "Exit;"), "without a mesh; take Exit out"));
+  EXPECT_TRUE(says(error_of([&] { read("h.geo", disc, 0); }), "h = 0 and delta = 0.3 must be"));
+  EXPECT_TRUE(says(fault_of("call.geo", "SystemCall 'true';"), "would start a program"));
 
   EXPECT_TRUE(
       says(fault_of("nameless.msh", msh_2("", nodes, elements)), "number 1, number 2; give"));
@@ -262,4 +270,99 @@ TEST_F(MeshFile, with_cells_that_cannot_be_used_is_refused)
   const std::string mixed = "3\n1 2 2 1 1 1 2 15\n2 2 2 1 1 15 1 14\n3 3 2 2 2 2 3 16 15\n";
   const std::string fault = fault_of("mixed.msh", msh_2(names, nodes, mixed));
   EXPECT_TRUE(says(fault, "mixed.msh': cell 1 at (0.333333, 0.666667) is inverted"));
+}
+
+// whatever is broken has its line, and the file's reader is ours
+TEST_F(MeshFile, that_is_broken_is_refused_by_line)
+{
+  const auto fault = [&](const std::string &text) { return fault_of("bad.msh", text); };
+  EXPECT_TRUE(says(fault(""), "bad.msh', line 1: does not begin with $MeshFormat"));
+  EXPECT_TRUE(says(fault("nonsense"), "line 1: does not begin with $MeshFormat"));
+  EXPECT_TRUE(says(fault("$MeshFormat\n5 0 8\n"), "line 2: the format's version is none of 2.2"));
+  EXPECT_TRUE(says(fault("$MeshFormat\nx 0 8\n"),
+                   "line 2: 'x' stands where there must be the version of the format, a finite "
+                   "number; mend the file, or export it again"));
+  const std::string good = msh_2(names, nodes, elements);
+  for (std::size_t size = 0; size < good.size() - 1; size += 7) // cut off anywhere
+    EXPECT_TRUE(says(fault(good.substr(0, size)), "bad.msh', line ")) << size;
+  EXPECT_TRUE(says(fault(good.substr(0, good.find("$Elements"))), "ends without $Elements"));
+  EXPECT_TRUE(says(fault(msh_2(names, "", elements)), "node 1 of a cell is none of $Nodes"));
+  const auto changed = [&](std::string text, const std::string &from, const std::string &to)
+  { return fault(text.replace(text.find(from), from.size(), to)); };
+  EXPECT_TRUE(says(changed(good, "$Nodes\n7", "$Nodes\n8"),
+                   "line 18: '$EndNodes' stands where there must be a node's number"));
+  EXPECT_TRUE(says(changed(good, "$Nodes\n7", "$Nodes\n6"), "$Nodes, begun in line 9, holds more"));
+  EXPECT_TRUE(says(changed(good, "$Nodes\n7", "$Nodes\n99999999999999"), "the number of nodes"));
+  EXPECT_TRUE(says(changed(good, "20 5 5 0", "16 5 5 0"), "line 17: node 16 is given twice"));
+  EXPECT_TRUE(says(changed(good, "2 1 0 0", "2 nan 0 0"), "line 12: 'nan' stands where"));
+  EXPECT_TRUE(says(changed(good, "2 1 0 0", "2 1e400 0 0"), "line 12: '1e400' stands where"));
+  EXPECT_TRUE(says(changed(good, "1 2 15", "1 2 17"), "node 17 of a cell is none of $Nodes"));
+  EXPECT_TRUE(says(changed(good, "\"Omega\"", "\"Omega"), "line 6: the quotes of a physical"));
+  EXPECT_TRUE(
+      says(changed(good, "$Nodes", "nodes"), "line 9: text stands outside of the sections"));
+  EXPECT_TRUE(
+      says(changed(msh_4, "2 1 2 2\n1 1", "2 1 2 3\n1 1"), "line 37: '$EndElements' stands"));
+  EXPECT_TRUE(says(changed(msh_4, "1 1 0 1 1 0\n2 1", "1 1 0 2 1 2 0\n2 1"),
+                   "surface 1 is in 2 physical surfaces; let it be in one of them"));
+  EXPECT_TRUE(says(changed(msh_4, "$Entities", "$Others"), "ends within $Others, begun in line 9"));
+}
+
+TEST_F(MeshFile, of_other_formats_is_converted_by_gmsh)
+{
+  const std::string three = "$MeshFormat\n4 0 8\n$EndMeshFormat\n" + names +
+                            "$Entities\n0 0 2 0\n1 0 0 0 1 1 0 1 1 0\n2 1 0 0 2 1 0 1 2 0\n"
+                            "$EndEntities\n$Nodes\n1 6\n2 2 0 6\n1 0 0 0\n2 1 0 0\n3 2 0 0\n"
+                            "4 0 1 0\n5 1 1 0\n6 2 1 0\n$EndNodes\n$Elements\n2 3\n1 2 2 2\n"
+                            "1 1 2 5\n2 1 5 4\n2 2 3 1\n3 2 3 6 5\n$EndElements\n";
+  const Mesh mesh = read("three.msh", three);
+  EXPECT_EQ(mesh.cells.size(), 3u);
+  EXPECT_EQ(n_inside(mesh), 2u);
+  EXPECT_TRUE(says(fault_of("cut.msh", three.substr(0, three.size() / 2)), "cut.msh'"));
+  EXPECT_TRUE(says(fault_of("binary.msh", "$MeshFormat\n4.1 1 8\nxyz"), "binary.msh'"));
+}
+
+// an endless loop, and one that takes all memory
+TEST_F(MeshFile, whose_script_does_not_end_is_ended)
+{
+  const std::string forever = (std::filesystem::path(testing::TempDir()) / "forever.geo").string();
+  std::ofstream(forever) << "For i In {0 : 1e12}\n a = i;\nEndFor\n";
+  GmshLimits limits;
+  limits.seconds = 1;
+  EXPECT_TRUE(
+      says(error_of([&] { mesh_by_gmsh(forever, .1, .1, limits, "mesh file 'forever.geo'"); }),
+           "mesh file 'forever.geo': gmsh was ended after 1 CPU seconds; mend a loop that "
+           "does not end"));
+  limits.gibibytes = .5;
+  const std::string large = (std::filesystem::path(testing::TempDir()) / "large.geo").string();
+  std::ofstream(large) << "x() = {0 : 1e9};\n";
+  EXPECT_TRUE(says(error_of([&] { mesh_by_gmsh(large, .1, .1, limits, "mesh file 'large.geo'"); }),
+                   "GiB of memory; mend the file, choose a larger h"));
+  std::filesystem::remove(forever);
+  std::filesystem::remove(large);
+}
+
+TEST_F(MeshFile, is_meshed_once_for_what_it_was_made_from)
+{
+  const Mesh coarse = read("disc.geo", disc, .4), fine = read("disc.geo", disc, .2);
+  EXPECT_EQ(read("disc.geo", disc, .4).vertices, coarse.vertices);
+  EXPECT_GT(fine.cells.size(), coarse.cells.size());
+  EXPECT_GT(area(read("disc.geo", disc, .4, .6), false), area(coarse, false)); // another delta
+  std::string other = disc; // another text under the same name
+  other.replace(other.find("(1 + delta) * Cos"), 1, "(");
+  EXPECT_NE(read("disc.geo", other + "\n// changed", .4).vertices.size(), 0u);
+}
+
+TEST(GmshLimits, come_from_the_environment)
+{
+  setenv("PLUMBLINE_GMSH_SECONDS", "7.5", 1);
+  EXPECT_EQ(GmshLimits::from_environment().seconds, 7.5);
+  for (const char *bad : {"", "x", "0", "-1", "nan", "1e9", "1 s"})
+  {
+    setenv("PLUMBLINE_GMSH_SECONDS", bad, 1);
+    EXPECT_TRUE(
+        says(error_of([] { GmshLimits::from_environment(); }),
+             "PLUMBLINE_GMSH_SECONDS = '" + std::string(bad) + "' is not a positive number"));
+  }
+  unsetenv("PLUMBLINE_GMSH_SECONDS");
+  EXPECT_EQ(GmshLimits::from_environment().seconds, GmshLimits().seconds);
 }

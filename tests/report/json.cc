@@ -216,5 +216,37 @@ namespace plumbline::report
     expect("maps[0].lower is not an array of two numbers");
     damaged("\"h\": 0.1", "\"h\": \"0.1\"");
     expect(".h is not a number");
+    damaged("\"h\": 0.1", "\"h\": null");
+    expect("h is not a positive length");
+    damaged("\"h\": 0.1", "\"h\": 1e400");
+    expect(": a number is beyond the range of double precision");
+    damaged("\"horizon\": 0.3", "\"horizon\": -0.3");
+    expect("horizon is not a positive length");
+    damaged("\"x\": [", "\"x\": [0.4,");
+    expect("trends[0].values has 5 numbers, not 6");
+    damaged("\"rates\": [", "\"rates\": [2,");
+    expect("trends[0].rates and one more has 6 numbers, not 5");
+    damaged("\"upper\": [\n    2", "\"upper\": [\n    0");
+    expect("maps[0] has an upper corner that is not above and right of the lower one");
+    damaged("\"target\": 0.01", "\"target\": null");
+    expect("choices[0].target is not a positive number");
+    damaged("\"purpose\":", "\"regime\": \"m\", \"purpose\":");
+    expect(", line 5: the key 'regime' comes twice in one object");
+  }
+
+  TEST(ReportJson, NestedEverDeeperIsRefused)
+  {
+    const fixture::Folder folder;
+    const std::filesystem::path file = folder.path() / "results.json";
+    for (const std::string open : {"{\"a\":", "["})
+    {
+      std::string deep;
+      for (int i = 0; i < 100000; ++i)
+        deep += open;
+      write(file, deep);
+      EXPECT_NE(error_of(file).find("line 1: is nested deeper than 64 levels; run the scene again"),
+                std::string::npos)
+          << error_of(file);
+    }
   }
 } // namespace plumbline::report

@@ -1,0 +1,269 @@
+#include "geometry/gmsh_process.h"
+
+#include "base/error.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+namespace plumbline::geometry
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    constexpr double gibibyte = 1024. * 1024 * 1024;
+
+    /// The clock runs on where other programs have the processors.
+    constexpr double clock_over_cpu = 4;
+
+    std::string text(double value, int n_digits = 6)
+    {
+      std::ostringstream out;
+      out.precision(n_digits);
+      out << value;
+      return out.str();
+    }
+
+    std::string read_all(const fs::path &file)
+    {
+      std::ifstream in(file, std::ios::binary);
+      return {std::istreambuf_iterator<char>(in), {}};
+    }
+
+    /// A folder that vanishes with its files.
+    class Folder
+    {
+    public:
+      Folder()
+      {
+        std::string name = (fs::temp_directory_path() / "plumbline-gmsh-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+          throw InputError("gmsh needs a folder for its files, and '" +
+                           fs::temp_directory_path().string() +
+                           "' cannot be written; set TMPDIR to one that can");
+        path_ = name;
+      }
+      ~Folder()
+      {
+        std::error_code error;
+        fs::remove_all(path_, error);
+      }
+      Folder(const Folder &) = delete;
+      Folder &operator=(const Folder &) = delete;
+      const fs::path &path() const { return path_; }
+
+    private:
+      fs::path path_;
+    };
+
+    std::string find_gmsh()
+    {
+      const char *path = std::getenv("PATH");
+      std::istringstream folders(path == nullptr ? "/usr/bin" : path);
+      for (std::string folder; std::getline(folders, folder, ':');)
+        if (const std::string file = folder + "/gmsh"; access(file.c_str(), X_OK) == 0)
+          return file;
+      throw InputError("gmsh is not installed, which meshes .geo files; apt-get install gmsh");
+    }
+
+    /// Of strings that outlive it, ended by a null, as exec wants it.
+    std::vector<char *> pointers(std::vector<std::string> &words)
+    {
+      std::vector<char *> result;
+      for (std::string &word : words)
+        result.push_back(word.data());
+      result.push_back(nullptr);
+      return result;
+    }
+
+    void limit(int resource, double value)
+    {
+      const rlimit both{static_cast<rlim_t>(value), static_cast<rlim_t>(value)};
+      setrlimit(static_cast<__rlimit_resource>(resource), &both);
+    }
+
+    /// Between fork and exec: nothing but system calls, since other threads may hold locks.
+    [[noreturn]] void become_gmsh(const char *program, char **arguments, char **environment,
+                                  const char *log, const GmshLimits &limits)
+    {
+      setpgid(0, 0);
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      limit(RLIMIT_CPU, std::ceil(limits.seconds));
+      limit(RLIMIT_AS, limits.gibibytes * gibibyte);
+      limit(RLIMIT_FSIZE, limits.file_size * gibibyte);
+      limit(RLIMIT_CORE, 0);
+      const int in = open("/dev/null", O_RDONLY),
+                out = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+      if (in >= 0 && out >= 0)
+      {
+        dup2(in, STDIN_FILENO);
+        dup2(out, STDOUT_FILENO);
+        dup2(out, STDERR_FILENO);
+        execve(program, arguments, environment);
+      }
+      _exit(127);
+    }
+
+    /// @return  its status as of waitpid, or that of SIGXCPU where the clock is over
+    int wait_for(pid_t child, double seconds)
+    {
+      using namespace std::chrono;
+      const auto deadline = steady_clock::now() + duration<double>(seconds);
+      for (auto pause = 2ms;; pause = std::min(2 * pause, 20ms))
+      {
+        int status = 0;
+        const pid_t ended = waitpid(child, &status, WNOHANG);
+        if (ended == child)
+          return status;
+        if (ended < 0 && errno != EINTR)
+          return 127 << 8;
+        if (steady_clock::now() > deadline)
+        {
+          kill(-child, SIGKILL); // and what it has started
+          kill(child, SIGKILL);
+          while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+            ;
+          return SIGXCPU;
+        }
+        std::this_thread::sleep_for(pause);
+      }
+    }
+
+    /// gmsh's first error in our words: "Error   : 'a.geo', line 3: syntax error (;)".
+    std::string reason(const std::string &log, const std::string &source)
+    {
+      const std::string mark = "Error   : ";
+      const std::size_t at = log.find(mark);
+      if (at == std::string::npos)
+        return "";
+      std::string error = log.substr(at + mark.size(), log.find('\n', at) - at - mark.size());
+      std::string place = source;
+      const std::size_t number = error.find("', line ");
+      const std::size_t colon = number == std::string::npos ? number : error.find(": ", number);
+      if (colon != std::string::npos)
+      {
+        const std::string file = fs::path(error.substr(1, number - 1)).filename().string();
+        place += source.find(file) == std::string::npos ? ", in '" + file + "'" : "";
+        // gmsh counts the lines that have ended
+        const std::string line = error.substr(number + 8, colon - number - 8);
+        place += ", line " + (line == "0" ? "1" : line);
+        error = error.substr(colon + 2);
+      }
+      const std::string syntax = "syntax error (";
+      if (error.compare(0, syntax.size(), syntax) == 0 && error.back() == ')')
+        return place + " is refused by gmsh: a syntax error at '" +
+               error.substr(syntax.size(), error.size() - syntax.size() - 1) +
+               "'; mend the line, or the end of the one before";
+      return place + " is refused by gmsh: " + error +
+             (colon != std::string::npos ? "; mend the line" : "; mend the file");
+    }
+
+    /// Runs gmsh on the words, which leave a file. @return its text
+    std::string run(std::vector<std::string> words, const Folder &folder, const GmshLimits &limits,
+                    const std::string &source)
+    {
+      const std::string program = find_gmsh(), log = (folder.path() / "log").string(),
+                        mesh = (folder.path() / "mesh.msh").string();
+      const std::string home = folder.path().string();
+      const std::vector<std::string> output = {"-o", mesh, "-format", "msh22", "-v", "1"};
+      words.insert(words.begin(), program);
+      words.insert(words.end(), output.begin(), output.end());
+      // no .gmshrc of the user's, and no MPI of this process
+      std::vector<std::string> settings = {"HOME=" + home, "GMSH_HOME=" + home, "TMPDIR=" + home,
+                                           "LC_ALL=C", "OMP_NUM_THREADS=1"};
+      for (const char *name : {"PATH", "LD_LIBRARY_PATH"})
+        if (const char *value = std::getenv(name))
+          settings.push_back(std::string(name) + "=" + value);
+      const std::vector<char *> arguments = pointers(words), environment = pointers(settings);
+
+      const pid_t child = fork();
+      if (child < 0)
+        throw InputError(source + " cannot be meshed, no process can be started for gmsh; end "
+                                  "other programs");
+      if (child == 0)
+        become_gmsh(program.c_str(), const_cast<char **>(arguments.data()),
+                    const_cast<char **>(environment.data()), log.c_str(), limits);
+      const int status = wait_for(child, clock_over_cpu * limits.seconds);
+
+      const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+      if (signal == SIGXCPU || signal == SIGKILL)
+        throw InputError(source + ": gmsh was ended after " + text(limits.seconds) +
+                         " CPU seconds; mend a loop that does not end, choose a larger h, or set "
+                         "the environment's PLUMBLINE_GMSH_SECONDS");
+      const std::string error = reason(read_all(log), source);
+      const std::string ended = signal != 0
+                                    ? "by signal " + std::to_string(signal)
+                                    : "with exit code " + std::to_string(WEXITSTATUS(status));
+      const bool is_crash = signal == SIGABRT || signal == SIGSEGV;
+      if (is_crash && (error.empty() || error.find("Out of memory") != std::string::npos))
+        throw InputError(source + ": gmsh ended " + ended +
+                         ", as it does on a broken file or past " + text(limits.gibibytes) +
+                         " GiB of memory; mend the file, choose a larger h, or set the "
+                         "environment's PLUMBLINE_GMSH_GIBIBYTES");
+      if (!error.empty())
+        throw InputError(error);
+      if (signal != 0 || WEXITSTATUS(status) != 0)
+        throw InputError(source + ": gmsh ended " + ended +
+                         " and did not say why; try 'gmsh -2' on the file");
+      if (!fs::exists(mesh))
+        throw InputError(source + ": gmsh ended without a mesh; take Exit out of the file");
+      return read_all(mesh);
+    }
+
+    double positive_setting(const char *name, double value)
+    {
+      const char *const given = std::getenv(name);
+      if (given == nullptr)
+        return value;
+      char *end = nullptr;
+      const double number = std::strtod(given, &end);
+      if (end == given || *end != '\0' || !(number > 0) || !(number < 1e6))
+        throw InputError("the environment's " + std::string(name) + " = '" + given +
+                         "' is not a positive number below 1e6; mend or unset it");
+      return number;
+    }
+  } // namespace
+
+  GmshLimits GmshLimits::from_environment()
+  {
+    GmshLimits limits;
+    limits.seconds = positive_setting("PLUMBLINE_GMSH_SECONDS", limits.seconds);
+    limits.gibibytes = positive_setting("PLUMBLINE_GMSH_GIBIBYTES", limits.gibibytes);
+    return limits;
+  }
+
+  std::string mesh_by_gmsh(const std::string &file, double h, double delta,
+                           const GmshLimits &limits, const std::string &source)
+  {
+    const Folder folder;
+    // read after the script, whose own settings would make another format
+    const std::string last = (folder.path() / "last.geo").string();
+    std::ofstream(last) << "Mesh.Format = 1; Mesh.MshFileVersion = 2.2; Mesh.Binary = 0; "
+                           "Mesh.SaveAll = 0; Mesh.SaveParametric = 0;\n";
+    return run({fs::absolute(file).string(), last, "-2", "-setnumber", "h", text(h, 17),
+                "-setnumber", "delta", text(delta, 17)},
+               folder, limits, source);
+  }
+
+  std::string convert_by_gmsh(const std::string &file, const GmshLimits &limits,
+                              const std::string &source)
+  {
+    const Folder folder;
+    return run({fs::absolute(file).string(), "-save"}, folder, limits, source);
+  }
+} // namespace plumbline::geometry

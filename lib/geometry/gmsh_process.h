@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace plumbline::geometry
+{
+  /// What a run of gmsh may take.
+  struct GmshLimits
+  {
+    double seconds = 120; ///< CPU seconds of it and of each of its children; four times as many by
+                          ///< the clock
+    double gibibytes = 4; ///< of address space
+    double file_size = 2; ///< of each file that it writes [GiB]
+
+    /// These, or what the environment says: PLUMBLINE_GMSH_SECONDS, PLUMBLINE_GMSH_GIBIBYTES.
+    /// @throws InputError  no positive number there
+    static GmshLimits from_environment();
+  };
+
+  /// A .geo script meshed in two dimensions with the constants h and delta set, or a .msh file in
+  /// another format, as a text in gmsh's format 2.2, cells of physical surfaces only.
+  /// It is a process of its own that does the work: a script may loop for ever, take all memory or
+  /// crash gmsh, and gmsh as a library is global, ends the program where its exceptions leave an
+  /// OpenMP region, and cannot be limited. `gmsh` itself is called, not a copy of this process:
+  /// only that is safe beside threads and MPI. It starts in .05 s, reads no settings of the user,
+  /// and Ctrl-C is not for it.
+  /// @param source  opens messages, e.g. "mesh file 'disk.geo'"
+  /// @throws InputError  gmsh not there, its own errors by file and line, no time or memory left
+  std::string mesh_by_gmsh(const std::string &file, double h, double delta,
+                           const GmshLimits &limits, const std::string &source);
+  std::string convert_by_gmsh(const std::string &file, const GmshLimits &limits,
+                              const std::string &source);
+} // namespace plumbline::geometry

@@ -1,0 +1,385 @@
+#include "geometry/msh_file.h"
+
+#include "geometry/msh_words.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <tuple>
+#include <unordered_map>
+
+namespace plumbline::geometry
+{
+  namespace
+  {
+    /// Out of the plane z = 0 by more than this fraction of the largest coordinate.
+    constexpr double off_plane = 1e-10;
+
+    constexpr long most = std::numeric_limits<int>::max();
+    constexpr long any_tag = std::numeric_limits<long>::max();
+
+    // gmsh's types of elements
+    constexpr long triangle = 2, quadrilateral = 3;
+    constexpr std::array points_and_lines = {1L, 8L, 15L, 26L, 27L, 28L, 62L, 63L, 64L, 65L, 66L};
+    constexpr std::array other_surfaces = {9L,  10L, 16L, 20L, 21L, 22L, 23L, 24L, 25L,
+                                           36L, 37L, 38L, 39L, 40L, 41L, 42L, 43L, 44L,
+                                           45L, 46L, 47L, 48L, 49L, 50L, 51L};
+
+    template <std::size_t n>
+    bool is_one_of(const std::array<long, n> &types, long type)
+    {
+      return std::find(types.begin(), types.end(), type) != types.end();
+    }
+
+    bool begins_with(std::string word, const std::string &begin)
+    {
+      std::transform(word.begin(), word.end(), word.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      return word.compare(0, begin.size(), begin) == 0;
+    }
+
+    /// A cell as it stands in the file.
+    struct FileCell
+    {
+      long group, entity, type;
+      std::array<unsigned int, 4> vertex;
+    };
+
+    /// The sections of a file, one after the other.
+    class Reader
+    {
+    public:
+      Reader(const std::string &text, const std::string &source)
+          : words_(text, source), source_(source)
+      {
+      }
+
+      Mesh read(bool has_collar)
+      {
+        const std::string first(words_.word());
+        if (first != "$MeshFormat")
+          words_.fail("does not begin with $MeshFormat, as .msh files do; mesh a .geo file, or "
+                      "export the mesh from gmsh");
+        format();
+        end_section("MeshFormat", 1);
+        bool has_elements = false;
+        for (std::string word(words_.word()); !word.empty(); word = words_.word())
+        {
+          const std::size_t begin = words_.line();
+          if (word[0] != '$')
+            words_.fail("text stands outside of the sections ($Nodes, $Elements, ...); mend the "
+                        "file, or export it again");
+          const std::string name = word.substr(1);
+          if (name == "Nodes" && has_elements)
+            words_.fail("$Nodes stands behind $Elements, which needs it; export the file again");
+          has_elements = has_elements || name == "Elements";
+          if (name == "PhysicalNames")
+            physical_names();
+          else if (name == "Entities" && is_4_)
+            entities();
+          else if (name == "Nodes")
+            is_4_ ? nodes_4() : nodes_2();
+          else if (name == "Elements")
+            is_4_ ? elements_4() : elements_2();
+          else
+          {
+            skip_section(name, begin);
+            continue;
+          }
+          end_section(name, begin);
+        }
+        if (vertices_.empty() || !has_elements)
+          words_.fail(std::string("the file ends without ") +
+                      (vertices_.empty() ? "$Nodes" : "$Elements") + "; export it again");
+        return mesh(has_collar);
+      }
+
+    private:
+      void format()
+      {
+        const double version = words_.number("the version of the format");
+        is_4_ = version == 4.1;
+        if (!is_4_ && !(version >= 2 && version < 3))
+          words_.fail("the format's version is none of 2.2 and 4.1; export the mesh with "
+                      "Mesh.MshFileVersion = 4.1");
+        words_.integer("the kind of file", 0, 0);
+        words_.integer("the bytes of a number", 1, most);
+      }
+
+      void end_section(const std::string &name, std::size_t begin)
+      {
+        const std::string_view word = words_.word();
+        if (word == "$End" + name)
+          return;
+        words_.fail(word.empty() ? "the file ends within $" + name + ", begun in line " +
+                                       std::to_string(begin) + "; it was cut off, export it again"
+                                 : "$" + name + ", begun in line " + std::to_string(begin) +
+                                       ", holds more than it announces; correct its count");
+      }
+
+      void skip_section(const std::string &name, std::size_t begin)
+      {
+        std::string_view word;
+        do
+        {
+          words_.skip_line();
+          word = words_.word();
+        } while (!word.empty() && word != "$End" + name);
+        if (word.empty())
+          end_section(name, begin);
+      }
+
+      long count(const std::string &what) { return words_.integer(what, 0, most); }
+
+      void physical_names()
+      {
+        const long n = count("the number of names");
+        for (long i = 0; i < n; ++i)
+        {
+          const long dimension = words_.integer("the dimension of a name", 0, 3);
+          const long tag = words_.integer("the number of a physical group", 0, any_tag);
+          const std::string name = words_.quoted("a physical group's name");
+          if (dimension == 2)
+            names_[tag] = name;
+        }
+      }
+
+      void entities()
+      {
+        const std::array<long, 4> n = {count("the number of points"), count("the number of curves"),
+                                       count("the number of surfaces"),
+                                       count("the number of volumes")};
+        for (int dimension = 0; dimension < 4; ++dimension)
+          for (long i = 0; i < n[dimension]; ++i)
+          {
+            const long tag = words_.integer("the number of an entity", -any_tag, any_tag);
+            for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k)
+              words_.number("a coordinate of an entity");
+            const long n_groups = count("the number of its physical groups");
+            if (dimension == 2 && n_groups > 1)
+              words_.fail("surface " + std::to_string(tag) + " is in " + std::to_string(n_groups) +
+                          " physical surfaces; let it be in one of them");
+            for (long k = 0; k < n_groups; ++k)
+            {
+              const long group = words_.integer("a physical group", -any_tag, any_tag);
+              if (dimension == 2)
+                group_of_surface_[tag] = std::abs(group);
+            }
+            const long n_bounds = dimension == 0 ? 0 : count("the number of its boundaries");
+            for (long k = 0; k < n_bounds; ++k)
+              words_.integer("a boundary of an entity", -any_tag, any_tag);
+          }
+      }
+
+      void add_vertex(long tag, std::size_t line)
+      {
+        const double x = words_.number("x"), y = words_.number("y"), z = words_.number("z");
+        const auto index = static_cast<unsigned int>(vertices_.size());
+        if (!number_.emplace(tag, index).second)
+          words_.fail(line, "node " + std::to_string(tag) + " is given twice; number them anew");
+        vertices_.emplace_back(x, y);
+        largest_ = std::max({largest_, std::abs(x), std::abs(y)});
+        height_ = std::max(height_, std::abs(z));
+      }
+
+      void nodes_2()
+      {
+        const long n = count("the number of nodes");
+        for (long i = 0; i < n; ++i)
+        {
+          const long tag = words_.integer("a node's number", 0, any_tag);
+          add_vertex(tag, words_.line());
+        }
+      }
+
+      void nodes_4()
+      {
+        const long n_blocks = count("the number of blocks of nodes");
+        for (int k = 0; k < 3; ++k) // all nodes, the least and the largest number
+          words_.integer("a number of nodes", 0, any_tag);
+        for (long b = 0; b < n_blocks; ++b)
+        {
+          const long dimension = words_.integer("a dimension", 0, 3);
+          words_.integer("the number of an entity", -any_tag, any_tag);
+          const bool is_parametric = words_.integer("whether nodes are parametric", 0, 1) == 1;
+          const long n = count("the number of nodes of a block");
+          std::vector<std::pair<long, std::size_t>> tags;
+          for (long i = 0; i < n; ++i)
+          {
+            const long tag = words_.integer("a node's number", 0, any_tag);
+            tags.emplace_back(tag, words_.line());
+          }
+          for (const auto &[tag, line] : tags)
+          {
+            add_vertex(tag, line);
+            for (long k = 0; is_parametric && k < dimension; ++k)
+              words_.number("a parameter of a node");
+          }
+        }
+      }
+
+      void add_cell(FileCell cell)
+      {
+        for (long i = 0; i < (cell.type == triangle ? 3 : 4); ++i)
+        {
+          const long tag = words_.integer("a node of a cell", 0, any_tag);
+          const auto found = number_.find(tag);
+          if (found == number_.end())
+            words_.fail("node " + std::to_string(tag) +
+                        " of a cell is none of $Nodes; export the "
+                        "file again");
+          cell.vertex[i] = found->second;
+        }
+        cells_.push_back(cell);
+      }
+
+      /// Whether the cells of an entity matter: not those of points, curves, volumes, and of
+      /// surfaces that are not physical.
+      bool is_taken(long type, long group) const
+      {
+        const bool is_surface = type == triangle || type == quadrilateral;
+        if (group != 0 && is_one_of(other_surfaces, type))
+          words_.fail("has cells of gmsh's type " + std::to_string(type) +
+                      "; only triangles and quadrilaterals of first order are allowed "
+                      "(Mesh.ElementOrder = 1)");
+        return is_surface && group != 0;
+      }
+
+      void elements_2()
+      {
+        const long n = count("the number of elements");
+        for (long i = 0; i < n; ++i)
+        {
+          words_.integer("an element's number", 0, any_tag);
+          const long type = words_.integer("an element's type", 1, most);
+          const long n_tags = words_.integer("the number of an element's tags", 0, 1000);
+          std::array<long, 2> tags{}; // its physical group and its entity, then others
+          for (long k = 0; k < n_tags; ++k)
+            (k < 2 ? tags[k] : tags[1]) =
+                words_.integer("a tag of an element", -any_tag, k < 2 ? any_tag : most);
+          if (is_taken(type, tags[0]))
+            add_cell({std::abs(tags[0]), tags[1], type, {}});
+          else
+            words_.skip_line();
+        }
+      }
+
+      void elements_4()
+      {
+        const long n_blocks = count("the number of blocks of elements");
+        for (int k = 0; k < 3; ++k)
+          words_.integer("a number of elements", 0, any_tag);
+        for (long b = 0; b < n_blocks; ++b)
+        {
+          const long dimension = words_.integer("a dimension", 0, 3);
+          const long entity = words_.integer("the number of an entity", -any_tag, any_tag);
+          const long type = words_.integer("the type of elements", 1, most);
+          const long n = count("the number of elements of a block");
+          const auto found = group_of_surface_.find(entity);
+          const bool is_physical = dimension == 2 && found != group_of_surface_.end();
+          if (dimension == 2 && (is_one_of(points_and_lines, type)))
+            words_.fail("elements of type " + std::to_string(type) + " are none of a surface");
+          const bool is_wanted = is_physical && is_taken(type, found->second);
+          for (long i = 0; i < n; ++i)
+          {
+            words_.integer("an element's number", 0, any_tag);
+            if (is_wanted)
+              add_cell({found->second, entity, type, {}});
+            else
+              words_.skip_line();
+          }
+        }
+      }
+
+      /// By physical surface, in the order of their numbers.
+      std::map<long, bool> check_groups(bool wants_collar) const
+      {
+        std::map<long, bool> is_omega;
+        for (const FileCell &cell : cells_)
+          is_omega[cell.group] = false;
+        std::string all;
+        bool has_omega = false, has_collar = false, has_other = false;
+        for (auto &[group, is_inside] : is_omega)
+        {
+          const auto found = names_.find(group);
+          const std::string name = found == names_.end() ? "" : found->second;
+          const bool is_collar = begins_with(name, "collar");
+          is_inside = begins_with(name, "omega");
+          has_omega = has_omega || is_inside;
+          has_collar = has_collar || is_collar;
+          has_other = has_other || !(is_inside || (is_collar && wants_collar));
+          all += (all.empty() ? "" : ", ") +
+                 (name.empty() ? "number " + std::to_string(group) : "'" + name + "'");
+        }
+        if (!has_omega || has_collar != wants_collar || has_other)
+          throw InputError(
+              source_ + " has the physical surfaces " + (all.empty() ? "(none)" : all) +
+              (wants_collar ? "; give names that begin with 'omega' and 'collar', at least one "
+                              "of each and no others"
+                            : "; a body with a free boundary has no collar: give names that "
+                              "begin with 'omega', at least one and no others"));
+        return is_omega;
+      }
+
+      Mesh mesh(bool has_collar)
+      {
+        if (height_ > off_plane * largest_)
+        {
+          std::ostringstream message;
+          message << source_ << " reaches z = " << height_
+                  << "; only triangles and quadrilaterals in the plane z = 0 are allowed";
+          throw InputError(message.str());
+        }
+        const std::map<long, bool> is_omega = check_groups(has_collar);
+        std::stable_sort(
+            cells_.begin(), cells_.end(),
+            [](const FileCell &a, const FileCell &b)
+            { return std::tie(a.group, a.entity, a.type) < std::tie(b.group, b.entity, b.type); });
+        Mesh mesh;
+        mesh.vertices = std::move(vertices_);
+        long last = 0; // physical groups are numbered from 1
+        for (const FileCell &cell : cells_)
+        {
+          if (cell.group != last)
+            mesh.groups.push_back(names_.at(last = cell.group));
+          mesh.cells.push_back({cell.vertex, cell.type == triangle ? 3U : 4U,
+                                is_omega.at(cell.group),
+                                static_cast<unsigned int>(mesh.groups.size() - 1)});
+        }
+        return mesh;
+      }
+
+      MshWords words_;
+      std::string source_;
+      bool is_4_ = false;
+      std::map<long, std::string> names_;     ///< of physical surfaces
+      std::map<long, long> group_of_surface_; ///< of version 4
+      std::vector<Point<2>> vertices_;
+      std::unordered_map<long, unsigned int> number_;
+      double largest_ = 0, height_ = 0;
+      std::vector<FileCell> cells_;
+    };
+  } // namespace
+
+  bool is_other_msh(const std::string &text)
+  {
+    const auto begins = [&](const std::string &with)
+    { return text.compare(0, with.size(), with) == 0; };
+    if (begins("$NOD"))
+      return true;
+    std::istringstream head(text.substr(0, 100));
+    std::string section, version, kind;
+    head >> section >> version >> kind;
+    return section == "$MeshFormat" &&
+           (kind == "1" || version == "1" || version == "4" || version == "4.0" ||
+            version == "1.0" || version == "3" || version == "3.0");
+  }
+
+  Mesh read_msh(const std::string &text, const std::string &source, bool has_collar)
+  {
+    return Reader(text, source).read(has_collar);
+  }
+} // namespace plumbline::geometry
