@@ -11,7 +11,7 @@ namespace plumbline::base
   /// The processes that work on one problem together: each takes a share, all get the result.
   struct Team
   {
-    MPI_Comm communicator;
+    MPI_Comm communicator = MPI_COMM_WORLD;
 
     static Team all() { return {MPI_COMM_WORLD}; }  ///< every rank of the run
     static Team alone() { return {MPI_COMM_SELF}; } ///< this rank by itself
