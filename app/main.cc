@@ -12,6 +12,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cerrno>
+#include <cstring>
 #include <iostream>
 
 namespace
@@ -36,6 +38,26 @@ namespace
     if (plumbline::base::Team::all().rank() == 0)
       std::cerr << "plumbline: " << message << '\n';
     return exit_code;
+  }
+
+  /// What was printed has to be out before the exit code says that all is good.
+  int finish_output(int exit_code)
+  {
+    errno = 0;
+    std::cout.flush();
+    if (std::cout)
+      return exit_code;
+    if (errno == 0) // it failed before: ask again why
+    {
+      std::cout.clear();
+      std::cout << ' ' << std::flush;
+    }
+    const int reason = errno;
+    return fail(
+        "standard output cannot be written" +
+            (reason == 0 ? std::string() : std::string(" (") + std::strerror(reason) + ")") +
+            ", what was printed is not whole; free some space, or send it elsewhere",
+        3);
   }
 } // namespace
 
@@ -101,7 +123,7 @@ int main(int argc, char **argv)
   }
   catch (const CLI::Success &answer) // --help, --version
   {
-    return app.exit(answer);
+    return finish_output(app.exit(answer));
   }
   catch (const CLI::ParseError &error)
   {
@@ -111,38 +133,46 @@ int main(int argc, char **argv)
 
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(
       argc, argv, n_threads == 0 ? dealii::numbers::invalid_unsigned_int : n_threads);
-  try
+  // whatever one rank alone fails at, all of them end with it
+  const plumbline::base::SeparateTeam ranks(plumbline::base::Team::all());
+  constexpr double patience = 30; // of a rank that failed, with others that wait for it [s]
+  const bool is_first = ranks.team().rank() == 0;
+  int exit_code = 0;
+  const auto command = [&]
   {
     options.overrides = weights.overrides = measures.overrides = to_overrides(settings);
     if (*run)
-      return plumbline::app::run(options);
-    const bool is_silent = plumbline::base::Team::all().rank() > 0;
-    if (is_silent && !*check)
-      return 0; // the first rank does it
-    if (*check)
-      return plumbline::app::check(weights);
-    if (*stability)
-      return plumbline::app::stability(measures);
-    if (*report)
-      return plumbline::app::rebuild_report(folder);
-    if (*list)
+      exit_code = plumbline::app::run(options);
+    else if (*check)
+      exit_code = plumbline::app::check(weights);
+    else if (!is_first)
+      return; // the first rank does it
+    else if (*stability)
+      exit_code = plumbline::app::stability(measures);
+    else if (*report)
+      exit_code = plumbline::app::rebuild_report(folder);
+    else if (*list)
       plumbline::app::list(subject);
-    if (*make_template)
+    else if (*make_template)
       std::cout << plumbline::scene::scene_template(model);
-    if (*describe)
+    else if (*describe)
       std::cout << plumbline::scene::describe(key);
-    return 0;
+  };
+  try
+  {
+    ranks.team().together(command, patience);
   }
   catch (const plumbline::InputError &error)
   {
-    return fail(error.what(), 2);
+    exit_code = fail(error.what(), 2);
   }
   catch (const plumbline::NumericalError &error)
   {
-    return fail(error.what(), 3);
+    exit_code = fail(error.what(), 3);
   }
   catch (const std::exception &error)
   {
-    return fail(std::string("unexpected error: ") + error.what(), 3);
+    exit_code = fail(std::string("unexpected error: ") + error.what(), 3);
   }
+  return finish_output(exit_code);
 }

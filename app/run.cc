@@ -80,6 +80,15 @@ namespace plumbline::app
       return fs::exists(file) && fs::last_write_time(file) > fs::last_write_time(than);
     }
 
+    /// Whether ranks do the same side by side: on lattices, and rules on free bodies.
+    bool repeats_work(const scene::Scene &scene, const study::Methods &methods)
+    {
+      if (!scene.is_free_body)
+        return scene.mesh.is_lattice();
+      return std::any_of(methods.begin(), methods.end(),
+                         [](const auto &method) { return method->family() == "meshfree"; });
+    }
+
     /// What an interrupted run of the same scene left in the folder.
     study::Results earlier_results(const fs::path &folder, const scene::Scene &scene)
     {
@@ -234,17 +243,29 @@ namespace plumbline::app
     const scene::Scene scene = scene::read_scene(options.scene_file, overrides);
     const study::Methods available = all_methods();
     const study::Methods methods = study::choose_methods(scene, available);
+    study::check_memory(scene, methods, available, options.n_levels);
     study::check_data(scene);
 
     const fs::path folder =
         options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
     prepare_folder(folder);
     study::Results earlier = earlier_results(folder, scene);
-    team.wait(); // all have read before the first one writes
+    // all have read before the first one writes, and go on from the same
+    const auto n_found = static_cast<double>(earlier.runs.size());
+    if (team.largest(n_found) != -team.largest(-n_found))
+      earlier = {};
     if (!earlier.runs.empty() && !is_quiet)
       std::cerr << "continuing: " << earlier.runs.size() << " solves are in '" << folder.string()
                 << "' already\n";
     earlier.provenance = provenance();
+    if (team.n_ranks() > 1 && repeats_work(scene, methods))
+    {
+      earlier.provenance["work of ranks"] = "repeated by each: lattices are not shared among ranks";
+      if (is_first)
+        std::cerr << "note: each of the " << team.n_ranks()
+                  << " ranks repeats all of the work, since lattices are not shared among them; "
+                     "one rank is as fast, and Domain/mesh = squares is shared\n";
+    }
 
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
@@ -290,9 +311,14 @@ namespace plumbline::app
         throw;
       }
     }
+    team.together(
+        [&]
+        {
+          if (is_first)
+            report::write_report(results, folder);
+        });
     if (!is_first)
       return exit_code(results, options.check);
-    report::write_report(results, folder);
 
     if (options.json)
       std::cout << std::ifstream(folder / "results.json").rdbuf();

@@ -15,9 +15,9 @@ namespace plumbline::meshfree
   /// largest over |α| = degree and a, b, relative to ∫ |C| |ξ|^degree.
   struct MomentDefect
   {
-    int degree;
+    int degree = 0;
     Worst worst;
-    double median;
+    double median = 0;
   };
 
   /// The moments of families, which decide what their operator tends to.

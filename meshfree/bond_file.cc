@@ -81,6 +81,12 @@ namespace plumbline::meshfree
                          std::to_string(nodes.id[i]) + " at " + to_text(nodes.places[i]) +
                          " lies outside of the domain and its collar at the level " + level +
                          "; take it out, move it in, or choose another level (Study)");
+    if (const auto twins = geometry::find_twins(nodes.places, mesh))
+      throw InputError("'" + nodes.file + "', line " + std::to_string(nodes.line[twins->second]) +
+                       ": node " + std::to_string(nodes.id[twins->second]) + " " +
+                       twins->place("node " + std::to_string(nodes.id[twins->first]) + " of line " +
+                                    std::to_string(nodes.line[twins->first])) +
+                       "; take one of them out");
   }
 
   GivenFamilies read_given_families(const std::string &file, const GivenNodes &nodes,

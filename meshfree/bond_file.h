@@ -37,7 +37,7 @@ namespace plumbline::meshfree
   {
     std::vector<Family> families; ///< of the free nodes; the area of a bond is the neighbour's
                                   ///< volume
-    std::size_t n_ignored;        ///< bonds of nodes in the collar
+    std::size_t n_ignored = 0;    ///< bonds of nodes in the collar
   };
 
   /// Bonds from a CSV file with the columns i and j (ids), weight [length^2] and, if they are

@@ -16,9 +16,9 @@ namespace plumbline::meshfree
   struct Bond
   {
     Point<2> xi;           ///< to the neighbour's node [length]
-    double weight;         ///< [length^2]
+    double weight = 0;     ///< [length^2]
     Point<2> kernel_point; ///< where the kernel is taken, relative to the node [length]
-    double area;           ///< of ball ∩ cell where the rule uses it, else of the cell [length^2]
+    double area = 0;       ///< of ball ∩ cell where the rule uses it, else of the cell [length^2]
   };
 
   /// How well weights meet the moments that were asked of them.
@@ -37,7 +37,7 @@ namespace plumbline::meshfree
   /// L_h u_i = -Σ C(kernel_point) (u(x_i + ξ) - u_i) weight.
   struct Bonds
   {
-    double h; ///< of the lattice [length]
+    double h = 0; ///< of the lattice [length]
     std::vector<Bond> family;
     Fit fit = {};
     std::vector<std::string> notes = {}; ///< what the rule had to do that a user should know

@@ -36,7 +36,7 @@ namespace plumbline::meshfree
     struct Segment
     {
       Point<2> first, last;
-      bool begins, ends; ///< the crack
+      bool begins = false, ends = false; ///< the crack
     };
 
     bool crosses(const Segment &segment, const Point<2> &p, const Point<2> &q) const;

@@ -40,6 +40,12 @@ namespace plumbline::meshfree
                                : scattered_road(rule_, scene, problem);
       }
 
+      double expected_bytes(const scene::Scene &scene,
+                            const study::ProblemSize &size) const override
+      {
+        return meshfree::expected_bytes(scene, size);
+      }
+
       std::optional<study::DiscreteOperator>
       discrete_operator(const scene::Scene &scene, const scene::Problem &problem) const override
       {

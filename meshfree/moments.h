@@ -17,8 +17,8 @@ namespace plumbline::meshfree
   /// ξ/δ.
   struct MomentConditions
   {
-    unsigned int degree; ///< of what is integrated exactly
-    double horizon;
+    unsigned int degree = 0; ///< of what is integrated exactly
+    double horizon = 0;
     std::vector<Exponents> exponents; ///< α
     std::vector<double> moments;
     std::function<double(const Bond &)> factor; ///< g

@@ -12,9 +12,9 @@ namespace plumbline::meshfree
   struct Candidate
   {
     geometry::Ball ball; ///< about the family's node
-    Backend backend;
-    Point<2> xi; ///< from the family's node to this one [length]
-    double area; ///< of this node's cell [length^2]
+    Backend backend = Backend::fast;
+    Point<2> xi;     ///< from the family's node to this one [length]
+    double area = 0; ///< of this node's cell [length^2]
     dealii::ArrayView<const geometry::ConvexCell> pieces; ///< of this node's cell
   };
 

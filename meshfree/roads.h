@@ -20,6 +20,9 @@ namespace plumbline::meshfree
   study::Solution body_road(const Rule &rule, const scene::Scene &scene,
                             const scene::Problem &problem);
 
+  /// Of one of these, see study::Method::expected_bytes.
+  double expected_bytes(const scene::Scene &scene, const study::ProblemSize &size);
+
   // The operators that these solve with.
 
   study::DiscreteOperator lattice_discrete(const Rule &rule, const scene::Scene &scene,

@@ -4,6 +4,9 @@
 #include "meshfree/scattered_operator.h"
 #include "meshfree/state_based_operator.h"
 #include "scene/damage.h"
+#include "study/lattice_solve.h"
+
+#include <cmath>
 
 namespace plumbline::meshfree
 {
@@ -135,5 +138,24 @@ namespace plumbline::meshfree
       for (std::size_t k = result.rows.start[i]; k < result.rows.start[i + 1]; ++k)
         result.rows.value[k] *= result.mass[i / result.n_components];
     return result;
+  }
+
+  double expected_bytes(const scene::Scene &scene, const study::ProblemSize &size)
+  {
+    const double n_components = scene.is_vector() ? 2 : 1;
+    const scene::Level &level = size.level;
+    if (size.is_lattice())
+      return study::expected_lattice_bytes(size, 1, scene.is_vector() ? 2 : 1,
+                                           scene.reach(level.horizon) / level.h + 1);
+    if (scene.is_free_body) // two sums more by transforms than on a lattice
+    {
+      study::ProblemSize box = size;
+      box.extents.fill(std::sqrt(size.n_cells * size.cell_area) / level.h);
+      return 2 * study::expected_lattice_bytes(box, 1, 2, 2 * level.horizon / level.h + 1);
+    }
+    // rows that grow as vectors do, Trilinos' copy and a preconditioner; measured
+    constexpr double of_entry = 40, of_node = 1000;
+    const double m = scene.reach(level.horizon) / std::sqrt(size.cell_area) + .75;
+    return size.n_free * (M_PI * m * m * n_components * n_components * of_entry + of_node);
   }
 } // namespace plumbline::meshfree

@@ -9,7 +9,7 @@ namespace plumbline::meshfree
   /// A state-based solid on nodes. Nodes of the collar carry data, but for the ghosts.
   struct StateBasedBody
   {
-    const geometry::NodeCells *cells; ///< Ω and a collar twice as wide as the horizon
+    const geometry::NodeCells *cells = nullptr; ///< Ω and a collar twice as wide as the horizon
     physics::Dilatation dilatation;
     std::function<double(const Point<2> &, unsigned int component)> data; ///< u in the collar
     Damage damage = {};

@@ -15,7 +15,7 @@ namespace plumbline::meshfree
   /// Fields on it are algebra::Vectors of shape (2, n[1], n[0]), zero where nothing is free.
   struct VariationalBody
   {
-    double h;                   ///< of the lattice [length]
+    double h = 0;               ///< of the lattice [length]
     Point<2> origin;            ///< node (0, 0)
     std::array<int, 2> n;       ///< nodes along each axis
     std::vector<double> V;      ///< |cell ∩ Ω|, 0 outside, shape (n[1], n[0]) [length^2]

@@ -17,7 +17,7 @@ namespace plumbline::meshfree
   {
     std::array<int, 2> k; ///< lattice steps to it
     Tensor<1, 2> d;       ///< the way to it [length]
-    double weight;        ///< w ρ
+    double weight = 0;    ///< w ρ
   };
 
   int reach(const std::vector<Neighbour> &family);

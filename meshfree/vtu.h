@@ -25,5 +25,8 @@ namespace plumbline::meshfree
       vectors.emplace_back(0, 1, "u", component_is_part_of_vector);
     dealii::DataOutBase::write_vtu(patches, std::vector<std::string>(n_components, "u"), vectors,
                                    dealii::DataOutBase::VtkFlags(), out);
+    if (!out.flush())
+      throw InputError("cannot write all of '" + file +
+                       "'; free some space, or give another output folder (-o)");
   }
 } // namespace plumbline::meshfree

@@ -87,5 +87,8 @@ namespace plumbline::reference
     if (!stream)
       throw InputError("cannot write '" + file + "'; give a writable output folder (-o)");
     output.write_vtu(stream);
+    if (!stream.flush())
+      throw InputError("cannot write all of '" + file +
+                       "'; free some space, or give another output folder (-o)");
   }
 } // namespace plumbline::reference

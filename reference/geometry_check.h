@@ -7,8 +7,8 @@ namespace plumbline::reference
   /// How far the fast geometry is from the exact one on a sample of cells that a ball cuts.
   struct GeometryCheck
   {
-    unsigned int n_checked;
-    double worst_difference; ///< of area and first moments, relative to the cell
+    unsigned int n_checked = 0;
+    double worst_difference = 0; ///< of area and first moments, relative to the cell
   };
 
   /// Cells of a lattice, the ball around the origin.

@@ -23,8 +23,8 @@ namespace plumbline::reference
     /// C = along n⊗n + across (I - n⊗n), n = w/|w|.
     struct Value
     {
-      double along;  ///< Ψ''
-      double across; ///< Ψ'/|w|
+      double along = 0;  ///< Ψ''
+      double across = 0; ///< Ψ'/|w|
     };
 
     /// Tabulates C, in 10 ms for the cone.

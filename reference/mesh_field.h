@@ -13,7 +13,7 @@ namespace plumbline::reference
   {
     std::shared_ptr<const MeshSpace> space;
     std::shared_ptr<const MeshCells> cells;
-    unsigned int n_components;
+    unsigned int n_components = 0;
     std::vector<double> values; ///< shape (n_dofs, n_components)
 
     /// @param x  in Ω or its collar; where cells meet, on the one that `CellLocator` finds

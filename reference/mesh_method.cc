@@ -267,6 +267,23 @@ namespace plumbline::reference
     return solution;
   }
 
+  double expected_mesh_bytes(const scene::Scene &scene, const study::ProblemSize &size,
+                             unsigned int n_vertices, bool is_continuous, unsigned int degree)
+  {
+    // assembled upper half, both halves, what eliminates, the solver's copy; space and geometry of
+    // a cell; all measured
+    constexpr double of_entry = 44, of_cell = 1000;
+    const double p = degree, n_components = scene.is_vector() ? 2 : 1;
+    const bool is_shared = is_continuous && degree > 0;
+    const double n_dofs = n_vertices == 4 ? (is_shared ? p * p : (p + 1) * (p + 1))
+                                          : (is_shared ? p * p / 2 : (p + 1) * (p + 2) / 2);
+    // the support of a shape function widens the ball: by one cell, or by those about its vertex
+    const double wider = !is_shared ? .85 : degree == 1 ? 1.9 : 1.4;
+    const double reach = scene.reach(size.level.horizon) / std::sqrt(size.cell_area) + wider;
+    const double n_columns = M_PI * reach * reach * n_dofs * n_components;
+    return size.n_free * n_dofs * n_components * n_columns * of_entry + size.n_cells * of_cell;
+  }
+
   study::DiscreteOperator mesh_discrete(const scene::Scene &scene, const scene::Problem &problem,
                                         bool is_continuous, unsigned int degree)
   {

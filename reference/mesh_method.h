@@ -25,6 +25,10 @@ namespace plumbline::reference
   study::Solution mesh_solution(const scene::Scene &scene, const scene::Problem &problem,
                                 bool is_continuous, unsigned int degree);
 
+  /// Memory of this at its peak [bytes], see study::Method::expected_bytes.
+  double expected_mesh_bytes(const scene::Scene &scene, const study::ProblemSize &size,
+                             unsigned int n_vertices, bool is_continuous, unsigned int degree);
+
   /// The matrix by the first outer rule. Masses as of `lattice_discrete`.
   /// @throws NumericalError  no degree of freedom is free
   study::DiscreteOperator mesh_discrete(const scene::Scene &scene, const scene::Problem &problem,

@@ -25,10 +25,10 @@ namespace plumbline::reference
   /// What the pairs of one outer cell add: its rows, and diagonal blocks of its partners.
   struct CellRows
   {
-    std::size_t cell;
+    std::size_t cell = 0;
     std::vector<double> values;   ///< shape (n_shapes, n_columns, n_entries)
     std::vector<double> diagonal; ///< of each partner, shape (n_shapes, n_shapes, n_entries)
-    bool is_exact;
+    bool is_exact = false;
   };
 
   /// Sums of all cells: rows by scalar dofs with n_entries values a column, and diagonal blocks.

@@ -3,6 +3,7 @@
 #include "reference/lattice_method.h"
 #include "reference/local_limit.h"
 #include "reference/mesh_method.h"
+#include "study/lattice_solve.h"
 #include "study/limit_proof.h"
 
 #include <algorithm>
@@ -75,6 +76,15 @@ namespace plumbline::reference
         if (degree_ > 0)
           solution.diagnostics.limit = study::prove_galerkin(scene, problem, solution.diagnostics);
         return solution;
+      }
+      double expected_bytes(const scene::Scene &scene,
+                            const study::ProblemSize &size) const override
+      {
+        if (!size.is_lattice())
+          return expected_mesh_bytes(scene, size, n_vertices_, is_continuous_, degree_);
+        const unsigned int n_axis = is_continuous_ ? degree_ : degree_ + 1;
+        return study::expected_lattice_bytes(size, n_axis * n_axis, scene.is_vector() ? 2 : 1,
+                                             scene.reach(size.level.horizon) / size.level.h + 1);
       }
       std::optional<study::DiscreteOperator>
       discrete_operator(const scene::Scene &scene, const scene::Problem &problem) const override

@@ -59,8 +59,8 @@ namespace plumbline::reference
     /// by π in the square that it shares with an upright one.
     struct Part
     {
-      double s, t, size;
-      bool is_turned;
+      double s = 0, t = 0, size = 0;
+      bool is_turned = false;
 
       Point<2> point(const Point<2> &unit) const
       {

@@ -23,7 +23,7 @@ namespace plumbline::reference
 
     struct Piece
     {
-      double lower, upper;
+      double lower = 0, upper = 0;
       std::vector<double> series[n_kinds]; ///< shape (n_axis, n_axis, n_modes): Legendre
     };
 

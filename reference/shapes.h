@@ -30,16 +30,16 @@ namespace plumbline::reference
     /// Which family, and at which cell from this one, a local shape function belongs to.
     struct Owner
     {
-      unsigned int family;
-      int shift;
+      unsigned int family = 0;
+      int shift = 0;
     };
     Owner owner(unsigned int a) const;
 
     /// A family's function restricted to one cell, counted from the family's own.
     struct Restriction
     {
-      int cell;
-      unsigned int local;
+      int cell = 0;
+      unsigned int local = 0;
     };
     std::vector<Restriction> restrictions(unsigned int family) const;
 

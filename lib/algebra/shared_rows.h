@@ -13,7 +13,7 @@ namespace plumbline::algebra
   {
     base::Team team;
     std::vector<int> first, size; ///< shape (n_ranks)
-    std::size_t own_first, own_size;
+    std::size_t own_first = 0, own_size = 0;
 
     /// @note Collective.
     Shares(std::size_t n, unsigned int n_components, const base::Team &team);

@@ -7,8 +7,8 @@ namespace plumbline::algebra
 {
   struct SolveResult
   {
-    unsigned int n_iterations;
-    double relative_residual;
+    unsigned int n_iterations = 0;
+    double relative_residual = 0;
   };
 
   /// Conjugate gradients from the given start value.

@@ -52,12 +52,12 @@ namespace plumbline::algebra
 
   struct SparseSolution
   {
-    std::vector<double> values; ///< all of them, on every rank
-    unsigned int n_iterations;  ///< 0 for direct
-    double relative_residual;   ///< computed afterwards from the matrix itself
-    std::string solver;         ///< "direct", or the iteration and its preconditioner: "cg + amg"
-    std::uint64_t n_nonzeros;   ///< of the whole matrix
-    std::size_t bytes;          ///< of rows, and factors or preconditioner, on this rank
+    std::vector<double> values;    ///< all of them, on every rank
+    unsigned int n_iterations = 0; ///< 0 for direct
+    double relative_residual = 0;  ///< computed afterwards from the matrix itself
+    std::string solver;           ///< "direct", or the iteration and its preconditioner: "cg + amg"
+    std::uint64_t n_nonzeros = 0; ///< of the whole matrix
+    std::size_t bytes = 0;        ///< of rows, and factors or preconditioner, on this rank
   };
 
   /// Solve A x = b where A and b are the sums over all ranks of what each one gives. Every rank

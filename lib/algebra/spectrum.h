@@ -21,11 +21,11 @@ namespace plumbline::algebra
   /// Both ends of the spectrum of a symmetric operator.
   struct Spectrum
   {
-    double smallest, largest;
+    double smallest = 0, largest = 0;
     /// Of norm 1, of the eigenvalues below 1e-10 of the largest in absolute value: as many as there
     /// are, up to most_zero_modes; none if the smallest is negative.
     std::vector<std::vector<double>> zero_modes;
-    double smallest_nonzero;         ///< the smallest one besides those
+    double smallest_nonzero = 0;     ///< the smallest one besides those
     std::vector<double> lowest_mode; ///< eigenvector of norm 1 of the smallest
   };
 

@@ -17,4 +17,10 @@ namespace plumbline
   {
     using std::runtime_error::runtime_error;
   };
+
+  /// Memory ran out on the way. Exit code 3, too.
+  class MemoryError : public NumericalError
+  {
+    using NumericalError::NumericalError;
+  };
 } // namespace plumbline

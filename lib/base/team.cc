@@ -1,9 +1,14 @@
 #include "base/team.h"
 
 #include "base/error.h"
+#include "base/memory.h"
 
 #include <array>
+#include <chrono>
+#include <iostream>
+#include <new>
 #include <string>
+#include <thread>
 
 namespace plumbline::base
 {
@@ -21,6 +26,98 @@ namespace plumbline::base
     {
       if (is_parallel())
         MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, operation, communicator);
+      return value;
+    }
+
+    enum Kind
+    {
+      good,
+      input,
+      numerical,
+      memory,
+      other
+    };
+
+    /// What an action threw.
+    struct Fault
+    {
+      int kind = good;
+      std::string message;
+    };
+
+    Fault attempt(const std::function<void()> &action)
+    try
+    {
+      action();
+      return {};
+    }
+    catch (const InputError &error)
+    {
+      return {input, error.what()};
+    }
+    catch (const MemoryError &error)
+    {
+      return {memory, error.what()};
+    }
+    catch (const NumericalError &error)
+    {
+      return {numerical, error.what()};
+    }
+    catch (const std::bad_alloc &)
+    {
+      return {memory, out_of_memory()};
+    }
+    catch (const std::exception &error) // of a library
+    {
+      return {other, error.what()};
+    }
+    catch (...) // Trilinos throws numbers
+    {
+      return {other, "a library fails without saying why"};
+    }
+
+    [[noreturn]] void raise(const Fault &fault)
+    {
+      switch (fault.kind)
+      {
+      case input:
+        throw InputError(fault.message);
+      case numerical:
+        throw NumericalError(fault.message);
+      case memory:
+        throw MemoryError(fault.message);
+      default:
+        throw std::runtime_error(fault.message);
+      }
+    }
+
+    /// The largest value. A rank with a fault waits for the others no longer than its patience.
+    double agree(double value, const Fault &fault, double patience, const Team &team)
+    {
+      if (!is_parallel())
+        return value;
+      using Clock = std::chrono::steady_clock;
+      const auto start = Clock::now();
+      MPI_Request request{};
+      MPI_Iallreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, team.communicator, &request);
+      if (fault.kind == good || patience == Team::forever)
+      {
+        MPI_Wait(&request, MPI_STATUS_IGNORE);
+        return value;
+      }
+      for (int is_done = 0; is_done == 0;)
+      {
+        MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
+        if (is_done == 0 && std::chrono::duration<double>(Clock::now() - start).count() > patience)
+        {
+          std::cerr << "plumbline: " << fault.message << " (on rank " << team.rank()
+                    << " alone; the others have not come to hear of it within " << patience
+                    << " s, and all are ended)" << std::endl;
+          MPI_Abort(team.communicator, fault.kind == input ? 2 : 3);
+        }
+        if (is_done == 0)
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
       return value;
     }
   } // namespace
@@ -66,46 +163,36 @@ namespace plumbline::base
     return reduce(value, MPI_MAX, communicator);
   }
 
-  void Team::together(const std::function<void()> &action) const
+  void Team::together(const std::function<void()> &action, double patience) const
   {
-    enum Kind
-    {
-      good,
-      input,
-      numerical
-    };
-    int kind = good;
-    std::string message;
-    try
-    {
-      action();
-    }
-    catch (const InputError &error)
-    {
-      kind = input;
-      message = error.what();
-    }
-    catch (const NumericalError &error)
-    {
-      kind = numerical;
-      message = error.what();
-    }
-    const double first =
-        -largest(kind == good ? -static_cast<double>(n_ranks()) : -static_cast<double>(rank()));
+    Fault fault = attempt(action);
+    const double own =
+        fault.kind == good ? -static_cast<double>(n_ranks()) : -static_cast<double>(rank());
+    const double first = -agree(own, fault, patience, *this);
     if (first == n_ranks())
       return;
     const int root = static_cast<int>(first);
     if (is_parallel())
     {
-      std::array<int, 2> head = {kind, static_cast<int>(message.size())};
+      std::array<int, 2> head = {fault.kind, static_cast<int>(fault.message.size())};
       MPI_Bcast(head.data(), 2, MPI_INT, root, communicator);
-      kind = head[0];
-      message.resize(head[1]);
-      MPI_Bcast(message.data(), head[1], MPI_CHAR, root, communicator);
+      fault.kind = head[0];
+      fault.message.resize(head[1]);
+      MPI_Bcast(fault.message.data(), head[1], MPI_CHAR, root, communicator);
     }
-    if (kind == input)
-      throw InputError(message);
-    throw NumericalError(message);
+    raise(fault);
+  }
+
+  SeparateTeam::SeparateTeam(const Team &ranks) : team_(ranks)
+  {
+    if (is_parallel())
+      MPI_Comm_dup(ranks.communicator, &team_.communicator);
+  }
+
+  SeparateTeam::~SeparateTeam()
+  {
+    if (is_parallel() && team_.communicator != MPI_COMM_WORLD)
+      MPI_Comm_free(&team_.communicator);
   }
 
   void Team::wait() const

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <utility>
 
 namespace plumbline::base
@@ -11,7 +12,7 @@ namespace plumbline::base
   /// The processes that work on one problem together: each takes a share, all get the result.
   struct Team
   {
-    MPI_Comm communicator;
+    MPI_Comm communicator = MPI_COMM_WORLD;
 
     static Team all() { return {MPI_COMM_WORLD}; }  ///< every rank of the run
     static Team alone() { return {MPI_COMM_SELF}; } ///< this rank by itself
@@ -31,8 +32,33 @@ namespace plumbline::base
     double largest(double value) const;
     void wait() const; ///< until all ranks have come here
 
+    static constexpr double forever = std::numeric_limits<double>::infinity();
+
     /// Do something on every rank; where one throws, all throw the same, so that none waits for it.
-    /// @throws InputError, NumericalError  as the action did on the first rank that failed
-    void together(const std::function<void()> &action) const;
+    /// @param patience  that a rank where it failed has with the others [s]: after it they are
+    /// taken to wait for this one within the action, so it says why it failed and ends all of them
+    /// with the exit code of its error. For actions whose ranks speak with each other; by a
+    /// SeparateTeam.
+    /// @throws InputError, NumericalError, MemoryError  as the action did on the first rank that
+    /// failed; where it was out of memory (std::bad_alloc) MemoryError; std::runtime_error with the
+    /// message of any other exception
+    void together(const std::function<void()> &action, double patience = forever) const;
+  };
+
+  /// The same ranks by themselves: what passes between them mixes with nothing that their other
+  /// teams are at.
+  class SeparateTeam
+  {
+  public:
+    /// @note Collective, as the destructor.
+    explicit SeparateTeam(const Team &ranks);
+    ~SeparateTeam();
+    SeparateTeam(const SeparateTeam &) = delete;
+    SeparateTeam &operator=(const SeparateTeam &) = delete;
+
+    const Team &team() const { return team_; }
+
+  private:
+    Team team_;
   };
 } // namespace plumbline::base

@@ -16,8 +16,8 @@ namespace plumbline::geometry
 
   struct Ball
   {
-    Point<2> centre; ///< [length]
-    double radius;   ///< > 0 [length]
+    Point<2> centre;   ///< [length]
+    double radius = 0; ///< > 0 [length]
   };
 
   /// Who decides where the circle meets the polygon.
@@ -79,8 +79,8 @@ namespace plumbline::geometry
   struct Piece
   {
     Point<2> from, to; ///< [length]
-    bool is_arc;
-    double angle; ///< run by the arc, in (0, 2π], 0 for a segment [rad]
+    bool is_arc = false;
+    double angle = 0; ///< run by the arc, in (0, 2π], 0 for a segment [rad]
   };
 
   /// The boundary of ball ∩ cell, counter-clockwise; empty if the intersection is. Pieces

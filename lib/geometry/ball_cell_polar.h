@@ -128,7 +128,9 @@ namespace plumbline::geometry::detail
       double shift = 0;             ///< of the side's line, from the corner
     };
 
-    /// How far the angles between which the ray meets the side's line reach beyond [a, b].
+    /// How far the angles between which the ray meets the side's line reach beyond [a, b], and no
+    /// less than the rounding of such an angle: of what is smaller nothing is known, and halving
+    /// until it is larger would go on in every half.
     static double room(const Seen &side, double a, double b)
     {
       if (side.is_arc)
@@ -137,7 +139,7 @@ namespace plumbline::geometry::detail
       const double middle = a + .5 * (b - a);
       double normal = std::atan2(sign * side.across, sign * side.along);
       normal += 2 * pi * std::round((middle - normal) / (2 * pi));
-      return std::min(a - normal, normal - b) + .5 * pi;
+      return std::max(std::min(a - normal, normal - b) + .5 * pi, rounding);
     }
 
     void add_between(const Seen &entry, const Seen &exit, double a, double b, int depth = 0)
@@ -192,6 +194,9 @@ namespace plumbline::geometry::detail
 
     /// Of a length or an angle: what rounding leaves of a zero.
     static constexpr double negligible = 4e-16;
+    /// Of the difference of two angles of the size of π/2, each known to one unit in its last
+    /// place.
+    static constexpr double rounding = 4 * eps;
     /// Largest length of an interval, in the angle and in u, and in units of its distance from the
     /// angle at which a side is seen edge-on: with these, 16 points integrate degree 8 times 1/r to
     /// 1e-14 (measured).

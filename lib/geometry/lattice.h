@@ -46,9 +46,9 @@ namespace plumbline::geometry
   /// How one family of degrees of freedom sits on the lattice along one axis.
   struct AxisSpecies
   {
-    double offset;       ///< position in its cell, in [0, 1]
-    bool at_vertex;      ///< shared by the cells on both sides (offset 0), not owned by one
-    unsigned int mirror; ///< the family it turns into when the axis is reversed
+    double offset = 0;       ///< position in its cell, in [0, 1]
+    bool at_vertex = false;  ///< shared by the cells on both sides (offset 0), not owned by one
+    unsigned int mirror = 0; ///< the family it turns into when the axis is reversed
   };
 
   /// Degrees of freedom on a lattice: tensor-product families, each at positions (i, j) of a box of

@@ -12,8 +12,8 @@ namespace plumbline::geometry
   struct MeshCell
   {
     std::array<unsigned int, 4> vertex; ///< counter-clockwise; the first n_vertices count
-    unsigned int n_vertices;            ///< 3 or 4
-    bool is_inside;                     ///< in Ω, else in the interaction collar
+    unsigned int n_vertices = 0;        ///< 3 or 4
+    bool is_inside = false;             ///< in Ω, else in the interaction collar
     unsigned int group = 0;             ///< index into the mesh's groups, if it has any
   };
 

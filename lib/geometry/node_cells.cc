@@ -26,6 +26,10 @@ namespace plumbline::geometry
     /// A Voronoi cell of which the mesh covers all but this fraction is cut by no boundary.
     constexpr double uncut = 1e-12;
 
+    /// Nodes nearer than this fraction of a cell's size are one node given twice: the bisector
+    /// between them is rounding, at coordinates of a thousand cells.
+    constexpr double too_near = 1e-12;
+
     [[noreturn]] void reject(std::size_t node, const Point<2> &at, const std::string &why)
     {
       std::ostringstream message;
@@ -99,6 +103,10 @@ namespace plumbline::geometry
         if (std::abs(total_area(pieces) - area(view(whole))) <= uncut * area(view(whole)))
           pieces = {whole};
         const double cell_area = total_area(pieces);
+        if (!(cell_area > 0))
+          reject(
+              result.source[first + vertex->info()], result.nodes[first + vertex->info()],
+              "has a cell without area, since others are too near to it; move or take out nodes");
         Point<2> cell_centroid;
         for (const Polygon &piece : pieces)
           cell_centroid += area(view(piece)) / cell_area * centroid(view(piece));
@@ -108,23 +116,6 @@ namespace plumbline::geometry
         result.first_piece.push_back(result.pieces.size());
       }
     }
-
-    void check_distinct(const NodeCells &cells)
-    {
-      std::vector<std::size_t> order(cells.size());
-      std::iota(order.begin(), order.end(), 0);
-      const auto key = [&](std::size_t i)
-      { return std::make_tuple(cells.nodes[i][0], cells.nodes[i][1], cells.source[i]); };
-      std::sort(order.begin(), order.end(),
-                [&](std::size_t i, std::size_t j) { return key(i) < key(j); });
-      const auto twin = std::adjacent_find(order.begin(), order.end(),
-                                           [&](std::size_t i, std::size_t j)
-                                           { return cells.nodes[i] == cells.nodes[j]; });
-      if (twin != order.end())
-        reject(cells.source[twin[1]], cells.nodes[twin[1]],
-               "lies where node " + std::to_string(cells.source[twin[0]]) +
-                   " is; take one of them out");
-    }
   } // namespace
 
   Box NodeCells::bounding_box(std::size_t cell) const
@@ -133,6 +124,42 @@ namespace plumbline::geometry
     for (std::size_t piece = first_piece[cell]; piece < first_piece[cell + 1]; ++piece)
       vertices.insert(vertices.end(), pieces[piece].begin(), pieces[piece].end());
     return geometry::bounding_box(view(vertices));
+  }
+
+  std::optional<Twins> find_twins(const std::vector<Point<2>> &nodes, const Mesh &mesh)
+  {
+    double whole = 0;
+    for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+      whole += area(view(mesh.polygon(cell)));
+    const double size = std::sqrt(whole / static_cast<double>(nodes.size()));
+    std::vector<std::size_t> order(nodes.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto key = [&](std::size_t i) { return std::make_tuple(nodes[i][0], nodes[i][1], i); };
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t i, std::size_t j) { return key(i) < key(j); });
+    for (std::size_t a = 0; a < order.size(); ++a)
+      for (std::size_t b = a + 1; b < order.size(); ++b)
+      {
+        const Point<2> &x = nodes[order[a]], &y = nodes[order[b]];
+        if (!(y[0] - x[0] < too_near * size))
+          break;
+        if (x.distance(y) < too_near * size)
+        {
+          const auto [first, second] = std::minmax(order[a], order[b]);
+          return Twins{first, second, x.distance(y), size};
+        }
+      }
+    return {};
+  }
+
+  std::string Twins::place(const std::string &name) const
+  {
+    if (distance == 0)
+      return "lies where " + name + " is";
+    std::ostringstream text;
+    text << "lies " << distance << " from " << name << ", nearer than " << too_near
+         << " of the cells' size " << size;
+    return text.str();
   }
 
   NodeCells voronoi_cells(const std::vector<Point<2>> &nodes, const Mesh &mesh)
@@ -160,7 +187,9 @@ namespace plumbline::geometry
     result.source.insert(result.source.end(), in_collar.begin(), in_collar.end());
     for (const std::size_t i : result.source)
       result.nodes.push_back(nodes[i]);
-    check_distinct(result);
+    if (const auto twins = find_twins(nodes, mesh))
+      reject(twins->second, nodes[twins->second],
+             twins->place("node " + std::to_string(twins->first)) + "; take one of them out");
 
     const Box box = bounding_box(view(mesh.vertices));
     const Polygon frame{box.lower, Point<2>(box.upper[0], box.lower[1]), box.upper,

@@ -3,6 +3,9 @@
 #include "geometry/mesh.h"
 #include "geometry/search.h"
 
+#include <optional>
+#include <string>
+
 namespace plumbline::geometry
 {
   /// Nodes anywhere in Ω and its collar, each with a cell: a union of convex pieces. Nodes of Ω
@@ -21,14 +24,27 @@ namespace plumbline::geometry
     Box bounding_box(std::size_t cell) const;
   };
 
+  /// Two nodes that are too near each other for cells of their own.
+  struct Twins
+  {
+    std::size_t first = 0, second = 0; ///< indices, ascending
+    double distance = 0, size = 0; ///< between them, and of a cell: √(area of the mesh / nodes)
+
+    /// "lies where NAME is", or how near to it.
+    std::string place(const std::string &name) const;
+  };
+
+  /// Nodes nearer to each other than 1e-12 of a cell's size, if there are such.
+  std::optional<Twins> find_twins(const std::vector<Point<2>> &nodes, const Mesh &mesh);
+
   /// Voronoi cells of the nodes of Ω clipped to Ω, and of the nodes of the collar clipped to the
   /// collar, so that the cells tile both: the areas add up to those of the mesh to 1e-12, where
   /// coordinates are no larger than the domain. A cell that no boundary cuts is one piece; else its
   /// pieces are its overlaps with the mesh's cells. A node on the boundary of Ω lies in Ω.
   /// @param mesh  of Ω and collar; decides which nodes are free
-  /// @throws InputError  two nodes in one place, a node outside Ω and collar, a coordinate that is
-  /// not finite, naming the node by its index; no node in Ω, or none in a collar that has cells
-  /// Cost: .3 s for 1e5 nodes.
+  /// @throws InputError  two nodes in one place (see find_twins), a node outside Ω and collar, a
+  /// coordinate that is not finite, naming the node by its index; no node in Ω, or none in a collar
+  /// that has cells Cost: .3 s for 1e5 nodes.
   NodeCells voronoi_cells(const std::vector<Point<2>> &nodes, const Mesh &mesh);
 
   /// The centroids of a mesh's cells.

@@ -34,13 +34,13 @@ namespace plumbline::geometry
     struct Member
     {
       Box box;
-      unsigned int index;
+      unsigned int index = 0;
     };
 
     struct Grid
     {
       Point<2> origin;
-      double bin_size; ///< at least the sides of the boxes
+      double bin_size = 0; ///< at least the sides of the boxes
       std::array<std::size_t, 2> n_bins;
       std::vector<std::size_t> start; ///< of each bin in members, shape (n_bins[1] n_bins[0] + 1)
       std::vector<Member> members;    ///< of all bins

@@ -11,7 +11,7 @@ namespace plumbline::geometry
   /// it.
   struct NodeLattice
   {
-    double h;             ///< [length]
+    double h = 0;         ///< [length]
     Point<2> origin;      ///< node 0
     std::array<int, 2> n; ///< nodes along each axis
 

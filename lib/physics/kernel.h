@@ -19,15 +19,15 @@ namespace plumbline::physics
   /// One term a t^p of a radial profile ρ(t), t = |ξ|/δ.
   struct PowerTerm
   {
-    double coefficient;
-    int exponent;
+    double coefficient = 0;
+    int exponent = 0;
   };
 
   /// A row of the table of kernels that scenes choose from.
   struct KernelType
   {
     std::string name;
-    Structure structure;
+    Structure structure = Structure::scalar;
     std::vector<PowerTerm> profile; ///< empty: the scene gives it
     std::string formula;
     std::string source;

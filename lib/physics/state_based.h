@@ -13,7 +13,7 @@ namespace plumbline::physics
   /// k = λ + 2μ/3, l = 15μ, bond-based if l = 9k.)
   struct Lame
   {
-    double lambda, mu;
+    double lambda = 0, mu = 0;
   };
 
   enum class PlaneState
@@ -50,8 +50,8 @@ namespace plumbline::physics
   {
     Kernel<2> influence; ///< K, scalar, ∫K|ξ|² = 2
     std::function<Lame(const Point<2> &)> material;
-    bool is_two_point;   ///< harmonic means: heterogeneous operators are not symmetric
-    bool is_homogeneous; ///< material is the same everywhere
+    bool is_two_point = false;   ///< harmonic means: heterogeneous operators are not symmetric
+    bool is_homogeneous = false; ///< material is the same everywhere
 
     /// f for the dilatation of `own` in the force between both points.
     double factor(const Lame &own, const Lame &other) const

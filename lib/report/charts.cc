@@ -326,10 +326,12 @@ namespace plumbline::report
     const std::vector<MethodName> names = methods(results);
     const std::vector<Chart> charts = list_charts(results);
     std::vector<Plot> plots;
+    std::vector<std::string> pictures;
     std::string script;
     for (const Chart &chart : charts)
     {
       const std::string picture = chart.name + ".svg";
+      pictures.push_back(picture);
       std::filesystem::remove(folder / picture); // no old picture beside new data
       if (chart.kind == ChartKind::error_map)
       {
@@ -346,7 +348,7 @@ namespace plumbline::report
     if (charts.empty())
       return charts;
     write_file(folder / "charts.gp", gnuplot_script(plots) + script);
-    run_gnuplot(folder, "charts.gp");
+    run_gnuplot(folder, "charts.gp", pictures);
     if (!results.maps.empty())
     {
       const std::filesystem::path file = folder / (kind_slug(ChartKind::error_map) + ".svg");

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -187,20 +188,25 @@ namespace plumbline::report
 
   void write_file(const std::filesystem::path &file, const std::string &text)
   {
-    std::error_code error;
+    std::error_code error, ignored;
     if (file.has_parent_path())
       std::filesystem::create_directories(file.parent_path(), error);
     std::filesystem::path part = file;
     part += ".part";
+    errno = 0;
     std::ofstream out(part, std::ios::binary);
     out << text;
     out.close();
     if (out)
       std::filesystem::rename(part, file, error);
-    if (!out || error)
-      throw InputError("output file '" + file.string() + "' cannot be written" +
-                       (error ? " (" + error.message() + ")" : "") +
-                       "; free some space or choose a folder you may write to with -o");
+    else if (!error)
+      error.assign(errno, std::generic_category());
+    if (out && !error)
+      return;
+    std::filesystem::remove(part, ignored);
+    throw InputError("output file '" + file.string() + "' cannot be written" +
+                     (error ? " (" + error.message() + ")" : "") +
+                     "; free some space or choose a folder you may write to with -o");
   }
 
   Cell text_cell(const std::string &text)

@@ -316,7 +316,25 @@ namespace plumbline::report
     return script + "unset output\n";
   }
 
-  void run_gnuplot(const std::filesystem::path &folder, const std::string &script)
+  namespace
+  {
+    /// A full disk does not stop gnuplot.
+    void check_picture(const std::filesystem::path &file)
+    {
+      std::ifstream in(file, std::ios::binary);
+      const std::string svg((std::istreambuf_iterator<char>(in)), {});
+      if (svg.find("</svg>") != std::string::npos)
+        return;
+      std::error_code ignored;
+      std::filesystem::remove(file, ignored);
+      throw NumericalError(
+          "charts cannot be drawn, '" + file.string() +
+          "' is not whole; free some space, then 'plumbline report' on the folder");
+    }
+  } // namespace
+
+  void run_gnuplot(const std::filesystem::path &folder, const std::string &script,
+                   const std::vector<std::string> &pictures)
   {
     const std::filesystem::path log = folder / "gnuplot.log";
     const std::string program = "gnuplot", log_name = log.string(), place = folder.string();
@@ -342,6 +360,8 @@ namespace plumbline::report
       throw NumericalError("charts cannot be drawn, gnuplot stopped on '" +
                            (folder / script).string() + "' and says why in '" + log_name +
                            "'; mend that, then 'plumbline report' on the folder");
+    for (const std::string &picture : pictures)
+      check_picture(folder / picture);
     std::filesystem::remove(log);
   }
 } // namespace plumbline::report

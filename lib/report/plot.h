@@ -94,5 +94,7 @@ namespace plumbline::report
 
   /// Run gnuplot once, inside the folder, on a script that lies there.
   /// @throws NumericalError  gnuplot is missing, or does not accept the script
-  void run_gnuplot(const std::filesystem::path &folder, const std::string &script);
+  /// @param pictures  that it is to draw; what is not whole is taken away
+  void run_gnuplot(const std::filesystem::path &folder, const std::string &script,
+                   const std::vector<std::string> &pictures);
 } // namespace plumbline::report

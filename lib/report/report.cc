@@ -16,7 +16,7 @@ namespace plumbline::report
     {
       write_charts(results, dir);
     }
-    catch (const NumericalError &)
+    catch (const std::exception &)
     {
       write_page(results, dir); // it says what is missing
       throw;

@@ -227,7 +227,7 @@ namespace plumbline::report
     {
       write_pictures(results, dir);
     }
-    catch (const NumericalError &)
+    catch (const std::exception &)
     {
       write_file(dir / "stability.html", page_of(results, dir)); // it says what is missing
       throw;

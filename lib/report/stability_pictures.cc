@@ -334,11 +334,17 @@ namespace plumbline::report
                      to_csv(data_of(series, measure)));
         }
     std::string modes;
+    std::vector<std::string> pictures;
     for (const ModePicture &picture : mode_pictures(results))
+    {
       modes += script(picture);
+      pictures.push_back(picture.name + ".svg");
+    }
     if (plots.empty() && modes.empty())
       return;
     write_file(folder / "pictures.gp", gnuplot_script(plots) + modes);
-    run_gnuplot(folder, "pictures.gp");
+    for (const Plot &plot : plots)
+      pictures.push_back(plot.file);
+    run_gnuplot(folder, "pictures.gp", pictures);
   }
 } // namespace plumbline::report

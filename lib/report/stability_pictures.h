@@ -12,7 +12,7 @@ namespace plumbline::report
   struct StabilityPicture
   {
     std::string name, title;
-    bool is_mode; ///< else a chart, with its data in stability/NAME.csv
+    bool is_mode = false; ///< else a chart, with its data in stability/NAME.csv
   };
 
   /// Charts of the coercivity constant, the largest eigenvalue and ‖A⁻¹M‖∞ over each series of at

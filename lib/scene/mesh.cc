@@ -1,11 +1,13 @@
 #include "scene/mesh.h"
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "geometry/mesh_input.h"
 #include "physics/expression.h"
 #include "scene/csv.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -18,6 +20,22 @@ namespace plumbline::scene
     std::string path(const Scene &scene, const std::string &file)
     {
       return (std::filesystem::path(scene.folder) / file).string();
+    }
+
+    /// What a mesh of the boxes takes is known before it is made.
+    void check_cells(const Scene &scene, const Level &level)
+    {
+      constexpr double of_cell = 1000; // mesh, geometry of its cells, nodes and theirs [bytes]
+      const geometry::Lattice lattice(scene.domain, level.h);
+      const double collar = scene.is_free_body ? 0 : scene.reach(level.horizon) / level.h + 1;
+      const double n = (lattice.n_cells()[0] + 2 * collar) * (lattice.n_cells()[1] + 2 * collar) *
+                       (scene.mesh.kind == "triangles" ? 2 : 1);
+      std::ostringstream what;
+      what << "Domain/mesh = " << scene.mesh.kind << " at h = " << level.h
+           << ", horizon = " << level.horizon << " (some " << std::round(n) << " cells)";
+      base::require_memory(n * of_cell, what.str(),
+                           "choose a larger h or a smaller horizon (Study), or lattice where the "
+                           "scene allows it");
     }
 
     geometry::Mesh read_or_make(const Scene &scene, const Level &level)
@@ -40,6 +58,7 @@ namespace plumbline::scene
         if (!source.map.empty())
           map = [expression = physics::Expression("Domain/map", source.map, constants)](
                     const Point<2> &x) { return Point<2>(expression(x, 0), expression(x, 1)); };
+        check_cells(scene, level);
         return geometry::lattice_mesh(scene.domain, level.h,
                                       scene.is_free_body ? 0 : scene.reach(level.horizon),
                                       source.kind == "triangles", map);
@@ -114,12 +133,16 @@ namespace plumbline::scene
     return body;
   }
 
-  std::vector<Point<2>> read_nodes(const std::string &file)
+  std::vector<Point<2>> read_nodes(const std::string &file, std::vector<std::size_t> *lines)
   {
     Csv csv(file, {"x", "y"});
     std::vector<Point<2>> nodes;
     while (csv.next())
+    {
       nodes.emplace_back(csv.number("x"), csv.number("y"));
+      if (lines != nullptr)
+        lines->push_back(csv.line());
+    }
     return nodes;
   }
 
@@ -131,8 +154,9 @@ namespace plumbline::scene
       return geometry::vertex_squares(geometry::Lattice(scene.domain, level.h),
                                       scene.reach(level.horizon));
     const bool is_file = source.kind != "mesh" && source.kind != "centres";
+    std::vector<std::size_t> lines;
     const auto nodes = source.kind == "mesh" ? centroids(mesh)
-                       : is_file             ? read_nodes(path(scene, source.kind))
+                       : is_file             ? read_nodes(path(scene, source.kind), &lines)
                                  : lattice_nodes(mesh, level.h, source.perturbation, scene.seed);
     try
     {
@@ -140,6 +164,11 @@ namespace plumbline::scene
     }
     catch (const InputError &error)
     {
+      if (const auto twins = is_file ? geometry::find_twins(nodes, mesh) : std::nullopt)
+        throw InputError("node file '" + path(scene, source.kind) + "', line " +
+                         std::to_string(lines[twins->second]) + ": the node there " +
+                         twins->place("that of line " + std::to_string(lines[twins->first])) +
+                         "; take one of them out");
       throw InputError((is_file ? "node file '" + path(scene, source.kind) + "', counted from 0: "
                                 : "Methods/nodes = " + source.kind + ": ") +
                        error.what());

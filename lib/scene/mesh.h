@@ -26,8 +26,10 @@ namespace plumbline::scene
                                                        const geometry::Mesh &mesh);
 
   /// Nodes from a CSV file with the columns x and y [length], others ignored.
+  /// @param lines  if given: where each node stands in the file
   /// @throws InputError  as `Csv`
-  std::vector<dealii::Point<2>> read_nodes(const std::string &file);
+  std::vector<dealii::Point<2>> read_nodes(const std::string &file,
+                                           std::vector<std::size_t> *lines = nullptr);
 
   /// The nodes of a scene at a level and their cells.
   /// @throws InputError  nodes that cannot be used

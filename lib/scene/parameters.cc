@@ -217,8 +217,9 @@ namespace plumbline::scene
           {"Geometry", "backend", "fast", one_of("fast|cgal"),
            "Who intersects balls and cells: fast (double precision) or cgal (exact circular "
            "kernel)."},
-          {"Geometry", "checks", "24", count(0),
-           "Cut cells of each reference that are recomputed with the exact backend."},
+          {"Geometry", "checks", "24", std::make_shared<Patterns::Integer>(0, 100000),
+           "Cut cells of each reference that are recomputed with the exact backend, some 0.1 ms "
+           "each."},
           {"Geometry", "seed", "1", count(0), "Seed of the sample of checked cells."},
 
           {"Solver", "operator", "automatic", one_of("automatic|fft|direct|sparse"),

@@ -28,11 +28,11 @@ namespace plumbline::scene
     std::shared_ptr<const geometry::NodeCells> cells; ///< of the nodes; empty on a lattice
     /// Of a body with a free boundary: the lattice of its nodes, which `cells` number by `source`.
     std::optional<geometry::NodeLattice> body;
-    double h; ///< of the level [length]
+    double h = 0; ///< of the level [length]
     physics::Kernel<2> kernel;
     std::optional<physics::Coefficient> coefficient; ///< of the bonds; empty: homogeneous
     std::optional<physics::Dilatation> dilatation;   ///< empty: bonds are all
-    unsigned int n_components;
+    unsigned int n_components = 0;
     Field load;                          ///< b on Ω
     Field constraint;                    ///< u in the collar
     std::optional<Field> solution;       ///< the exact nonlocal solution, if known

@@ -69,7 +69,7 @@ namespace plumbline::scene
 
   struct Level
   {
-    double h, horizon; ///< [length]
+    double h = 0, horizon = 0; ///< [length]
   };
 
   /// Levels from coarse to fine with what is held fixed as name, e.g. "m = 3".
@@ -88,7 +88,8 @@ namespace plumbline::scene
     std::string verdict;
   };
 
-  /// Everything a scene file says, checked. Lengths in the scene's unit of length.
+  /// Everything a scene file says, checked. Lengths in the scene's unit of length. Numbers, choices
+  /// and switches begin as the keys' defaults.
   struct Scene
   {
     std::string name, purpose;
@@ -100,7 +101,7 @@ namespace plumbline::scene
     MeshSource mesh;
     std::optional<double> collar; ///< width; empty: as wide as the ball needs
     /// The boundary is free of traction and families end there; u is given in `fixed` parts of Ω.
-    bool is_free_body;
+    bool is_free_body = false;
     std::vector<geometry::Box> fixed;
     bool is_unheld = false; ///< nothing of it is fixed: it can be measured, not solved for
     /// Lines that break the bonds across them, and an expression that is positive beyond free
@@ -111,8 +112,8 @@ namespace plumbline::scene
 
     std::string kernel_type, limit;
     std::vector<physics::PowerTerm> profile;
-    physics::Structure structure;
-    double bulk_modulus, kernel_constant;
+    physics::Structure structure = physics::Structure::scalar;
+    double bulk_modulus = 1, kernel_constant = 1;
     std::string coefficient;     ///< an expression; empty: homogeneous, or by materials
     std::vector<Case> materials; ///< a coefficient for each group of the mesh, or empty
     Material material;
@@ -132,7 +133,7 @@ namespace plumbline::scene
     /// How far from Ω the constraint is needed: the horizon, or twice as far where dilatations of
     /// neighbours count.
     double reach(double horizon) const { return has_dilatation() ? 2 * horizon : horizon; }
-    physics::Mean symmetrisation;
+    physics::Mean symmetrisation = physics::Mean::arithmetic;
 
     std::vector<Case> solutions; ///< exact nonlocal solutions, empty if not known
     std::vector<Case> loads;     ///< empty: manufactured from the solutions
@@ -141,37 +142,37 @@ namespace plumbline::scene
 
     std::vector<std::string> methods;
     NodeSource nodes;
-    bool loads_are_averages; ///< meshfree: over the cells, not at the nodes
+    bool loads_are_averages = false; ///< meshfree: over the cells, not at the nodes
     bool nodes_at_vertices() const { return nodes.kind == "vertices"; }
 
-    Regime regime;
+    Regime regime = Regime::delta;
     std::vector<Series> series;
     std::vector<std::string> norms;
     std::string decisive_error; ///< "norm | target"
 
-    std::string reference;      ///< a method's name, or "none"
-    std::string estimate;       ///< automatic, every, reference or none: which solutions get one
-    double reference_tolerance; ///< relative; 0: only reported
+    std::string reference; ///< a method's name, or "none"
+    std::string estimate;  ///< automatic, every, reference or none: which solutions get one
+    double reference_tolerance = 0; ///< relative; 0: only reported
 
-    bool exact_rectangles;  ///< axis-aligned rectangles by correlation, not by quadrature
-    double outer_tolerance; ///< relative, of the solution
-    unsigned int max_refinements;
+    bool exact_rectangles = true;  ///< axis-aligned rectangles by correlation, not by quadrature
+    double outer_tolerance = 1e-4; ///< relative, of the solution
+    unsigned int max_refinements = 4;
 
-    geometry::Backend backend;
-    unsigned int n_geometry_checks, seed;
+    geometry::Backend backend = geometry::Backend::fast;
+    unsigned int n_geometry_checks = 24, seed = 1;
 
     std::string operator_road, linear_solver, iteration;
-    bool keeps_dilatation; ///< as an unknown of each scattered node
-    double tolerance;
-    unsigned int max_iterations;
+    bool keeps_dilatation = false; ///< as an unknown of each scattered node
+    double tolerance = 1e-12;
+    unsigned int max_iterations = 1000;
 
-    bool write_fields;
+    bool write_fields = false;
 
     std::vector<Expected> expected_verdicts, expected_errors, expected_rates, expected_bounds;
     std::vector<Expected> expected_monotone;  ///< verdicts: yes or no
     std::vector<Expected> expected_jitter;    ///< values: least, most
     std::vector<Expected> expected_stability; ///< of `plumbline stability`
-    double error_tolerance, rate_tolerance;
+    double error_tolerance = 5e-4, rate_tolerance = .1;
 
     /// The names of its cases: of the solutions, or of the loads.
     std::vector<std::string> case_names() const;

@@ -113,6 +113,20 @@ namespace plumbline::study
     return result;
   }
 
+  double expected_lattice_bytes(const ProblemSize &size, unsigned int n_families,
+                                unsigned int n_components, double reach)
+  {
+    const double n_blocks = n_families * n_components, value = sizeof(double), bond = 48;
+    // solution, data, five vectors of conjugate gradients, a sine solver or one of reflections
+    const double of_unknown = n_families == 1 ? 9 * value : 38 * value;
+    // a field, its modes, and half of the symbol's blocks
+    const double of_mode = value * n_blocks * (2 + (n_blocks + 1) / 2);
+    const double n = size.extents[0] * size.extents[1];
+    const double n_padded = (size.extents[0] + 2 * reach) * (size.extents[1] + 2 * reach);
+    return n * n_blocks * of_unknown + n_padded * of_mode +
+           std::pow((2 * reach + 1) * n_blocks, 2) * value + 3.2 * reach * reach * bond;
+  }
+
   DiscreteOperator show_on_lattice(const geometry::Lattice &lattice, const geometry::NodeSet &nodes,
                                    const algebra::Stencil &stencil, const std::vector<double> &mass)
   {

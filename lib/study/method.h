@@ -4,6 +4,7 @@
 #include "scene/problem.h"
 #include "study/results.h"
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -43,6 +44,17 @@ namespace plumbline::study
     std::size_t size() const { return nodes.size() * n_components; }
   };
 
+  /// How large a problem is, which can be known before anything of it is made.
+  struct ProblemSize
+  {
+    scene::Level level;
+    std::array<double, 2> extents{}; ///< of Ω's bounding box on a lattice [cells]
+    double n_cells = 0, n_free = 0;  ///< of a mesh with its collar, and in Ω
+    double cell_area = 0;            ///< of a mesh, in the mean [length^2]
+
+    bool is_lattice() const { return extents[0] > 0; }
+  };
+
   /// A way to solve scenes, on either side.
   class Method
   {
@@ -70,6 +82,11 @@ namespace plumbline::study
     {
       return {};
     }
+
+    /// The most memory that `solve` takes above what stood before (Cost::peak_bytes), within a
+    /// factor of 2 where it is more than some 50 MB, for one rank; 0 where it is little. Not in it:
+    /// the factors of a direct solver.
+    virtual double expected_bytes(const scene::Scene &, const ProblemSize &) const { return 0; }
 
     /// The same method one polynomial degree higher, if it has one: for its error estimate.
     virtual std::shared_ptr<const Method> higher_degree() const { return nullptr; }

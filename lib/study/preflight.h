@@ -14,6 +14,15 @@ namespace plumbline::study
   /// @throws InputError  unknown name, or a named method that cannot do the scene, with the reason
   Methods choose_methods(const scene::Scene &scene, const Methods &available);
 
+  /// Check that every method's memory is there at every level that is run, and that of what
+  /// estimates of errors solve besides (h/2, degree p + 1). Nothing is made but the mesh of the
+  /// coarsest level: on meshes that follow h a finer level has its cells times the square of what h
+  /// falls by.
+  /// @param n_levels  the first so many of each series; 0: all
+  /// @throws InputError  naming method, level, the memory it needs and what there is
+  void check_memory(const scene::Scene &scene, const Methods &methods, const Methods &available,
+                    unsigned int n_levels);
+
   /// Check that meshes, nodes and cracks of all levels can be used, and that expressions are finite
   /// in Ω and its collar on a grid of samples: for all cases and series, at the level whose ball
   /// reaches farthest.

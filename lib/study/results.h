@@ -143,9 +143,9 @@ namespace plumbline::study
   /// The cheapest run of a method that converges with an error of at most a target.
   struct Choice
   {
-    double target;
+    double target = 0;
     std::string method;
-    double h, error, seconds; ///< [length], of the decisive error, CPU [s]
+    double h = 0, error = 0, seconds = 0; ///< [length], of the decisive error, CPU [s]
   };
 
   /// Which method to take for one problem and series, and which not to.

@@ -87,7 +87,7 @@ namespace plumbline::study
   {
     std::string method, series;
     std::string parameter; ///< "h", or "horizon" where h is fixed
-    double smallest, largest, inverse_norm;
+    double smallest = 0, largest = 0, inverse_norm = 0;
   };
 
   /// One for each method and series, as they stand in the rows.

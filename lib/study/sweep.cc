@@ -41,6 +41,9 @@ namespace plumbline::study
              run.level == level;
     }
 
+    /// Of a rank that failed, with others that may wait for it in the middle of a solve [s].
+    constexpr double patience = 30;
+
     /// One walk through cases, series and levels.
     class Sweep
     {
@@ -240,7 +243,7 @@ namespace plumbline::study
         run.level = level;
         run.h = series.levels[level].h;
         run.horizon = series.levels[level].horizon;
-        try
+        const auto solve = [&]
         {
           const Solution solution = solve_and_time(method, problem);
           run.cost = solution.cost;
@@ -262,6 +265,10 @@ namespace plumbline::study
           if (level + 1 == n_levels(series))
             finish_series(solution, run, problem,
                           targets.reference.empty() ? targets.local : targets.reference);
+        };
+        try
+        {
+          ranks_.team().together(solve, patience); // what one of them fails at, all have failed at
         }
         catch (const NumericalError &error)
         {
@@ -319,6 +326,7 @@ namespace plumbline::study
       const Methods &methods_, &available_;
       const SweepControl &control_;
       const Results &earlier_;
+      const base::SeparateTeam ranks_{base::Team::all()};
       Results results_;
       bool is_stopped_ = false;
     };

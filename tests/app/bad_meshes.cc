@@ -155,6 +155,7 @@ TEST_F(BadMeshes, nodes_that_cannot_be_used_are_refused)
   write("word.csv", csv("x,y", "one,0"));
   write("nan.csv", csv("x,y", "nan,0"));
   write("twin.csv", csv("x,y", "0.125,0.375"));
+  write("close.csv", csv("x,y", "0,0.3\n1e-15,0.3"));
   write("far.csv", csv("x,y", "3,3"));
   write("outer.csv", "x,y\n+1.2,.5\n");
   const std::string lattice = set("Domain/mesh", "lattice"),
@@ -168,7 +169,11 @@ TEST_F(BadMeshes, nodes_that_cannot_be_used_are_refused)
        refused("nox.csv", {"nox.csv' has no column x in its first line 'a,y'; name the columns"}),
        refused("word.csv", {"word.csv', line 66: x = 'one' is not a finite number; mend"}),
        refused("nan.csv", {"nan.csv', line 66: x = 'nan' is not a finite number; mend"}),
-       refused("twin.csv", {"twin.csv'", "node 64 at (0.125, 0.375) lies where node 26 is; take"}),
+       refused("twin.csv", {"twin.csv', line 66: the node there lies where that of line 28 is; "
+                            "take one of them out"}),
+       refused("close.csv", {"close.csv', line 67: the node there lies 1e-15 from that of line 66, "
+                             "nearer than 1e-12 of the cells' size 0.",
+                             "take one of them out"}),
        refused("far.csv", {"far.csv'", "node 64 at (3, 3) lies outside of the domain and its "
                                        "collar; take it out, or move it in"}),
        refused("outer.csv", {"outer.csv'", "none of the 1 nodes lies in the domain; add nodes"}),

@@ -103,6 +103,33 @@ namespace plumbline::geometry
     EXPECT_LE(worst, accuracy);
   }
 
+  /// A centre that is off a side's line by rounding alone sees the side edge-on: angles are known
+  /// to rounding only, and an interval of that size was halved without end (2^44 times).
+  TEST(PolarRule, ACentreOnTheLineOfASideNeedsNoMorePointsThanOthers)
+  {
+    // found on a plate with a hole: a triangle, and the point of another one beyond its corner
+    const Polygon triangle{Point<2>(0.49999999999999861, 0.10996816064797654),
+                           Point<2>(0.42107306090111529, 0.078981158525275541), Point<2>(0.5, 0)};
+    const Ball ball{Point<2>(0.49999999999999861, 0.11009551527939163), 0.30000000000000004};
+    constexpr std::size_t most = 64 * 8 * 4; // intervals of rays of points
+    const CutRule found = polar_rule(ball, view(triangle), 8, 4);
+    EXPECT_LE(found.points.size(), most);
+
+    RandomCases random(13);
+    std::size_t largest = 0;
+    for (int trial = 0; trial < 20000; ++trial)
+    {
+      Case c = random.next(ratios[trial % std::size(ratios)]);
+      const double size = c.cell[1].distance(c.cell[2]), beyond = random.uniform(0, 1);
+      const double off = size * std::pow(10., -random.uniform(10, 17));
+      c.ball.centre = c.cell[2] + beyond * (c.cell[2] - c.cell[1]) +
+                      off * Point<2>(random.uniform(-1, 1), random.uniform(-1, 1));
+      largest = std::max(largest, polar_rule(c.ball, view(c.cell), 8, 4).points.size());
+    }
+    RecordProperty("largest", std::to_string(largest));
+    EXPECT_LE(largest, most);
+  }
+
   TEST(PolarRule, HalvesOfAPolygonAddUpToItForEveryKernel)
   {
     RandomCases random(11);

@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
+#include <memory>
+#include <new>
 
 using namespace plumbline;
 using namespace plumbline::scene;
@@ -57,6 +60,41 @@ TEST(Scene, defaults_make_a_delta_convergence_study)
   EXPECT_DOUBLE_EQ(scene.series[0].levels[1].horizon, .15);
   EXPECT_EQ(scene.case_names(), std::vector<std::string>{"u"});
   EXPECT_NEAR(scene.kernel(.3).limit().diffusion, .5, 1e-14);
+}
+
+TEST(Scene, one_that_nobody_filled_has_the_defaults_of_the_keys)
+{
+  // in memory that is not zero, so that what is left unset shows
+  alignas(Scene) std::array<unsigned char, sizeof(Scene)> memory;
+  memory.fill(0xbe);
+  const std::unique_ptr<Scene, void (*)(Scene *)> made(::new (memory.data()) Scene,
+                                                       [](Scene *scene) { scene->~Scene(); });
+  const Scene &scene = *made, read = parse("");
+  EXPECT_EQ(scene.is_free_body, read.is_free_body);
+  EXPECT_EQ(scene.is_unheld, read.is_unheld);
+  EXPECT_EQ(scene.structure, read.structure);
+  EXPECT_EQ(scene.bulk_modulus, read.bulk_modulus);
+  EXPECT_EQ(scene.kernel_constant, read.kernel_constant);
+  EXPECT_EQ(scene.is_full_model, read.is_full_model);
+  EXPECT_EQ(scene.symmetrisation, read.symmetrisation);
+  EXPECT_EQ(scene.nodes.perturbation, read.nodes.perturbation);
+  EXPECT_EQ(scene.loads_are_averages, read.loads_are_averages);
+  EXPECT_EQ(scene.regime, read.regime);
+  EXPECT_EQ(scene.reference_tolerance, read.reference_tolerance);
+  EXPECT_EQ(scene.exact_rectangles, read.exact_rectangles);
+  EXPECT_EQ(scene.outer_tolerance, read.outer_tolerance);
+  EXPECT_EQ(scene.max_refinements, read.max_refinements);
+  EXPECT_EQ(scene.backend, read.backend);
+  EXPECT_EQ(scene.n_geometry_checks, read.n_geometry_checks);
+  EXPECT_EQ(scene.seed, read.seed);
+  EXPECT_EQ(scene.keeps_dilatation, read.keeps_dilatation);
+  EXPECT_EQ(scene.tolerance, read.tolerance);
+  EXPECT_EQ(scene.max_iterations, read.max_iterations);
+  EXPECT_EQ(scene.write_fields, read.write_fields);
+  EXPECT_EQ(scene.error_tolerance, read.error_tolerance);
+  EXPECT_EQ(scene.rate_tolerance, read.rate_tolerance);
+  const Level level;
+  EXPECT_EQ(level.h + level.horizon, 0);
 }
 
 TEST(Scene, printed_back_parses_to_the_same_scene)

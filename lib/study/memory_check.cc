@@ -1,0 +1,130 @@
+#include "base/memory.h"
+#include "geometry/polygon.h"
+#include "scene/mesh.h"
+#include "study/preflight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+namespace plumbline::study
+{
+  namespace
+  {
+    ProblemSize lattice_size(const scene::Scene &scene, const scene::Level &level)
+    {
+      ProblemSize size;
+      size.level = level;
+      const auto n = geometry::Lattice(scene.domain, level.h).n_cells();
+      size.extents = {static_cast<double>(n[0]), static_cast<double>(n[1])};
+      return size;
+    }
+
+    ProblemSize mesh_size(const geometry::Mesh &mesh, const scene::Level &level)
+    {
+      ProblemSize size;
+      size.level = level;
+      size.n_cells = static_cast<double>(mesh.cells.size());
+      for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+      {
+        size.n_free += mesh.cells[cell].is_inside ? 1 : 0;
+        size.cell_area += geometry::area(geometry::view(mesh.polygon(cell)));
+      }
+      size.cell_area /= std::max(1., size.n_cells);
+      return size;
+    }
+
+    /// The same body in cells of another size.
+    ProblemSize at_level(ProblemSize size, const scene::Level &level)
+    {
+      const double finer = std::pow(size.level.h / level.h, 2);
+      size.level = level;
+      for (double &extent : size.extents)
+        extent *= std::sqrt(finer);
+      size.n_cells *= finer;
+      size.n_free *= finer;
+      size.cell_area /= finer;
+      return size;
+    }
+
+    void require(const scene::Scene &scene, const Method &method, const ProblemSize &size,
+                 const std::string &what)
+    {
+      std::ostringstream text;
+      text << what << method.name() << " at h = " << size.level.h
+           << ", horizon = " << size.level.horizon << " (";
+      if (size.is_lattice())
+        text << size.extents[0] << " x " << size.extents[1] << " cells)";
+      else
+        text << "some " << std::round(size.n_cells) << " cells)";
+      base::require_memory(method.expected_bytes(scene, size), text.str(),
+                           "choose a larger h or a smaller horizon (Study/h, Study/m, "
+                           "Study/horizon), run the first levels only (--levels), or leave this "
+                           "method out (--methods)");
+    }
+
+    /// With what an estimate of its error solves besides.
+    void require_estimate(const scene::Scene &scene, const Method &method, const ProblemSize &size)
+    {
+      const std::string what = "the estimate of the error of ";
+      if (size.is_lattice() || method.name() == scene.reference)
+        require(scene, method, at_level(size, {size.level.h / 2, size.level.horizon}), what);
+      if (const auto higher = method.higher_degree(); higher && size.is_lattice())
+        require(scene, *higher, size, what);
+    }
+
+    bool is_estimated(const scene::Scene &scene, const Method &method)
+    {
+      if (method.family() != "reference" || scene.estimate == "none")
+        return false;
+      return method.name() == scene.reference || scene.estimate == "every" ||
+             (scene.estimate == "automatic" && scene.reference == "none" &&
+              scene.solutions.empty());
+    }
+
+    /// Of the coarsest level: what is finer follows from it.
+    ProblemSize coarse_size(const scene::Scene &scene, const scene::Level &level)
+    {
+      if (scene.is_free_body)
+        return mesh_size(*scene::make_body(scene, level).mesh, level);
+      return scene.mesh.is_lattice() ? lattice_size(scene, level)
+                                     : mesh_size(scene::make_mesh(scene, level), level);
+    }
+
+    /// A file .msh has the same cells at every level.
+    ProblemSize size_at(const scene::Scene &scene, const ProblemSize &coarse,
+                        const scene::Level &level)
+    {
+      if (scene.mesh.is_file() && std::filesystem::path(scene.mesh.kind).extension() == ".msh")
+      {
+        ProblemSize size = coarse;
+        size.level = level;
+        return size;
+      }
+      return at_level(coarse, level);
+    }
+  } // namespace
+
+  void check_memory(const scene::Scene &scene, const Methods &methods, const Methods &available,
+                    unsigned int n_levels)
+  {
+    Methods all = methods;
+    if (scene.reference != "none")
+      all.push_back(find_method(available, scene.reference, "Reference/method"));
+    const ProblemSize coarse = coarse_size(scene, scene.series.front().levels.front());
+    for (const auto &series : scene.series)
+    {
+      const std::size_t n = n_levels == 0 ? series.levels.size()
+                                          : std::min<std::size_t>(n_levels, series.levels.size());
+      for (std::size_t i = 0; i < n; ++i)
+        for (const auto &method : all)
+        {
+          const ProblemSize size = size_at(scene, coarse, series.levels[i]);
+          require(scene, *method, size, "");
+          if (is_estimated(scene, *method))
+            require_estimate(scene, *method, size);
+        }
+    }
+  }
+} // namespace plumbline::study

@@ -1,0 +1,78 @@
+// What methods expect to take, against what they take.
+#include "meshfree/method.h"
+#include "reference/method.h"
+#include "study/preflight.h"
+
+#include <gtest/gtest.h>
+
+using namespace plumbline;
+using namespace plumbline::study;
+
+namespace
+{
+  scene::Scene parse(const std::string &text, const std::string &methods)
+  {
+    return scene::parse_scene("memory.prm",
+                              text + "subsection Methods\n set names = " + methods + "\nend\n");
+  }
+
+  /// Solve the first level of a scene.
+  void expect_estimate(const scene::Scene &scene, const Methods &available)
+  {
+    const scene::Level level = scene.series[0].levels[0];
+    const scene::Problem problem = make_problem(scene, 0, level);
+    ProblemSize size;
+    size.level = level;
+    if (problem.lattice)
+      for (unsigned int d = 0; d < 2; ++d)
+        size.extents[d] = problem.lattice->n_cells()[d];
+    else
+    {
+      size.n_cells = static_cast<double>(problem.mesh->cells.size());
+      size.n_free = static_cast<double>(problem.cells->n_free);
+      size.cell_area = level.h * level.h;
+    }
+    for (const std::string &name : scene.methods)
+    {
+      const auto method = find_method(available, name, "Methods/names");
+      (void)method->solve(scene, problem); // libraries make their tables
+      const Solution solution = method->solve(scene, problem);
+      const double ratio =
+          method->expected_bytes(scene, size) / static_cast<double>(solution.cost.peak_bytes);
+      EXPECT_GT(ratio, .5) << name << ", of " << solution.cost.peak_bytes;
+      EXPECT_LT(ratio, 2) << name << ", of " << solution.cost.peak_bytes;
+    }
+  }
+
+  const std::string scalar = "subsection Problem\n set solution = sin(3*x)*cos(2*y)\nend\n";
+  const std::string solid = "subsection Kernel\n set type = 1/r\n set limit = Navier\nend\n"
+                            "subsection Material\n set model = LPS\n set E = 1\n set nu = 0.3\n"
+                            "end\nsubsection Problem\n set solution = x*(1-x), y*(1-y)\nend\n";
+
+  std::string study(const std::string &h, const std::string &m)
+  {
+    return "subsection Study\n set h = " + h + "\n set m = " + m + "\nend\n";
+  }
+} // namespace
+
+#ifndef __SANITIZE_ADDRESS__ // which has memory of its own
+TEST(ExpectedMemory, of_lattices_is_within_a_factor_of_two)
+{
+  expect_estimate(parse(scalar + study("0.00390625", "3"), "Q1, Q2, DGQ1"), reference::methods());
+  expect_estimate(parse(scalar + study("0.00390625", "30"), "Q1"), reference::methods());
+  expect_estimate(parse(scalar + study("0.001953125", "3"), "FA"), meshfree::methods());
+}
+
+TEST(ExpectedMemory, of_solids_on_lattices_is_within_a_factor_of_two)
+{
+  expect_estimate(parse(solid + study("0.00390625", "3"), "Q1, Q2"), reference::methods());
+  expect_estimate(parse(solid + study("0.00390625", "3"), "FA"), meshfree::methods());
+}
+
+TEST(ExpectedMemory, of_meshes_and_scattered_nodes_is_within_a_factor_of_two)
+{
+  const std::string squares = "subsection Domain\n set mesh = squares\nend\n";
+  expect_estimate(parse(scalar + squares + study("0.015625", "3"), "DGQ1"), reference::methods());
+  expect_estimate(parse(scalar + squares + study("0.0078125", "4"), "IPA-AC"), meshfree::methods());
+}
+#endif

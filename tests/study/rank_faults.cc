@@ -1,0 +1,126 @@
+// A fault of one rank alone is one of all: they throw the same, and none waits for another.
+#include "base/error.h"
+#include "base/team.h"
+#include "study/sweep.h"
+
+#include <deal.II/base/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <new>
+
+using namespace plumbline;
+using base::Team;
+
+namespace
+{
+  bool is_last()
+  {
+    return Team::all().rank() + 1 == Team::all().n_ranks();
+  }
+
+  /// What all ranks hear of what the last one throws.
+  template <class Error, class Thrown>
+  std::string heard(const Thrown &thrown)
+  {
+    try
+    {
+      Team::all().together(
+          [&]
+          {
+            if (is_last())
+              throw thrown;
+          });
+    }
+    catch (const Error &error)
+    {
+      EXPECT_EQ(typeid(error), typeid(Error));
+      return error.what();
+    }
+    ADD_FAILURE() << "nothing is thrown on rank " << Team::all().rank();
+    return {};
+  }
+
+  /// Solves nothing, and fails as it is told on the last rank.
+  class FaultyMethod : public study::Method
+  {
+  public:
+    explicit FaultyMethod(std::function<void()> fail) : fail_(std::move(fail)) {}
+    std::string name() const override { return "FAULTY"; }
+    std::string family() const override { return "meshfree"; }
+    std::string help() const override { return ""; }
+    std::string why_not(const scene::Scene &, const scene::Problem &) const override { return ""; }
+    study::Solution solve(const scene::Scene &, const scene::Problem &problem) const override
+    {
+      if (is_last())
+        fail_();
+      study::Solution solution;
+      const std::size_t n = problem.lattice->n_cells()[0] * problem.lattice->n_cells()[1];
+      solution.averages.assign(n, 0);
+      solution.nodal.assign(n, 0);
+      for (std::size_t i = 0; i < n; ++i)
+        solution.nodes.emplace_back(.5, .5);
+      return solution;
+    }
+
+  private:
+    std::function<void()> fail_;
+  };
+
+  study::Results sweep(const std::function<void()> &fail)
+  {
+    const scene::Scene scene = scene::parse_scene(
+        "fault.prm", "subsection Problem\n set solution = x^2\nend\n"
+                     "subsection Methods\n set names = FAULTY\nend\n"
+                     "subsection Study\n set h = 0.1, 0.05\n set norms = averages L2\n"
+                     " set decisive error = averages L2 | exact\nend\n");
+    const study::Methods methods = {std::make_shared<FaultyMethod>(fail)};
+    return study::run_sweep(scene, methods, methods, {}, {});
+  }
+} // namespace
+
+TEST(Together, every_kind_of_fault_reaches_all_ranks)
+{
+  EXPECT_EQ(heard<InputError>(InputError("bad key")), "bad key");
+  EXPECT_EQ(heard<NumericalError>(NumericalError("no solution")), "no solution");
+  EXPECT_EQ(heard<MemoryError>(MemoryError("no memory")), "no memory");
+  EXPECT_EQ(heard<MemoryError>(std::bad_alloc()).find("memory ran out: this process holds "), 0u);
+  EXPECT_EQ(heard<std::runtime_error>(std::out_of_range("a library's")), "a library's");
+  EXPECT_NE(heard<std::runtime_error>(dealii::ExcMessage("deal's own")).find("deal's own"),
+            std::string::npos);
+  EXPECT_EQ(heard<std::runtime_error>(-3), "a library fails without saying why");
+  EXPECT_EQ(heard<NumericalError>(NumericalError("")), ""); // nothing is said, and still it ends
+}
+
+TEST(Together, good_ranks_go_on)
+{
+  int n = 0;
+  Team::all().together([&] { ++n; });
+  EXPECT_EQ(n, 1);
+}
+
+TEST(SeparateTeam, has_the_same_ranks_and_its_own_messages)
+{
+  const base::SeparateTeam ranks(Team::all());
+  EXPECT_EQ(ranks.team().n_ranks(), Team::all().n_ranks());
+  EXPECT_EQ(ranks.team().rank(), Team::all().rank());
+  EXPECT_THROW(ranks.team().together(
+                   []
+                   {
+                     if (is_last())
+                       throw NumericalError("alone");
+                   },
+                   20),
+               NumericalError);
+}
+
+TEST(Sweep, what_fails_on_one_rank_has_failed_on_all)
+{
+  const auto results = sweep([] { throw NumericalError("rank loss"); });
+  ASSERT_EQ(results.runs.size(), 2u);
+  for (const study::Run &run : results.runs)
+    EXPECT_EQ(run.failure, "rank loss");
+  EXPECT_EQ(sweep([] { throw std::bad_alloc(); }).runs[1].failure.find("memory ran out"), 0u);
+  EXPECT_THROW(sweep([] { throw InputError("bad data"); }), InputError);
+  EXPECT_THROW(sweep([] { throw std::logic_error("a library's"); }), std::runtime_error);
+}
