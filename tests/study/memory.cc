@@ -49,7 +49,7 @@ namespace
                             "subsection Material\n set model = LPS\n set E = 1\n set nu = 0.3\n"
                             "end\nsubsection Problem\n set solution = x*(1-x), y*(1-y)\nend\n";
 
-  std::string study(const std::string &h, const std::string &m)
+  std::string sizes(const std::string &h, const std::string &m)
   {
     return "subsection Study\n set h = " + h + "\n set m = " + m + "\nend\n";
   }
@@ -58,21 +58,21 @@ namespace
 #ifndef __SANITIZE_ADDRESS__ // which has memory of its own
 TEST(ExpectedMemory, of_lattices_is_within_a_factor_of_two)
 {
-  expect_estimate(parse(scalar + study("0.00390625", "3"), "Q1, Q2, DGQ1"), reference::methods());
-  expect_estimate(parse(scalar + study("0.00390625", "30"), "Q1"), reference::methods());
-  expect_estimate(parse(scalar + study("0.001953125", "3"), "FA"), meshfree::methods());
+  expect_estimate(parse(scalar + sizes("0.00390625", "3"), "Q1, Q2, DGQ1"), reference::methods());
+  expect_estimate(parse(scalar + sizes("0.001953125", "30"), "Q1"), reference::methods());
+  expect_estimate(parse(scalar + sizes("0.001953125", "3"), "FA"), meshfree::methods());
 }
 
 TEST(ExpectedMemory, of_solids_on_lattices_is_within_a_factor_of_two)
 {
-  expect_estimate(parse(solid + study("0.00390625", "3"), "Q1, Q2"), reference::methods());
-  expect_estimate(parse(solid + study("0.00390625", "3"), "FA"), meshfree::methods());
+  expect_estimate(parse(solid + sizes("0.00390625", "3"), "Q1, Q2"), reference::methods());
+  expect_estimate(parse(solid + sizes("0.00390625", "3"), "FA"), meshfree::methods());
 }
 
 TEST(ExpectedMemory, of_meshes_and_scattered_nodes_is_within_a_factor_of_two)
 {
   const std::string squares = "subsection Domain\n set mesh = squares\nend\n";
-  expect_estimate(parse(scalar + squares + study("0.015625", "3"), "DGQ1"), reference::methods());
-  expect_estimate(parse(scalar + squares + study("0.0078125", "4"), "IPA-AC"), meshfree::methods());
+  expect_estimate(parse(scalar + squares + sizes("0.015625", "3"), "DGQ1"), reference::methods());
+  expect_estimate(parse(scalar + squares + sizes("0.0078125", "4"), "IPA-AC"), meshfree::methods());
 }
 #endif
