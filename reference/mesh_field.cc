@@ -43,8 +43,6 @@ namespace plumbline::reference
           cells->locator().find(geometry::bounding_box(polygon), found);
           for (const unsigned int cell : found)
           {
-            if (!space->mesh().cells[cell].is_inside)
-              continue;
             const geometry::Polygon part = geometry::overlap(polygon, (*cells)[cell].vertices());
             if (part.empty())
               continue;

@@ -64,6 +64,7 @@ namespace plumbline::reference
                  "that vary in space (LPS) make none; write automatic, gmres or bicgstab";
         return {};
       }
+      unsigned int order() const override { return degree_ + 1; }
       std::shared_ptr<const study::Method> higher_degree() const override
       {
         return std::make_shared<GalerkinMethod>(n_vertices_, is_continuous_, degree_ + 1);

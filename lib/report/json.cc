@@ -134,6 +134,14 @@ namespace plumbline::report
       a("certified_digits", estimate.certified_digits);
       a("n_geometry_checks", estimate.n_geometry_checks);
       a("geometry_difference", estimate.geometry_difference);
+      a("coarse_change", estimate.coarse_change);
+      a("rate", estimate.rate);
+      a("field_h_change", estimate.field_h_change);
+      a("field_coarse_change", estimate.field_coarse_change);
+      a("field_p_change", estimate.field_p_change);
+      a("field_rate", estimate.field_rate);
+      a("field_estimate", estimate.field_estimate);
+      a("is_of_polygon", estimate.is_of_polygon);
     }
 
     template <typename Archive>

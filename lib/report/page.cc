@@ -226,6 +226,29 @@ namespace plumbline::report
       return section("numbers", "Tables", text);
     }
 
+    std::string meaning_of_estimates(const std::vector<study::ErrorEstimate> &estimates)
+    {
+      std::string text =
+          "Each solution is held against those of half h (or of twice and four times h, where that "
+          "is much cheaper) and of one more degree. Richardson’s extrapolation by the rate, the "
+          "smallest of the method’s, the domain’s and what is observed, times a safety factor of "
+          "3/2 (of 2 where h is doubled), or 3/2 of the change to p + 1 if that is larger, and the "
+          "last change by outer "
+          "quadrature make the estimate of the error (L2) of the cell averages and of the field. "
+          "It "
+          "is a bound in practice, no theorem: in an audit of the shipped scenes with a known "
+          "solution, and of loads without one against much finer solutions "
+          "(<code>benchmarks/estimates</code>), no error was above it. The digits that it leaves "
+          "certain are those of the cell averages.";
+      const auto is_of_polygon = [](const study::ErrorEstimate &e) { return e.is_of_polygon; };
+      if (std::any_of(estimates.begin(), estimates.end(), is_of_polygon))
+        text += " <b>Where the domain is “the polygon alone”, the mesh cannot be made anew at "
+                "another h: estimates and digits hold for the polygon that its cells fill. If that "
+                "stands for a curved domain, the error of that, of order h², is not in them</b>; a "
+                ".geo file or a generator would bring it in.";
+      return text;
+    }
+
     std::string reference(const study::Results &results)
     {
       if (results.references.empty() && results.estimates.empty())
@@ -241,18 +264,11 @@ namespace plumbline::report
                            results.estimates.size() <= 12);
       if (results.references.empty())
         return section("reference", "The solutions’ own error estimates",
-                       paragraph("How much the cell averages of each Galerkin solution differ from "
-                                 "those of half or twice h, from those of one more degree, and by "
-                                 "the last refinement of outer quadrature.") +
-                           others);
+                       paragraph(meaning_of_estimates(results.estimates)) + others);
       const Table doubtful = doubtful_differences(results);
-      std::string text = paragraph(
-          "How much the reference’s cell averages change when h is halved and when the degree is "
-          "raised by one, and how much its outer quadrature moved last; the largest is its "
-          "estimate, "
-          "and the digits of the solution that this leaves certain are certified (none where outer "
-          "quadrature was not refined). On a mesh they are digits of the problem on its polygon: a "
-          "curved boundary that the polygon stands for is not in the estimate.");
+      std::string text = paragraph(meaning_of_estimates(results.references) +
+                                   " Digits are not certified where outer quadrature was not "
+                                   "refined.");
       text += folded("Estimates (" + std::to_string(results.references.size()) + " levels)",
                      to_html(estimate_table(results.references)), results.references.size() <= 12) +
               others;

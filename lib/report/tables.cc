@@ -175,24 +175,31 @@ namespace plumbline::report
   Table estimate_table(const std::vector<study::ErrorEstimate> &estimates)
   {
     Table table;
-    table.columns = {"reference",
+    table.caption = "Error estimates";
+    table.columns = {"method",
                      "problem",
                      "series",
                      "level",
                      "h",
                      "δ",
-                     "change to h/2",
+                     "change with h",
+                     "before",
+                     "rate",
                      "change to p + 1",
                      "outer quadrature",
-                     "estimate",
-                     "certified digits"};
+                     "estimate, averages",
+                     "certified digits",
+                     "estimate, field",
+                     "domain"};
     for (const study::ErrorEstimate &estimate : estimates)
-      table.rows.push_back({text_cell(estimate.method), text_cell(estimate.problem),
-                            text_cell(estimate.series), count_cell(estimate.level),
-                            number_cell(estimate.h), number_cell(estimate.horizon),
-                            error_cell(estimate.h_change), error_cell(estimate.p_change),
-                            error_cell(estimate.outer_change), error_cell(estimate.estimate),
-                            count_cell(estimate.certified_digits)});
+      table.rows.push_back(
+          {text_cell(estimate.method), text_cell(estimate.problem), text_cell(estimate.series),
+           count_cell(estimate.level), number_cell(estimate.h), number_cell(estimate.horizon),
+           error_cell(estimate.h_change), error_cell(estimate.coarse_change),
+           number_cell(estimate.rate), error_cell(estimate.p_change),
+           error_cell(estimate.outer_change), error_cell(estimate.estimate),
+           count_cell(estimate.certified_digits), error_cell(estimate.field_estimate),
+           text_cell(estimate.is_of_polygon ? "the polygon alone" : "as described")});
     return table;
   }
 
@@ -298,5 +305,9 @@ namespace plumbline::report
       write_table(error_table(results, one), folder / ("errors_" + one.slug));
     write_table(verdict_table(results), folder / "verdicts");
     write_table(cost_table(results), folder / "cost");
+    auto estimates = results.references;
+    estimates.insert(estimates.end(), results.estimates.begin(), results.estimates.end());
+    if (!estimates.empty())
+      write_table(estimate_table(estimates), folder / "estimates");
   }
 } // namespace plumbline::report

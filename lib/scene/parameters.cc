@@ -195,7 +195,8 @@ namespace plumbline::scene
           {"Reference", "method", "none", text(),
            "Galerkin method whose cell averages are the reference: none, Q1, Q2, Q3, ..."},
           {"Reference", "estimate", "automatic", one_of("automatic|every|reference|none"),
-           "Whose error is estimated by outer quadrature, h/2 and degree p+1: of the reference, of "
+           "Whose error is estimated by outer quadrature, h/2, 2h and degree p+1: of the "
+           "reference, of "
            "every Galerkin solution, or of none. automatic: of the reference, and where there is "
            "neither one nor an exact solution of every Galerkin solution."},
           {"Reference", "tolerance", "0", std::make_shared<Patterns::Double>(0, 1),

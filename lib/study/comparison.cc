@@ -128,34 +128,44 @@ namespace plumbline::study
       return least;
     }
 
-    Accumulator field_difference(const scene::Problem &problem, const Solution &solution,
-                                 const Field &field)
+    /// Calls f(x, weight) with a rule on every cell of Ω.
+    template <class F>
+    void for_each_point(const scene::Problem &problem, const dealii::Quadrature<2> &on_square,
+                        unsigned int degree, const F &f)
     {
-      Accumulator sum;
-      const auto add = [&](const dealii::Point<2> &x, double weight)
-      {
-        for (unsigned int c = 0; c < problem.n_components; ++c)
-          sum.add(solution.value(x, c) - field.value(x, c), weight);
-      };
       if (problem.lattice)
       {
-        static const dealii::QIterated<2> rule(dealii::QGauss<1>(3), 2);
         const geometry::Lattice &lattice = *problem.lattice;
         const double area = lattice.h() * lattice.h();
         for (int j = 0; j < lattice.n_cells()[1]; ++j)
           for (int i = 0; i < lattice.n_cells()[0]; ++i)
-            for (unsigned int q = 0; q < rule.size() && lattice.is_inside(i, j); ++q)
-              add(lattice.point(i + rule.point(q)[0], j + rule.point(q)[1]), area * rule.weight(q));
-        return sum;
+            for (unsigned int q = 0; q < on_square.size() && lattice.is_inside(i, j); ++q)
+              f(lattice.point(i + on_square.point(q)[0], j + on_square.point(q)[1]),
+                area * on_square.weight(q));
+        return;
       }
       const geometry::Mesh &mesh = *problem.mesh;
       for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
         if (mesh.cells[cell].is_inside)
         {
-          const auto rule = geometry::polygon_rule(geometry::view(mesh.polygon(cell)), 9);
+          const auto rule = geometry::polygon_rule(geometry::view(mesh.polygon(cell)), degree);
           for (std::size_t q = 0; q < rule.points.size(); ++q)
-            add(rule.points[q], rule.weights[q]);
+            f(rule.points[q], rule.weights[q]);
         }
+    }
+
+    Accumulator field_difference(const scene::Problem &problem, const Solution &solution,
+                                 const Field &field)
+    {
+      static const dealii::QIterated<2> on_square(dealii::QGauss<1>(3), 2);
+      constexpr unsigned int degree = 9;
+      Accumulator sum;
+      for_each_point(problem, on_square, degree,
+                     [&](const dealii::Point<2> &x, double weight)
+                     {
+                       for (unsigned int c = 0; c < problem.n_components; ++c)
+                         sum.add(solution.value(x, c) - field.value(x, c), weight);
+                     });
       return sum;
     }
 
@@ -272,6 +282,19 @@ namespace plumbline::study
                      const std::vector<double> &b)
   {
     return std::sqrt(averages_difference(problem, a, b).squares);
+  }
+
+  double field_l2(const scene::Problem &problem, const Values &a, const Values &b,
+                  unsigned int degree)
+  {
+    Accumulator sum;
+    for_each_point(problem, dealii::QGauss<2>(degree / 2 + 1), degree,
+                   [&](const dealii::Point<2> &x, double weight)
+                   {
+                     for (unsigned int c = 0; c < problem.n_components; ++c)
+                       sum.add(a(x, c) - b(x, c), weight);
+                   });
+    return std::sqrt(sum.squares);
   }
 
   ErrorMap error_map(const scene::Scene &scene, const scene::Problem &problem,

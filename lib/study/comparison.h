@@ -35,6 +35,14 @@ namespace plumbline::study
   double averages_l2(const scene::Problem &problem, const std::vector<double> &a,
                      const std::vector<double> &b);
 
+  /// A field by its values.
+  using Values = std::function<double(const dealii::Point<2> &, unsigned int component)>;
+
+  /// The L2 distance of two fields over Ω, by a rule on each cell of the problem's lattice or mesh.
+  /// @param degree  that the rule is exact to on each cell; 2 p for fields of degree p there
+  double field_l2(const scene::Problem &problem, const Values &a, const Values &b,
+                  unsigned int degree);
+
   /// Cell averages that solutions are held against, each empty if there is none.
   struct Targets
   {

@@ -88,6 +88,10 @@ namespace plumbline::study
     /// the factors of a direct solver.
     virtual double expected_bytes(const scene::Scene &, const ProblemSize &) const { return 0; }
 
+    /// The rate at which field and averages tend to a smooth solution at a fixed horizon, at least:
+    /// p + 1 of Galerkin methods whose kernel is integrable. For error estimates.
+    virtual unsigned int order() const { return 1; }
+
     /// The same method one polynomial degree higher, if it has one: for its error estimate.
     virtual std::shared_ptr<const Method> higher_degree() const { return nullptr; }
   };

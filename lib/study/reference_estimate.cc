@@ -1,7 +1,7 @@
 #include "study/reference_estimate.h"
 
 #include "base/error.h"
-#include "study/comparison.h"
+#include "study/resized.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,60 +12,30 @@ namespace plumbline::study
 {
   namespace
   {
-    /// A problem on the same comparison cells with the mesh of another level.
-    scene::Problem with_mesh(const scene::Problem &problem,
-                             std::shared_ptr<const geometry::Mesh> mesh)
-    {
-      scene::Problem result = problem;
-      result.mesh = std::move(mesh);
-      return result;
-    }
+    /// What changes of a solution are multiplied by besides what Richardson's extrapolation says,
+    /// which holds to first order only. With it no error of the audit (benchmarks/estimates) is
+    /// above its estimate.
+    constexpr double safety = 1.5;
 
-    /// The same lattice scene at another h, with nodes in the centres.
-    scene::Scene centred(const scene::Scene &scene)
-    {
-      scene::Scene result = scene;
-      result.nodes.kind = "centres";
-      result.n_geometry_checks = 0;
-      return result;
-    }
+    /// The same where the change is that from 2 h: more is extrapolated.
+    constexpr double safety_of_coarse = 2;
 
-    /// Averages of the same method at h/2 over the cells of h.
-    std::vector<double> halved(const scene::Scene &scene, const scene::Problem &problem,
-                               unsigned int case_index, const Method &method)
-    {
-      if (problem.mesh)
-        return method
-            .solve(scene, with_mesh(problem, std::make_shared<const geometry::Mesh>(
-                                                 geometry::refine(*problem.mesh))))
-            .averages;
-      const scene::Scene fine_scene = centred(scene);
-      const scene::Problem fine =
-          make_problem(fine_scene, case_index, {problem.h / 2, problem.horizon()});
-      return coarsen_averages(method.solve(fine_scene, fine).averages,
-                              comparison_nodes(fine_scene, *fine.lattice, fine.n_components),
-                              comparison_nodes(scene, *problem.lattice, problem.n_components));
-    }
+    /// Errors that seem to fall by less than this when h is halved are still taken to fall so.
+    constexpr double slowest = .75;
 
-    /// The problem on a mesh of 2 h, if the scene has one.
-    std::optional<scene::Problem> doubled(const scene::Scene &scene, const scene::Problem &problem,
-                                          unsigned int case_index)
+    /// The same where only one change is known: the rate 1/2 of a jump that the cells' continuous
+    /// fields cannot follow.
+    constexpr double unknown = .7071;
+
+    /// What a linear solver leaves: an error of so many times its tolerance, relative to the
+    /// solution. Solutions that a space holds are off by no more.
+    constexpr double solver_share = 10;
+
+    /// Two norms of one thing.
+    struct Norms
     {
-      if (problem.lattice)
-        return {};
-      try
-      {
-        const scene::Problem coarse =
-            make_problem(scene, case_index, {2 * problem.h, problem.horizon()});
-        if (coarse.mesh->cells.size() < problem.mesh->cells.size())
-          return with_mesh(problem, coarse.mesh);
-      }
-      catch (const InputError &)
-      {
-        // 2 h does not divide the boxes
-      }
-      return {};
-    }
+      double averages = 0, field = 0;
+    };
   } // namespace
 
   unsigned int certified_digits(double estimate, double size)
@@ -79,41 +49,186 @@ namespace plumbline::study
 
   namespace
   {
-    double averages_size(const scene::Problem &problem, const Solution &solution)
+    /// Estimates the error of one solution.
+    class Estimator
     {
-      return averages_l2(problem, solution.averages, std::vector<double>(solution.averages.size()));
-    }
+    public:
+      Estimator(const scene::Scene &scene, const scene::Problem &problem, unsigned int case_index,
+                const Method &method, const Solution &solution)
+          : scene_(scene), problem_(problem), case_index_(case_index),
+            method_(method), solution_{solution.averages, solution.value}
+      {
+        estimate_.method = method.name();
+        estimate_.h = problem.h;
+        estimate_.horizon = problem.horizon();
+        estimate_.outer_change = solution.diagnostics.outer_change *
+                                 averages_l2(problem, solution.averages, zero().averages);
+      }
 
-    /// What the solution itself says, without solving again.
-    ErrorEstimate outer_estimate(const scene::Problem &problem, const Method &method,
-                                 const Solution &solution)
-    {
-      ErrorEstimate estimate;
-      estimate.method = method.name();
-      estimate.h = problem.h;
-      estimate.horizon = problem.horizon();
-      estimate.outer_change = solution.diagnostics.outer_change * averages_size(problem, solution);
-      return estimate;
-    }
+      /// What the solution itself says, without solving again.
+      const ErrorEstimate &outer() const { return estimate_; }
+
+      ErrorEstimate by_changes(bool is_cheap, const Diagnostics &diagnostics)
+      {
+        auto coarse = coarser(scene_, problem_, case_index_, 2);
+        std::optional<ResizedSolution> on_coarse;
+        if (coarse)
+          on_coarse = solved(*coarse);
+        std::optional<ResizedSolution> on_coarsest;
+        const bool is_by_coarse = is_cheap && on_coarse && !has_few_cells();
+        if (is_by_coarse)
+          if (const auto coarsest = coarser(scene_, problem_, case_index_, 4))
+            on_coarsest = solved(*coarsest);
+        if (is_by_coarse)
+          from_coarse(*coarse, *on_coarse, on_coarsest);
+        else
+          from_fine(on_coarse);
+        const Norms size = distance(problem_, solution_, zero());
+        const double solver = solver_share * scene_.tolerance;
+        estimate_.estimate = std::max(by_h_.averages, safety * estimate_.p_change) +
+                             estimate_.outer_change + solver * size.averages;
+        estimate_.field_estimate = std::max(by_h_.field, safety * estimate_.field_p_change) +
+                                   (diagnostics.outer_change + solver) * size.field;
+        if (diagnostics.is_outer_error_known)
+          estimate_.certified_digits = certified_digits(estimate_.estimate, size.averages);
+        return estimate_;
+      }
+
+    private:
+      /// Nothing where cells are too large for a solution.
+      std::optional<ResizedSolution> solved(const Resized &resized) const
+      {
+        try
+        {
+          return solve_resized(resized, scene_, problem_, method_);
+        }
+        catch (const NumericalError &)
+        {
+          return {};
+        }
+      }
+
+      ResizedSolution zero() const
+      {
+        return {std::vector<double>(solution_.averages.size()),
+                [](const dealii::Point<2> &, unsigned int) { return 0.; }};
+      }
+
+      /// So few that h/2 is cheap, too, and 2 h and 4 h may be too coarse to tell a rate.
+      bool has_few_cells() const
+      {
+        constexpr std::size_t few = 500;
+        return problem_.lattice || problem_.mesh->cells.size() < few;
+      }
+
+      Norms distance(const scene::Problem &cells, const ResizedSolution &a,
+                     const ResizedSolution &b) const
+      {
+        constexpr unsigned int most = 9;
+        return {averages_l2(problem_, a.averages, b.averages),
+                field_l2(cells, a.value, b.value, std::min(most, 2 * method_.order()))};
+      }
+
+      /// By how much the error of a smooth solution falls as h halves, at least.
+      double expected_contraction() const
+      {
+        const unsigned int geometry = geometry_order(scene_);
+        const unsigned int order =
+            geometry == 0 ? method_.order() : std::min(geometry, method_.order());
+        return std::pow(.5, order);
+      }
+
+      /// By how much errors fall as h halves: the larger of what is expected and what two changes
+      /// show. Averages that fall faster than the field will not go on to: the change from 2 h
+      /// holds what varies inside its larger cells.
+      Norms contraction(const Norms &before, const Norms &now) const
+      {
+        const double expected = expected_contraction();
+        const auto ratio = [&](double one, double next)
+        { return std::clamp(one > 0 ? next / one : unknown, expected, slowest); };
+        const double field = ratio(before.field, now.field);
+        return {std::max(field, ratio(before.averages, now.averages)), field};
+      }
+
+      void enter_rates(const Norms &q)
+      {
+        estimate_.rate = -std::log2(q.averages);
+        estimate_.field_rate = -std::log2(q.field);
+      }
+
+      void enter_changes(const Norms &now, const Norms &before)
+      {
+        estimate_.h_change = now.averages;
+        estimate_.field_h_change = now.field;
+        estimate_.coarse_change = before.averages;
+        estimate_.field_coarse_change = before.field;
+      }
+
+      /// By h/2: the error is the change over 1 - q.
+      void from_fine(const std::optional<ResizedSolution> &on_coarse)
+      {
+        const Resized fine = finer(scene_, problem_, case_index_, 2);
+        // parts of the coarse cells, on which both fields are smooth; of a mesh made anew, ours
+        scene::Problem cells = problem_;
+        if (fine.problem.lattice)
+          cells = fine.problem;
+        else
+          cells.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem_.mesh));
+        const Norms change =
+            distance(cells, solution_, solve_resized(fine, scene_, problem_, method_));
+        const Norms before = on_coarse ? distance(problem_, solution_, *on_coarse) : Norms{};
+        const Norms q = contraction(before, change);
+        enter_changes(change, before);
+        enter_rates(q);
+        by_h_ = {safety * change.averages / (1 - q.averages),
+                 safety * change.field / (1 - q.field)};
+        estimate_.is_of_polygon = fine.is_cut && geometry_order(scene_) > 0;
+        if (const auto higher = method_.higher_degree())
+        {
+          const Solution other = higher->solve(scene_, problem_);
+          enter_p_change(distance(problem_, solution_, {other.averages, other.value}));
+        }
+      }
+
+      /// By 2 h: the error is the change times q / (1 - q).
+      void from_coarse(const Resized &coarse, const ResizedSolution &on_coarse,
+                       const std::optional<ResizedSolution> &on_coarsest)
+      {
+        const Norms change = distance(problem_, solution_, on_coarse);
+        const Norms before = on_coarsest ? distance(problem_, on_coarse, *on_coarsest) : Norms{};
+        const Norms q = contraction(before, change);
+        enter_changes(change, before);
+        enter_rates(q);
+        by_h_ = {safety_of_coarse * change.averages * q.averages / (1 - q.averages),
+                 safety_of_coarse * change.field * q.field / (1 - q.field)};
+        estimate_.is_of_polygon = false; // the mesh of 2 h was made anew
+        if (const auto higher = method_.higher_degree())
+          enter_p_change(
+              distance(problem_, solution_, solve_resized(coarse, scene_, problem_, *higher)));
+      }
+
+      void enter_p_change(const Norms &change)
+      {
+        estimate_.p_change = change.averages;
+        estimate_.field_p_change = change.field;
+      }
+
+      const scene::Scene &scene_;
+      const scene::Problem &problem_;
+      unsigned int case_index_;
+      const Method &method_;
+      ResizedSolution solution_;
+      Norms by_h_;
+      ErrorEstimate estimate_;
+    };
   } // namespace
 
   ErrorEstimate estimate_error(const scene::Scene &scene, const scene::Problem &problem,
                                unsigned int case_index, const Method &method,
                                const Solution &solution, bool is_cheap)
   {
-    ErrorEstimate estimate = outer_estimate(problem, method, solution);
-    const auto change = [&](const std::vector<double> &other)
-    { return averages_l2(problem, solution.averages, other); };
-    const auto coarse = is_cheap ? doubled(scene, problem, case_index) : std::nullopt;
-    estimate.h_change = change(coarse ? method.solve(scene, *coarse).averages
-                                      : halved(scene, problem, case_index, method));
-    if (const auto higher = method.higher_degree())
-      estimate.p_change = change(higher->solve(scene, coarse ? *coarse : problem).averages);
-    estimate.estimate = std::max({estimate.h_change, estimate.p_change, estimate.outer_change});
-    if (solution.diagnostics.is_outer_error_known)
-      estimate.certified_digits =
-          certified_digits(estimate.estimate, averages_size(problem, solution));
-    return estimate;
+    return Estimator(scene, problem, case_index, method, solution)
+        .by_changes(is_cheap, solution.diagnostics);
   }
 
   ReferenceAverages solve_reference(const scene::Scene &scene, const scene::Problem &problem,
@@ -122,11 +237,13 @@ namespace plumbline::study
     const Solution solution = method.solve(scene, problem);
     ReferenceAverages result{solution.averages, {}};
     result.estimate = scene.estimate == "none"
-                          ? outer_estimate(problem, method, solution)
+                          ? Estimator(scene, problem, case_index, method, solution).outer()
                           : estimate_error(scene, problem, case_index, method, solution, false);
     result.estimate.n_geometry_checks = solution.diagnostics.n_geometry_checks;
     result.estimate.geometry_difference = solution.diagnostics.geometry_difference;
-    const double size = averages_size(problem, solution), estimate = result.estimate.estimate;
+    const double size = averages_l2(problem, solution.averages,
+                                    std::vector<double>(solution.averages.size())),
+                 estimate = result.estimate.estimate;
     if (scene.reference_tolerance > 0 && !(estimate <= scene.reference_tolerance * size))
     {
       std::ostringstream message;

@@ -103,19 +103,28 @@ namespace plumbline::study
     LimitProof proof = {}; ///< apart from this field; of the level with the worst moments
   };
 
-  /// How far a Galerkin solution of one level may be wrong: how much it moves.
+  /// How far a Galerkin solution of one level may be wrong: bounds in practice, see
+  /// `estimate_error`. L2 norms; averages are those over the comparison cells.
   struct ErrorEstimate
   {
     std::string problem, series, method; ///< method: e.g. "Q2"
     unsigned int level = 0;
     double h = 0, horizon = 0;
-    double h_change = 0;               ///< averages L2: change to h/2
-    double p_change = 0;               ///< averages L2: change to degree p + 1
-    double outer_change = 0;           ///< averages L2, of outer quadrature; 0 if entries are exact
-    double estimate = 0;               ///< the largest of the three
+    double h_change = 0;               ///< averages: change to h/2, or from 2 h where that is cheap
+    double p_change = 0;               ///< averages: change to degree p + 1
+    double outer_change = 0;           ///< averages, of outer quadrature; 0 if entries are exact
+    double estimate = 0;               ///< of the averages' error
     unsigned int certified_digits = 0; ///< floor(-log10(estimate / size of the solution))
     unsigned int n_geometry_checks = 0; ///< cut cells recomputed with the exact backend
     double geometry_difference = 0;     ///< worst difference among them, relative to the cell
+    double coarse_change = 0;           ///< averages: the change before h_change; 0 if not known
+    double rate = 0;                    ///< at which h_change is taken to go on falling
+    /// The same of the field.
+    double field_h_change = 0, field_coarse_change = 0, field_p_change = 0, field_rate = 0;
+    double field_estimate = 0;
+    /// Cells of h/2 or 2 h fill the same polygon: a curved boundary that it stands for is in no
+    /// estimate.
+    bool is_of_polygon = false;
   };
 
   /// Something the scene did not need.

@@ -111,6 +111,7 @@ namespace plumbline::report::fixture
         for (unsigned int level = 0; level < n_levels; ++level)
           results.references.push_back({problem, series, "Q2", level, .1 / std::pow(2., level),
                                         m * .1 / std::pow(2., level), 3e-5, 1e-5, 2e-6, 3e-5, 4});
+        results.references.back().field_estimate = 4e-5;
         results.advice.push_back({problem,
                                   series,
                                   {{1e-2, "IPA-AC recalibrated", .1, 6.2e-3, 5.1e-4},

@@ -71,7 +71,13 @@ namespace plumbline::report
     EXPECT_EQ(back.scene_text, results.scene_text);
     EXPECT_EQ(back.provenance, results.provenance);
     EXPECT_EQ(back.is_complete, results.is_complete);
-    EXPECT_EQ(back.references.size(), results.references.size());
+    ASSERT_EQ(back.references.size(), results.references.size());
+    for (std::size_t i = 0; i < results.references.size(); ++i)
+    {
+      EXPECT_EQ(back.references[i].estimate, results.references[i].estimate);
+      EXPECT_EQ(back.references[i].field_estimate, 4e-5);
+      EXPECT_EQ(back.references[i].is_of_polygon, results.references[i].is_of_polygon);
+    }
     EXPECT_EQ(back.savings.at(0).full.setup_seconds, results.savings.at(0).full.setup_seconds);
     EXPECT_EQ(back.savings.at(0).difference, results.savings.at(0).difference);
     EXPECT_EQ(back.left_out, results.left_out);

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "report/page_parts.h"
 #include "report/report.h"
+#include "report/tables.h"
 #include "study/trend.h"
 #include "tests/report/fixture.h"
 
@@ -222,6 +223,24 @@ namespace plumbline::report
     for (study::ErrorEstimate &estimate : results.references)
       estimate.h_change = estimate.p_change = estimate.estimate = 0;
     EXPECT_TRUE(holds(page_of(results), "nothing says how far the reference can be trusted"));
+  }
+
+  TEST(ReportPage, SaysWhichEstimatesHoldForThePolygonAlone)
+  {
+    study::Results results = fixture::results();
+    EXPECT_TRUE(holds(page_of(results), "a bound in practice, no theorem: in an audit of"));
+    EXPECT_FALSE(holds(page_of(results), "the polygon alone"));
+    results.references.at(0).is_of_polygon = true;
+    EXPECT_TRUE(holds(page_of(results), "the polygon alone"));
+    EXPECT_TRUE(holds(page_of(results), "the error of that, of order h², is not in them"));
+    results.estimates = results.references;
+    results.references.clear();
+    EXPECT_TRUE(holds(page_of(results), "the error of that, of order h², is not in them"));
+    const fixture::Folder folder;
+    write_tables(results, folder.path());
+    const std::string table = fixture::read(folder.path() / "tables" / "estimates.csv");
+    EXPECT_TRUE(holds(table, "the polygon alone"));
+    EXPECT_TRUE(holds(table, "as described"));
   }
 
   TEST(ReportPage, SaysThatARunIsNotComplete)

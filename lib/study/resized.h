@@ -1,0 +1,42 @@
+#pragma once
+
+#include "study/comparison.h"
+
+namespace plumbline::study
+{
+  /// A problem with cells of another size, whose solutions are still averaged over the comparison
+  /// cells of the first one.
+  struct Resized
+  {
+    scene::Scene scene;
+    scene::Problem problem;
+    /// Cells cut in pieces, not made anew: they fill the same polygon, however curved the domain.
+    bool is_cut = false;
+  };
+
+  /// The problem with cells of h / n, n = 2, 4, ... Meshes that a scene makes to measure (a .geo
+  /// file, a generator, a map) are made anew and so follow curved boundaries; others are cut.
+  Resized finer(const scene::Scene &scene, const scene::Problem &problem, unsigned int case_index,
+                unsigned int n);
+
+  /// The problem with cells of n h, n = 2, 4, ...; nothing where the domain or the file has none.
+  std::optional<Resized> coarser(const scene::Scene &scene, const scene::Problem &problem,
+                                 unsigned int case_index, unsigned int n);
+
+  /// A solution of a resized problem.
+  struct ResizedSolution
+  {
+    std::vector<double> averages; ///< over the first problem's comparison cells
+    Values value;
+  };
+
+  /// @throws as Method::solve
+  ResizedSolution solve_resized(const Resized &resized, const scene::Scene &scene,
+                                const scene::Problem &problem, const Method &method);
+
+  /// Whether a scene makes its mesh anew for each h from a description that may be curved, and how
+  /// fast the domain's cells tend to what they stand for: a polygon's sides to its curve like h²,
+  /// cells chosen by their centres (Domain/inside) like h.
+  /// @return 0: nothing is curved
+  unsigned int geometry_order(const scene::Scene &scene);
+} // namespace plumbline::study

@@ -1,0 +1,357 @@
+// Error estimates are bounds: smooth and rough solutions, polygons in place of curves, outer
+// quadrature; and the norms that they are stated in.
+#include "benchmarks/estimate_audit.h"
+#include "reference/method.h"
+#include "study/comparison.h"
+#include "study/preflight.h"
+#include "study/reference_estimate.h"
+#include "study/resized.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <unistd.h>
+
+using namespace plumbline;
+using namespace plumbline::study;
+
+namespace
+{
+  using Settings = std::vector<scene::Override>;
+
+  std::shared_ptr<const Method> galerkin(const std::string &name)
+  {
+    return find_method(reference::methods(), name, "test");
+  }
+
+  scene::Scene make_scene(Settings settings)
+  {
+    settings.push_back({"Geometry/checks", "0"});
+    settings.push_back({"Methods/names", "all"});
+    return scene::parse_scene("test.prm", "", settings);
+  }
+
+  scene::Scene disk_load()
+  {
+    return scene::read_scene(std::string(PLUMBLINE_SCENES) + "/meshes/disk_load.prm",
+                             {{"Geometry/checks", "0"}});
+  }
+
+  const Settings smooth = {{"Kernel/type", "constant"}, {"Problem/solution", "sin(3*x)*cos(2*y)"}};
+  /// u jumps at the boundary: rate 1/2 of continuous methods.
+  const Settings rough = {{"Problem/load", "1"},
+                          {"Problem/constraint", "0"},
+                          {"Problem/local solution", "0"}, // not used
+                          {"Study/norms", "averages L2"},
+                          {"Study/decisive error", "averages L2 | local"}};
+
+  Settings with(Settings settings, const Settings &more)
+  {
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+  }
+
+  std::vector<audit::Entry> entries(const scene::Scene &scene, const std::string &method,
+                                    const scene::Level &level)
+  {
+    double seconds = 0;
+    const auto problem = make_problem(scene, 0, level);
+    const unsigned int much_finer = problem.lattice ? 8 : 4; // meshes are dear
+    return audit::audit(scene, problem, 0, *galerkin(method), much_finer, seconds);
+  }
+
+  /// Floor of the digits that an error leaves.
+  unsigned int right_digits(double error, double size)
+  {
+    return static_cast<unsigned int>(std::max(0., std::floor(-std::log10(error / size))));
+  }
+
+  void expect_bounds(const std::vector<audit::Entry> &entries)
+  {
+    ASSERT_FALSE(entries.empty());
+    for (const auto &entry : entries)
+    {
+      EXPECT_LE(entry.truth, entry.estimate)
+          << entry.method << ", " << entry.problem << ", " << entry.norm << ", h = " << entry.h;
+      if (entry.norm == "averages")
+      {
+        EXPECT_LE(entry.certified_digits, right_digits(entry.truth, entry.size)) << entry.method;
+      }
+    }
+  }
+
+  /// A method that errs by outer quadrature alone: a part of the solution at every h.
+  class QuadratureFault : public Method
+  {
+  public:
+    explicit QuadratureFault(double part) : part_(part) {}
+    std::string name() const override { return "fault"; }
+    std::string family() const override { return "reference"; }
+    std::string help() const override { return ""; }
+    std::string why_not(const scene::Scene &, const scene::Problem &) const override { return {}; }
+    Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
+    {
+      Solution solution;
+      solution.averages = cell_averages(*problem.solution, scene, problem);
+      for (double &average : solution.averages)
+        average *= 1 + part_;
+      solution.value =
+          [u = problem.solution->value, part = part_](const dealii::Point<2> &x, unsigned int c)
+      { return (1 + part) * u(x, c); };
+      solution.diagnostics.outer_change = part_;
+      return solution;
+    }
+
+  private:
+    double part_;
+  };
+} // namespace
+
+TEST(Estimates, bound_errors_of_smooth_and_rough_solutions)
+{
+  std::vector<audit::Entry> all;
+  const auto add = [&](const Settings &settings, const std::vector<std::string> &methods,
+                       const scene::Level &level)
+  {
+    const auto scene = make_scene(settings);
+    for (const std::string &method : methods)
+      for (const auto &entry : entries(scene, method, level))
+        all.push_back(entry);
+  };
+  for (const double h : {.1, .05})
+  {
+    add(smooth, {"Q1", "Q2", "Q3", "DGQ0", "DGQ1", "DGQ2"}, {h, .25});
+    add(with(smooth, {{"Methods/nodes", "vertices"}}), {"Q1", "DGQ0"}, {h, 3 * h});
+  }
+  add(rough, {"Q1", "Q2", "DGQ0", "DGQ1", "DGQ2"}, {.125, .25});
+  add(rough, {"Q1", "Q2"}, {.0625, .25});
+  const Settings triangles = {{"Domain/mesh", "triangles"}, {"Quadrature/tolerance", "1e-4"}};
+  add(with(smooth, triangles), {"P1", "P2", "DGP0", "DGP1"}, {.125, .25});
+  add(with(rough, triangles), {"P1", "DGP1"}, {.25, .25});
+  // cells enough for the mesh of 4 h to tell a rate
+  add(with(smooth, triangles), {"P1", "DGP1"}, {.0625, .125});
+  const Settings graded = {{"Domain/mesh", "squares"},
+                           {"Domain/map", "x + 0.4*x*abs(x), y + 0.25*y*abs(y)"}};
+  add(with(smooth, graded), {"Q1", "Q2", "DGQ0", "DGQ1"}, {.125, .25});
+  expect_bounds(all);
+  constexpr double useful = 5;
+  EXPECT_LE(audit::median_ratio(all), useful);
+  EXPECT_GE(all.size(), 60u);
+}
+
+TEST(Estimates, see_that_a_polygon_is_no_disk)
+{
+  const auto scene = disk_load();
+  std::vector<audit::Entry> all;
+  for (const std::string method : {"P1", "DGP1", "DGP2"})
+    for (const auto &entry : entries(scene, method, {.4, .5}))
+      all.push_back(entry);
+  for (const auto &entry : entries(scene, "DGP1", {.2, .5}))
+    all.push_back(entry);
+  expect_bounds(all);
+  EXPECT_LE(audit::median_ratio(all), 3);
+  for (const auto &entry : all)
+    EXPECT_FALSE(entry.details.is_of_polygon);
+  // the polygon's error is that of every degree
+  const auto is_of = [&](const std::string &method)
+  {
+    return std::find_if(all.begin(), all.end(),
+                        [&](const audit::Entry &e) { return e.method == method; });
+  };
+  EXPECT_NEAR(is_of("DGP2")->truth, 1.165e-2, 2e-5);
+  EXPECT_NEAR(is_of("DGP1")->truth, 1.184e-2, 2e-5);
+  EXPECT_EQ(is_of("DGP2")->certified_digits, 1u);
+}
+
+/// Put into the equation c (π δ² u(r) - ∫ K(r, s) u(s) ds) = 1, K(r, s) = 2 s times half the angle
+/// of the circle of radius s that lies in the ball.
+TEST(Estimates, the_shipped_solution_of_the_disk_solves_its_equation)
+{
+  const auto problem = make_problem(disk_load(), 0, {.4, .5});
+  const double delta = .5, pi = std::acos(-1.), c = 8 / (pi * std::pow(delta, 4));
+  const auto u = [&](double r) { return problem.solution->value({r, 0}, 0); };
+  const dealii::QGauss<1> gauss(40);
+  constexpr double fitted = 3e-7; // of u, as the scene says; the equation multiplies it by 8/δ²
+  const auto integral = [&](double r)
+  {
+    const auto half_angle = [&](double s)
+    {
+      return s + r <= delta
+                 ? pi
+                 : std::acos(std::clamp((r * r + s * s - delta * delta) / (2 * r * s), -1., 1.));
+    };
+    std::vector<double> cuts = {std::max(0., r - delta), std::abs(delta - r), delta,
+                                std::min(1., r + delta)};
+    if (r < delta)
+      cuts[0] = 0;
+    std::sort(cuts.begin(), cuts.end());
+    double sum = 0;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+      {
+        // both ends may be those of a square root
+        const double t = .5 * pi * gauss.point(q)[0], length = cuts[i + 1] - cuts[i];
+        const double s = cuts[i] + length * std::pow(std::sin(t), 2);
+        if (length > 0)
+          sum += gauss.weight(q) * length * pi * std::sin(t) * std::cos(t) * 2 * s * half_angle(s) *
+                 u(s);
+      }
+    return sum;
+  };
+  for (double r = .02; r < 1; r += .035)
+    EXPECT_NEAR(c * (pi * delta * delta * u(r) - integral(r)), 1,
+                2 * fitted * c * pi * delta * delta)
+        << r;
+  EXPECT_NEAR(u(0), .326016, 1e-6);
+}
+
+TEST(Estimates, include_what_outer_quadrature_errs_whatever_the_size_of_the_solution)
+{
+  constexpr double part = .01, factor = 5;
+  const QuadratureFault method(part);
+  for (const std::string size : {"1e-3", "1", "1e3"})
+  {
+    const auto scene =
+        make_scene({{"Problem/solution", size + "*(2 + x*y)"}, {"Problem/load", "1"}});
+    const auto problem = make_problem(scene, 0, {.125, .25});
+    const Solution solution = method.solve(scene, problem);
+    const auto exact = cell_averages(*problem.solution, scene, problem);
+    const double error = averages_l2(problem, solution.averages, exact);
+    const auto found = estimate_error(scene, problem, 0, method, solution, false);
+    EXPECT_LE(error * (1 - 1e-10), found.estimate) << size;
+    EXPECT_LE(found.estimate, factor * error) << size;
+    EXPECT_NEAR(found.outer_change, error, 2 * part * error) << size;
+    EXPECT_LE(error * (1 - 1e-10), found.field_estimate) << size;
+    EXPECT_LE(found.field_estimate, factor * error) << size;
+    EXPECT_EQ(found.certified_digits, 1u) << size; // part / (1 + part) < .01, to the rounding
+  }
+}
+
+TEST(Estimates, leave_no_digit_certain_that_they_reach)
+{
+  EXPECT_EQ(certified_digits(9e-4, 1), 3u);
+  EXPECT_EQ(certified_digits(1.1e-3, 1), 2u);
+  EXPECT_EQ(certified_digits(.9, 1), 0u);
+  EXPECT_EQ(certified_digits(2, 1), 0u);
+  EXPECT_EQ(certified_digits(1.1, 1e3), 2u);
+  EXPECT_EQ(certified_digits(0, 1), 0u); // no estimate
+  EXPECT_EQ(certified_digits(1e-30, 1), 15u);
+}
+
+namespace
+{
+  /// A file of a mesh that goes with the test.
+  class MeshFiles : public testing::Test
+  {
+  protected:
+    void SetUp() override { std::filesystem::create_directory(folder_); }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+    std::string write(const std::string &name, const std::string &text) const
+    {
+      std::ofstream(folder_ / name) << text;
+      return (folder_ / name).string();
+    }
+
+    /// Whether an estimate with this file as Domain/mesh says that it is of the polygon alone.
+    bool is_of_polygon(const std::string &file) const
+    {
+      const auto scene =
+          make_scene(with(rough, {{"Domain/mesh", file}, {"Quadrature/tolerance", "1e-2"}}));
+      const auto problem = make_problem(scene, 0, {.5, .5});
+      const auto method = galerkin("DGP0");
+      const Solution solution = method->solve(scene, problem);
+      return estimate_error(scene, problem, 0, *method, solution, false).is_of_polygon;
+    }
+
+  private:
+    const std::filesystem::path folder_ = std::filesystem::temp_directory_path() /
+                                          ("plumbline_estimates_" + std::to_string(getpid()));
+  };
+
+  /// A disk of radius 1 in a square, cells of a given size.
+  std::string disk(const std::string &size)
+  {
+    return "DefineConstant[ h = .5, delta = .5 ];\nSetFactory(\"OpenCASCADE\");\n"
+           "Rectangle(1) = {-1.6, -1.6, 0, 3.2, 3.2};\nDisk(2) = {0, 0, 0, 1, 1};\n"
+           "BooleanFragments{ Surface{1}; Delete; }{ Surface{2}; Delete; }\n"
+           "Mesh.CharacteristicLengthMax = " +
+           size +
+           ";\nMesh.CharacteristicLengthMin = Mesh.CharacteristicLengthMax;\n"
+           "Physical Surface(\"omega\") = {2};\nPhysical Surface(\"collar\") = {3};\n";
+  }
+
+  std::string as_msh(const geometry::Mesh &mesh)
+  {
+    std::ostringstream text;
+    text.precision(17);
+    text << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"omega\"\n2 2 "
+            "\"collar\"\n$EndPhysicalNames\n$Nodes\n"
+         << mesh.vertices.size() << '\n';
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+      text << v + 1 << ' ' << mesh.vertices[v] << " 0\n";
+    text << "$EndNodes\n$Elements\n" << mesh.cells.size() << '\n';
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    {
+      const auto &cell = mesh.cells[c];
+      const int surface = cell.is_inside ? 1 : 2;
+      text << c + 1 << " 2 2 " << surface << ' ' << surface;
+      for (unsigned int i = 0; i < 3; ++i)
+        text << ' ' << cell.vertex[i] + 1;
+      text << '\n';
+    }
+    text << "$EndElements\n";
+    return text.str();
+  }
+} // namespace
+
+TEST_F(MeshFiles, that_cannot_be_made_anew_have_estimates_of_the_polygon_alone)
+{
+  const std::string geo = write("disk.geo", disk("h"));
+  EXPECT_FALSE(is_of_polygon(geo));
+  EXPECT_TRUE(is_of_polygon(write("fixed.geo", disk(".5")))); // takes no notice of h
+  const auto scene = make_scene(with(rough, {{"Domain/mesh", geo}}));
+  const auto problem = make_problem(scene, 0, {.5, .5});
+  EXPECT_TRUE(is_of_polygon(write("disk.msh", as_msh(*problem.mesh))));
+}
+
+TEST(Norms, weigh_cell_averages_by_the_cells_areas)
+{
+  // lines of the grid at map(k/4): the cells with x < map(1/2) = .6 fill a rectangle of height 1.25
+  const auto scene = make_scene({{"Domain/mesh", "squares"},
+                                 {"Domain/map", "x + 0.4*x*abs(x), y + 0.25*y*abs(y)"},
+                                 {"Methods/nodes", "mesh"},
+                                 {"Problem/solution", "x"}});
+  const auto problem = make_problem(scene, 0, {.25, .25});
+  std::vector<double> zero, step;
+  for (std::size_t i = 0; i < problem.cells->n_free; ++i)
+  {
+    zero.push_back(0);
+    step.push_back(problem.cells->nodes[i][0] < .6 ? 2 : 0);
+  }
+  // Voronoi cells of unequal rectangles' centres: the line between columns is in the middle
+  const double centre_below = (.25 + .4 * .0625 + .6) / 2;
+  const double centre_above = (.6 + .75 + .4 * .5625) / 2;
+  const double width = (centre_below + centre_above) / 2;
+  EXPECT_NEAR(averages_l2(problem, step, zero), 2 * std::sqrt(width * 1.25), 1e-12);
+}
+
+TEST(Norms, of_fields_are_exact_for_quartics_on_a_mesh)
+{
+  const auto scene = make_scene({{"Domain/mesh", "triangles"},
+                                 {"Problem/solution", "x*y"},
+                                 {"Study/norms", "field L2"},
+                                 {"Study/decisive error", "field L2 | exact"}});
+  const auto problem = make_problem(scene, 0, {.5, .5});
+  Solution solution;
+  solution.value = [&](const dealii::Point<2> &x, unsigned int c)
+  { return problem.solution->value(x, c) + std::pow(x[0], 4); };
+  constexpr double rounding = 1e-12;
+  EXPECT_NEAR(errors(scene, problem, solution, {}).at("field L2 | exact"), 1. / 3, rounding);
+}
