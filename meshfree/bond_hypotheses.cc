@@ -128,7 +128,7 @@ namespace plumbline::meshfree
       if (kernel.n_components() > 1 || !(diffusion > 0))
         return {};
       const auto laplace = [](double d)
-      { return d == 1 ? std::string("-Laplace") : "-" + number(d) + " Laplace"; };
+      { return std::abs(d - 1) < exact ? std::string("-Laplace") : "-" + number(d) + " Laplace"; };
       return ", as if made for the limit " + laplace(factor * diffusion) + ", not " +
              laplace(diffusion);
     }

@@ -362,7 +362,7 @@ TEST(Check, names_what_was_done_to_all_weights)
        [](Bond &b, const Weights &, std::size_t) { b.weight *= 2; }},
       {"all weights are half of what they should be",
        [](Bond &b, const Weights &, std::size_t) { b.weight *= .5; }},
-      {"3/(4 m) = 0.25, the volume of the horizon in 2D",
+      {"all weights carry the factor 3/(4 m) = 0.25, the volume of the horizon in 2D",
        [m](Bond &b, const Weights &, std::size_t) { b.weight *= .75 / m; }},
       {"the kernel is taken at the midpoints of the bonds",
        [](Bond &b, const Weights &, std::size_t) { b.kernel_point *= .5; }},
@@ -459,4 +459,18 @@ TEST(Check, writes_a_page_unless_told_not_to)
   fs::remove_all(folder);
   EXPECT_EQ(check(nodes_file, bonds_file, "--quiet -o " + folder.string()).exit_code, 0);
   EXPECT_TRUE(fs::exists(folder / "report.html"));
+}
+
+TEST(Check, refuses_scenes_of_which_bonds_are_not_all)
+{
+  for (const auto &[model, text] :
+       {std::pair{"LPS", "Material/model = LPS: weights of bonds alone are checked; write"},
+        std::pair{"variational", "checked"}})
+  {
+    const std::string scene = write("solid.prm", run(std::string("template ") + model).out);
+    const Outcome outcome =
+        run("check " + nodes_file + " " + bonds_file + " --quiet --scene " + scene);
+    EXPECT_EQ(outcome.exit_code, 2) << model;
+    expect_found(outcome.err, text);
+  }
 }

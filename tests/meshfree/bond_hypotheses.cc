@@ -68,8 +68,10 @@ TEST(Causes, of_what_was_done_to_all_weights_are_found)
           const auto causes = causes_of(rule, problem, planted.plant, true);
           ASSERT_FALSE(causes.empty())
               << kernel << ", " << perturbation << ", " << rule << ", " << planted.cause;
-          if (causes.size() > 1) // besides kernel points, FA's own error
+          if (causes.size() > 1)
+          { // besides kernel points, FA's own error
             EXPECT_EQ(causes[1].name, "missing ramp") << rule << ", " << planted.cause;
+          }
           EXPECT_EQ(causes[0].name, planted.cause) << rule;
           EXPECT_NEAR(causes[0].factor, planted.factor, 1e-3 * std::abs(planted.factor)) << rule;
           EXPECT_LE(causes[0].after, causes[0].before + 1e-12) << rule;
