@@ -7,15 +7,20 @@ namespace plumbline::app
   struct CheckOptions
   {
     std::string nodes_file, bonds_file, scene_file;
+    std::string output;                ///< folder; empty: results/check_<scene name>
+    std::vector<std::string> required; ///< see requirements.h; empty: ac
     std::vector<scene::Override> overrides;
-    bool quiet = false, json = false;
+    bool quiet = false, json = false; ///< with either of them files are written with -o only
   };
 
   /// Check quadrature weights of another code on its own nodes: moments, symmetry, matrix,
-  /// solutions; print what is found. Nothing is written.
-  /// @return exit code: 0, or 1: second moments off by more than 30 %, a matrix that is not
-  ///         positive definite, or nodes out of line with the others
-  /// @throws InputError  files or a scene that cannot be used
-  /// @throws NumericalError  no solution, where the weights are not found wrong
+  /// solutions; bonds and nodes that are out of line with the others; what was done to all weights.
+  /// Print what is found, and write report.html with maps, nodes.csv, outliers.csv, cells.vtu and
+  /// check.json.
+  /// @return exit code: 0, or 1: a requirement that does not hold, a bond or node out of line, a
+  ///         cause found, or a matrix that is not positive definite
+  /// @throws InputError  files, a scene or a requirement that cannot be used
+  /// @throws NumericalError  no solution, where the weights are not found wrong; maps that cannot
+  ///         be drawn
   int check(const CheckOptions &options);
 } // namespace plumbline::app

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/team.h"
 #include "check.h"
+#include "requirements.h"
 #include "run.h"
 #include "stability.h"
 
@@ -91,9 +92,13 @@ int main(int argc, char **argv)
   check->add_option("BONDS", weights.bonds_file, "Its bonds: CSV with i,j,weight[,qx,qy]")
       ->required();
   check->add_option("--scene", weights.scene_file, "Scene file (.prm or .json)")->required();
+  check->add_option("-o,--output", weights.output,
+                    "Output folder (default: results/check_<scene>; with --json or --quiet: none)");
+  check->add_option("--require", weights.required, plumbline::app::requirements_help)
+      ->allow_extra_args(false);
   check->add_option("--set", settings, "Section/key=value, instead of what the file says");
-  check->add_flag("--quiet", weights.quiet, "Print nothing but errors");
-  check->add_flag("--json", weights.json, "Print a JSON object instead of text");
+  check->add_flag("--quiet", weights.quiet, "Print nothing but errors, write nothing without -o");
+  check->add_flag("--json", weights.json, "Print a JSON object, write nothing without -o");
 
   plumbline::app::StabilityOptions measures;
   auto *stability = app.add_subcommand("stability", "Where methods fail, and how");

@@ -13,19 +13,6 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    /// ∫ |C| |ξ|^degree over the ball, where |C| is the radial factor's.
-    double kernel_size(const Kernel<2> &kernel, int degree)
-    {
-      static const dealii::QIterated<1> rule(dealii::QGauss<1>(8), 32);
-      double sum = 0;
-      for (unsigned int q = 0; q < rule.size(); ++q)
-      {
-        const double r = kernel.horizon() * rule.point(q)[0];
-        sum += rule.weight(q) * std::abs(kernel.radial(r)) * std::pow(r, degree + 1);
-      }
-      return 2 * M_PI * kernel.horizon() * sum;
-    }
-
     /// Σ w C_ab(kernel_point) ξ^α.
     double discrete_moment(const Family &family, const Kernel<2> &kernel, const Exponents &alpha,
                            unsigned int a, unsigned int b)
@@ -75,22 +62,41 @@ namespace plumbline::meshfree
     }
   } // namespace
 
+  double kernel_size(const Kernel<2> &kernel, int degree)
+  {
+    static const dealii::QIterated<1> rule(dealii::QGauss<1>(8), 32);
+    double sum = 0;
+    for (unsigned int q = 0; q < rule.size(); ++q)
+    {
+      const double r = kernel.horizon() * rule.point(q)[0];
+      sum += rule.weight(q) * std::abs(kernel.radial(r)) * std::pow(r, degree + 1);
+    }
+    return 2 * M_PI * kernel.horizon() * sum;
+  }
+
+  double MomentCheck::typical() const
+  {
+    std::vector<double> larger = second_defects;
+    for (std::size_t i = 0; i < larger.size(); ++i)
+      larger[i] = std::max(larger[i], defects[0].values[i]);
+    return median(larger);
+  }
+
   MomentCheck check_moments(const std::vector<Family> &families, const Kernel<2> &kernel)
   {
     constexpr int highest = 4;
-    constexpr double isolated = .05, times_median = 10;
     const double second_moment = kernel.moment({2, 0}), second_size = kernel_size(kernel, 2);
     if (!(std::abs(second_moment) > 1e-12 * second_size))
       throw InputError("the kernel's second moment is 0, so it has no local limit that weights "
                        "could be checked for; choose another kernel (Kernel)");
     MomentCheck check;
-    std::vector<double> values(families.size()), second;
+    std::vector<double> values(families.size()), &second = check.second_defects;
     for (int degree = 1; degree <= highest; ++degree)
     {
       const double size = kernel_size(kernel, degree);
       for (std::size_t i = 0; i < families.size(); ++i)
         values[i] = moment_defect(families[i], kernel, degree) / size;
-      check.defects.push_back({degree, largest(values), median(values)});
+      check.defects.push_back({degree, largest(values), median(values), values});
       if (check.exact_degree == degree - 1 &&
           check.defects.back().worst.value < MomentCheck::tolerance)
         check.exact_degree = degree;
@@ -103,16 +109,11 @@ namespace plumbline::meshfree
     {
       const double ratio = second_moment_ratio(families[i], kernel);
       sum += ratio;
+      check.ratios.push_back(ratio);
       second[i] = std::max(second[i] * second_size / std::abs(second_moment), std::abs(ratio - 1));
     }
     check.mean_ratio = sum / static_cast<double>(families.size());
     check.second = largest(second);
-    const double limit = std::max(isolated, times_median * median(second));
-    for (std::size_t i = 0; i < families.size(); ++i)
-      if (second[i] > limit)
-        check.out_of_line.push_back({second[i], i});
-    std::sort(check.out_of_line.begin(), check.out_of_line.end(),
-              [](const Worst &a, const Worst &b) { return a.value > b.value; });
     return check;
   }
 

@@ -18,7 +18,11 @@ namespace plumbline::meshfree
     int degree = 0;
     Worst worst;
     double median = 0;
+    std::vector<double> values = {}; ///< of each node
   };
+
+  /// ∫ |C| |ξ|^degree over the ball, where |C| is the radial factor's.
+  double kernel_size(const Kernel<2> &kernel, int degree);
 
   /// The moments of families, which decide what their operator tends to.
   struct MomentCheck
@@ -33,11 +37,13 @@ namespace plumbline::meshfree
     /// Second-moment defect: the defect of degree 2 relative to ∫ C_11 ξ_1², or |ratio - 1| where
     /// that is larger. Both are the same for scalars where all directions are alike.
     Worst second;
-    /// Nodes whose second-moment defect is above 5 % and 10 times the median, the worst first.
-    std::vector<Worst> out_of_line;
+    std::vector<double> ratios, second_defects; ///< of each node: what mean_ratio and second are of
 
     bool is_first_exact() const { return defects[0].worst.value < tolerance; }
     bool is_second_exact() const { return second.value < tolerance; }
+
+    /// Of most nodes: the median of the larger of the defects of degree 1 and 2.
+    double typical() const;
   };
 
   /// @throws InputError  the kernel's second moment is 0: there is no local limit

@@ -2,10 +2,12 @@
 
 #include "base/error.h"
 #include "geometry/cell_locator.h"
+#include "meshfree/families.h"
 #include "scene/csv.h"
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <sstream>
 #include <unordered_map>
 
@@ -89,6 +91,81 @@ namespace plumbline::meshfree
                        "; take one of them out");
   }
 
+  namespace
+  {
+    /// Whether a place lies on the boundary of Ω, to rounding of files.
+    std::vector<bool> on_boundary(const GivenNodes &nodes, const geometry::Mesh &mesh)
+    {
+      const double tolerance = 1e-6 * mesh.longest_side();
+      const geometry::CellLocator locator(mesh);
+      std::vector<bool> result;
+      std::vector<unsigned int> near;
+      for (const Point<2> &x : nodes.places)
+      {
+        locator.find(box_around(x, tolerance), near);
+        const auto is_free = [&](unsigned int cell) { return locator.is_inside(cell); };
+        result.push_back(std::any_of(near.begin(), near.end(), is_free) &&
+                         !std::all_of(near.begin(), near.end(), is_free));
+      }
+      return result;
+    }
+
+    /// The same cells in another order.
+    geometry::NodeCells reordered(const geometry::NodeCells &cells,
+                                  const std::vector<std::size_t> &order, std::size_t n_free)
+    {
+      geometry::NodeCells result;
+      result.n_free = n_free;
+      result.first_piece = {0};
+      for (const std::size_t c : order)
+      {
+        result.nodes.push_back(cells.nodes[c]);
+        result.source.push_back(cells.source[c]);
+        result.area.push_back(cells.area[c]);
+        result.centroid.push_back(cells.centroid[c]);
+        for (std::size_t p = cells.first_piece[c]; p < cells.first_piece[c + 1]; ++p)
+          result.pieces.push_back(cells.pieces[p]);
+        result.first_piece.push_back(result.pieces.size());
+      }
+      return result;
+    }
+  } // namespace
+
+  GivenCells given_cells(const GivenNodes &nodes, const geometry::Mesh &mesh, bool boundary_is_data)
+  {
+    const std::vector<bool> is_on_boundary = on_boundary(nodes, mesh);
+    geometry::Mesh everywhere = mesh;
+    for (geometry::MeshCell &cell : everywhere.cells)
+      cell.is_inside = true;
+    const geometry::NodeCells uncut = geometry::voronoi_cells(nodes.places, everywhere);
+    GivenCells result;
+    result.n_on_boundary =
+        static_cast<std::size_t>(std::count(is_on_boundary.begin(), is_on_boundary.end(), true));
+    if (boundary_is_data)
+    {
+      const geometry::CellLocator locator(mesh);
+      std::vector<std::size_t> order(nodes.size());
+      std::iota(order.begin(), order.end(), 0);
+      const auto in_collar =
+          std::stable_partition(order.begin(), order.end(),
+                                [&](std::size_t i)
+                                {
+                                  const auto cell = locator.find(nodes.places[i]);
+                                  return !is_on_boundary[i] && cell && locator.is_inside(*cell);
+                                });
+      if (in_collar == order.begin())
+        throw InputError("'" + nodes.file +
+                         "': every node of the domain lies on its boundary, where "
+                         "Methods/nodes = vertices puts data; add nodes inside");
+      result.cells = reordered(uncut, order, static_cast<std::size_t>(in_collar - order.begin()));
+    }
+    else
+      result.cells = geometry::voronoi_cells(nodes.places, mesh);
+    for (const std::size_t i : result.cells.source)
+      result.uncut_areas.push_back(uncut.area[i]);
+    return result;
+  }
+
   GivenFamilies read_given_families(const std::string &file, const GivenNodes &nodes,
                                     const geometry::NodeCells &cells)
   {
@@ -121,11 +198,12 @@ namespace plumbline::meshfree
         bond.kernel_point = Point<2>(csv.number("qx"), csv.number("qy"));
       if (bond.kernel_point.square() == 0)
         csv.fail("the kernel point (qx, qy) is 0, the place of node i itself, where kernels may be "
-                 "infinite; give a point of the neighbour's cell");
+                 "infinite; give a point of the neighbour's cell, relative to node i");
       rows[i].push_back({j, bond, csv.line()});
     }
 
-    GivenFamilies result{std::vector<Family>(cells.n_free), 0};
+    GivenFamilies result{std::vector<Family>(cells.n_free)};
+    result.lines.resize(cells.n_free);
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       std::sort(rows[i].begin(), rows[i].end(),
@@ -149,11 +227,14 @@ namespace plumbline::meshfree
         throw InputError("'" + nodes.file + "', line " +
                          std::to_string(nodes.line[cells.source[i]]) + ": node " +
                          std::to_string(nodes.id[cells.source[i]]) +
-                         " lies in the domain but has no bonds in '" + file + "'; add them");
+                         " lies in the domain but has no bonds in '" + file +
+                         "'; add them, or, where nodes on the boundary carry data, write "
+                         "Methods/nodes = vertices");
       for (const Row &row : rows[i])
       {
         result.families[i].neighbours.push_back(row.neighbour);
         result.families[i].bonds.push_back(row.bond);
+        result.lines[i].push_back(row.line);
       }
     }
     return result;

@@ -32,12 +32,27 @@ namespace plumbline::meshfree
   /// @throws InputError  a node outside of Ω and its collar
   void check_places(const GivenNodes &nodes, const geometry::Mesh &mesh, const std::string &level);
 
+  /// The Voronoi cells of given nodes.
+  struct GivenCells
+  {
+    geometry::NodeCells cells;
+    std::vector<double> uncut_areas; ///< numbered as the cells; not cut at the boundary of Ω
+    std::size_t n_on_boundary;       ///< nodes on the boundary of Ω
+  };
+
+  /// @param boundary_is_data  nodes on the boundary of Ω belong to the collar and no cell is cut
+  /// there, as with Methods/nodes = vertices; else they are free, and cells are cut
+  /// @throws InputError  as geometry::voronoi_cells; all nodes of Ω lie on its boundary
+  GivenCells given_cells(const GivenNodes &nodes, const geometry::Mesh &mesh,
+                         bool boundary_is_data);
+
   /// Families of another code.
   struct GivenFamilies
   {
     std::vector<Family> families; ///< of the free nodes; the area of a bond is the neighbour's
                                   ///< volume
     std::size_t n_ignored = 0;    ///< bonds of nodes in the collar
+    std::vector<std::vector<std::size_t>> lines = {}; ///< of the bonds in the file
   };
 
   /// Bonds from a CSV file with the columns i and j (ids), weight [length^2] and, if they are

@@ -7,7 +7,7 @@ namespace plumbline::meshfree
     static const std::vector<Rule> table = {
         {"FA", "full area of cells whose node is in the ball", full_area},
         {"LAMMPS", "full area with a ramp inside the horizon", lammps},
-        {"QWJ", "full area with a ramp across the horizon", qwj},
+        {"QWJ", "full area with a ramp across the horizon, also known as HHB", qwj},
         {"PA-AC", "exact partial areas, kernel at the node", partial_area},
         {"IPA-AC", "exact partial areas, kernel at the centroid", improved_partial_area},
         {"IPA-AC-R2", "IPA-AC recalibrated to exact moments of degree 2",

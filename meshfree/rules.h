@@ -16,7 +16,7 @@ namespace plumbline::meshfree
   /// Source: Parks et al. 2008, doi:10.1016/j.cpc.2008.06.011.
   Recipe lammps(const Kernel<2> &kernel);
 
-  /// The same ramp down to 0 at r = δ + √A/2, kernel at the node, clipped at 0.
+  /// The same ramp down to 0 at r = δ + √A/2, kernel at the node, clipped at 0. Also known as HHB.
   /// Source: Le, Chan & Schwartz 2014, doi:10.1002/nme.4642.
   Recipe qwj(const Kernel<2> &kernel);
 

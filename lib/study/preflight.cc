@@ -32,7 +32,10 @@ namespace plumbline::study
       if (std::find(chosen.begin(), chosen.end(), method) == chosen.end())
         chosen.push_back(method);
     };
-    for (const std::string &name : scene.methods)
+    for (const std::string &given_name : scene.methods)
+    {
+      // one rule has two names in the literature
+      const std::string name = given_name == "HHB" ? "QWJ" : given_name;
       if (name == "all")
       {
         for (const auto &method : available)
@@ -46,6 +49,7 @@ namespace plumbline::study
         if (const std::string reason = method->why_not(scene, problem); !reason.empty())
           throw InputError("Methods/names: '" + name + "' cannot do this scene: " + reason);
       }
+    }
     if (scene.reference != "none")
     {
       const auto reference = find_method(available, scene.reference, "Reference/method");

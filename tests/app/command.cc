@@ -179,6 +179,7 @@ TEST(Command, an_interrupted_run_keeps_what_is_finished_and_goes_on)
 TEST(Command, lists_templates_and_descriptions_help_a_newcomer)
 {
   expect_found(run("list methods").out, "IPA-AC-R2");
+  expect_found(run("list methods").out, "also known as HHB");
   expect_found(run("list kernels").out, "bond-tensor");
   expect_found(run("list scenes").out, "scalar_delta_convergence.prm");
   expect_found(run("describe Study/m").out, "allowed");

@@ -1,0 +1,166 @@
+#include "check_files.h"
+
+#include "check_text.h"
+#include "meshfree/cells_vtu.h"
+#include "report/check_page.h"
+
+#include <cmath>
+
+namespace plumbline::app
+{
+  using namespace meshfree;
+  using report::Table;
+
+  namespace
+  {
+    /// What there is of each free node.
+    std::vector<report::NodeField> node_fields(const Findings &found)
+    {
+      const std::size_t n = found.cells->n_free;
+      const double ball = M_PI * std::pow(found.level.level.horizon, 2);
+      std::vector<double> area(n), flags(n);
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        double sum = found.volumes[i];
+        for (const Bond &bond : found.given.families[i].bonds)
+          sum += bond.weight;
+        area[i] = std::abs(sum / ball - 1);
+      }
+      std::vector<report::NodeField> fields = {
+          {"second_moments", "second moments", found.moments.second_defects},
+          {"first_moments", "first moments", found.moments.defects[0].values},
+          {"area", "sum of the weights", area}};
+      for (std::size_t d = 2; d < found.moments.defects.size(); ++d)
+      {
+        const std::string degree = std::to_string(found.moments.defects[d].degree);
+        fields.push_back(
+            {"degree_" + degree, "moments of degree " + degree, found.moments.defects[d].values});
+      }
+      return fields;
+    }
+
+    /// Of each node, how many outliers name it.
+    std::vector<double> flags(const Findings &found)
+    {
+      std::vector<double> result(found.cells->n_free);
+      for (const Outlier &o : found.outliers)
+        for (const std::size_t node : {o.node, o.neighbour})
+          if (node < result.size())
+            ++result[node];
+      return result;
+    }
+
+    Table node_table(const Findings &found, const std::vector<report::NodeField> &fields)
+    {
+      Table table;
+      table.columns = {"id", "x", "y", "volume", "cell_area", "bonds", "second_moment_ratio"};
+      for (const report::NodeField &field : fields)
+        table.columns.emplace_back(field.name);
+      table.columns.emplace_back("outliers");
+      const auto n_outliers = flags(found);
+      for (std::size_t i = 0; i < found.cells->n_free; ++i)
+      {
+        table.rows.push_back(
+            {report::text_cell(found.id(i)), report::number_cell(found.cells->nodes[i][0]),
+             report::number_cell(found.cells->nodes[i][1]), report::number_cell(found.volumes[i]),
+             report::number_cell(found.cells->area[i]),
+             report::count_cell(found.given.families[i].bonds.size()),
+             report::number_cell(found.moments.ratios[i])});
+        for (const report::NodeField &field : fields)
+          table.rows.back().push_back(report::error_cell(field.values[i]));
+        table.rows.back().push_back(report::count_cell(static_cast<std::uint64_t>(n_outliers[i])));
+      }
+      return table;
+    }
+
+    Table outlier_table(const Findings &found)
+    {
+      Table table;
+      table.columns = {"node", "neighbour", "line", "found", "expected", "what"};
+      for (const Outlier &o : found.outliers)
+        table.rows.push_back(
+            {report::text_cell(found.id(o.node)),
+             o.neighbour == Outlier::none ? report::empty_cell()
+                                          : report::text_cell(found.id(o.neighbour)),
+             o.bond == Outlier::none ? report::empty_cell()
+                                     : report::count_cell(found.given.lines[o.node][o.bond]),
+             report::number_cell(o.found), report::number_cell(o.expected),
+             report::text_cell(text(o, found))});
+      return table;
+    }
+
+    Table moment_table(const Findings &found)
+    {
+      Table table;
+      table.columns = {"degree", "worst", "median", "worst at node"};
+      for (const MomentDefect &defect : found.moments.defects)
+        table.rows.push_back({report::count_cell(static_cast<std::uint64_t>(defect.degree)),
+                              report::error_cell(defect.worst.value),
+                              report::error_cell(defect.median),
+                              report::text_cell(found.id(defect.worst.node))});
+      return table;
+    }
+
+    Table solution_table(const Findings &found)
+    {
+      Table table;
+      table.columns = {"case", "norm and target", "by the weights", "by the reference"};
+      for (const CaseCheck &one : found.cases)
+        for (const auto &[name, value] : one.errors)
+        {
+          const auto reference = one.reference_errors.find(name);
+          table.rows.push_back(
+              {report::text_cell(one.name), report::text_cell(name), report::error_cell(value),
+               reference == one.reference_errors.end() ? report::empty_cell()
+                                                       : report::error_cell(reference->second)});
+        }
+      return table;
+    }
+  } // namespace
+
+  void write_check(const Findings &found, const Requirements &required, const CheckOptions &options,
+                   int exit_code, const std::filesystem::path &folder)
+  {
+    const auto fields = node_fields(found);
+    report::write_file(folder / "check.json", check_json(found, required, options, exit_code));
+    report::write_file(folder / "nodes.csv", report::to_csv(node_table(found, fields)));
+    report::write_file(folder / "outliers.csv", report::to_csv(outlier_table(found)));
+    std::vector<std::string> names;
+    std::vector<double> values;
+    for (const report::NodeField &field : fields)
+      names.push_back(field.name);
+    names.emplace_back("outliers");
+    const auto n_outliers = flags(found);
+    for (std::size_t i = 0; i < found.cells->n_free; ++i)
+    {
+      for (const report::NodeField &field : fields)
+        values.push_back(field.values[i]);
+      values.push_back(n_outliers[i]);
+    }
+    write_cells_vtu(*found.cells, names, values, (folder / "cells.vtu").string());
+
+    report::CheckPage page{found.scene_name,
+                           found.purpose,
+                           {},
+                           complaints(found, required),
+                           verdicts(found),
+                           {},
+                           {},
+                           {}};
+    page.facts = {std::to_string(found.cells->n_free) + " free nodes",
+                  std::to_string(found.weights.n_bonds) + " bonds", found.level.text()};
+    page.parts = {{"outliers", "Out of line",
+                   "Each quantity against its own spread; found and expected are "
+                   "weights, volumes or moments, as the words say.",
+                   outlier_table(found)},
+                  {"moments", "Moments",
+                   "How far sums over the bonds are from the exact moments, relative.",
+                   moment_table(found)},
+                  {"solution", "Solutions", "Errors of the scene's solution by these weights.",
+                   solution_table(found)}};
+    for (std::size_t i = 0; i < found.cells->n_free; ++i)
+      page.nodes.push_back({found.cells->nodes[i][0], found.cells->nodes[i][1]});
+    page.defects = {fields[0], fields[1]};
+    report::write_check_page(page, folder);
+  }
+} // namespace plumbline::app

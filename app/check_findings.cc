@@ -1,0 +1,181 @@
+#include "check_findings.h"
+
+#include "base/error.h"
+#include "meshfree/scattered_operator.h"
+#include "reference/method.h"
+#include "scene/mesh.h"
+#include "study/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+namespace plumbline::app
+{
+  using namespace meshfree;
+
+  std::string ChosenLevel::text() const
+  {
+    std::ostringstream text;
+    text << series << ": h = " << level.h << ", horizon = " << level.horizon;
+    return text.str();
+  }
+
+  namespace
+  {
+    /// The level whose h is nearest to the size of the nodes.
+    ChosenLevel choose_level(const scene::Scene &scene, const GivenNodes &nodes)
+    {
+      const auto inside =
+          nodes_inside(nodes, scene::make_mesh(scene, scene.series.front().levels.front()));
+      double volume = 0;
+      for (const std::size_t i : inside)
+        volume += nodes.volume[i];
+      const double size = std::sqrt(volume / static_cast<double>(inside.size()));
+      ChosenLevel chosen{scene.series.front().levels.front(), scene.series.front().name, size};
+      for (const scene::Series &series : scene.series)
+        for (const scene::Level &level : series.levels)
+          if (std::abs(level.h - size) < std::abs(chosen.level.h - size))
+            chosen = {level, series.name, size};
+      return chosen;
+    }
+
+    /// That of the scene, or Q1 or P1.
+    std::shared_ptr<const study::Method> reference_method(const scene::Scene &scene,
+                                                          const scene::Problem &problem)
+    {
+      const std::string name = scene.reference != "none"      ? scene.reference
+                               : problem.mesh->is_triangles() ? "P1"
+                                                              : "Q1";
+      for (const auto &method : reference::methods())
+        if (method->name() == name)
+        {
+          if (const std::string reason = method->why_not(scene, problem); !reason.empty())
+            throw InputError("Reference/method: '" + name + "' cannot do this scene: " + reason);
+          return method;
+        }
+      throw InputError("Reference/method = '" + name +
+                       "' is no Galerkin method, which weights are checked against; choose one "
+                       "('plumbline list methods')");
+    }
+
+    CaseCheck check_case(const scene::Scene &scene, const scene::Problem &problem,
+                         const std::string &name, const FamilySource &families)
+    {
+      const auto method = reference_method(scene, problem);
+      const study::Solution reference = method->solve(scene, problem);
+      CaseCheck result{name, method->name(), {}, {}, study::errors(scene, problem, reference, {})};
+      try
+      {
+        const study::Solution solution = scattered_solution(
+            [&](auto share) { return scattered_operator(families, problem, share); }, scene,
+            problem);
+        result.errors = study::errors(scene, problem, solution, {reference.averages, {}});
+      }
+      catch (const NumericalError &error)
+      {
+        result.failure = error.what();
+      }
+      return result;
+    }
+
+    void refuse_what_is_not_checked(const scene::Scene &scene)
+    {
+      if (scene.is_free_body)
+        throw InputError("Domain/boundary = free: weights are checked on domains with data in a "
+                         "collar; write Domain/boundary = constrained");
+      if (scene.has_dilatation())
+        throw InputError("Material/model = " + scene.material.model +
+                         ": weights of bonds alone are checked; write Material/model = bond-based");
+    }
+
+    /// Weights as they stand, for what names their defects.
+    void find_defects(Findings &found, const scene::Problem &problem,
+                      const std::vector<double> &uncut_areas)
+    {
+      const GivenBonds given{found.given.families, problem.kernel, *problem.cells, found.volumes};
+      const auto rule = recognise(given);
+      if (rule)
+      {
+        found.rule = rule->rule;
+        found.rule_factor = rule->factor;
+      }
+      found.causes = find_causes(given, rule);
+      const double point_scale = found.causes.empty() ? 1 : found.causes.front().point_scale;
+      found.outliers = find_volume_outliers(given, uncut_areas);
+      const std::size_t n_volumes = found.outliers.size();
+      for (const Outlier &one : find_outliers(given, rule, point_scale))
+        // a volume that is wrong shows in all weights to that node as well
+        if (std::none_of(found.outliers.begin(),
+                         found.outliers.begin() + static_cast<std::ptrdiff_t>(n_volumes),
+                         [&](const Outlier &volume)
+                         {
+                           return (one.defect == Defect::neighbour && one.node == volume.node) ||
+                                  (one.defect == Defect::weight && one.neighbour == volume.node);
+                         }))
+          found.outliers.push_back(one);
+    }
+  } // namespace
+
+  Findings find(scene::Scene scene, const CheckOptions &options)
+  {
+    refuse_what_is_not_checked(scene);
+    Findings found;
+    found.scene_name = scene.name;
+    found.purpose = scene.purpose;
+    found.nodes = read_given_nodes(options.nodes_file);
+    const bool boundary_is_data = scene.nodes_at_vertices();
+    if (scene.mesh.is_lattice())
+      scene.mesh.kind = "squares";
+    scene.nodes = {std::filesystem::absolute(options.nodes_file).string()};
+    scene.norms = {"nodal Linf", "averages L2"};
+    found.level = choose_level(scene, found.nodes);
+    const geometry::Mesh mesh = scene::make_mesh(scene, found.level.level);
+    check_places(found.nodes, mesh, found.level.text());
+    GivenCells cells = given_cells(found.nodes, mesh, boundary_is_data);
+    found.cells = std::make_shared<const geometry::NodeCells>(std::move(cells.cells));
+    found.n_on_boundary = boundary_is_data ? 0 : cells.n_on_boundary;
+    const auto problem_of = [&](unsigned int c)
+    {
+      scene::Problem problem = scene::make_problem(scene, c, found.level.level);
+      problem.cells = found.cells;
+      return problem;
+    };
+    const scene::Problem problem = problem_of(0);
+
+    found.given = read_given_families(options.bonds_file, found.nodes, *found.cells);
+    for (const std::size_t i : found.cells->source)
+    {
+      found.ids.push_back(found.nodes.id[i]);
+      found.volumes.push_back(found.nodes.volume[i]);
+    }
+    double volume = 0, area = 0;
+    for (std::size_t i = 0; i < found.cells->n_free; ++i)
+    {
+      volume += found.volumes[i];
+      area += found.cells->area[i];
+    }
+    found.volume_defect = volume / area - 1;
+
+    const std::vector<Family> &families = found.given.families;
+    found.moments = check_moments(families, problem.kernel);
+    found.weights = check_weights(families, problem.kernel, found.volumes);
+    found.symmetry = check_symmetry(families, problem.kernel);
+    find_defects(found, problem, cells.uncut_areas);
+    const FamilySource source = [&](std::size_t i, Family &family) { family = families[i]; };
+    try
+    {
+      found.matrix =
+          algebra::check_matrix(scattered_operator(source, problem, {0, found.cells->n_free}).rows);
+    }
+    catch (const NumericalError &error)
+    {
+      found.matrix_failure = error.what(); // weights may be wrong enough for rows to be empty
+    }
+    const auto names = scene.case_names();
+    for (unsigned int c = 0; c < names.size(); ++c)
+      found.cases.push_back(check_case(scene, problem_of(c), names[c], source));
+    return found;
+  }
+} // namespace plumbline::app

@@ -1,0 +1,138 @@
+#include "check_text.h"
+
+#include <nlohmann/json.hpp>
+
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+namespace plumbline::app
+{
+  using namespace meshfree;
+  using Json = nlohmann::ordered_json;
+
+  std::string check_text(const Findings &found, const Requirements &required,
+                         const CheckOptions &options)
+  {
+    const auto id = [&](std::size_t node) { return found.ids[node]; };
+    std::ostringstream out;
+    out << std::setprecision(4);
+    out << "nodes     " << options.nodes_file << ": " << found.cells->n_free << " free, "
+        << found.ids.size() - found.cells->n_free
+        << " in the collar; volumes of the free ones off "
+        << "their cells' area by " << percent(found.volume_defect) << '\n'
+        << "bonds     " << options.bonds_file << ": " << found.weights.n_bonds << ", at most "
+        << found.weights.largest_family << " of a node";
+    if (found.given.n_ignored > 0)
+      out << "; " << found.given.n_ignored << " of collar nodes ignored";
+    out << "\nlevel     " << found.level.text() << ", nearest to the nodes' mean size "
+        << found.level.node_size << "\n\nmoments   degree  worst       median      worst at\n";
+    for (const MomentDefect &defect : found.moments.defects)
+      out << "          " << std::left << std::setw(8) << defect.degree << std::setw(12)
+          << defect.worst.value << std::setw(12) << defect.median << "node "
+          << id(defect.worst.node) << '\n';
+    out << "          reproduces polynomials up to degree " << found.moments.exact_degree << " (to "
+        << MomentCheck::tolerance << ")\n"
+        << "weights   " << found.weights.n_negative << " negative, " << found.weights.smallest_ratio
+        << " to " << found.weights.largest_ratio
+        << " of the neighbour's volume; their sum is off the ball without the node's own cell by "
+        << percent(found.weights.area.value) << " at worst, at node " << id(found.weights.area.node)
+        << '\n'
+        << "symmetry  w C of a pair differs from end to end by "
+        << percent(found.symmetry.asymmetry) << " of the largest";
+    if (found.symmetry.asymmetry > 0)
+      out << ", between nodes " << id(found.symmetry.nodes[0]) << " and "
+          << id(found.symmetry.nodes[1]);
+    out << "; " << found.symmetry.n_unpaired << " bonds without a partner\n"
+        << "matrix    " << found.matrix.n_positive
+        << " rows with positive off-diagonal entries (no M-matrix if any), " << found.matrix.n_weak
+        << " not diagonally dominant; symmetric part: " << found.matrix.n_negative_eigenvalues
+        << " negative eigenvalues, the smallest is " << found.matrix.smallest_eigenvalue << '\n';
+    for (const CaseCheck &one : found.cases)
+    {
+      out << "solution  " << one.name << '\n';
+      if (!one.failure.empty())
+        out << "          none: " << one.failure << '\n';
+      for (const auto &[name, value] : one.errors)
+        out << "          " << std::setw(26) << name << value << '\n';
+      for (const auto &[name, value] : one.reference_errors)
+        out << "          " << std::setw(26) << name << value << "  by the reference, "
+            << one.reference << '\n';
+    }
+    out << '\n';
+    for (const std::string &verdict : verdicts(found))
+      out << verdict << '\n';
+    const auto wrong = complaints(found, required);
+    for (const std::string &complaint : wrong)
+      out << complaint << '\n';
+    out << (wrong.empty() ? "as required\n" : "NOT as required\n");
+    return out.str();
+  }
+
+  std::string check_json(const Findings &found, const Requirements &required,
+                         const CheckOptions &options, int exit_code)
+  {
+    const auto worst = [&](const Worst &value) {
+      return Json{{"value", value.value}, {"node", found.ids[value.node]}};
+    };
+    Json json = {{"nodes", options.nodes_file},
+                 {"bonds", options.bonds_file},
+                 {"scene", options.scene_file},
+                 {"n_free", found.cells->n_free},
+                 {"n_collar", found.ids.size() - found.cells->n_free},
+                 {"n_bonds", found.weights.n_bonds},
+                 {"n_ignored_bonds", found.given.n_ignored},
+                 {"largest_family", found.weights.largest_family},
+                 {"series", found.level.series},
+                 {"h", found.level.level.h},
+                 {"horizon", found.level.level.horizon},
+                 {"node_size", found.level.node_size},
+                 {"volume_defect", found.volume_defect}};
+    for (const MomentDefect &defect : found.moments.defects)
+      json["moments"].push_back(
+          {{"degree", defect.degree}, {"worst", worst(defect.worst)}, {"median", defect.median}});
+    json["exact_degree"] = found.moments.exact_degree;
+    json["second_moment"] = {{"mean_ratio", found.moments.mean_ratio},
+                             {"worst", worst(found.moments.second)}};
+    json["rule"] =
+        found.rule.empty() ? Json() : Json{{"name", found.rule}, {"factor", found.rule_factor}};
+    json["causes"] = Json::array();
+    for (const Cause &cause : found.causes)
+      json["causes"].push_back({{"name", cause.name},
+                                {"text", cause.text},
+                                {"factor", cause.factor},
+                                {"defect_before", cause.before},
+                                {"defect_after", cause.after}});
+    json["outliers"] = Json::array();
+    for (const Outlier &o : found.outliers)
+      json["outliers"].push_back(
+          {{"node", found.ids[o.node]},
+           {"neighbour", o.neighbour == Outlier::none ? Json() : Json(found.ids[o.neighbour])},
+           {"line", o.bond == Outlier::none ? Json() : Json(found.given.lines[o.node][o.bond])},
+           {"found", o.found},
+           {"expected", o.expected},
+           {"text", text(o, found)}});
+    json["weights"] = {{"n_negative", found.weights.n_negative},
+                       {"smallest_ratio", found.weights.smallest_ratio},
+                       {"largest_ratio", found.weights.largest_ratio},
+                       {"area_defect", worst(found.weights.area)}};
+    json["symmetry"] = {
+        {"asymmetry", found.symmetry.asymmetry},
+        {"nodes", {found.ids[found.symmetry.nodes[0]], found.ids[found.symmetry.nodes[1]]}},
+        {"n_unpaired", found.symmetry.n_unpaired}};
+    json["matrix"] = {{"n_rows_with_positive_entries", found.matrix.n_positive},
+                      {"n_rows_not_dominant", found.matrix.n_weak},
+                      {"n_negative_eigenvalues", found.matrix.n_negative_eigenvalues},
+                      {"smallest_eigenvalue", found.matrix.smallest_eigenvalue}};
+    for (const CaseCheck &one : found.cases)
+      json["solutions"].push_back({{"case", one.name},
+                                   {"failure", one.failure},
+                                   {"errors", one.errors},
+                                   {"reference", one.reference},
+                                   {"reference_errors", one.reference_errors}});
+    json["verdicts"] = verdicts(found);
+    json["complaints"] = complaints(found, required);
+    json["exit_code"] = exit_code;
+    return json.dump(2) + '\n';
+  }
+} // namespace plumbline::app

@@ -1,0 +1,256 @@
+#include "requirements.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace plumbline::app
+{
+  using namespace meshfree;
+
+  const char *const requirements_help =
+      "What the weights must be, else exit code 1; a list or several times. ac: exact moments of "
+      "degree 1 and 2 at every node, to 1e-5, so that the limit is right however h and the horizon "
+      "go to 0. consistent: moments off by at most h/horizon at most nodes, as rules are whose "
+      "limit "
+      "is right only as h/horizon goes to 0. moments=TOL: off by at most TOL. symmetric: w C alike "
+      "from "
+      "both ends, to 1e-5 of the largest, no bond without its partner. m-matrix: a maximum "
+      "principle. Default: ac. Whatever is required, bonds and nodes out of line with the others, "
+      "a cause common to all weights, and a matrix that is not positive definite are exit code 1.";
+
+  namespace
+  {
+    /// Weights written with six digits have moments that are exact to this.
+    constexpr double written = 1e-5;
+
+    constexpr std::size_t most_named = 5;
+
+    std::string number(double value, int digits = 5)
+    {
+      std::ostringstream text;
+      text << std::setprecision(digits) << value;
+      return text.str();
+    }
+
+    std::string point(const dealii::Point<2> &x)
+    {
+      return "(" + number(x[0]) + ", " + number(x[1]) + ")";
+    }
+
+    std::string off(const Findings &found)
+    {
+      const Worst &first = found.moments.defects[0].worst, &second = found.moments.second;
+      return "second moments are off by " + percent(second.value) + " at node " +
+             found.id(second.node) + ", first moments by " + percent(first.value) + " at node " +
+             found.id(first.node);
+    }
+
+    double worst_of_both(const Findings &found)
+    {
+      return std::max(found.moments.second.value, found.moments.defects[0].worst.value);
+    }
+
+    std::string line_of(const Outlier &o, const Findings &found)
+    {
+      return o.bond == Outlier::none
+                 ? ""
+                 : " (line " + std::to_string(found.given.lines[o.node][o.bond]) + " of the bonds)";
+    }
+
+    std::string weight_text(const Outlier &o)
+    {
+      const double ratio = o.expected == 0 ? 0 : o.found / o.expected;
+      std::string result =
+          "has the weight " + number(o.found) + " where " + number(o.expected) + " is expected";
+      if (std::abs(ratio + 1) < .01)
+        result += ": its sign is flipped";
+      else if (ratio < 0)
+        result += ": negative, " + number(ratio, 3) + " times";
+      else if (ratio > 0)
+        result += ": " + number(ratio, 3) + " times";
+      return result;
+    }
+
+    bool is_too_inexact(const Findings &found, const Requirements &required)
+    {
+      return (required.ac && worst_of_both(found) > written) ||
+             (required.moments && worst_of_both(found) > *required.moments);
+    }
+
+    /// What the moments make of the solution.
+    std::string consequence(const Findings &found)
+    {
+      if (found.moments.typical() < written)
+        return "at most nodes they are right";
+      return found.moments.mean_ratio > 0
+                 ? "as horizon and h go to 0 together the solution tends to a wrong limit, off by "
+                   "about " +
+                       percent(std::abs(1 / found.moments.mean_ratio - 1))
+                 : "as horizon and h go to 0 together there is no limit, the operator has the "
+                   "wrong sign";
+    }
+  } // namespace
+
+  std::string percent(double fraction)
+  {
+    std::ostringstream text;
+    text << std::setprecision(3) << 100 * fraction << " %";
+    return text.str();
+  }
+
+  Requirements parse_requirements(const std::vector<std::string> &words)
+  {
+    Requirements required;
+    for (const std::string &list : words)
+    {
+      std::istringstream in(list);
+      for (std::string word; std::getline(in, word, ',');)
+        if (word == "ac")
+          required.ac = true;
+        else if (word == "consistent")
+          required.consistent = true;
+        else if (word == "symmetric")
+          required.symmetric = true;
+        else if (word == "m-matrix")
+          required.m_matrix = true;
+        else if (word.compare(0, 8, "moments=") == 0)
+        {
+          std::istringstream value(word.substr(8));
+          double tolerance = 0;
+          if (!(value >> tolerance) || !value.eof() || !(tolerance > 0))
+            throw InputError("--require " + word + ": '" + word.substr(8) +
+                             "' is no positive number; write moments=0.05");
+          required.moments = tolerance;
+        }
+        else
+          throw InputError("--require '" + word +
+                           "' is not known; choose of ac, consistent, moments=TOL, symmetric, "
+                           "m-matrix");
+    }
+    if (words.empty())
+      required.ac = true;
+    return required;
+  }
+
+  std::string text(const Outlier &o, const Findings &found)
+  {
+    const std::string node = "node " + found.id(o.node);
+    const std::string bond =
+        o.neighbour == Outlier::none
+            ? ""
+            : "the bond from node " + found.id(o.node) + " to node " + found.id(o.neighbour);
+    switch (o.defect)
+    {
+    case Defect::weight:
+      return bond + line_of(o, found) + " " + weight_text(o);
+    case Defect::missing:
+      return o.is_both_ways
+                 ? "the bonds between node " + found.id(o.node) + " and node " +
+                       found.id(o.neighbour) + " are missing from both ends; weights of about " +
+                       number(o.expected) + " are expected"
+                 : bond + " is missing; a weight of " + number(o.expected) + " is expected";
+    case Defect::spurious:
+      return bond + line_of(o, found) + " has the weight " + number(o.found) +
+             " where others like it have none";
+    case Defect::kernel_point:
+      return bond + line_of(o, found) + " takes the kernel at " + point(o.found_point) + " where " +
+             point(o.expected_point) + " is expected";
+    case Defect::symmetry:
+      return bond + line_of(o, found) + " has w C / volume = " + number(o.found) +
+             ", the bond back " + number(o.expected) + ": more apart than others";
+    case Defect::family:
+      return "the weights of all bonds from " + node + " are " + number(o.found, 3) +
+             " times what is expected";
+    case Defect::neighbour:
+      return "the weights of all bonds to " + node + " are " + number(o.found, 3) +
+             " times what is expected, as if its volume were";
+    case Defect::volume:
+      return "the volume of " + node + " (line " +
+             std::to_string(found.nodes.line[found.cells->source[o.node]]) + " of the nodes) is " +
+             number(o.found) + " where " + number(o.expected) +
+             " is expected: " + number(o.found / o.expected, 3) + " times";
+    case Defect::moments:
+      break;
+    }
+    return "the weights of " + node + " are out of line with the others: moments of degree " +
+           std::to_string(o.degree) + " are " + number(o.found) + " where " + number(o.expected) +
+           " is usual, and no bond explains it";
+  }
+
+  std::vector<std::string> complaints(const Findings &found, const Requirements &required)
+  {
+    std::vector<std::string> result;
+    const double ratio = found.level.node_size / found.level.level.horizon;
+    for (const Cause &cause : found.causes)
+      if (!cause.is_own_error || is_too_inexact(found, required))
+        result.push_back("cause: " + cause.text);
+    const std::size_t n = found.outliers.size();
+    for (std::size_t k = 0; k < std::min(most_named, n); ++k)
+      result.push_back("out of line: " + text(found.outliers[k], found));
+    if (n > most_named)
+      result.push_back("out of line: " + std::to_string(n - most_named) +
+                       " more (outliers.csv in the output folder has all)");
+    if (required.ac && worst_of_both(found) > written)
+      result.push_back("required ac: " + off(found) + "; " + consequence(found));
+    if (required.consistent && found.moments.typical() > ratio)
+      result.push_back("required consistent: moments of most nodes are off by " +
+                       percent(found.moments.typical()) + ", more than h/horizon = " +
+                       percent(ratio) + ", so that it is no matter of h/horizon");
+    if (required.moments && worst_of_both(found) > *required.moments)
+      result.push_back("required moments=" + number(*required.moments) + ": " + off(found));
+    if (required.symmetric && (found.symmetry.asymmetry > written || found.symmetry.n_unpaired > 0))
+      result.push_back("required symmetric: w C of a pair differs from end to end by up to " +
+                       percent(found.symmetry.asymmetry) + " of the largest, between nodes " +
+                       found.id(found.symmetry.nodes[0]) + " and " +
+                       found.id(found.symmetry.nodes[1]) + "; " +
+                       std::to_string(found.symmetry.n_unpaired) + " bonds without a partner");
+    if (required.m_matrix && !found.matrix.is_m_matrix())
+      result.push_back("required m-matrix: " + std::to_string(found.matrix.n_positive) +
+                       " rows with positive off-diagonal entries, " +
+                       std::to_string(found.matrix.n_weak) + " not diagonally dominant, " +
+                       std::to_string(found.matrix.n_loose) + " not tied to the data");
+    if (!found.matrix_failure.empty())
+      result.push_back("the matrix cannot be examined: " + found.matrix_failure);
+    else if (!found.matrix.is_positive_definite())
+      result.push_back("the matrix is NOT positive definite: " +
+                       std::to_string(found.matrix.n_negative_eigenvalues) +
+                       " negative eigenvalues");
+    return result;
+  }
+
+  std::vector<std::string> verdicts(const Findings &found)
+  {
+    const MomentCheck &moments = found.moments;
+    std::vector<std::string> result;
+    const MomentDefect &first = moments.defects[0];
+    if (!found.rule.empty())
+      result.push_back("the weights are those of " + found.rule +
+                       (std::abs(found.rule_factor - 1) > file_tolerance
+                            ? " times " + number(found.rule_factor)
+                            : "") +
+                       (found.outliers.empty() ? "" : ", but for what is out of line"));
+    if (!moments.is_first_exact())
+      result.push_back("first moments off by up to " + percent(first.worst.value) + " at node " +
+                       found.id(first.worst.node) +
+                       ": the operator has a drift there that grows as 1 / horizon");
+    if (moments.is_second_exact())
+      result.push_back(
+          std::string("second moments exact") +
+          (moments.is_first_exact() ? ": asymptotically compatible as far as moments tell" : ""));
+    else
+      result.push_back("second moments off by " + percent(moments.mean_ratio - 1) +
+                       " on average (worst " + percent(moments.second.value) + " at node " +
+                       found.id(moments.second.node) + "): " + consequence(found));
+    if (found.n_on_boundary > 0)
+      result.push_back(std::to_string(found.n_on_boundary) +
+                       " free nodes lie on the boundary of the domain; if they carry data, write "
+                       "Methods/nodes = vertices");
+    if (found.matrix_failure.empty() && found.matrix.is_positive_definite())
+      result.push_back("positive definite");
+    return result;
+  }
+} // namespace plumbline::app

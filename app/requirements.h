@@ -1,0 +1,36 @@
+#pragma once
+
+#include "check_findings.h"
+
+#include <optional>
+
+namespace plumbline::app
+{
+  /// What a caller of `plumbline check` demands of weights.
+  struct Requirements
+  {
+    bool ac = false;               ///< moments of degree 1 and 2 exact, to rounding of files
+    bool consistent = false;       ///< at most nodes off by no more than h / horizon
+    std::optional<double> moments; ///< off by no more than this
+    bool symmetric = false, m_matrix = false;
+  };
+
+  /// Of words as on the command line, each a list separated by commas; none: ac.
+  /// @throws InputError  a word that is not known, a tolerance that is no positive number
+  Requirements parse_requirements(const std::vector<std::string> &words);
+
+  /// The text for --help.
+  extern const char *const requirements_help;
+
+  /// What makes the exit code 1: requirements that do not hold; a matrix that is not positive
+  /// definite, a cause of all weights, bonds and nodes out of line, whatever is required.
+  std::vector<std::string> complaints(const Findings &found, const Requirements &required);
+
+  /// What else there is to say.
+  std::vector<std::string> verdicts(const Findings &found);
+
+  /// One outlier in words: which, where in the files, what is expected.
+  std::string text(const meshfree::Outlier &outlier, const Findings &found);
+
+  std::string percent(double fraction);
+} // namespace plumbline::app
