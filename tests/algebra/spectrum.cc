@@ -125,6 +125,32 @@ TEST(SignCheck, knows_m_matrices)
   EXPECT_DOUBLE_EQ(check_signs(to_rows({{2, 1}, {-1, 2}})).asymmetry, 1);
 }
 
+TEST(SignCheck, takes_rounding_for_zero)
+{
+  const SignCheck check = check_signs(to_rows({{2, -1, 1e-15}, {-1, 2, -1}, {-1e-15, -1, 2}}));
+  EXPECT_EQ(check.n_positive, 0u);
+  EXPECT_TRUE(check.is_m_matrix());
+  EXPECT_EQ(check_signs(to_rows({{2, -1, 1e-9}, {-1, 2, -1}, {0, -1, 2}})).n_positive, 1u);
+}
+
+TEST(SignCheck, entries_that_are_zero_join_no_parts)
+{
+  Rows rows; // 2, -1; -1, 2 twice, and zeros between, which a sparse matrix may store
+  rows.start = {0};
+  for (unsigned int i = 0; i < 4; ++i)
+  {
+    for (unsigned int j = 0; j < 4; ++j)
+    {
+      rows.column.push_back(j);
+      rows.value.push_back(i == j ? 2 : i / 2 == j / 2 ? -1 : 0);
+    }
+    rows.start.push_back(rows.column.size());
+  }
+  EXPECT_EQ(check_signs(rows).n_parts, 2u);
+  rows.value[2] = rows.value[8] = -.5; // of (0, 2) and (2, 0)
+  EXPECT_EQ(check_signs(rows).n_parts, 1u);
+}
+
 TEST(Assembly, has_the_eigenvalues_of_the_operator_on_every_road)
 {
   Stencil stencil(2, 2); // two coupled components

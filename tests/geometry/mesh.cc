@@ -140,6 +140,23 @@ TEST(CollarWidth, is_the_distance_to_the_outside)
   EXPECT_NEAR(collar_width(lattice_mesh(unit, 1, std::sqrt(8.) + .01, false)), 3, 1e-14);
 }
 
+TEST(CollarWidth, is_to_the_inside_of_a_side_where_that_is_nearest)
+{
+  // a diamond in a square: its tips point at the middles of the square's sides
+  Mesh mesh;
+  mesh.vertices = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}, {2, 2}, {-2, 2}, {-2, -2}, {2, -2}};
+  for (unsigned int k = 0; k < 4; ++k)
+  {
+    const unsigned int tip = 1 + k, next = 1 + (k + 1) % 4, corner = 5 + k,
+                       before = 5 + (k + 3) % 4;
+    mesh.cells.push_back({{0, tip, next, 0}, 3, true});
+    mesh.cells.push_back({{tip, corner, next, 0}, 3, false});
+    mesh.cells.push_back({{tip, before, corner, 0}, 3, false});
+  }
+  check(mesh);
+  EXPECT_NEAR(collar_width(mesh), 1, 1e-15);
+}
+
 TEST(CollarWidth, is_zero_where_the_domain_touches_the_outside)
 {
   EXPECT_EQ(collar_width(small_mesh()), 0);
@@ -167,5 +184,19 @@ TEST(Refine, keeps_shape_and_halves_sides)
     EXPECT_NEAR(fine.longest_side(), mesh.longest_side() / 2, 1e-15);
     for (std::size_t c = 0; c < fine.cells.size(); ++c)
       EXPECT_TRUE(contains(view(mesh.polygon(c / 4)), centroid(view(fine.polygon(c)))));
+  }
+}
+
+TEST(Refine, keeps_the_material_of_each_cell)
+{
+  for (Mesh mesh : {small_mesh(), lattice_mesh(l_shape, .25, .25, true)})
+  {
+    mesh.groups = {"soft", "stiff", "rigid"};
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      mesh.cells[c].group = c % 3;
+    const Mesh fine = refine(mesh);
+    EXPECT_EQ(fine.groups, mesh.groups);
+    for (std::size_t c = 0; c < fine.cells.size(); ++c)
+      EXPECT_EQ(fine.cells[c].group, c / 4 % 3) << c;
   }
 }

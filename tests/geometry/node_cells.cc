@@ -211,3 +211,12 @@ TEST(LatticeNodes, stay_on_their_side)
   EXPECT_EQ(before.source, after.source);
   EXPECT_EQ(before.n_free, after.n_free);
 }
+
+TEST(LatticeNodes, that_would_leave_their_side_go_half_the_way_until_they_do_not)
+{
+  const Mesh mesh = lattice_mesh(l_shape, .25, .5, true, bend);
+  // moves of up to 30 h leave their side nearly always
+  const auto at_rest = lattice_nodes(mesh, .1, 0, 1), moved = lattice_nodes(mesh, .1, 30, 1);
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    EXPECT_GT(moved[i].distance(at_rest[i]), 0) << at_rest[i];
+}

@@ -108,3 +108,22 @@ TEST(StateBased, two_point_factors_are_differences_of_harmonic_means)
   EXPECT_NEAR(dilatation.factor(b, a), 4, 1e-15);
   EXPECT_TRUE(dilatation.is_symmetric());
 }
+
+// f θ is taken at the dilatation's own point (variational model): f = λ - μ = x² and θ = x give
+// ∫ K ξ_1 [f(x) θ(x) + f(x+ξ) θ(x+ξ)] = ∫ K ξ_1 (x + ξ_1)³, where the other order lacks ξ_1⁴.
+TEST(StateBased, load_of_a_heterogeneous_solid_takes_the_factor_of_the_dilatations_own_point)
+{
+  const Dilatation dilatation{influence_function(kernel_type("1/r").profile, horizon),
+                              [](const Point<2> &x) {
+                                return Lame{2 + x[0] * x[0], 2};
+                              },
+                              false, false};
+  const DilatationForce force(dilatation, [](const Point<2> &x) { return x[0]; });
+  const double second = dilatation.influence.moment({2, 0}),
+               fourth = dilatation.influence.moment({4, 0});
+  for (const double x : {-.3, .2, .8})
+  {
+    EXPECT_NEAR(force(Point<2>(x, .1), 0), -(3 * x * x * second + fourth), 1e-12);
+    EXPECT_NEAR(force(Point<2>(x, .1), 1), 0, 1e-12);
+  }
+}
