@@ -1,5 +1,6 @@
 // Broken input for every reader: what comes out is a result or one of our two errors, soon.
 //   fuzz [--inputs N] [--seed S] [--scenes DIR] [--store DIR] [--input NUMBER]
+//        [--seconds S] [--plant crash|hang|exception]
 // Inputs are numbered, and each number makes the same input again. They run in processes of many,
 // so that a crash or a hang costs one input; it is stored, printed, and the exit code is 1.
 
@@ -32,9 +33,6 @@ namespace
   using namespace plumbline;
   using namespace plumbline::benchmarks;
   namespace fs = std::filesystem;
-
-  /// One input takes a thousandth of it; sanitizers and busy machines take their part.
-  constexpr unsigned int most_seconds = 30;
 
   /// Inputs of one process.
   constexpr std::uint64_t batch = 1000;
@@ -125,14 +123,34 @@ namespace
     }
   }
 
+  struct Options
+  {
+    std::uint64_t n_inputs = 100000, seed = 1;
+    /// One input takes a thousandth of it; sanitizers and busy machines take their part.
+    unsigned int seconds = 30;
+    std::string plant; ///< a fault at the tenth input, to show that it is found
+    std::string scenes = PLUMBLINE_SCENES, store = "fuzz-failures", input;
+  };
+
+  void plant_fault(const std::string &kind)
+  {
+    if (kind == "crash")
+      std::abort();
+    while (kind == "hang")
+      sleep(1);
+    if (kind == "exception")
+      throw std::logic_error("planted");
+  }
+
   /// @return  what is wrong with how it ended; empty: nothing
   std::string fault(const Input &input, const fs::path &folder, const BondContext &context,
-                    bool &is_sound)
+                    const std::string &plant, bool &is_sound)
   {
     std::string message;
     is_sound = false;
     try
     {
+      plant_fault(plant);
       read(input, folder, context);
       is_sound = true;
       return "";
@@ -164,22 +182,18 @@ namespace
     char fault[400];
   };
 
-  struct Options
-  {
-    std::uint64_t n_inputs = 100000, seed = 1;
-    std::string scenes = PLUMBLINE_SCENES, store = "fuzz-failures", input;
-  };
-
-  [[noreturn]] void work(std::uint64_t end, const Corpus &corpus, const BondContext &context,
-                         const fs::path &folder, Progress &progress)
+  [[noreturn]] void work(const Options &options, std::uint64_t end, const Corpus &corpus,
+                         const BondContext &context, const fs::path &folder, Progress &progress)
   {
     for (; progress.next < end; ++progress.next)
     {
-      alarm(most_seconds);
+      alarm(options.seconds);
       const Input input = make_input(corpus, progress.next);
       ++progress.n[static_cast<unsigned int>(input.reader)];
       bool is_sound = false;
-      const std::string found = fault(input, folder, context, is_sound);
+      const bool is_planted = progress.next % batch == 10;
+      const std::string found =
+          fault(input, folder, context, is_planted ? options.plant : "", is_sound);
       progress.n_sound += is_sound ? 1 : 0;
       if (!found.empty())
       {
@@ -191,10 +205,10 @@ namespace
   }
 
   /// How a process ended that did not come to its end.
-  std::string description(int status, const Progress &progress)
+  std::string description(const Options &options, int status, const Progress &progress)
   {
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
-      return "took more than " + std::to_string(most_seconds) + " s";
+      return "took more than " + std::to_string(options.seconds) + " s";
     if (WIFSIGNALED(status))
       return "crashed by signal " + std::to_string(WTERMSIG(status));
     return progress.fault[0] != '\0'
@@ -216,7 +230,7 @@ namespace
       std::cout.flush();
       const pid_t child = fork();
       if (child == 0)
-        work(std::min(end, progress->next + batch), corpus, context, folder, *progress);
+        work(options, std::min(end, progress->next + batch), corpus, context, folder, *progress);
       int status = 0;
       waitpid(child, &status, 0);
       if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
@@ -227,7 +241,8 @@ namespace
       const std::string file = stored(input, options.store, std::to_string(progress->next));
       std::cout << "input " << progress->next << " ("
                 << shares[static_cast<unsigned int>(input.reader)].name
-                << "): " << description(status, *progress) << "\n  stored as " << file << '\n';
+                << "): " << description(options, status, *progress) << "\n  stored as " << file
+                << '\n';
       ++progress->next;
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -245,7 +260,7 @@ namespace
   {
     const Input input = make_input(corpus, std::stoull(options.input));
     bool is_sound = false;
-    const std::string found = fault(input, folder, context, is_sound);
+    const std::string found = fault(input, folder, context, "", is_sound);
     std::cout << (is_sound ? "sound" : found.empty() ? "refused" : found) << '\n';
     return found.empty() ? 0 : 1;
   }
@@ -259,6 +274,8 @@ int main(int argc, char **argv)
   app.add_option("--seed", options.seed, "Where their numbers begin, in 1e9");
   app.add_option("--scenes", options.scenes, "Sound scenes and meshes");
   app.add_option("--store", options.store, "Folder for inputs that fail");
+  app.add_option("--seconds", options.seconds, "Longest time of one input");
+  app.add_option("--plant", options.plant, "crash, hang or exception in the tenth input");
   app.add_option("--input", options.input, "The number of one input, to run it alone");
   CLI11_PARSE(app, argc, argv);
 

@@ -16,6 +16,7 @@
 #include <fstream>
 #include <mutex>
 #include <sstream>
+#include <stdexcept>
 
 namespace plumbline::geometry
 {
@@ -88,24 +89,36 @@ namespace plumbline::geometry
 
     // ---- deal.II's generators -------------------------------------------------------------------
 
-    /// Numbers of cells are whole numbers; deal.II makes what it is told, and some square them.
-    void check_counts(const std::string &arguments, const std::string &source)
+    /// Numbers of cells are whole numbers; deal.II makes what it is told, some square them, and
+    /// negative ones hang or crash it. Which arguments they are is for deal.II to know: lengths
+    /// that look like them are refused, too, where they do not stand in a point.
+    void check_counts(const std::string &generator, const std::string &arguments,
+                      const std::string &source)
     {
       const double most = std::floor(std::sqrt(most_cells));
-      for (std::size_t i = 0; i < arguments.size(); ++i)
+      const bool begins_with_counts = generator.compare(0, 10, "subdivided") == 0 ||
+                                      generator == "hyper_cross" || generator == "cheese";
+      std::istringstream all(arguments);
+      bool is_first = true;
+      for (std::string argument; std::getline(all, argument, ':'); is_first = false)
       {
-        const std::size_t begin = i;
-        while (i < arguments.size() && std::string(" ,:;").find(arguments[i]) == std::string::npos)
-          ++i;
-        const std::string word = arguments.substr(begin, i - begin);
-        const bool is_whole =
-            !word.empty() && word.find_first_not_of("+-0123456789") == std::string::npos;
-        if (is_whole && std::abs(std::strtod(word.c_str(), nullptr)) > most)
-          throw InputError(source + ": " + word + " may be a number of cells, of which " +
-                           text(most) +
-                           " along a side are allowed; give fewer, h refines them, or "
-                           "write a length with its decimal point, '" +
-                           word + ".'");
+        const bool is_list = argument.find(',') != std::string::npos;
+        std::replace(argument.begin(), argument.end(), ',', ' ');
+        std::replace(argument.begin(), argument.end(), ';', ' ');
+        std::istringstream words(argument);
+        for (std::string word; words >> word;)
+        {
+          if (word.find_first_not_of("+-0123456789") != std::string::npos)
+            continue;
+          const double number = std::strtod(word.c_str(), nullptr);
+          const bool may_be_negative = is_first ? !begins_with_counts : is_list;
+          if (std::abs(number) > most || (number < 0 && !may_be_negative))
+            throw InputError(source + ": " + word + " may be a number of cells, of which 0 to " +
+                             text(most) +
+                             " along a side are allowed; give another, which h "
+                             "refines, or write a length with its decimal point, '" +
+                             word + ".'");
+        }
       }
     }
 
@@ -121,6 +134,25 @@ namespace plumbline::geometry
       if (has("pattern") || has("number of"))
         return "does not fit: too few or too many arguments, or one of another kind" + remedy;
       return "cannot be made: its arguments are out of range" + remedy;
+    }
+
+    /// Until no side is longer than h.
+    void refine_to(dealii::Triangulation<2> &triangulation, double h, const std::string &source)
+    {
+      const auto longest_side = [&]
+      {
+        double longest = 0;
+        for (const auto &face : triangulation.active_face_iterators())
+          longest = std::max(longest, face->vertex(0).distance(face->vertex(1)));
+        return longest;
+      };
+      for (double longest = longest_side(); longest > h; longest = longest_side())
+      {
+        if (std::pow(longest / h, 2) * triangulation.n_active_cells() > most_cells)
+          throw InputError(source + ": h = " + text(h) + " makes more than " + text(most_cells) +
+                           " cells; choose a larger h");
+        triangulation.refine_global();
+      }
     }
 
     // ---- gmsh -----------------------------------------------------------------------------------
@@ -249,11 +281,12 @@ namespace plumbline::geometry
     if (!(h > 0))
       throw InputError("mesh size h = " + text(h) + " must be a positive length");
     const std::string source = "mesh generator " + generator + " (" + arguments + ")";
-    check_counts(arguments, source);
+    check_counts(generator, arguments, source);
     dealii::Triangulation<2> triangulation;
     try
     {
       dealii::GridGenerator::generate_from_name_and_arguments(triangulation, generator, arguments);
+      refine_to(triangulation, h, source);
     }
     catch (const dealii::ExceptionBase &error)
     {
@@ -261,23 +294,13 @@ namespace plumbline::geometry
       error.print_info(words);
       throw InputError(source + " " + generator_fault(words.str()));
     }
-    catch (const std::exception &) // of the standard library, where it converts arguments
+    catch (const std::invalid_argument &) // of the standard library, where it converts arguments
     {
       throw InputError(source + " " + generator_fault(""));
     }
-    const auto longest_side = [&]
+    catch (const std::out_of_range &)
     {
-      double longest = 0;
-      for (const auto &face : triangulation.active_face_iterators())
-        longest = std::max(longest, face->vertex(0).distance(face->vertex(1)));
-      return longest;
-    };
-    for (double longest = longest_side(); longest > h; longest = longest_side())
-    {
-      if (std::pow(longest / h, 2) * triangulation.n_active_cells() > most_cells)
-        throw InputError(source + ": h = " + text(h) + " makes more than " + text(most_cells) +
-                         " cells; choose a larger h");
-      triangulation.refine_global();
+      throw InputError(source + " " + generator_fault(""));
     }
 
     Mesh mesh;

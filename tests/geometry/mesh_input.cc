@@ -177,7 +177,18 @@ TEST(GenerateMesh, says_what_is_wrong)
   EXPECT_TRUE(
       says(fault("hyper_ball", "0, 0 : 1 : false", 1e-5), "h = 1e-05 makes more than 1e+07 cells"));
   EXPECT_TRUE(says(fault("subdivided_hyper_cube", "4000 : 0 : 1"),
-                   "4000 may be a number of cells, of which 3162 along a side are allowed"));
+                   "4000 may be a number of cells, of which 0 to 3162 along a side are allowed"));
+  for (const auto &[generator, arguments] : // hung deal.II, took all memory, or crashed it
+       {std::pair("subdivided_hyper_rectangle", "-1,2 : 0,0 : 1,1 : false"),
+        std::pair("hyper_cross", "-1,1 : false"), std::pair("cheese", "-1,2"),
+        std::pair("channel_with_cylinder", "0.03 : -1 : 2 : false"),
+        std::pair("concentric_hyper_shells", "0,0 : .1 : 1 : -1 : 0 : 8 : false")})
+    EXPECT_TRUE(says(fault(generator, arguments),
+                     ": -1 may be a number of cells, of which 0 to 3162 along a side"))
+        << generator;
+  EXPECT_TRUE(says(fault("eccentric_hyper_shell", "0,0 : 5,5 : 1 : 2 : 8"), "out of range"));
+  EXPECT_EQ(fault("hyper_cube", "-1 : 1 : false"), "no error");
+  EXPECT_EQ(fault("hyper_rectangle", "-2,-1 : -1,1 : false"), "no error");
   EXPECT_EQ(fault("hyper_cube", "0. : 4000. : false", 2000), "no error");
   EXPECT_TRUE(says(fault("hyper_ball", "0, 0 : 1 : false", 0), "must be a positive length"));
 }
