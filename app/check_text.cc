@@ -18,8 +18,7 @@ namespace plumbline::app
     std::ostringstream out;
     out << std::setprecision(4);
     out << "nodes     " << options.nodes_file << ": " << found.cells->n_free << " free, "
-        << found.ids.size() - found.cells->n_free
-        << " in the collar; volumes of the free ones off "
+        << found.ids.size() - found.cells->n_free << " in the collar; volumes of the free ones off "
         << "their cells' area by " << percent(found.volume_defect) << '\n'
         << "bonds     " << options.bonds_file << ": " << found.weights.n_bonds << ", at most "
         << found.weights.largest_family << " of a node";

@@ -157,7 +157,8 @@ namespace plumbline::scene
            "The body load b: manufactured (the nonlocal operator applied to the solution), or "
            "expressions written like the solution."},
           {"Problem", "constraint", "solution", text(),
-           "u in the collar: solution, or an expression. Taken at nodes: DGQ0 and DGP0 hold its value "
+           "u in the collar: solution, or an expression. Taken at nodes: DGQ0 and DGP0 hold its "
+           "value "
            "at the centre of each cell, as one-point rules do, not its average."},
           {"Problem", "local solution", "solution", text(),
            "The solution of the local limit: solution (where it does not depend on the horizon), "
@@ -187,7 +188,8 @@ namespace plumbline::scene
           {"Study", "horizon", "0.4", text(), "Horizons (m, horizon). [length]"},
           {"Study", "norms", "nodal Linf, averages L2, field L2", text(),
            "Of nodal Linf, nodal L2 (at the method's own nodes, which all count alike: "
-           "sqrt(area * mean e^2)), averages Linf, averages L2 (cell averages of the solution; each "
+           "sqrt(area * mean e^2)), averages Linf, averages L2 (cell averages of the solution; "
+           "each "
            "counts by its area), field Linf, field L2 (of the function), separated by ','."},
           {"Study", "decisive error", "nodal Linf | exact", text(),
            "The 'norm | target' that verdicts rest on; targets: exact, local, reference."},
