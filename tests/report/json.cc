@@ -75,7 +75,7 @@ namespace plumbline::report
     for (std::size_t i = 0; i < results.references.size(); ++i)
     {
       EXPECT_EQ(back.references[i].estimate, results.references[i].estimate);
-      EXPECT_EQ(back.references[i].field_estimate, 4e-5);
+      EXPECT_EQ(back.references[i].field_estimate, results.references[i].field_estimate);
       EXPECT_EQ(back.references[i].is_of_polygon, results.references[i].is_of_polygon);
     }
     EXPECT_EQ(back.savings.at(0).full.setup_seconds, results.savings.at(0).full.setup_seconds);

@@ -125,16 +125,12 @@ TEST(Estimates, bound_errors_of_smooth_and_rough_solutions)
       for (const auto &entry : entries(scene, method, level))
         all.push_back(entry);
   };
-  for (const double h : {.1, .05})
-  {
-    add(smooth, {"Q1", "Q2", "Q3", "DGQ0", "DGQ1", "DGQ2"}, {h, .25});
-    add(with(smooth, {{"Methods/nodes", "vertices"}}), {"Q1", "DGQ0"}, {h, 3 * h});
-  }
+  add(smooth, {"Q1", "Q2", "Q3", "DGQ0", "DGQ1", "DGQ2"}, {.1, .25});
+  add(with(smooth, {{"Methods/nodes", "vertices"}}), {"Q1", "DGQ0"}, {.05, .15});
   add(rough, {"Q1", "Q2", "DGQ0", "DGQ1", "DGQ2"}, {.125, .25});
-  add(rough, {"Q1", "Q2"}, {.0625, .25});
   const Settings triangles = {{"Domain/mesh", "triangles"}, {"Quadrature/tolerance", "1e-4"}};
   add(with(smooth, triangles), {"P1", "P2", "DGP0", "DGP1"}, {.125, .25});
-  add(with(rough, triangles), {"P1", "DGP1"}, {.25, .25});
+  add(with(rough, triangles), {"P1"}, {.25, .25});
   // cells enough for the mesh of 4 h to tell a rate
   add(with(smooth, triangles), {"P1", "DGP1"}, {.0625, .125});
   const Settings graded = {{"Domain/mesh", "squares"},
@@ -143,7 +139,7 @@ TEST(Estimates, bound_errors_of_smooth_and_rough_solutions)
   expect_bounds(all);
   constexpr double useful = 5;
   EXPECT_LE(audit::median_ratio(all), useful);
-  EXPECT_GE(all.size(), 60u);
+  EXPECT_GE(all.size(), 50u);
 }
 
 TEST(Estimates, see_that_a_polygon_is_no_disk)
@@ -243,82 +239,6 @@ TEST(Estimates, leave_no_digit_certain_that_they_reach)
   EXPECT_EQ(certified_digits(1.1, 1e3), 2u);
   EXPECT_EQ(certified_digits(0, 1), 0u); // no estimate
   EXPECT_EQ(certified_digits(1e-30, 1), 15u);
-}
-
-namespace
-{
-  /// A file of a mesh that goes with the test.
-  class MeshFiles : public testing::Test
-  {
-  protected:
-    void SetUp() override { std::filesystem::create_directory(folder_); }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-    std::string write(const std::string &name, const std::string &text) const
-    {
-      std::ofstream(folder_ / name) << text;
-      return (folder_ / name).string();
-    }
-
-    /// Whether an estimate with this file as Domain/mesh says that it is of the polygon alone.
-    bool is_of_polygon(const std::string &file) const
-    {
-      const auto scene =
-          make_scene(with(rough, {{"Domain/mesh", file}, {"Quadrature/tolerance", "1e-2"}}));
-      const auto problem = make_problem(scene, 0, {.5, .5});
-      const auto method = galerkin("DGP0");
-      const Solution solution = method->solve(scene, problem);
-      return estimate_error(scene, problem, 0, *method, solution, false).is_of_polygon;
-    }
-
-  private:
-    const std::filesystem::path folder_ = std::filesystem::temp_directory_path() /
-                                          ("plumbline_estimates_" + std::to_string(getpid()));
-  };
-
-  /// A disk of radius 1 in a square, cells of a given size.
-  std::string disk(const std::string &size)
-  {
-    return "DefineConstant[ h = .5, delta = .5 ];\nSetFactory(\"OpenCASCADE\");\n"
-           "Rectangle(1) = {-1.6, -1.6, 0, 3.2, 3.2};\nDisk(2) = {0, 0, 0, 1, 1};\n"
-           "BooleanFragments{ Surface{1}; Delete; }{ Surface{2}; Delete; }\n"
-           "Mesh.CharacteristicLengthMax = " +
-           size +
-           ";\nMesh.CharacteristicLengthMin = Mesh.CharacteristicLengthMax;\n"
-           "Physical Surface(\"omega\") = {2};\nPhysical Surface(\"collar\") = {3};\n";
-  }
-
-  std::string as_msh(const geometry::Mesh &mesh)
-  {
-    std::ostringstream text;
-    text.precision(17);
-    text << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"omega\"\n2 2 "
-            "\"collar\"\n$EndPhysicalNames\n$Nodes\n"
-         << mesh.vertices.size() << '\n';
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-      text << v + 1 << ' ' << mesh.vertices[v] << " 0\n";
-    text << "$EndNodes\n$Elements\n" << mesh.cells.size() << '\n';
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    {
-      const auto &cell = mesh.cells[c];
-      const int surface = cell.is_inside ? 1 : 2;
-      text << c + 1 << " 2 2 " << surface << ' ' << surface;
-      for (unsigned int i = 0; i < 3; ++i)
-        text << ' ' << cell.vertex[i] + 1;
-      text << '\n';
-    }
-    text << "$EndElements\n";
-    return text.str();
-  }
-} // namespace
-
-TEST_F(MeshFiles, that_cannot_be_made_anew_have_estimates_of_the_polygon_alone)
-{
-  const std::string geo = write("disk.geo", disk("h"));
-  EXPECT_FALSE(is_of_polygon(geo));
-  EXPECT_TRUE(is_of_polygon(write("fixed.geo", disk(".5")))); // takes no notice of h
-  const auto scene = make_scene(with(rough, {{"Domain/mesh", geo}}));
-  const auto problem = make_problem(scene, 0, {.5, .5});
-  EXPECT_TRUE(is_of_polygon(write("disk.msh", as_msh(*problem.mesh))));
 }
 
 TEST(Norms, weigh_cell_averages_by_the_cells_areas)
