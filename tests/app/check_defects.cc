@@ -1,0 +1,258 @@
+// What `plumbline check` says of weights that are spoilt on purpose: its text and its exit code.
+
+#include "check_command.h"
+
+#include "../meshfree/given_bonds.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace
+{
+  using namespace plumbline::app;
+  using namespace plumbline::meshfree;
+
+  /// Weights of a rule for the scene of the example, on its lattice or on nodes moved from there.
+  Weights example_weights(const std::string &rule, double perturbation,
+                          const std::vector<plumbline::scene::Override> &more = {})
+  {
+    std::vector<plumbline::scene::Override> overrides = {
+        {"Domain/mesh", "squares"}, {"Methods/perturbation", std::to_string(perturbation)}};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    const auto scene = plumbline::scene::read_scene(scene_file, overrides);
+    return weights_of(rule, plumbline::scene::make_problem(scene, 0, scene.series[0].levels[0]));
+  }
+
+  struct Files
+  {
+    std::string nodes, bonds;
+  };
+
+  /// As another code would write them; node k has the id k + 1.
+  Files files_of(const Weights &weights)
+  {
+    std::ostringstream nodes, bonds;
+    nodes.precision(15);
+    bonds.precision(15);
+    nodes << "id,x,y,volume\n";
+    bonds << "i,j,weight,qx,qy\n";
+    const auto &cells = *weights.problem.cells;
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      nodes << k + 1 << ',' << cells.nodes[k][0] << ',' << cells.nodes[k][1] << ','
+            << weights.volumes[k] << '\n';
+    for (std::size_t i = 0; i < weights.families.size(); ++i)
+      for (std::size_t k = 0; k < weights.families[i].bonds.size(); ++k)
+      {
+        const Bond &bond = weights.families[i].bonds[k];
+        bonds << i + 1 << ',' << weights.families[i].neighbours[k] + 1 << ',' << bond.weight << ','
+              << bond.kernel_point[0] << ',' << bond.kernel_point[1] << '\n';
+      }
+    return {write("given_nodes.csv", nodes.str()), write("given_bonds.csv", bonds.str())};
+  }
+
+  void remove_bond(Family &family, std::size_t j)
+  {
+    const auto at = std::find(family.neighbours.begin(), family.neighbours.end(), j);
+    family.bonds.erase(family.bonds.begin() + (at - family.neighbours.begin()));
+    family.neighbours.erase(at);
+  }
+
+  /// What is planted, and what the command is to say; I and J stand for the ids of the bond.
+  struct Case
+  {
+    std::string name, text;
+    std::function<void(Weights &, std::size_t i, std::size_t k)> plant;
+  };
+
+  const std::vector<Case> single_defects = {
+      {"sign", "the bond from node I to node J (line L of the bonds) has the weight",
+       [](Weights &w, std::size_t i, std::size_t k) { w.families[i].bonds[k].weight *= -1; }},
+      {"one missing", "the bond from node I to node J is missing; a weight of",
+       [](Weights &w, std::size_t i, std::size_t k)
+       { remove_bond(w.families[i], w.families[i].neighbours[k]); }},
+      {"both missing", "are missing from both ends",
+       [](Weights &w, std::size_t i, std::size_t k)
+       {
+         const std::size_t j = w.families[i].neighbours[k];
+         remove_bond(w.families[i], j);
+         remove_bond(w.families[j], i);
+       }},
+      {"1.3 times", "is expected: 1.3 times",
+       [](Weights &w, std::size_t i, std::size_t k) { w.families[i].bonds[k].weight *= 1.3; }},
+      {"volume", "is expected: 2 times",
+       [](Weights &w, std::size_t i, std::size_t k)
+       { w.volumes[w.families[i].neighbours[k]] *= 2; }},
+      {"kernel point", "the bond from node I to node J (line L of the bonds) takes the kernel at",
+       [](Weights &w, std::size_t i, std::size_t k)
+       { w.families[i].bonds[k].kernel_point *= .5; }}};
+
+  std::string with_ids(std::string text, std::size_t i, std::size_t j, std::size_t line)
+  {
+    for (const auto &[mark, value] :
+         {std::pair{"node I", i}, std::pair{"node J", j}, std::pair{"line L", line}})
+      if (const auto at = text.find(mark); at != std::string::npos)
+        text.replace(at + 5, 1, std::to_string(value));
+    return text;
+  }
+} // namespace
+
+TEST(Check, names_single_defects)
+{
+  // exact weights, so that nothing but the defect makes the exit code 1
+  for (const double perturbation : {0., .2})
+    for (const Case &one : single_defects)
+    {
+      Weights weights = example_weights("IPA-AC-R2", perturbation);
+      const std::size_t i = 27, k = some_bond(weights, i), j = weights.families[i].neighbours[k];
+      std::size_t line = 2 + k;
+      for (std::size_t before = 0; before < i; ++before)
+        line += weights.families[before].bonds.size();
+      one.plant(weights, i, k);
+      const Files files = files_of(weights);
+      const Outcome outcome = check(files.nodes, files.bonds, "--json --require moments=10");
+      EXPECT_EQ(outcome.exit_code, 1) << one.name << ", " << perturbation << outcome.err;
+      expect_found(outcome.out, "out of line: ", one.name);
+      expect_found(outcome.out, with_ids(one.text, i + 1, j + 1, line), one.name);
+      EXPECT_EQ(outcome.out.find("cause: "), std::string::npos) << one.name;
+    }
+}
+
+TEST(Check, names_nothing_in_sound_weights)
+{
+  for (const double perturbation : {0., .3})
+    for (const std::string rule : {"FA", "LAMMPS", "IPA-AC", "IPA-AC-R2"})
+    {
+      const Files files = files_of(example_weights(rule, perturbation));
+      const Outcome outcome = check(files.nodes, files.bonds, "--json");
+      EXPECT_EQ(outcome.exit_code, rule == "IPA-AC-R2" ? 0 : 1) << rule << ", " << perturbation;
+      EXPECT_EQ(outcome.out.find("out of line: "), std::string::npos) << outcome.out;
+      EXPECT_EQ(outcome.out.find("required ac") == std::string::npos, rule == "IPA-AC-R2");
+      expect_found(outcome.out, "the weights are those of " + rule);
+      EXPECT_EQ(check(files.nodes, files.bonds, "--quiet --require consistent").exit_code, 0)
+          << rule << ", " << perturbation;
+    }
+}
+
+TEST(Check, names_what_was_done_to_all_weights)
+{
+  using Change = std::function<void(Bond &, const Weights &, std::size_t)>;
+  const double m = 3;
+  const std::vector<std::pair<std::string, Change>> all = {
+      {"all weights have the wrong sign",
+       [](Bond &b, const Weights &, std::size_t) { b.weight *= -1; }},
+      {"all weights are twice too large, as if made for the limit -Laplace, not -0.5 Laplace",
+       [](Bond &b, const Weights &, std::size_t) { b.weight *= 2; }},
+      {"all weights are half of what they should be",
+       [](Bond &b, const Weights &, std::size_t) { b.weight *= .5; }},
+      {"all weights carry the factor 3/(4 m) = 0.25, the volume of the horizon in 2D",
+       [m](Bond &b, const Weights &, std::size_t) { b.weight *= .75 / m; }},
+      {"the kernel is taken at the midpoints of the bonds",
+       [](Bond &b, const Weights &, std::size_t) { b.kernel_point *= .5; }},
+      {"the kernel points (qx, qy) are reversed",
+       [](Bond &b, const Weights &, std::size_t) { b.kernel_point *= -1; }},
+      {"the kernel points (qx, qy) are absolute", [](Bond &b, const Weights &w, std::size_t i)
+       { b.kernel_point += dealii::Tensor<1, 2>(w.problem.cells->nodes[i]); }}};
+  for (const auto &[text, plant] : all)
+  {
+    Weights weights = example_weights("IPA-AC-R2", 0);
+    for (std::size_t i = 0; i < weights.families.size(); ++i)
+      for (Bond &bond : weights.families[i].bonds)
+        plant(bond, weights, i);
+    const Files files = files_of(weights);
+    const Outcome outcome = check(files.nodes, files.bonds, "--json");
+    EXPECT_EQ(outcome.exit_code, 1) << text << outcome.err;
+    expect_found(outcome.out, "cause: " + text);
+    EXPECT_EQ(outcome.out.find("out of line: "), std::string::npos) << text;
+  }
+}
+
+TEST(Check, requires_what_it_is_told_to)
+{
+  const auto exit_code = [&](const std::string &required)
+  { return check(nodes_file, bonds_file, "--quiet --require " + required).exit_code; };
+  EXPECT_EQ(exit_code("ac,symmetric,m-matrix --require consistent,moments=1e-6"), 0);
+  const Files moved = files_of(example_weights("IPA-AC-R2", .3));
+  const Outcome outcome = check(moved.nodes, moved.bonds, "--json --require symmetric");
+  EXPECT_EQ(outcome.exit_code, 1); // on moved nodes the weights of a bond differ
+  expect_found(outcome.out, "required symmetric: w C of a pair differs from end to end by up to");
+  const Files partial = files_of(example_weights("IPA-AC", 0)); // off by 9 %
+  EXPECT_EQ(check(partial.nodes, partial.bonds, "--quiet --require moments=0.1").exit_code, 0);
+  EXPECT_EQ(check(partial.nodes, partial.bonds, "--quiet --require moments=0.09").exit_code, 1);
+  const Outcome unknown = check(nodes_file, bonds_file, "--require exact");
+  EXPECT_EQ(unknown.exit_code, 2);
+  expect_found(unknown.err, "--require 'exact' is not known; choose of ac, consistent, ");
+  const Outcome negative = check(nodes_file, bonds_file, "--require moments=-1");
+  EXPECT_EQ(negative.exit_code, 2);
+  expect_found(negative.err, "'-1' is no positive number; write moments=0.05");
+}
+
+TEST(Check, takes_nodes_on_the_boundary_as_data_where_the_scene_does)
+{
+  // vertices of the lattice; the outermost of the collar are out of reach and stay out
+  Weights weights =
+      weights_of("FA",
+                 []
+                 {
+                   const auto scene = plumbline::scene::read_scene(
+                       scene_file, {{"Domain/mesh", "squares"}, {"Methods/nodes", "vertices"}});
+                   return plumbline::scene::make_problem(scene, 0, scene.series[0].levels[0]);
+                 }());
+  const Files files = files_of(weights);
+  // only those in the mesh: the collar is three cells wide
+  std::istringstream in(read(files.nodes));
+  std::string text, row;
+  std::getline(in, text);
+  text += '\n';
+  while (std::getline(in, row))
+  {
+    double id = 0, x = 0, y = 0;
+    char comma = 0;
+    std::istringstream(row) >> id >> comma >> x >> comma >> y;
+    if (std::max(std::abs(x - .5), std::abs(y - .5)) < .5 + .375 + 1e-9)
+      text += row + '\n';
+  }
+  const std::string nodes = write("vertices.csv", text);
+  const Outcome outcome =
+      check(nodes, files.bonds, "--json --require consistent --set Methods/nodes=vertices");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err << outcome.out;
+  expect_found(outcome.out, "\"n_free\": 49");
+  expect_found(outcome.out, "the weights are those of FA");
+  const Outcome free = check(nodes, files.bonds);
+  EXPECT_EQ(free.exit_code, 2);
+  expect_found(free.err, "where nodes on the boundary carry data, write Methods/nodes = vertices");
+}
+
+TEST(Check, writes_a_page_unless_told_not_to)
+{
+  const fs::path folder = temporary("check_page");
+  const Outcome outcome = check(nodes_file, (plumbline::app::folder / "bonds_wrong.csv").string(),
+                                "-o " + folder.string());
+  EXPECT_EQ(outcome.exit_code, 1);
+  expect_found(outcome.out, "written: " + (folder / "report.html").string());
+  const std::string page = read(folder / "report.html");
+  expect_found(page, "The weights are not as required");
+  expect_found(page, "the bond from node 77 to node 79");
+  expect_found(page, "<svg");
+  expect_found(read(folder / "outliers.csv"), "77,79,");
+  expect_found(read(folder / "nodes.csv"), "id,x,y,volume,cell_area,bonds,second_moment_ratio");
+  expect_found(read(folder / "cells.vtu"), "second_moments");
+  expect_found(read(folder / "check.json"), "\"exit_code\": 1");
+
+  fs::remove_all(folder);
+  EXPECT_EQ(check(nodes_file, bonds_file, "--quiet -o " + folder.string()).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "report.html"));
+}
+
+TEST(Check, refuses_scenes_of_which_bonds_are_not_all)
+{
+  for (const auto &[model, text] :
+       {std::pair{"LPS", "Material/model = LPS: weights of bonds alone are checked; write"},
+        std::pair{"variational", "checked"}})
+  {
+    const std::string scene = write("solid.prm", run(std::string("template ") + model).out);
+    const Outcome outcome =
+        run("check " + nodes_file + " " + bonds_file + " --quiet --scene " + scene);
+    EXPECT_EQ(outcome.exit_code, 2) << model;
+    expect_found(outcome.err, text);
+  }
+}
