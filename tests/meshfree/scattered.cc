@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "meshfree/method.h"
 #include "meshfree/rules.h"
+#include "meshfree/scattered_field.h"
 #include "meshfree/scattered_operator.h"
 #include "study/comparison.h"
 
@@ -330,4 +331,22 @@ TEST(ScatteredMethods, fields_take_the_value_of_the_nearest_node)
             std::string::npos);
   std::remove(file.c_str());
   EXPECT_THROW(solution.write_vtu("/nowhere/scattered.vtu"), InputError);
+}
+
+TEST(ScatteredField, averages_of_linear_fields_are_their_values_at_the_centroids)
+{
+  const auto problem = make_problem(.3, false, .125, 3);
+  const geometry::NodeCells &cells = *problem.cells;
+  const auto field = [](const Point<2> &x) { return 1 + 2 * x[0] - 5 * x[1]; };
+  std::vector<double> values;
+  double farthest = 0;
+  for (std::size_t i = 0; i < cells.n_free; ++i)
+  {
+    values.push_back(field(cells.nodes[i]));
+    farthest = std::max(farthest, cells.nodes[i].distance(cells.centroid[i]));
+  }
+  EXPECT_GT(farthest, .01);
+  const auto averages = cell_averages(cells, values, 1);
+  for (std::size_t i = 0; i < cells.n_free; ++i)
+    EXPECT_NEAR(averages[i], field(cells.centroid[i]), 1e-12) << i;
 }

@@ -235,6 +235,21 @@ TEST(WeightedVolume, IsTheSumOverTheCells)
   }
 }
 
+TEST(WeightedVolume, IsHalfAtTheBoundaryInSpiteOfRounding)
+{
+  const auto kernel = physics::influence_function(singular, .2);
+  Mesh mesh = free_square(.5, true);
+  const double c = std::cos(.7), s = std::sin(.7);
+  for (Point<2> &x : mesh.vertices) // turned, so that points of its sides are rounded
+    x = Point<2>(3 + c * x[0] - s * x[1], -5 + s * x[0] + c * x[1]);
+  const reference::WeightedVolume volume(mesh, kernel);
+  for (int k = 25; k <= 75; ++k)
+    for (const Point<2> &x :
+         {Point<2>(.01 * k, 0), Point<2>(1, .01 * k), Point<2>(.01 * k, 1), Point<2>(0, .01 * k)})
+      EXPECT_NEAR(volume(Point<2>(3 + c * x[0] - s * x[1], -5 + s * x[0] + c * x[1])), 1, 1e-12)
+          << x;
+}
+
 TEST(MeshDilatation, IsBlindToConstantsAndSymmetricWhereItShouldBe)
 {
   for (const bool is_triangles : {true, false})

@@ -97,6 +97,26 @@ TEST(SceneErrors, a_collar_must_be_as_wide_as_the_operator_reaches)
             std::string::npos);
 }
 
+TEST(SceneErrors, a_number_has_no_tail)
+{
+  const std::string message = refusal({{"Problem/solution", "x"}, {"Study/h", "0.1, 0.05m"}});
+  EXPECT_NE(message.find("Study/h: '0.05m' is not a number"), std::string::npos) << message;
+}
+
+TEST(SceneErrors, a_reference_is_compared_by_cell_averages)
+{
+  const auto decided_by = [](const std::string &error)
+  {
+    return refusal({{"Problem/solution", "x"},
+                    {"Reference/method", "Q2"},
+                    {"Study/norms", "nodal Linf, averages L2"},
+                    {"Study/decisive error", error}});
+  };
+  EXPECT_EQ(decided_by("averages L2 | reference"), "");
+  const std::string message = decided_by("nodal Linf | reference");
+  EXPECT_NE(message.find("by cell averages"), std::string::npos) << message;
+}
+
 TEST(SceneErrors, a_solid_that_can_crack_keeps_its_dilatation)
 {
   const std::vector<Override> bond_based =

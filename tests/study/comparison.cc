@@ -134,6 +134,43 @@ TEST(Errors, are_those_put_in)
   EXPECT_EQ(found.count("nodal Linf | reference"), 0u);
 }
 
+TEST(Errors, of_vectors_are_of_each_component)
+{
+  const auto scene = scene::parse_scene("test.prm", "",
+                                        {{"Kernel/type", "bond-tensor"},
+                                         {"Kernel/limit", "Navier"},
+                                         {"Problem/solution", "1 + x, y^2"},
+                                         {"Methods/names", "fake"},
+                                         {"Study/norms", "nodal Linf, nodal L2"}});
+  const auto problem = make_problem(scene, 0, {.1, .3});
+  Solution solution;
+  solution.nodes = {{.25, .5}, {.75, .5}};
+  solution.nodal = {1.25, .25 + .3, 1.75 - .4, .25};
+  const auto found = errors(scene, problem, solution, {});
+  EXPECT_NEAR(found.at("nodal Linf | exact"), .4, 1e-14);
+  EXPECT_NEAR(found.at("nodal L2 | exact"), .1 * std::hypot(.3, .4), 1e-14); // h² a node
+}
+
+TEST(Errors, of_fields_are_of_the_domain_alone)
+{
+  const auto scene = scene::parse_scene("test.prm", "",
+                                        {{"Domain/mesh", "triangles"},
+                                         {"Problem/solution", "x*y"},
+                                         {"Methods/names", "fake"},
+                                         {"Study/norms", "field Linf, field L2"},
+                                         {"Study/decisive error", "field L2 | exact"}});
+  const auto problem = make_problem(scene, 0, {.25, .5});
+  Solution solution;
+  solution.value = [](const dealii::Point<2> &x, unsigned int)
+  {
+    const bool is_inside = x[0] >= 0 && x[0] <= 1 && x[1] >= 0 && x[1] <= 1;
+    return x[0] * x[1] + (is_inside ? .01 : 7);
+  };
+  const auto found = errors(scene, problem, solution, {});
+  EXPECT_NEAR(found.at("field Linf | exact"), .01, 1e-14);
+  EXPECT_NEAR(found.at("field L2 | exact"), .01, 1e-13);
+}
+
 TEST(ErrorMap, shows_each_error_in_its_block_and_nothing_outside)
 {
   const std::string holes = "subsection Domain\n set holes = 0.5, 0.5 : 1, 1\nend\n";

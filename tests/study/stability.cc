@@ -204,6 +204,50 @@ TEST(Stability, of_bond_tensors_with_bonds_along_the_axes_alone_falls_into_lines
   EXPECT_EQ(measure(operator_of("FA", make_scene(true), {.1, .15})).signs.n_parts, 1u);
 }
 
+namespace
+{
+  /// An operator of one component from its matrix and the masses of its nodes.
+  DiscreteOperator given_operator(const std::vector<std::vector<double>> &matrix,
+                                  const std::vector<double> &mass)
+  {
+    DiscreteOperator result;
+    result.mass = mass;
+    result.rows.start.assign(1, 0);
+    for (unsigned int i = 0; i < matrix.size(); ++i)
+    {
+      result.nodes.emplace_back(i, 0);
+      for (unsigned int j = 0; j < matrix.size(); ++j)
+      {
+        result.rows.column.push_back(j);
+        result.rows.value.push_back(matrix[i][j]);
+      }
+      result.rows.start.push_back(result.rows.column.size());
+    }
+    return result;
+  }
+} // namespace
+
+// Positive entries, so that no one solution gives the norm: it has to be climbed to.
+TEST(Stability, inverse_norm_of_no_m_matrix_is_that_of_its_worst_load)
+{
+  const std::vector<std::vector<double>> matrix = {
+      {1, .1, .05, 0}, {.1, 10, .5, .2}, {.05, .5, 12, 1}, {0, .2, 1, 9}};
+  for (const std::vector<double> &mass : {std::vector<double>{1, 1, 1, 1}, {2, .5, 1, 3}})
+  {
+    Eigen::Matrix4d A;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j)
+        A(i, j) = matrix[i][j];
+    const Eigen::Matrix4d inverse =
+        A.completeOrthogonalDecomposition().pseudoInverse() *
+        Eigen::Vector4d(mass[0], mass[1], mass[2], mass[3]).asDiagonal();
+    const double exact = inverse.cwiseAbs().rowwise().sum().maxCoeff();
+    const Stability found = measure(given_operator(matrix, mass));
+    EXPECT_FALSE(found.is_norm_exact);
+    EXPECT_NEAR(found.inverse_norm, exact, 1e-8 * exact);
+  }
+}
+
 TEST(StabilityVerdict, names_the_condition_it_finds)
 {
   EXPECT_EQ(judge({row(2, .1, 9), row(3, .1, 9)}).verdict, "stable");
@@ -220,6 +264,21 @@ TEST(StabilityVerdict, names_the_condition_it_finds)
 
   // a level that fails between others that do not
   EXPECT_EQ(judge({row(3, .1, 9), row(3, .05, -9)}).verdict, "unstable");
+}
+
+TEST(StabilityVerdict, names_lost_rank_and_separate_parts)
+{
+  StabilityRow lost = row(2, .1, 9), parted = row(2, .1, 9);
+  lost.stability.diagnostics.n_conditions = 6;
+  lost.stability.diagnostics.rank = 5;
+  parted.stability.signs.n_parts = 2;
+  for (const auto &[bad, words] : {std::pair{lost, "rank 5 of 6"}, {parted, "2 separate parts"}})
+  {
+    const StabilityVerdict verdict = judge({bad, row(3, .1, 9)});
+    EXPECT_EQ(verdict.verdict, "conditionally stable") << words;
+    EXPECT_EQ(verdict.condition, "m >= 3") << words;
+    EXPECT_NE(verdict.explanation.find(words), std::string::npos) << verdict.explanation;
+  }
 }
 
 TEST(StabilityVerdict, sees_coercivity_fall)

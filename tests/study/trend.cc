@@ -147,3 +147,67 @@ TEST(Judge, a_plateau_that_noise_hides_is_not_called_convergence)
   // the errors of a rule for a load with a jump: a rate, but no certainty
   EXPECT_NE(judged(four, {4.9e-3, 8.2e-3, 2.3e-3, 1.66e-3}).outcome, Outcome::converges);
 }
+
+// ---- where the judge draws its lines: a sequence on each side
+// ------------------------------------
+
+TEST(FitSlope, has_the_standard_error_of_a_regression_with_two_parameters)
+{
+  // log2 e = 3, 0, -1 at log2 x = 0, -1, -2: slope 2, residuals 1/3, -2/3, 1/3, Σ (x - mean)² = 2
+  const Slope slope = fit_slope({1, .5, .25}, {8, 1, .5});
+  EXPECT_NEAR(slope.value, 2, 1e-14);
+  EXPECT_NEAR(slope.uncertainty, std::sqrt((6. / 9) / (3 - 2) / 2), 1e-14);
+}
+
+TEST(Judge, a_plateau_is_nil_below_a_tenth_of_the_last_error_and_counts_above)
+{
+  // the fit's a over the last error: .05, .2 and .3, without noise
+  for (const auto &[a, outcome] : {std::pair{1e-3 * .05 / .95, Outcome::converges},
+                                   {1e-3 * .2 / .8, Outcome::stalls},
+                                   {1e-3 * .3 / .7, Outcome::stalls}})
+  {
+    std::vector<double> errors;
+    for (const double size : h)
+      errors.push_back(a + 1e-3 * std::pow(size / h.back(), 2));
+    EXPECT_EQ(judged(h, errors).outcome, outcome) << a;
+  }
+  // .25 of the last error and 19 uncertainties
+  EXPECT_EQ(judged(h, {6.8e-3, 2e-3, 5.8e-4, 1.8e-4, 6.3e-5}).outcome, Outcome::stalls);
+  // .22 of the last error, but smaller than its uncertainty
+  EXPECT_EQ(judged(h, {6e-3, 1.8e-3, 5.1e-4, 1.5e-4, 5.2e-5}).outcome, Outcome::converges);
+}
+
+TEST(Judge, a_plateau_that_is_large_but_uncertain_decides_nothing)
+{
+  // .74 of the last error, 1.8 uncertainties; the errors themselves still fall at rate .9
+  EXPECT_EQ(judged(h, {9.3e-3, 2.9e-3, 1.1e-3, 5.7e-4, 3.1e-4}).outcome, Outcome::undecided);
+  // .22 of the last error, 6 uncertainties: a small one must be ten times its own
+  EXPECT_EQ(judged(h, {7.3e-2, 4.4e-2, 2.7e-2, 1.7e-2, 1.1e-2}).outcome, Outcome::undecided);
+}
+
+TEST(Judge, a_rate_must_surely_be_three_quarters)
+{
+  const auto of_rate = [](double rate)
+  { return judged([=](double x) { return .3 * std::pow(x, rate); }).outcome; };
+  EXPECT_EQ(of_rate(.6), Outcome::undecided);
+  EXPECT_EQ(of_rate(.7), Outcome::undecided);
+  EXPECT_EQ(of_rate(.8), Outcome::converges);
+  // .98 ± .19, no plateau: two standard errors below, it is .6
+  EXPECT_EQ(judged(h, {4.5e-2, 2e-2, 9.4e-3, 6e-3, 2.4e-3}).outcome, Outcome::undecided);
+}
+
+TEST(Judge, an_error_grows_again_from_twice_its_least)
+{
+  EXPECT_EQ(judged(h, {6.4e-2, 2e-2, 1.5e-3, 1.1e-3, 5.4e-3}).outcome, Outcome::stalls); // 4.9
+  EXPECT_EQ(judged(h, {5.3e-2, 2.9e-3, 2.7e-3, 1e-2, 4.4e-3}).outcome,
+            Outcome::undecided); // 1.6
+}
+
+TEST(Judge, a_level_that_is_exact_by_chance_does_not_count)
+{
+  EXPECT_EQ(judged({.2, .1, .05, .025, .0125}, {1.2e-2, 3e-3, 1e-14, 1.9e-4, 4.7e-5}).outcome,
+            Outcome::converges);
+  // four levels, of which three count
+  EXPECT_EQ(judged({.1, .05, .025, .0125}, {3e-3, 1e-14, 1.9e-4, 4.7e-5}).outcome,
+            Outcome::undecided);
+}

@@ -1,0 +1,57 @@
+// The same command goes on where a run was interrupted, but only if nothing has changed.
+
+#include "command.h"
+
+#include <chrono>
+#include <string>
+
+namespace
+{
+  using namespace plumbline::app;
+
+  void replace(const fs::path &file, const std::string &from, const std::string &to)
+  {
+    std::string text = read(file);
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    std::ofstream(file) << text.replace(at, from.size(), to);
+  }
+} // namespace
+
+TEST(CommandResume, goes_on_with_an_unfinished_run_of_the_same_scene_and_files_alone)
+{
+  const std::string check = std::string(PLUMBLINE_SCENES) + "/check/";
+  const fs::path folder = temporary("resume"), results = folder / "results.json";
+  const std::string nodes = write("resume.csv", read(check + "nodes.csv"));
+  const auto command = [&](const std::string &more)
+  {
+    return run("run " + check + "check.prm -o " + folder.string() +
+               " --methods FA --set Domain/mesh=squares --set Study/regime=m --set Study/h=0.125 "
+               "--set Study/horizon=0.375 --set Expected/verdicts= --set Methods/nodes=" +
+               nodes + more);
+  };
+  const auto is_continued = [&](const std::string &more)
+  {
+    const Outcome outcome = command(more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const bool is = outcome.err.find("continuing: 1 solves") != std::string::npos;
+    // as if it had been interrupted at its end, for the next one
+    replace(results, "\"is_complete\": true", "\"is_complete\": false");
+    return is;
+  };
+  EXPECT_FALSE(is_continued(""));
+  EXPECT_TRUE(is_continued(""));
+  EXPECT_FALSE(is_continued(" --set Geometry/checks=7")); // another scene
+  EXPECT_TRUE(is_continued(" --set Geometry/checks=7"));
+  EXPECT_FALSE(is_continued(""));
+
+  // the file of nodes is newer than the results
+  fs::last_write_time(nodes, fs::last_write_time(results) + std::chrono::seconds(1));
+  EXPECT_FALSE(is_continued(""));
+  fs::last_write_time(nodes, fs::last_write_time(results) - std::chrono::seconds(1));
+  EXPECT_TRUE(is_continued(""));
+
+  // what is complete is done again, as its user asks
+  replace(results, "\"is_complete\": false", "\"is_complete\": true");
+  EXPECT_FALSE(is_continued(""));
+}

@@ -1,0 +1,325 @@
+// What is concluded from runs: doubt, jitter, expectations, the cheapest run. Tables of errors and
+// costs as a sweep leaves them, and the answer that each of them deserves.
+#include "study/conclusions.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+using namespace plumbline;
+using namespace plumbline::study;
+
+namespace
+{
+  const std::string against_exact = "averages L2 | exact",
+                    against_reference = "averages L2 | reference";
+  const std::vector<double> h = {.2, .1, .05, .025};
+
+  /// Two cases at m = 2 and 3 over four levels.
+  scene::Scene make_scene(const std::string &decisive, const std::string &expected = "")
+  {
+    return scene::parse_scene(
+        "test.prm",
+        "subsection Problem\n set solution = one: x^3; two: y^3\nend\n"
+        "subsection Methods\n set names = A, B\nend\n"
+        "subsection Reference\n set method = Q2\nend\n"
+        "subsection Study\n set regime = delta\n set m = 2, 3\n set h = 0.2, 0.1, 0.05, 0.025\n"
+        " set norms = averages L2\n set decisive error = " +
+            decisive + "\nend\nsubsection Expected\n" + expected + "\nend\n");
+  }
+
+  Results make_results(const scene::Scene &scene)
+  {
+    Results results;
+    results.regime = "delta";
+    results.decisive_error = scene.decisive_error;
+    results.is_complete = true;
+    return results;
+  }
+
+  /// The runs of one method, case and series; an error that is no number: no solution there.
+  void add_runs(Results &results, const std::string &method, const std::vector<double> &errors,
+                const std::string &problem = "one", const std::string &series = "m = 2")
+  {
+    for (unsigned int level = 0; level < errors.size(); ++level)
+    {
+      Run run;
+      run.method = method;
+      run.family = "meshfree";
+      run.problem = problem;
+      run.series = series;
+      run.level = level;
+      run.h = h[level];
+      run.horizon = (series == "m = 2" ? 2 : 3) * h[level];
+      run.size = 1;
+      if (std::isnan(errors[level]))
+        run.failure = "no solution";
+      else
+        run.errors[results.decisive_error] = errors[level];
+      results.runs.push_back(run);
+    }
+  }
+
+  /// How far the reference of one case and series may be wrong, level by level.
+  void add_reference(Results &results, const std::vector<double> &estimates,
+                     const std::string &problem = "one", const std::string &series = "m = 2")
+  {
+    for (unsigned int level = 0; level < estimates.size(); ++level)
+    {
+      ErrorEstimate estimate;
+      estimate.method = "Q2";
+      estimate.problem = problem;
+      estimate.series = series;
+      estimate.level = level;
+      estimate.h = h[level];
+      estimate.estimate = estimates[level];
+      results.references.push_back(estimate);
+    }
+  }
+
+  const Trend &trend_of(const Results &results, const std::string &method,
+                        const std::string &problem = "one", const std::string &series = "m = 2")
+  {
+    const auto found = std::find_if(results.trends.begin(), results.trends.end(),
+                                    [&](const Trend &trend)
+                                    {
+                                      return trend.method == method && trend.problem == problem &&
+                                             trend.series == series &&
+                                             trend.error == results.decisive_error;
+                                    });
+    EXPECT_NE(found, results.trends.end()) << method;
+    return *found;
+  }
+
+  const std::vector<double> second_order = {8e-2, 2e-2, 5e-3, 1.25e-3};
+  const std::vector<double> stalled = {5.2e-2, 5.05e-2, 5.01e-2, 5.003e-2};
+} // namespace
+
+// ---- doubt --------------------------------------------------------------------------------------
+
+TEST(Conclusions, a_difference_below_ten_estimates_of_the_reference_decides_nothing)
+{
+  struct Doubt
+  {
+    std::vector<double> estimates; ///< of the reference, coarse to fine
+    Outcome outcome;
+  };
+  // the last difference is 1.25e-3
+  const std::vector<Doubt> table = {
+      {{1e-6, 1e-6, 1e-6, 1e-6}, Outcome::converges},
+      {{1e-6, 1e-6, 1e-6, 1.2e-4}, Outcome::converges},
+      {{1e-6, 1e-6, 1e-6, 1.3e-4}, Outcome::undecided},
+      {{1e-6, 1e-6, 1e-6, 1e-2}, Outcome::undecided},
+      {{1e-2, 1e-3, 5e-4, 1e-5}, Outcome::converges}, // that of the finest level counts
+      {{}, Outcome::converges}};
+  const auto scene = make_scene(against_reference);
+  for (const Doubt &row : table)
+  {
+    Results results = make_results(scene);
+    add_runs(results, "A", second_order);
+    add_reference(results, row.estimates);
+    // of others, which say nothing about this one
+    add_reference(results, std::vector<double>(4, 1), "two");
+    add_reference(results, std::vector<double>(4, 1), "one", "m = 3");
+    conclude(scene, results);
+    EXPECT_EQ(trend_of(results, "A").outcome, row.outcome)
+        << (row.estimates.empty() ? 0 : row.estimates.back());
+  }
+}
+
+TEST(Conclusions, a_reference_casts_no_doubt_on_errors_against_an_exact_solution)
+{
+  const auto scene = make_scene(against_exact);
+  Results results = make_results(scene);
+  add_runs(results, "A", second_order);
+  add_reference(results, std::vector<double>(4, 1));
+  conclude(scene, results);
+  EXPECT_EQ(trend_of(results, "A").outcome, Outcome::converges);
+}
+
+TEST(Conclusions, a_stall_below_the_estimate_of_the_reference_is_in_doubt_too)
+{
+  const auto scene = make_scene(against_reference);
+  for (const auto &[estimate, outcome] :
+       {std::pair{1e-3, Outcome::stalls}, {1e-2, Outcome::undecided}})
+  {
+    Results results = make_results(scene);
+    add_runs(results, "A", stalled);
+    add_reference(results, std::vector<double>(4, estimate));
+    conclude(scene, results);
+    EXPECT_EQ(trend_of(results, "A").outcome, outcome) << estimate;
+  }
+}
+
+TEST(Conclusions, a_method_that_fails_at_one_level_has_failed)
+{
+  const auto scene = make_scene(against_exact);
+  for (unsigned int level = 0; level < h.size(); ++level)
+  {
+    Results results = make_results(scene);
+    auto errors = second_order;
+    errors[level] = std::nan("");
+    add_runs(results, "A", errors);
+    conclude(scene, results);
+    EXPECT_EQ(trend_of(results, "A").outcome, Outcome::failed) << level;
+    EXPECT_EQ(trend_of(results, "A").verdict, "failed") << level;
+    EXPECT_EQ(trend_of(results, "A").reason, "no solution") << level;
+  }
+}
+
+// ---- expectations -------------------------------------------------------------------------------
+
+namespace
+{
+  /// Whether the one expectation of a scene holds for a method with these errors.
+  bool holds(const std::string &expected, const std::vector<double> &errors)
+  {
+    const auto scene = make_scene(against_exact, expected);
+    Results results = make_results(scene);
+    add_runs(results, "A", errors);
+    conclude(scene, results);
+    EXPECT_EQ(results.expectations.size(), 1u) << expected;
+    return results.expectations.front().holds;
+  }
+} // namespace
+
+TEST(Conclusions, jitter_is_the_sum_of_all_rises_over_the_first_error)
+{
+  const std::vector<double> ragged = {1e-1, 1.2e-1, 5e-2, 8e-2}; // rises .02 and .03: .5
+  EXPECT_TRUE(holds(" set jitter = A: 0.49 0.51", ragged));
+  EXPECT_FALSE(holds(" set jitter = A: 0.29 0.31", ragged)); // the largest alone
+  EXPECT_FALSE(holds(" set jitter = A: 0.1 0.4", ragged));
+  EXPECT_FALSE(holds(" set jitter = A: 0.6 0.9", ragged));
+  EXPECT_TRUE(holds(" set jitter = A: 0 0.01", second_order)); // falls are no rises
+}
+
+TEST(Conclusions, expected_errors_hold_within_their_tolerance_at_every_level)
+{
+  const std::string close = " set error tolerance = 0.01\n set errors = A: ";
+  EXPECT_TRUE(holds(close + "8.05e-2 1.99e-2 5e-3 1.25e-3", second_order));
+  EXPECT_FALSE(holds(close + "8.2e-2 2e-2 5e-3 1.25e-3", second_order));
+  EXPECT_FALSE(holds(close + "8e-2 2e-2 5e-3 1.22e-3", second_order));
+  EXPECT_FALSE(holds(close + "8e-2 2e-2", second_order)); // more levels than expected
+  EXPECT_TRUE(holds(close + "8e-2 2e-2 5e-3 1.25e-3 3.1e-4", second_order)); // a shortened sweep
+}
+
+TEST(Conclusions, expected_rates_hold_from_both_sides)
+{
+  const std::string close = " set rate tolerance = 0.1\n set rates = A: ";
+  EXPECT_TRUE(holds(close + "2", second_order));
+  EXPECT_TRUE(holds(close + "1.95", second_order));
+  EXPECT_FALSE(holds(close + "1.8", second_order));
+  EXPECT_FALSE(holds(close + "2.2", second_order));
+}
+
+TEST(Conclusions, an_expected_bound_is_on_the_largest_error)
+{
+  const std::vector<double> hump = {1e-2, 3e-2, 1e-3, 1e-4};
+  EXPECT_TRUE(holds(" set bounds = A: 3.1e-2", hump));
+  EXPECT_FALSE(holds(" set bounds = A: 2e-2", hump));
+  EXPECT_FALSE(holds(" set bounds = A: 1", {1e-2, 1e-3, std::nan(""), 1e-4}));
+}
+
+TEST(Conclusions, an_expected_fall_is_at_every_level)
+{
+  EXPECT_TRUE(holds(" set monotone = A: yes", second_order));
+  EXPECT_TRUE(holds(" set monotone = A: no", {1e-2, 1e-3, 1.1e-3, 1e-4}));
+  EXPECT_FALSE(holds(" set monotone = A: yes", {1e-2, 1e-3, 1.1e-3, 1e-4}));
+}
+
+TEST(Conclusions, an_expectation_of_what_was_not_run_does_not_hold)
+{
+  EXPECT_FALSE(holds(" set verdicts = C: AC", second_order));
+  EXPECT_FALSE(holds(" set verdicts = A, two: AC", second_order));
+  EXPECT_FALSE(holds(" set verdicts = A, m = 3: AC", second_order));
+  EXPECT_TRUE(holds(" set verdicts = A, one, m = 2: AC", second_order));
+  EXPECT_FALSE(holds(" set verdicts = A: not AC", second_order));
+}
+
+// ---- advice -------------------------------------------------------------------------------------
+
+namespace
+{
+  /// Setup and solve of the runs of a method, each level four times the one before [CPU s].
+  void set_cost(Results &results, const std::string &method, double setup, double solve)
+  {
+    for (Run &run : results.runs)
+      if (run.method == method)
+      {
+        run.cost.setup_seconds = setup * std::pow(4., run.level);
+        run.cost.solve_seconds = solve * std::pow(4., run.level);
+      }
+  }
+
+  /// What is advised for case one at m = 2: method and h by target.
+  std::map<double, std::pair<std::string, double>> advised(const Results &results)
+  {
+    std::map<double, std::pair<std::string, double>> choices;
+    for (const Advice &advice : results.advice)
+      if (advice.problem == "one" && advice.series == "m = 2")
+        for (const Choice &choice : advice.choices)
+          choices[choice.target] = {choice.method, choice.h};
+    return choices;
+  }
+} // namespace
+
+TEST(Conclusions, the_cheapest_run_is_by_setup_and_solve_together)
+{
+  const auto scene = make_scene(against_exact);
+  for (const bool is_solve_dear : {false, true})
+  {
+    Results results = make_results(scene);
+    add_runs(results, "A", second_order);
+    add_runs(results, "B", second_order);
+    set_cost(results, "A", is_solve_dear ? 1 : 5, is_solve_dear ? 5 : 1);
+    set_cost(results, "B", 2, 2);
+    conclude(scene, results);
+    const auto choices = advised(results);
+    ASSERT_EQ(choices.count(1e-2), 1u);
+    EXPECT_EQ(choices.at(1e-2), std::pair(std::string("B"), .05));
+    for (const Advice &advice : results.advice)
+      for (const Choice &choice : advice.choices)
+        EXPECT_EQ(choice.seconds, (2 + 2) * 16);
+  }
+}
+
+TEST(Conclusions, the_cheapest_run_meets_its_target)
+{
+  const auto scene = make_scene(against_exact);
+  Results results = make_results(scene);
+  add_runs(results, "A", {8e-2, 2e-2, 5e-3, 1.25e-3}); // cheap, but never at 1e-4
+  add_runs(results, "B", {8e-3, 5e-4, 3.1e-5, 2e-6});
+  set_cost(results, "A", 1, 1);
+  set_cost(results, "B", 50, 50);
+  conclude(scene, results);
+  const auto choices = advised(results);
+  ASSERT_EQ(choices.size(), 2u); // none reaches 1e-6
+  EXPECT_EQ(choices.at(1e-2), std::pair(std::string("A"), .05));
+  EXPECT_EQ(choices.at(1e-4), std::pair(std::string("B"), .05));
+}
+
+TEST(Conclusions, advice_names_methods_that_converge_by_the_decisive_error_alone)
+{
+  const auto scene = make_scene(against_exact);
+  const std::vector<double> ragged = {9e-3, 6e-3, 3e-3, 2.5e-3};
+  Results results = make_results(scene);
+  add_runs(results, "A", second_order);
+  add_runs(results, "stalls", {9.2e-3, 9.05e-3, 9.01e-3, 9.003e-3});
+  add_runs(results, "ragged", ragged);
+  add_runs(results, "fails", {8e-3, 2e-3, std::nan(""), 1e-4});
+  set_cost(results, "A", 50, 50);      // all others would be cheaper
+  for (study::Run &run : results.runs) // by another error all of them converge
+    if (run.failure.empty())
+      run.errors["averages Linf | exact"] = second_order[run.level];
+  conclude(scene, results);
+  const auto choices = advised(results);
+  ASSERT_EQ(choices.count(1e-2), 1u);
+  EXPECT_EQ(choices.at(1e-2), std::pair(std::string("A"), .05));
+  const auto advice =
+      std::find_if(results.advice.begin(), results.advice.end(),
+                   [](const Advice &one) { return one.problem == "one" && one.series == "m = 2"; });
+  ASSERT_NE(advice, results.advice.end());
+  EXPECT_EQ(advice->stalling, std::vector<std::string>{"stalls"});
+}

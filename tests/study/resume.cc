@@ -1,0 +1,123 @@
+// A sweep takes over what an earlier one has finished, and nothing of what it has not.
+#include "study/sweep.h"
+
+#include "meshfree/method.h"
+#include "reference/method.h"
+#include "study/comparison.h"
+#include "study/preflight.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+using namespace plumbline;
+using namespace plumbline::study;
+
+namespace
+{
+  Methods all_methods()
+  {
+    Methods available = meshfree::methods();
+    for (const auto &method : reference::methods())
+      available.push_back(method);
+    return available;
+  }
+
+  Results sweep(const scene::Scene &scene, const Results &earlier = {})
+  {
+    const Methods available = all_methods();
+    return run_sweep(scene, choose_methods(scene, available), available, {}, earlier);
+  }
+
+  /// Two levels of two methods, with a reference.
+  scene::Scene two_levels()
+  {
+    return scene::parse_scene("test.prm", "",
+                              {{"Problem/solution", "x^3"},
+                               {"Methods/names", "FA, Q1"},
+                               {"Reference/method", "Q2"},
+                               {"Study/norms", "averages L2"},
+                               {"Study/decisive error", "averages L2 | reference"},
+                               {"Study/m", "2"},
+                               {"Study/h", "0.25, 0.125"},
+                               {"Geometry/checks", "0"}});
+  }
+} // namespace
+
+TEST(SweepResume, runs_the_whole_of_a_level_that_is_not_finished)
+{
+  const Results whole = sweep(two_levels());
+  ASSERT_EQ(whole.runs.size(), 4u);
+  for (std::size_t n_done = 0; n_done <= 4; ++n_done)
+  {
+    Results earlier = whole;
+    earlier.is_complete = false;
+    earlier.runs.resize(n_done);
+    earlier.references.resize((n_done + 1) / 2);
+    const Results resumed = sweep(two_levels(), earlier);
+    EXPECT_TRUE(resumed.is_complete);
+    ASSERT_EQ(resumed.runs.size(), 4u) << n_done;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      EXPECT_EQ(resumed.runs[i].method, whole.runs[i].method) << n_done;
+      EXPECT_EQ(resumed.runs[i].level, whole.runs[i].level) << n_done;
+      const double error = whole.runs[i].errors.at(whole.decisive_error);
+      EXPECT_NEAR(resumed.runs[i].errors.at(whole.decisive_error), error, 1e-9 * error) << n_done;
+    }
+    ASSERT_EQ(resumed.references.size(), 2u) << n_done;
+    EXPECT_EQ(resumed.references[1].level, 1u);
+  }
+}
+
+TEST(SweepResume, keeps_the_estimates_of_finished_levels)
+{
+  Results earlier = sweep(two_levels());
+  earlier.is_complete = false;
+  earlier.runs.resize(2);
+  earlier.references.resize(1);
+  earlier.references[0].estimate = 77; // so that it is known again
+  const Results resumed = sweep(two_levels(), earlier);
+  ASSERT_EQ(resumed.references.size(), 2u);
+  EXPECT_EQ(resumed.references[0].estimate, 77);
+  EXPECT_NE(resumed.references[1].estimate, 77);
+  EXPECT_TRUE(resumed.estimates.empty());
+}
+
+namespace
+{
+  /// Its averages are no numbers.
+  class BrokenMethod : public Method
+  {
+  public:
+    std::string name() const override { return "broken"; }
+    std::string family() const override { return "meshfree"; }
+    std::string help() const override { return ""; }
+    std::string why_not(const scene::Scene &, const scene::Problem &) const override { return {}; }
+    Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
+    {
+      Solution solution;
+      solution.cost.solve_seconds = 1; // long enough not to be repeated for its time
+      solution.averages.assign(comparison_points(scene, problem).size(),
+                               std::numeric_limits<double>::quiet_NaN());
+      return solution;
+    }
+  };
+} // namespace
+
+TEST(SweepErrors, that_are_no_numbers_are_a_failure_and_are_not_stored)
+{
+  const Methods methods = {std::make_shared<BrokenMethod>()};
+  const scene::Scene scene = scene::parse_scene("test.prm", "",
+                                                {{"Problem/solution", "x"},
+                                                 {"Methods/names", "broken"},
+                                                 {"Study/norms", "averages L2"},
+                                                 {"Study/decisive error", "averages L2 | exact"},
+                                                 {"Solver/operator", "sparse"},
+                                                 {"Study/m", "2"},
+                                                 {"Study/h", "0.25"}});
+  const Results results = run_sweep(scene, methods, methods, {});
+  ASSERT_EQ(results.runs.size(), 1u);
+  EXPECT_NE(results.runs[0].failure.find("not a finite number"), std::string::npos)
+      << results.runs[0].failure;
+}
