@@ -153,7 +153,7 @@ namespace plumbline::report
       write_file(dir / "maps" / "maps.gp", script(page));
       try
       {
-        run_gnuplot(dir / "maps", "maps.gp");
+        run_gnuplot(dir / "maps", "maps.gp", {"defects.svg"});
       }
       catch (const NumericalError &)
       {

@@ -134,11 +134,19 @@ namespace plumbline::study
           number(largest);
       return;
     }
-    // an error that falls below round-off and rises again has passed through 0
-    const std::vector<double> &x = trend.x;
-    std::vector<double> e;
-    for (const double value : trend.values)
-      e.push_back(std::max(value, floor));
+    std::vector<double> x, e; // a level that is exact by chance does not count
+    for (std::size_t i = 0; i < trend.x.size(); ++i)
+      if (trend.values[i] > floor)
+      {
+        x.push_back(trend.x[i]);
+        e.push_back(trend.values[i]);
+      }
+    if (x.size() < levels_for_verdict)
+    {
+      trend.reason = std::to_string(x.size()) + " of the " + std::to_string(levels_for_verdict) +
+                     " levels that a verdict needs are above round-off, " + number(floor);
+      return;
+    }
 
     const PlateauFit fit = fit_plateau(x, e);
     const Slope slope = fit_slope({x.end() - 3, x.end()}, {e.end() - 3, e.end()});

@@ -323,3 +323,66 @@ TEST(Conclusions, advice_names_methods_that_converge_by_the_decisive_error_alone
   ASSERT_NE(advice, results.advice.end());
   EXPECT_EQ(advice->stalling, std::vector<std::string>{"stalls"});
 }
+
+// ---- proof beside observation -------------------------------------------------------------------
+
+namespace
+{
+  void prove(Results &results, const std::string &method, LimitProof::Answer answer, double defect)
+  {
+    for (Run &run : results.runs)
+      if (run.method == method)
+      {
+        run.diagnostics.limit.answer = answer;
+        run.diagnostics.limit.defect = defect;
+        run.diagnostics.limit.reason = "by this test";
+      }
+  }
+} // namespace
+
+TEST(Conclusions, a_field_that_hides_wrong_moments_proves_nothing)
+{
+  using Answer = LimitProof::Answer;
+  struct Row
+  {
+    Answer answer;
+    double defect;
+    std::vector<double> errors;
+    std::string verdict, reason;
+    bool is_advised;
+  };
+  const std::vector<Row> table = {
+      {Answer::compatible, 1e-14, second_order, "AC", "proven: by", true},
+      {Answer::incompatible, .04, second_order, "AC for this field only", "other fields", false},
+      {Answer::incompatible, .04, stalled, "not AC", "proven: by", false},
+      {Answer::compatible, 1e-14, stalled, "not AC", "look at load", false},
+      {Answer::unknown, 0, second_order, "AC", "not proven: by", true},
+      {Answer::unknown, .1, second_order, "AC", "not proven: by", false}}; // scattered, no bias
+  const auto scene = make_scene(against_exact);
+  for (const Row &row : table)
+  {
+    Results results = make_results(scene);
+    add_runs(results, "A", row.errors);
+    prove(results, "A", row.answer, row.defect);
+    conclude(scene, results);
+    const Trend &trend = trend_of(results, "A");
+    EXPECT_EQ(trend.verdict, row.verdict);
+    EXPECT_NE(trend.reason.find(row.reason), std::string::npos) << trend.reason;
+    EXPECT_EQ(advised(results).count(1e-2), row.is_advised ? 1u : 0u) << row.verdict;
+  }
+}
+
+TEST(Conclusions, the_weakest_proof_of_all_levels_counts)
+{
+  const auto scene = make_scene(against_exact);
+  for (const unsigned int wrong : {0u, 2u, 3u})
+  {
+    Results results = make_results(scene);
+    add_runs(results, "A", second_order);
+    prove(results, "A", LimitProof::Answer::compatible, 0);
+    results.runs[wrong].diagnostics.limit.answer = LimitProof::Answer::incompatible;
+    results.runs[wrong].diagnostics.limit.defect = .02;
+    conclude(scene, results);
+    EXPECT_EQ(trend_of(results, "A").verdict, "AC for this field only") << wrong;
+  }
+}

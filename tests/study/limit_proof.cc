@@ -134,7 +134,8 @@ TEST(RoundOff, grows_with_the_offset_and_size_does_not)
                            u + "\n set local solution = " + u + "\nend\n",
                        {{"Study/decisive error", "nodal Linf | local"}});
     const scene::Problem problem = make_problem(scene, 0, scene.series.front().levels.front());
-    const auto solution = study::find_method(all(), "FA", "test")->solve(scene, problem);
+    const auto method = study::find_method(all(), "FA", "test");
+    const study::Solution solution = method->solve(scene, problem);
     return std::pair(study::variation(problem, solution),
                      study::round_off_error(scene, problem, solution));
   };
