@@ -7,8 +7,8 @@ namespace plumbline::meshfree
   /// A free node and another one within reach of its bonds.
   struct Pair
   {
-    std::size_t node, neighbour;
-    std::size_t bond; ///< index into the node's family; Outlier::none: there is none
+    std::size_t node = 0, neighbour = 0;
+    std::size_t bond = 0; ///< index into the node's family; Outlier::none: there is none
     Point<2> xi;      ///< [length]
   };
 

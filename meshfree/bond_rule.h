@@ -23,8 +23,8 @@ namespace plumbline::meshfree
   struct Recognised
   {
     std::string rule;
-    double factor;
-    bool has_kernel_points;       ///< those of the rule, too
+    double factor = 1;
+    bool has_kernel_points = false;       ///< those of the rule, too
     std::vector<Family> families; ///< what the rule makes, its weights times the factor
   };
 

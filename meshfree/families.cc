@@ -6,12 +6,6 @@
 
 namespace plumbline::meshfree
 {
-  geometry::Box box_around(const Point<2> &x, double reach)
-  {
-    const dealii::Tensor<1, 2> diagonal({reach, reach});
-    return {x - diagonal, x + diagonal};
-  }
-
   std::vector<geometry::Box> bounding_boxes(const geometry::NodeCells &cells, std::size_t n)
   {
     std::vector<geometry::Box> boxes;

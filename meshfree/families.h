@@ -5,7 +5,11 @@
 namespace plumbline::meshfree
 {
   /// The square of half side reach about a point.
-  geometry::Box box_around(const Point<2> &x, double reach);
+  inline geometry::Box box_around(const Point<2> &x, double reach)
+  {
+    const dealii::Tensor<1, 2> diagonal({reach, reach});
+    return {x - diagonal, x + diagonal};
+  }
 
   /// Of the first n cells.
   std::vector<geometry::Box> bounding_boxes(const geometry::NodeCells &cells, std::size_t n);

@@ -96,7 +96,7 @@ namespace plumbline::report
 
     std::string header(const study::Results &results)
     {
-      std::array<unsigned int, 4> n{};
+      std::array<unsigned int, 5> n{};
       for (const study::Trend &trend : results.trends)
         if (trend.error == results.decisive_error)
           ++n[static_cast<std::size_t>(trend.outcome)];
@@ -118,6 +118,8 @@ namespace plumbline::report
               std::to_string(n[0]) + " converge</li><li>✗ " + std::to_string(n[1]) +
               " stall</li><li>? " + std::to_string(n[2]) + " undecided</li><li>– " +
               std::to_string(n[3]) + " failed</li>";
+      if (n[4] > 0)
+        text += "<li>✗ " + std::to_string(n[4]) + " for this field only</li>";
       if (!results.expectations.empty())
         text += "<li>expected: " + std::to_string(n_hold) + " of " +
                 std::to_string(results.expectations.size()) + " hold</li>";

@@ -82,16 +82,22 @@ namespace plumbline::report
     estimate.h_change = 1e-3;
     estimate.p_change = 2e-4;
     estimate.outer_change = 3e-5;
+    estimate.coarse_change = 7e-3;
+    estimate.rate = 1.5;
     estimate.estimate = 4e-3;
+    estimate.field_estimate = 6e-3;
     estimate.certified_digits = 2;
     const Table table = estimate_table({estimate});
     EXPECT_EQ(value(table, 0, "level"), 3);
     EXPECT_EQ(value(table, 0, "h"), .5);
     EXPECT_EQ(value(table, 0, "δ"), 1.5);
-    EXPECT_EQ(value(table, 0, "change to h/2"), 1e-3);
+    EXPECT_EQ(value(table, 0, "change with h"), 1e-3);
+    EXPECT_EQ(value(table, 0, "before"), 7e-3);
+    EXPECT_EQ(value(table, 0, "rate"), 1.5);
     EXPECT_EQ(value(table, 0, "change to p + 1"), 2e-4);
     EXPECT_EQ(value(table, 0, "outer quadrature"), 3e-5);
-    EXPECT_EQ(value(table, 0, "estimate"), 4e-3);
+    EXPECT_EQ(value(table, 0, "estimate, averages"), 4e-3);
+    EXPECT_EQ(value(table, 0, "estimate, field"), 6e-3);
     EXPECT_EQ(value(table, 0, "certified digits"), 2);
   }
 

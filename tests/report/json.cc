@@ -140,8 +140,7 @@ namespace plumbline::report
 
   TEST(ReportJson, DescribesEveryKeyInSchemaMd)
   {
-    const std::filesystem::path here = std::filesystem::path(__FILE__).parent_path();
-    const std::string schema_md = fixture::read(here / "../../lib/report/schema.md");
+    const std::string schema_md = fixture::read(PLUMBLINE_SCHEMA);
     ASSERT_FALSE(schema_md.empty());
     const fixture::Folder folder;
     study::Results results = fixture::results();

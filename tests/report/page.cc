@@ -192,10 +192,44 @@ namespace plumbline::report
     EXPECT_TRUE(ids.count("verdicts") == 1);
   }
 
+  TEST(ReportPage, SaysWhatIsRightForThisFieldOnlyAndWhatIsNotDecidedYet)
+  {
+    study::Results results = fixture::results();
+    for (study::Trend &trend : results.trends)
+    {
+      trend.outcome = study::Outcome::field_only;
+      trend.verdict = "AC for this field only";
+      trend.proof.answer = study::LimitProof::Answer::incompatible;
+      trend.proof.defect = .0472;
+    }
+    results.advice[0].field_only = {"FA"};
+    const auto n = std::to_string(results.trends.size());
+    std::string html = page_of(results);
+    EXPECT_TRUE(holds(html, "<b>No method converges in all 4 cases.</b>"));
+    EXPECT_TRUE(holds(html, "Right for this field only, their second moments are wrong: FA"));
+    EXPECT_TRUE(holds(html, "✗ right for this field only: FA"));
+    EXPECT_TRUE(holds(html, "<li>✗ " + n + " for this field only</li>"));
+    EXPECT_EQ(fixture::count(html, "moments off by 4.72 %"), results.trends.size());
+    for (study::Trend &trend : results.trends)
+    {
+      trend.outcome = study::Outcome::undecided;
+      trend.proof = {};
+      trend.x.resize(2);
+      trend.values.resize(2);
+      trend.rates.resize(1);
+    }
+    html = page_of(results);
+    EXPECT_TRUE(holds(html, "Not decided yet in all 4 cases.</b>"));
+    EXPECT_TRUE(holds(html, "Not decided, 2 of the 4 levels that a verdict needs: "));
+    EXPECT_FALSE(holds(html, "No method converges"));
+    EXPECT_FALSE(holds(html, "one finer level would help:"));
+  }
+
   TEST(ReportPage, CallsRoundingByItsName)
   {
     study::Results results = fixture::results();
     study::Trend &trend = results.trends.back();
+    trend.round_off = 1e-12;
     trend.values = {1e-13, 2e-13, 0};
     trend.rates = {-1, 1e9};
     EXPECT_TRUE(holds(page_of(results), "<b>✓ AC</b><small>0</small><small>round-off</small>"));
@@ -211,7 +245,8 @@ namespace plumbline::report
       study::Trend trend;
       trend.x = {.8, .4, .2, .1};
       trend.size = 3;
-      trend.values = std::vector<double>(4, factor * round_off * trend.size);
+      trend.round_off = 3e-10;
+      trend.values = std::vector<double>(4, factor * trend.round_off);
       study::judge(trend);
       EXPECT_EQ(holds(trend.reason, "exact to round-off"), factor < 1) << trend.reason;
     }
