@@ -166,6 +166,52 @@ TEST(Estimates, see_that_a_polygon_is_no_disk)
   EXPECT_EQ(is_of("DGP2")->certified_digits, 1u);
 }
 
+namespace
+{
+  /// A unit square in n × n squares with a collar of n more around it, as a gmsh file.
+  void write_squares(const std::filesystem::path &file, int n)
+  {
+    std::ofstream out(file);
+    const int width = 3 * n;
+    out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"omega\"\n2 2 "
+           "\"collar\"\n$EndPhysicalNames\n$Nodes\n"
+        << (width + 1) * (width + 1) << '\n';
+    for (int j = 0; j <= width; ++j)
+      for (int i = 0; i <= width; ++i)
+        out << j * (width + 1) + i + 1 << ' ' << static_cast<double>(i - n) / n << ' '
+            << static_cast<double>(j - n) / n << " 0\n";
+    out << "$EndNodes\n$Elements\n" << width * width << '\n';
+    for (int j = 0; j < width; ++j)
+      for (int i = 0; i < width; ++i)
+      {
+        const bool is_inside = i >= n && i < 2 * n && j >= n && j < 2 * n;
+        const int group = is_inside ? 1 : 2, corner = j * (width + 1) + i + 1;
+        out << j * width + i + 1 << " 3 2 " << group << ' ' << group << ' ' << corner << ' '
+            << corner + 1 << ' ' << corner + width + 2 << ' ' << corner + width + 1 << '\n';
+      }
+    out << "$EndElements\n";
+  }
+} // namespace
+
+// The file is all that is known of the domain: whether a curve was meant nobody can tell.
+TEST(Estimates, of_a_mesh_file_hold_for_its_polygon_and_say_so)
+{
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("plumbline_polygon_" + std::to_string(getpid()) + ".msh");
+  write_squares(file, 4);
+  const Settings settings = {{"Kernel/type", "constant"}, {"Domain/mesh", file.string()}};
+  const auto scene = make_scene(with(rough, settings));
+  const auto problem = make_problem(scene, 0, {.25, .25});
+  const auto method = galerkin("DGQ0");
+  const Solution solution = method->solve(scene, problem);
+  EXPECT_TRUE(estimate_error(scene, problem, 0, *method, solution, false).is_of_polygon);
+  const auto boxes = make_scene(with(rough, {{"Domain/mesh", "squares"}}));
+  const auto same = make_problem(boxes, 0, {.25, .25});
+  EXPECT_FALSE(
+      estimate_error(boxes, same, 0, *method, method->solve(boxes, same), false).is_of_polygon);
+  std::filesystem::remove(file);
+}
+
 /// Put into the equation c (π δ² u(r) - ∫ K(r, s) u(s) ds) = 1, K(r, s) = 2 s times half the angle
 /// of the circle of radius s that lies in the ball.
 TEST(Estimates, the_shipped_solution_of_the_disk_solves_its_equation)
