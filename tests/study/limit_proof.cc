@@ -148,3 +148,27 @@ TEST(RoundOff, grows_with_the_offset_and_size_does_not)
   EXPECT_LT(noise_far, 1e-8 * size);
   EXPECT_GT(noise_made, 3 * noise_far); // its load is known to less
 }
+
+// The operator does not see a constant, and the solver need not.
+TEST(RoundOff, a_constant_on_a_lattice_costs_no_more_than_its_own_rounding)
+{
+  const auto solve = [](const std::string &name, const std::string &offset)
+  {
+    const auto scene = scene_of("subsection Problem\n set load = 6.5*sin(3*x)*cos(2*y)\n"
+                                " set constraint = " +
+                                    offset +
+                                    " + sin(3*x)*cos(2*y)\n"
+                                    " set local solution = sin(3*x)*cos(2*y)\nend\n",
+                                {{"Study/decisive error", "nodal Linf | local"}});
+    const scene::Problem problem = make_problem(scene, 0, scene.series.front().levels.front());
+    const auto method = study::find_method(all(), name, "test");
+    return method->solve(scene, problem).nodal;
+  };
+  for (const char *name : {"FA", "Q1", "DGQ1"})
+  {
+    const auto near = solve(name, "0"), far = solve(name, "1e6");
+    constexpr double rounding = 1e6 * 4e-16; // of the field itself
+    for (std::size_t i = 0; i < near.size(); ++i)
+      ASSERT_NEAR(far[i] - 1e6, near[i], 4 * rounding) << name;
+  }
+}
