@@ -1,5 +1,6 @@
 // Error estimates are bounds: smooth and rough solutions, polygons in place of curves, outer
 // quadrature; and the norms that they are stated in.
+#include "base/error.h"
 #include "benchmarks/estimate_audit.h"
 #include "reference/method.h"
 #include "study/comparison.h"
@@ -320,4 +321,19 @@ TEST(Norms, of_fields_are_exact_for_quartics_on_a_mesh)
   { return problem.solution->value(x, c) + std::pow(x[0], 4); };
   constexpr double rounding = 1e-12;
   EXPECT_NEAR(errors(scene, problem, solution, {}).at("field L2 | exact"), 1. / 3, rounding);
+}
+
+TEST(Estimates, of_the_reference_are_held_to_a_tolerance_relative_to_the_solution)
+{
+  const auto solve = [](const std::string &load, const std::string &tolerance)
+  {
+    const auto scene = make_scene(with(rough, {{"Problem/load", load},
+                                               {"Reference/method", "DGQ1"},
+                                               {"Reference/tolerance", tolerance}}));
+    const auto problem = make_problem(scene, 0, {.125, .25});
+    return solve_reference(scene, problem, 0, *galerkin("DGQ1"));
+  };
+  EXPECT_NO_THROW(solve("1e6", "0.5")); // whatever the unit of u
+  EXPECT_THROW(solve("1e6", "1e-9"), NumericalError);
+  EXPECT_THROW(solve("1e-6", "1e-9"), NumericalError);
 }

@@ -73,6 +73,11 @@ TEST(SweepEstimates, are_made_where_the_scene_asks_for_them)
   const auto referred = with(open, {{"Reference/method", "Q2"}});
   EXPECT_EQ(sweep(referred).estimates.size(), 0u);
   EXPECT_EQ(sweep(referred).references.size(), 1u);
+  // the reference has its own, though it is a method of the scene too
+  const auto both =
+      sweep(with(referred, {{"Reference/method", "Q1"}, {"Reference/estimate", "every"}}));
+  EXPECT_EQ(both.estimates.size(), 0u);
+  EXPECT_EQ(both.references.size(), 1u);
 }
 
 TEST(SweepSavings, are_measured_at_the_first_level_of_the_first_method_of_each_side)
@@ -95,6 +100,8 @@ TEST(SweepSavings, are_measured_at_the_first_level_of_the_first_method_of_each_s
     EXPECT_EQ(saving.full.n_unknowns, saving.smallest.n_unknowns);
     EXPECT_LT(saving.difference, rounding) << saving.method;
   }
+  for (const Saving &saving : sweep(with(small, {{"Problem/solution", "1e6*x^3"}})).savings)
+    EXPECT_LT(saving.difference, rounding) << saving.method; // it is relative
   for (const scene::Override &same : {scene::Override{"Solver/model", "full"},
                                       {"Solver/operator", "sparse"},
                                       {"Domain/mesh", "squares"}})
@@ -142,6 +149,11 @@ TEST(SweepBudget, leaves_out_what_the_levels_before_say_is_too_dear)
   EXPECT_NE(results.left_out[0].find("h = 0.025: some 16 CPU s"), std::string::npos)
       << results.left_out[0];
   EXPECT_EQ(dear->n_solves, 2u);
+  // after one level the next is expected to take four times as long
+  control.budget = 2;
+  const auto again = std::make_shared<DearMethod>();
+  EXPECT_EQ(run_sweep(scene, {again}, {again}, control).runs.size(), 1u);
+  control.budget = 5;
   // what is finished is not run again, and a larger budget goes on from there
   control.budget = 20;
   const Results more = run_sweep(scene, methods, methods, control, results);
