@@ -238,7 +238,7 @@ namespace plumbline::report
           "last change by outer "
           "quadrature make the estimate of the error (L2) of the cell averages and of the field. "
           "It "
-          "is a bound in practice, no theorem: in an audit of the shipped scenes with a known "
+          "is a bound in practice, no theorem: in audits of shipped scenes with a known "
           "solution, and of loads without one against much finer solutions "
           "(<code>benchmarks/estimates</code>), no error was above it. The digits that it leaves "
           "certain are those of the cell averages.";
