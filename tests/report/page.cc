@@ -263,7 +263,7 @@ namespace plumbline::report
   TEST(ReportPage, SaysWhichEstimatesHoldForThePolygonAlone)
   {
     study::Results results = fixture::results();
-    EXPECT_TRUE(holds(page_of(results), "a bound in practice, no theorem: in an audit of"));
+    EXPECT_TRUE(holds(page_of(results), "a bound in practice, no theorem: in audits of"));
     EXPECT_FALSE(holds(page_of(results), "the polygon alone"));
     results.references.at(0).is_of_polygon = true;
     EXPECT_TRUE(holds(page_of(results), "the polygon alone"));
