@@ -37,7 +37,7 @@ namespace plumbline::meshfree
   {
     geometry::NodeCells cells;
     std::vector<double> uncut_areas; ///< numbered as the cells; not cut at the boundary of Ω
-    std::size_t n_on_boundary = 0;       ///< nodes on the boundary of Ω
+    std::size_t n_on_boundary = 0;   ///< nodes on the boundary of Ω
   };
 
   /// @param boundary_is_data  nodes on the boundary of Ω belong to the collar and no cell is cut

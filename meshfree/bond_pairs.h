@@ -9,7 +9,7 @@ namespace plumbline::meshfree
   {
     std::size_t node = 0, neighbour = 0;
     std::size_t bond = 0; ///< index into the node's family; Outlier::none: there is none
-    Point<2> xi;      ///< [length]
+    Point<2> xi;          ///< [length]
   };
 
   /// √ of the mean volume of the free nodes [length].

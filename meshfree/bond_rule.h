@@ -24,8 +24,8 @@ namespace plumbline::meshfree
   {
     std::string rule;
     double factor = 1;
-    bool has_kernel_points = false;       ///< those of the rule, too
-    std::vector<Family> families; ///< what the rule makes, its weights times the factor
+    bool has_kernel_points = false; ///< those of the rule, too
+    std::vector<Family> families;   ///< what the rule makes, its weights times the factor
   };
 
   /// What a rule makes of these nodes and volumes.

@@ -1,11 +1,9 @@
 #include "geometry/gmsh_script.h"
 
 #include "meshes.h"
+#include "tests/text_folder.h"
 
 #include <filesystem>
-#include <fstream>
-
-#include <unistd.h>
 
 using namespace plumbline;
 using namespace plumbline::geometry;
@@ -13,24 +11,15 @@ using namespace plumbline::geometry;
 namespace
 {
   /// Files that vanish with the test.
-  class GmshScript : public testing::Test
+  class GmshScript : public testing::Test, protected tests::TextFolder
   {
   protected:
-    void SetUp() override { std::filesystem::create_directory(folder_); }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
+    GmshScript() : TextFolder("script") {}
 
-    std::string write(const std::string &name, const std::string &text) const
-    {
-      std::ofstream(folder_ / name, std::ios::binary) << text;
-      return (folder_ / name).string();
-    }
     std::string fault(const std::string &text) const
     {
       return error_of([&] { check_script(write("a.geo", text)); });
     }
-
-    const std::filesystem::path folder_ =
-        std::filesystem::temp_directory_path() / ("plumbline_script_" + std::to_string(getpid()));
   };
 } // namespace
 
@@ -90,7 +79,7 @@ TEST_F(GmshScript, cannot_hide_commands_where_gmsh_skips)
 
 TEST_F(GmshScript, is_followed_into_what_it_reads)
 {
-  std::filesystem::create_directory(folder_ / "parts");
+  std::filesystem::create_directory(path() / "parts");
   write("parts/bad.txt", "a = 1;\nSystemCall 'true';\n");
   write("parts/next.geo", "\nInclude \"bad.txt\";\n");
   EXPECT_TRUE(says(fault("Merge \"parts/next.geo\";"), "bad.txt', line 2: SystemCall"));

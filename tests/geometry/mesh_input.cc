@@ -343,6 +343,7 @@ TEST_F(MeshFile, whose_script_does_not_end_is_ended)
       says(error_of([&] { mesh_by_gmsh(forever, .1, .1, limits, "mesh file 'forever.geo'"); }),
            "mesh file 'forever.geo': gmsh was ended after 1 CPU seconds; mend a loop that "
            "does not end"));
+  limits.seconds = 60; // so that it is memory that ends the next one, on a busy machine too
   limits.gibibytes = .5;
   const std::string large = (std::filesystem::path(testing::TempDir()) / "large.geo").string();
   std::ofstream(large) << "x() = {0 : 1e9};\n";

@@ -2,13 +2,11 @@
 
 #include "base/error.h"
 #include "scene/scene.h"
+#include "tests/text_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-
-#include <unistd.h>
 
 using namespace plumbline;
 using namespace plumbline::scene;
@@ -16,17 +14,10 @@ using namespace plumbline::scene;
 namespace
 {
   /// A folder that vanishes with the test.
-  class SceneFile : public testing::Test
+  class SceneFile : public testing::Test, protected tests::TextFolder
   {
   protected:
-    void SetUp() override { std::filesystem::create_directory(folder_); }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
-    std::string write(const std::string &name, const std::string &text) const
-    {
-      std::ofstream(folder_ / name, std::ios::binary) << text;
-      return (folder_ / name).string();
-    }
+    SceneFile() : TextFolder("scene") {}
 
     /// What reading the scene says, without its folder.
     std::string fault(const std::string &name, const std::string &text) const
@@ -38,16 +29,13 @@ namespace
       catch (const InputError &error)
       {
         std::string message = error.what();
-        for (std::size_t at; (at = message.find(folder_.string() + "/")) != std::string::npos;)
-          message.erase(at, folder_.string().size() + 1);
+        for (std::size_t at; (at = message.find(path().string() + "/")) != std::string::npos;)
+          message.erase(at, path().string().size() + 1);
         return message;
       }
       return "no error";
     }
     std::string fault(const std::string &text) const { return fault("a.prm", text); }
-
-    const std::filesystem::path folder_ =
-        std::filesystem::path(testing::TempDir()) / ("scene_file_" + std::to_string(getpid()));
   };
 
   std::vector<Setting> settings(const std::string &text)
@@ -110,14 +98,14 @@ TEST_F(SceneFile, with_a_key_given_twice_is_refused_with_both_lines)
 
 TEST_F(SceneFile, includes_others_from_its_folder_and_never_itself)
 {
-  std::filesystem::create_directory(folder_ / "parts");
+  std::filesystem::create_directory(path() / "parts");
   write("parts/problem.prm", problem);
   write("parts/all.prm", "include problem.prm\n" + methods);
   EXPECT_EQ(fault("include parts/all.prm\n"), "no error");
   EXPECT_EQ(fault("\ninclude a.prm\n"),
             "scene 'a.prm', line 2: 'a.prm' is being read already, so that it would include "
             "itself; take the line out");
-  write("b.prm", "include ../" + folder_.filename().string() + "/a.prm\n");
+  write("b.prm", "include ../" + path().filename().string() + "/a.prm\n");
   EXPECT_EQ(fault("include b.prm\n").find("scene 'a.prm', line 1 of 'b.prm': '../"), 0u);
   EXPECT_EQ(fault("include nowhere.prm\n"),
             "scene 'a.prm', line 1: 'nowhere.prm' cannot be read; give a file named from the "
@@ -138,10 +126,10 @@ TEST_F(SceneFile, that_is_no_text_is_refused)
   EXPECT_EQ(fault(std::string("set Purpose = a\0b\n", 18)),
             "scene 'a.prm', line 1: has the control character 0; give a plain text file");
   EXPECT_EQ(fault("\xEF\xBB\xBF" + problem + methods), "no error"); // as Windows writes it
-  std::filesystem::create_directory(folder_ / "d.prm");
+  std::filesystem::create_directory(path() / "d.prm");
   try
   {
-    (void)read_scene((folder_ / "d.prm").string());
+    (void)read_scene((path() / "d.prm").string());
     ADD_FAILURE();
   }
   catch (const InputError &error)
