@@ -34,7 +34,7 @@ namespace plumbline::meshfree
     {
       double low = 0, high = 0; ///< lowest and highest median of such bonds: a step or a ramp
                                 ///< between them is no defect
-      double allowed = 0; ///< beyond both
+      double allowed = 0;       ///< beyond both
     };
 
     /// Of each bond, given one value for each.
