@@ -135,6 +135,23 @@ TEST(CheckMoments, of_tensors_are_off_at_least_as_much_at_worst_as_on_average)
   EXPECT_GE(check.second.value, std::abs(check.mean_ratio - 1) - 1e-12);
 }
 
+// Kernel points mirrored at the x axis change the sign of C_12 and of nothing else: Σ w C_12 ξ1 ξ2
+// = -∫ C_12 ξ1 ξ2, where the mean of cos² sin² is 1/8 of ∫ |C| |ξ|² and that of cos⁴ is 3/8.
+TEST(CheckMoments, finds_mixed_entries_of_a_tensor_that_have_the_wrong_sign)
+{
+  const auto problem = make_problem(true);
+  auto families = good_families(problem);
+  for (Family &family : families)
+    for (Bond &bond : family.bonds)
+      bond.kernel_point[1] *= -1;
+  const MomentCheck check = check_moments(families, problem.kernel);
+  EXPECT_NEAR(check.mean_ratio, 1, 1e-12);
+  EXPECT_LT(check.defects[0].worst.value, 1e-12);
+  EXPECT_NEAR(check.defects[1].worst.value, 2. / 8, 1e-12);
+  EXPECT_NEAR(check.second.value, 2. / 3, 1e-12);
+  EXPECT_EQ(check.exact_degree, 1);
+}
+
 TEST(CheckMoments, refuses_a_kernel_without_a_local_limit)
 {
   const auto problem = make_problem(false);

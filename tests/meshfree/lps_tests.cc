@@ -39,6 +39,20 @@ namespace
             true,
             true};
   }
+
+  /// The system in (u, θ), solved with θ = 0 for all nodes of the collar.
+  std::vector<double> solve_without_collar_dilatation(const StateBasedCase &one)
+  {
+    auto system = one.system(true);
+    algebra::Rows &rows = system.rows;
+    for (std::size_t row = 3 * one.square.cells.n_free; row < rows.n_rows(); ++row)
+    {
+      system.right_hand_side[row] = 0;
+      for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
+        rows.value[k] = rows.column[k] == row ? 1 : 0;
+    }
+    return solve(system).values;
+  }
 } // namespace
 
 // The numbers are those of an independent prototype of the same scheme, to its printed digits.
@@ -67,15 +81,24 @@ TEST(LinearPeridynamicSolid, needs_dilatations_in_the_collar)
   {
     const auto problem = smooth_problem(nu);
     const StateBasedCase one(problem, square);
-    auto system = one.system(true);
-    algebra::Rows &rows = system.rows;
-    for (std::size_t row = 3 * square.cells.n_free; row < rows.n_rows(); ++row)
-    {
-      system.right_hand_side[row] = 0;
-      for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
-        rows.value[k] = rows.column[k] == row ? 1 : 0;
-    }
-    EXPECT_NEAR(one.l2_error(solve(system).values) / expected, 1, .02);
+    EXPECT_NEAR(one.l2_error(solve_without_collar_dilatation(one)) / expected, 1, .02);
+  }
+}
+
+TEST(LinearPeridynamicSolid, counts_dilatations_of_the_collar_as_zero_where_it_is_told_to)
+{
+  const Square square(1. / 8, .5, 0);
+  const auto problem = smooth_problem(.3);
+  StateBasedCase one(problem, square);
+  const auto expected = solve_without_collar_dilatation(one);
+  one.body.has_collar_dilatation = false;
+  for (const bool keeps_dilatation : {false, true})
+  {
+    const auto system = one.system(keeps_dilatation);
+    ASSERT_EQ(system.rows.n_rows(), (keeps_dilatation ? 3 : 2) * square.cells.n_free);
+    const auto found = solve(system).values;
+    for (std::size_t i = 0; i < 2 * square.cells.n_free; ++i)
+      EXPECT_NEAR(found[i], expected[i], 1e-12) << keeps_dilatation; // displacements up to 1
   }
 }
 

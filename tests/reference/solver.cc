@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace plumbline;
@@ -200,6 +201,32 @@ TEST(LatticeGalerkin, a_load_that_is_not_smooth_is_integrated_cell_by_cell)
   }
   // by symmetry the mean load counts
   EXPECT_NEAR(sum_jump, 2 * sum_constant, 1e-11 * sum_jump);
+}
+
+TEST(LatticeGalerkin, loads_on_two_halves_add_up_to_the_load_on_both)
+{
+  // the halves jump along a line of the lattice and are integrated cell by cell; both together are
+  // smooth and are integrated as a series
+  const auto solve = [](const std::string &load)
+  {
+    const auto scene = make_scene(
+        scalar_kernel, "0*x",
+        "subsection Problem\n set load = " + load +
+            "\n set constraint = 0\nend\nsubsection Solver\n set tolerance = 1e-13\nend\n");
+    const auto problem = make_problem(scene, 0, {.125, .25});
+    EXPECT_EQ(problem.load.series.has_value(), load.find('?') == std::string::npos);
+    return method("Q1")->solve(scene, problem).nodal;
+  };
+  const auto both = solve("x^2*(1 + y^3)");
+  const double largest = *std::max_element(both.begin(), both.end());
+  for (const std::string side : {"x < 0.5", "y < 0.5"})
+  {
+    const auto one = solve(side + " ? x^2*(1 + y^3) : 0"),
+               other = solve(side + " ? 0 : x^2*(1 + y^3)");
+    ASSERT_EQ(one.size(), both.size());
+    for (std::size_t i = 0; i < both.size(); ++i)
+      EXPECT_NEAR(one[i] + other[i], both[i], 1e-11 * largest) << side;
+  }
 }
 
 int main(int argc, char **argv)

@@ -81,6 +81,24 @@ TEST(MakeProblem, takes_the_mean_of_coefficients_that_is_asked_for)
   }
 }
 
+// Of quadratics the nonlocal operator is the local one, -[μ Δu + (λ + μ) ∇ div u]: moments of the
+// influence function above the second do not count. Bonds alone yield it with λ = μ.
+TEST(MakeProblem, makes_the_load_of_a_solid_from_its_bonds_and_its_dilatation)
+{
+  constexpr double E = 1, nu = .3, tolerance = 1e-10; // of the quadrature, relative
+  const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
+  const Scene scene = make_scene(with(
+      solid, {{"Material/plane", "strain"}, {"Problem/solution", "x^2 + 2*y^2, 3*x*y + y^2"}}));
+  const Problem problem = make_problem(scene, 0, {.125, .25});
+  ASSERT_TRUE(problem.dilatation);
+  for (const dealii::Point<2> &x : {dealii::Point<2>(.4, .7), {.05, .1}})
+  {
+    const double along_x = -(6 * mu + 5 * (lambda + mu)), along_y = -(2 * mu + 2 * (lambda + mu));
+    EXPECT_NEAR(problem.load.value(x, 0) / along_x, 1, tolerance);
+    EXPECT_NEAR(problem.load.value(x, 1) / along_y, 1, tolerance);
+  }
+}
+
 TEST(SceneErrors, a_collar_must_be_as_wide_as_the_operator_reaches)
 {
   const std::vector<Override> sizes = {{"Study/m", "2"}, {"Study/h", "0.125"}};

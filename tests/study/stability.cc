@@ -107,6 +107,28 @@ TEST(Stability, the_barrier_bounds_the_inverse_where_the_printed_lemma_does_not)
   }
 }
 
+// It is a parabola across a strip that holds the nodes: the length of the strip does not count.
+TEST(Stability, the_barrier_of_a_rectangle_is_that_of_its_narrow_side)
+{
+  for (const std::string mesh : {"lattice", "squares"})
+  {
+    const auto barrier = [&](const std::string &box)
+    {
+      const auto scene = make_scene(false, "subsection Domain\n set mesh = " + mesh +
+                                               "\n set boxes = " + box + "\nend\n");
+      const scene::Level level{.125, .25};
+      const auto matrix = operator_of("IPA-AC", scene, level);
+      const double found = check_consistency(matrix, scene::make_problem(scene, 0, level)).barrier;
+      EXPECT_LT(measure(matrix).inverse_norm, found) << mesh << ' ' << box;
+      return found;
+    };
+    const double square = barrier("0, 0 : 1, 1");
+    EXPECT_GT(square, 0) << mesh;
+    for (const std::string box : {"0, 0 : 2, 1", "0, 0 : 1, 2"})
+      EXPECT_NEAR(barrier(box) / square, 1, 1e-12) << mesh << ' ' << box;
+  }
+}
+
 TEST(Stability, finds_the_degree_that_rules_reproduce)
 {
   const auto degree = [](const std::string &name, bool is_tensor, const std::string &more)

@@ -6,9 +6,11 @@
 #include "reference/method.h"
 #include "study/comparison.h"
 #include "study/preflight.h"
+#include "study/saving.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace plumbline;
@@ -106,6 +108,60 @@ TEST(SweepSavings, are_measured_at_the_first_level_of_the_first_method_of_each_s
                                       {"Solver/operator", "sparse"},
                                       {"Domain/mesh", "squares"}})
     EXPECT_TRUE(sweep(with(small, {same})).savings.empty()) << same.key;
+}
+
+namespace
+{
+  /// Nodes with the values 1, 2, ..., from the last one to the first in the full model, where the
+  /// value 2 is off by a given defect.
+  class BackwardMethod : public Method
+  {
+  public:
+    explicit BackwardMethod(double defect) : defect_(defect) {}
+    std::string name() const override { return "backward"; }
+    std::string family() const override { return "meshfree"; }
+    std::string help() const override { return ""; }
+    std::string why_not(const scene::Scene &, const scene::Problem &) const override { return {}; }
+    Solution solve(const scene::Scene &scene, const scene::Problem &) const override
+    {
+      Solution solution;
+      solution.nodes = {{.25, .25}, {.75, .25}, {.25, .75}, {.75, .75}};
+      solution.nodal = {1, 2, 3, 4};
+      if (scene.is_full_model)
+      {
+        solution.nodal[1] += defect_;
+        std::reverse(solution.nodes.begin(), solution.nodes.end());
+        std::reverse(solution.nodal.begin(), solution.nodal.end());
+      }
+      return solution;
+    }
+
+  private:
+    double defect_;
+  };
+} // namespace
+
+TEST(SweepSavings, compare_values_at_the_same_place_in_whatever_order_nodes_come)
+{
+  const scene::Level level{.5, 1};
+  const scene::Scene scene = scene::parse_scene(
+      "test.prm", "", {{"Methods/names", "FA"}, {"Problem/solution", "x"}, {"Study/h", "0.5"}});
+  for (const double defect : {0., .5})
+  {
+    const BackwardMethod method(defect);
+    const Solution solution = method.solve(scene, scene::make_problem(scene, 0, level));
+    const auto saving = measure_saving(scene, 0, level, method, solution);
+    ASSERT_TRUE(saving);
+    EXPECT_EQ(saving->difference, defect / 4);
+  }
+  // lattices number the unknowns of Q2 by families, meshes by cells
+  const Results results = sweep({{"Study/h", "0.125"},
+                                 {"Methods/names", "Q2"},
+                                 {"Problem/solution", "x^3"},
+                                 {"Solver/tolerance", "1e-13"},
+                                 {"Geometry/checks", "0"}});
+  ASSERT_EQ(results.savings.size(), 1u);
+  EXPECT_LT(results.savings[0].difference, 1e-11);
 }
 
 namespace
