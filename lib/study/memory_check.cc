@@ -1,3 +1,4 @@
+#include "base/error.h"
 #include "base/memory.h"
 #include "geometry/polygon.h"
 #include "scene/mesh.h"
@@ -83,8 +84,8 @@ namespace plumbline::study
               scene.solutions.empty());
     }
 
-    /// Of the coarsest level: what is finer follows from it.
-    ProblemSize coarse_size(const scene::Scene &scene, const scene::Level &level)
+    /// Of a level, measured: the coarsest one, from which that of finer ones follows.
+    ProblemSize measured_size(const scene::Scene &scene, const scene::Level &level)
     {
       if (scene.is_free_body)
         return mesh_size(*scene::make_body(scene, level).mesh, level);
@@ -92,17 +93,32 @@ namespace plumbline::study
                                      : mesh_size(scene::make_mesh(scene, level), level);
     }
 
-    /// A file .msh has the same cells at every level.
-    ProblemSize size_at(const scene::Scene &scene, const ProblemSize &coarse,
-                        const scene::Level &level)
+    /// Whether the cells of a mesh are fewer where h is larger.
+    bool follows_h(const scene::Scene &scene, const ProblemSize &coarse)
     {
-      if (scene.mesh.is_file() && std::filesystem::path(scene.mesh.kind).extension() == ".msh")
+      if (!scene.mesh.is_file())
+        return true;
+      if (std::filesystem::path(scene.mesh.kind).extension() == ".msh")
+        return false;
+      return measured_size(scene, {coarse.level.h / 2, coarse.level.horizon}).n_cells >
+             1.5 * coarse.n_cells;
+    }
+
+    ProblemSize of_same_cells(ProblemSize size, const scene::Level &level)
+    {
+      size.level = level;
+      return size;
+    }
+
+    /// The first error of a method that does not fit.
+    void require_all(const scene::Scene &scene, const Methods &methods, const ProblemSize &size)
+    {
+      for (const auto &method : methods)
       {
-        ProblemSize size = coarse;
-        size.level = level;
-        return size;
+        require(scene, *method, size, "");
+        if (is_estimated(scene, *method))
+          require_estimate(scene, *method, size);
       }
-      return at_level(coarse, level);
     }
   } // namespace
 
@@ -112,18 +128,21 @@ namespace plumbline::study
     Methods all = methods;
     if (scene.reference != "none")
       all.push_back(find_method(available, scene.reference, "Reference/method"));
-    const ProblemSize coarse = coarse_size(scene, scene.series.front().levels.front());
+    const ProblemSize coarse = measured_size(scene, scene.series.front().levels.front());
     for (const auto &series : scene.series)
     {
       const std::size_t n = n_levels == 0 ? series.levels.size()
                                           : std::min<std::size_t>(n_levels, series.levels.size());
       for (std::size_t i = 0; i < n; ++i)
-        for (const auto &method : all)
+        try
         {
-          const ProblemSize size = size_at(scene, coarse, series.levels[i]);
-          require(scene, *method, size, "");
-          if (is_estimated(scene, *method))
-            require_estimate(scene, *method, size);
+          require_all(scene, all, at_level(coarse, series.levels[i]));
+        }
+        catch (const InputError &)
+        {
+          if (follows_h(scene, coarse))
+            throw;
+          require_all(scene, all, of_same_cells(coarse, series.levels[i]));
         }
     }
   }

@@ -16,8 +16,8 @@ namespace plumbline::study
 
   /// Check that every method's memory is there at every level that is run, and that of what
   /// estimates of errors solve besides (h/2, degree p + 1). Nothing is made but the mesh of the
-  /// coarsest level: on meshes that follow h a finer level has its cells times the square of what h
-  /// falls by.
+  /// coarsest level: a finer level has its cells times the square of what h falls by. Where that
+  /// would not fit, a file .geo is meshed at half of its h, too: its cells may not follow h.
   /// @param n_levels  the first so many of each series; 0: all
   /// @throws InputError  naming method, level, the memory it needs and what there is
   void check_memory(const scene::Scene &scene, const Methods &methods, const Methods &available,

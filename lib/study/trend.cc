@@ -162,6 +162,8 @@ namespace plumbline::study
     const bool is_nil =
         std::abs(fit.a) < .1 * last || (!is_significant && std::abs(fit.a) < .3 * last);
     const bool is_certain = fit.a > 10 * fit.a_uncertainty;
+    // coarse levels that lie above their power law look like a plateau of the others
+    const bool is_flattening = e.back() / e[e.size() - 2] > x.back() / x[x.size() - 2];
     const std::string numbers = "plateau " + number(fit.a) + " ± " + number(fit.a_uncertainty) +
                                 ", last error " + number(last) + ", rate " + number(slope.value) +
                                 " ± " + number(slope.uncertainty);
@@ -175,7 +177,8 @@ namespace plumbline::study
       trend.outcome = Outcome::converges;
       trend.reason = "no plateau: " + numbers;
     }
-    else if (fit.a >= .3 * last ? is_significant : is_certain && fit.a >= .1 * last)
+    else if (fit.a >= .1 * last &&
+             (is_certain || (is_significant && is_flattening && fit.a >= .3 * last)))
     {
       trend.outcome = Outcome::stalls;
       trend.reason = "significant plateau: " + numbers;

@@ -30,9 +30,9 @@ namespace plumbline::study
   ///   varies; or the plateau a is nil, under
   ///   1/10 of the last error, or under 3/10 and within three uncertainties, and the slope of the
   ///   last three levels is at least 3/4 with two standard errors to spare;
-  /// - stalls: a is at least 3/10 of the last error and exceeds three uncertainties, or 1/10 and
-  /// ten; or the
-  ///   error grew to twice the smallest one;
+  /// - stalls: a is at least 1/10 of the last error and exceeds ten uncertainties; or 3/10 and
+  ///   three, and the error falls slower than x between the last two levels; or the error grew to
+  ///   twice the smallest one;
   /// - undecided: neither, or fewer than four levels, or round-off hides the answer.
   /// The answer is about the given solution: a method may do better for one than for another.
   void judge(Trend &trend);

@@ -185,6 +185,16 @@ TEST(Judge, a_plateau_that_is_large_but_uncertain_decides_nothing)
   EXPECT_EQ(judged(h, {7.3e-2, 4.4e-2, 2.7e-2, 1.7e-2, 1.1e-2}).outcome, Outcome::undecided);
 }
 
+TEST(Judge, an_uncertain_plateau_stalls_only_where_the_error_flattens)
+{
+  // .77 of the last error, 4.8 uncertainties, but the errors fall at rate 3.5, 2.9, 1.4: IPA-AC on
+  // a disk at m = 1.25 ... 3.5, which converges
+  EXPECT_EQ(judged({.4, .283, .2, .1414}, {1.46e-1, 4.29e-2, 1.56e-2, 9.55e-3}).outcome,
+            Outcome::undecided);
+  // .75 of the last error, 3.3 uncertainties, rates 1.2, .8, .6
+  EXPECT_EQ(judged({.4, .2, .1, .05}, {6e-2, 2.6e-2, 1.5e-2, 1e-2}).outcome, Outcome::stalls);
+}
+
 TEST(Judge, a_rate_must_surely_be_three_quarters)
 {
   const auto of_rate = [](double rate)
