@@ -2,6 +2,7 @@
 
 #include "algebra/block_preconditioner.h"
 #include "base/error.h"
+#include "base/memory.h"
 
 #include <deal.II/base/memory_consumption.h>
 #include <deal.II/base/mpi.h>
@@ -181,6 +182,21 @@ namespace plumbline::algebra
       return heap.uordblks + heap.hblkhd;
     }
 
+    /// @param bytes  on the rank that takes most
+    /// @throws NumericalError  on all ranks, where one of them has not as much
+    void require_factors(double bytes, const SharedRows &rows)
+    {
+      const std::string fault = base::memory_fault(
+          bytes,
+          "the factors of a sparse system of " + std::to_string(rows.shares().size_of_all()) +
+              " unknowns",
+          "take the sparse solver amg or jacobi (Solver/linear solver), or a larger h");
+      if (rows.shares().team.any(!fault.empty()))
+        throw NumericalError(fault.empty() ? "the factors of a sparse system do not fit on another "
+                                             "rank's machine"
+                                           : fault);
+    }
+
     /// MUMPS. On several ranks it is faster than KLU, which gathers all on one.
     /// @return  what it allocated on this rank [bytes]
     std::size_t solve_directly(const SharedRows &rows, Vector &x, const Vector &b)
@@ -195,9 +211,12 @@ namespace plumbline::algebra
       mumps.SetICNTL(24, 1);   // count null pivots, also
       mumps.SetICNTL(13, 1);   // in the last front
       mumps.SetCNTL(3, null_pivot);
-      const bool is_done = mumps.SymbolicFactorization() == 0 && mumps.NumericFactorization() == 0;
-      const std::size_t bytes = heap_bytes() - bytes_before;
+      const bool is_analysed = mumps.SymbolicFactorization() == 0;
       const int *const info = mumps.GetINFOG() - 1; // as numbered in MUMPS' manual
+      if (is_analysed)
+        require_factors(1e6 * info[16], rows);
+      const bool is_done = is_analysed && mumps.NumericFactorization() == 0;
+      const std::size_t bytes = heap_bytes() - bytes_before;
       std::ostringstream fault;
       if (info[28] > 0)
         fault << "the sparse system is singular: " << info[28]

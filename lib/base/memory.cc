@@ -98,13 +98,19 @@ namespace plumbline::base
     return text.str();
   }
 
-  void require_memory(double bytes, const std::string &what, const std::string &remedy)
+  std::string memory_fault(double bytes, const std::string &what, const std::string &remedy)
   {
     const double available = available_memory();
     if (bytes <= available)
-      return;
-    throw InputError(what + ": needs some " + bytes_to_text(bytes) + " of memory, and " +
-                     bytes_to_text(available) + " are available; " + remedy);
+      return {};
+    return what + ": needs some " + bytes_to_text(bytes) + " of memory, and " +
+           bytes_to_text(available) + " are available; " + remedy;
+  }
+
+  void require_memory(double bytes, const std::string &what, const std::string &remedy)
+  {
+    if (const std::string fault = memory_fault(bytes, what, remedy); !fault.empty())
+      throw InputError(fault);
   }
 
   std::string out_of_memory()

@@ -19,6 +19,9 @@ namespace plumbline::base
   /// @throws InputError  more than is available; names both numbers
   void require_memory(double bytes, const std::string &what, const std::string &remedy);
 
+  /// The text of that error; empty where there is enough.
+  std::string memory_fault(double bytes, const std::string &what, const std::string &remedy);
+
   /// What is to be said when an allocation failed in spite of it.
   std::string out_of_memory();
 } // namespace plumbline::base

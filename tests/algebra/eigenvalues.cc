@@ -1,6 +1,7 @@
 // Eigenvalues of matrices that are not symmetric, against closed forms.
 #include "algebra/eigenvalues.h"
 #include "base/error.h"
+#include "tests/algebra/little_memory.h"
 
 #include <gtest/gtest.h>
 
@@ -98,6 +99,26 @@ TEST(Eigenvalues, of_a_singular_matrix_are_found)
   EXPECT_NEAR(found.smallest_real, 0, 1e-12);
   EXPECT_GT(found.largest_modulus, 7);
 }
+
+#ifndef __SANITIZE_ADDRESS__ // which takes all of the address space
+TEST(Eigenvalues, of_a_matrix_whose_factors_do_not_fit_are_refused)
+{
+  const Toeplitz one{120, -1, 2, -1};
+  const Plane plane(one, one);
+  const LittleMemory some(4'000'000); // factors take 9 MB
+  try
+  {
+    eigenvalues(plane.rows);
+    FAIL();
+  }
+  catch (const NumericalError &error)
+  {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("14400 unknowns: needs some "), std::string::npos) << text;
+    EXPECT_NE(text.find("take a coarser level (--levels)"), std::string::npos) << text;
+  }
+}
+#endif
 
 TEST(Eigenvalues, of_values_that_are_no_numbers_are_refused)
 {

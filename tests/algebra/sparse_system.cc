@@ -1,3 +1,4 @@
+#include "tests/algebra/little_memory.h"
 #include "tests/algebra/sparse_problems.h"
 
 #include <limits>
@@ -247,6 +248,16 @@ TEST(SparseSystem, TooFewIterationsAreAnErrorThatSaysHowFarTheyCame)
                  {"after 5 iterations", "wanted 1e-12"});
   }
 }
+
+#ifndef __SANITIZE_ADDRESS__ // which takes all of the address space
+TEST(SparseSystem, FactorsThatDoNotFitAreRefusedBeforeTheyAreMade)
+{
+  const auto system = known({200, 3.2, 1, true, true});
+  const LittleMemory some(150'000'000); // the factors take more, on four ranks, too
+  expect_error(system, with(SparseSolver::direct),
+               {"40000 unknowns: needs some ", "take the sparse solver amg"});
+}
+#endif
 
 TEST(SparseSystem, UnknownSolverNamesAreInputErrorsThatListTheKnown)
 {
