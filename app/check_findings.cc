@@ -1,6 +1,7 @@
 #include "check_findings.h"
 
 #include "base/error.h"
+#include "meshfree/bond_nodes.h"
 #include "meshfree/scattered_operator.h"
 #include "reference/method.h"
 #include "scene/mesh.h"
@@ -90,11 +91,24 @@ namespace plumbline::app
                          ": weights of bonds alone are checked; write Material/model = bond-based");
     }
 
+    /// A volume that is out of line, by what is expected of it: were it left as it is, the weights
+    /// to that node would seem out of line as well, though they may be right.
+    std::vector<double> mended(std::vector<double> volumes, const std::vector<Outlier> &outliers)
+    {
+      for (const Outlier &one : outliers)
+        volumes[one.node] = one.expected;
+      return volumes;
+    }
+
     /// Weights as they stand, for what names their defects.
     void find_defects(Findings &found, const scene::Problem &problem,
                       const std::vector<double> &uncut_areas)
     {
-      const GivenBonds given{found.given.families, problem.kernel, *problem.cells, found.volumes};
+      const std::vector<Family> &families = found.given.families;
+      found.outliers = find_volume_outliers(
+          {families, problem.kernel, *problem.cells, found.volumes}, uncut_areas);
+      const std::vector<double> volumes = mended(found.volumes, found.outliers);
+      const GivenBonds given{families, problem.kernel, *problem.cells, volumes};
       const auto rule = recognise(given);
       if (rule)
       {
@@ -103,10 +117,9 @@ namespace plumbline::app
       }
       found.causes = find_causes(given, rule);
       const double point_scale = found.causes.empty() ? 1 : found.causes.front().point_scale;
-      found.outliers = find_volume_outliers(given, uncut_areas);
       const std::size_t n_volumes = found.outliers.size();
       for (const Outlier &one : find_outliers(given, rule, point_scale))
-        // a volume that is wrong shows in all weights to that node as well
+        // weights that were made with a volume that is wrong are all off by its factor
         if (std::none_of(found.outliers.begin(),
                          found.outliers.begin() + static_cast<std::ptrdiff_t>(n_volumes),
                          [&](const Outlier &volume)
