@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "meshfree/bond_nodes.h"
+#include "meshfree/bond_ramp.h"
 #include "meshfree/scattered_operator.h"
 #include "reference/method.h"
 #include "scene/mesh.h"
@@ -101,7 +102,7 @@ namespace plumbline::app
     }
 
     /// Weights as they stand, for what names their defects.
-    void find_defects(Findings &found, const scene::Problem &problem,
+    void find_defects(Findings &found, const scene::Scene &scene, const scene::Problem &problem,
                       const std::vector<double> &uncut_areas)
     {
       const std::vector<Family> &families = found.given.families;
@@ -115,7 +116,9 @@ namespace plumbline::app
         found.rule = rule->rule;
         found.rule_factor = rule->factor;
       }
-      found.causes = find_causes(given, rule);
+      found.causes = find_causes(given, rule, scene.methods);
+      if (rule && rule->rule == "FA" && found.causes.empty())
+        found.rule_remark = ramp_text(ramp_effects(given, families));
       const double point_scale = found.causes.empty() ? 1 : found.causes.front().point_scale;
       const std::size_t n_volumes = found.outliers.size();
       for (const Outlier &one : find_outliers(given, rule, point_scale))
@@ -175,7 +178,7 @@ namespace plumbline::app
     found.moments = check_moments(families, problem.kernel);
     found.weights = check_weights(families, problem.kernel, found.volumes);
     found.symmetry = check_symmetry(families, problem.kernel);
-    find_defects(found, problem, cells.uncut_areas);
+    find_defects(found, scene, problem, cells.uncut_areas);
     const FamilySource source = [&](std::size_t i, Family &family) { family = families[i]; };
     try
     {

@@ -243,6 +243,8 @@ namespace plumbline::app
                             ? " times " + number(found.rule_factor)
                             : "") +
                        (found.outliers.empty() ? "" : ", but for what is out of line"));
+    if (!found.rule_remark.empty())
+      result.push_back(found.rule_remark);
     if (!moments.is_first_exact())
       result.push_back("first moments off by up to " + percent(first.worst.value) + " at node " +
                        found.id(first.worst.node) +

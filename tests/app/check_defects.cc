@@ -261,6 +261,35 @@ TEST(Check, names_what_was_done_to_all_weights)
   }
 }
 
+TEST(Check, names_a_ramp_that_is_missing_where_the_scene_means_one)
+{
+  const Files files = files_of(example_weights("FA", 0));
+  const std::string require = "--json --require consistent ";
+  const Outcome meant = check(files.nodes, files.bonds, require + "--set Methods/names=LAMMPS,Q1");
+  EXPECT_EQ(meant.exit_code, 1) << meant.err;
+  // (2, 2) and (3, 0) of 28 bonds of each of 64 nodes
+  expect_found(meant.out,
+               "cause: all weights are whole cells where the horizon cuts them: the partial areas "
+               "of LAMMPS are missing at 512 of 1792 bonds, though Methods/names has that rule and "
+               "not FA; the moments do not tell: they are off by 4.72 %, and by 7.09 % with them");
+  // where no ramp is meant: it cannot be told
+  const Outcome open = check(files.nodes, files.bonds, require);
+  EXPECT_EQ(open.exit_code, 0) << open.err;
+  expect_found(
+      open.out,
+      "whole cells where the horizon cuts them; with partial areas the moments of most "
+      "nodes would be off by 7.09 % with those of LAMMPS, 7.09 % with those of QWJ, 6.93 % "
+      "with those of PA-AC, instead of 4.72 %, so that moments do not tell whether a ramp "
+      "was left out: name the rule that is meant in Methods/names");
+  // where it makes no difference
+  const Files two = files_of(example_weights("FA", 0, {{"Study/m", "2"}}));
+  const Outcome same =
+      check(two.nodes, two.bonds,
+            "--json --require moments=1 --set Study/m=2 --set Methods/names=LAMMPS");
+  EXPECT_EQ(same.exit_code, 0) << same.err << same.out;
+  expect_found(same.out, "LAMMPS and QWJ would make the same operator here");
+}
+
 TEST(Check, requires_what_it_is_told_to)
 {
   const auto exit_code = [&](const std::string &required)
