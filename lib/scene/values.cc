@@ -51,6 +51,18 @@ namespace plumbline::scene
     return names;
   }
 
+  std::string method_name(const std::string &given)
+  {
+    return given == "HHB" ? "QWJ" : given;
+  }
+
+  std::vector<std::string> to_methods(const std::string &text)
+  {
+    std::vector<std::string> names = to_names(text);
+    std::transform(names.begin(), names.end(), names.begin(), method_name);
+    return names;
+  }
+
   namespace
   {
     /// "x0, y0 : x1, y1 : ..."
@@ -151,7 +163,7 @@ namespace plumbline::scene
       const auto subject = to_names(part.substr(0, colon));
       for (std::size_t i = 0; i < subject.size(); ++i)
         if (i == 0)
-          expected.method = subject[i];
+          expected.method = method_name(subject[i]);
         else if (subject[i].find('=') != std::string::npos)
           expected.series = subject[i];
         else if (std::find(cases.begin(), cases.end(), subject[i]) != cases.end())

@@ -272,6 +272,8 @@ TEST(Check, names_a_ramp_that_is_missing_where_the_scene_means_one)
                "cause: all weights are whole cells where the horizon cuts them: the partial areas "
                "of LAMMPS are missing at 512 of 1792 bonds, though Methods/names has that rule and "
                "not FA; the moments do not tell: they are off by 4.72 %, and by 7.09 % with them");
+  expect_found(check(files.nodes, files.bonds, require + "--set Methods/names=HHB").out,
+               "the partial areas of QWJ are missing at ");
   // where no ramp is meant: it cannot be told
   const Outcome open = check(files.nodes, files.bonds, require);
   EXPECT_EQ(open.exit_code, 0) << open.err;
