@@ -62,11 +62,32 @@ namespace plumbline::app
                        "('plumbline list methods')");
     }
 
+    /// @throws NumericalError  there is none, naming method, case and level
+    study::Solution reference_solution(const scene::Scene &scene, const scene::Problem &problem,
+                                       const study::Method &method, const std::string &place)
+    {
+      try
+      {
+        return method.solve(scene, problem);
+      }
+      catch (const MemoryError &)
+      {
+        throw;
+      }
+      catch (const NumericalError &error)
+      {
+        throw NumericalError("no solution by the reference " + method.name() + " of " + place +
+                             ": " + error.what());
+      }
+    }
+
+    /// @param place  the case and the level, for messages
     CaseCheck check_case(const scene::Scene &scene, const scene::Problem &problem,
-                         const std::string &name, const FamilySource &families)
+                         const std::string &name, const std::string &place,
+                         const FamilySource &families)
     {
       const auto method = reference_method(scene, problem);
-      const study::Solution reference = method->solve(scene, problem);
+      const study::Solution reference = reference_solution(scene, problem, *method, place);
       CaseCheck result{name, method->name(), {}, {}, study::errors(scene, problem, reference, {})};
       try
       {
@@ -191,7 +212,8 @@ namespace plumbline::app
     }
     const auto names = scene.case_names();
     for (unsigned int c = 0; c < names.size(); ++c)
-      found.cases.push_back(check_case(scene, problem_of(c), names[c], source));
+      found.cases.push_back(
+          check_case(scene, problem_of(c), names[c], names[c] + ", " + found.level.text(), source));
     return found;
   }
 } // namespace plumbline::app

@@ -213,6 +213,19 @@ TEST(Check, counts_the_bonds_of_collar_nodes_that_it_ignores)
   expect_found(outcome.out, "2 of collar nodes ignored");
 }
 
+TEST(Check, says_whose_solution_the_solver_does_not_find)
+{
+  const Outcome outcome =
+      check(nodes_file, bonds_file,
+            "--quiet --set 'Solver/linear solver=jacobi' --set 'Solver/max iterations=2'");
+  EXPECT_EQ(outcome.exit_code, 3);
+  expect_found(
+      outcome.err,
+      "no solution by the reference Q1 of wave, m = 3: h = 0.125, horizon = 0.375: the "
+      "sparse solver 'cg + jacobi' (Solver/linear solver, Solver/iteration) of 49 unknowns "
+      "stops after 2 iterations, of 2 allowed (Solver/max iterations)");
+}
+
 TEST(Check, refuses_a_reference_that_is_no_galerkin_method)
 {
   const Outcome outcome = check(nodes_file, bonds_file, "--set Reference/method=OPT");

@@ -174,7 +174,9 @@ TEST(SceneErrors, unknown_keys_and_wrong_types)
   expect_error("subsection Sudy\n set h = 1\nend\n", "Sudy");
   expect_error(section("Geometry", "checks = many"), "checks");
   expect_error(section("Kernel", "type = gauss"), "linear-decay");
-  expect_error(section("Study", "h = 0.1, fine"), "Study/h: 'fine' is not a number");
+  expect_error(
+      section("Study", "h = 0.1, fine"),
+      "Study/h: 'fine' is not a number; write numbers such as 0.05 or 1e-3, separated by ','");
   expect_error("", "key 'Study/hh' is not known; write one of: Study/regime, Study/h",
                {{"Study/hh", "1"}});
   expect_error("", "Solver/tolerance = 'small' is not allowed", {{"Solver/tolerance", "small"}});
