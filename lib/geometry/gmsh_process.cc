@@ -159,6 +159,8 @@ namespace plumbline::geometry
         return "it gives a number that is in use; give another";
       if (has("closed loop"))
         return "a boundary is not closed; let each curve of a loop begin where another ends";
+      if (has("recover the edge"))
+        return "curves of a surface cross; let them meet at their ends alone";
       return "gmsh cannot do what it says; mend it";
     }
 
