@@ -1,6 +1,8 @@
 #include "check_findings.h"
 
 #include "base/error.h"
+#include "meshfree/bond_nodes.h"
+#include "meshfree/bond_ramp.h"
 #include "meshfree/scattered_operator.h"
 #include "reference/method.h"
 #include "scene/mesh.h"
@@ -60,11 +62,32 @@ namespace plumbline::app
                        "('plumbline list methods')");
     }
 
+    /// @throws NumericalError  there is none, naming method, case and level
+    study::Solution reference_solution(const scene::Scene &scene, const scene::Problem &problem,
+                                       const study::Method &method, const std::string &place)
+    {
+      try
+      {
+        return method.solve(scene, problem);
+      }
+      catch (const MemoryError &)
+      {
+        throw;
+      }
+      catch (const NumericalError &error)
+      {
+        throw NumericalError("no solution by the reference " + method.name() + " of " + place +
+                             ": " + error.what());
+      }
+    }
+
+    /// @param place  the case and the level, for messages
     CaseCheck check_case(const scene::Scene &scene, const scene::Problem &problem,
-                         const std::string &name, const FamilySource &families)
+                         const std::string &name, const std::string &place,
+                         const FamilySource &families)
     {
       const auto method = reference_method(scene, problem);
-      const study::Solution reference = method->solve(scene, problem);
+      const study::Solution reference = reference_solution(scene, problem, *method, place);
       CaseCheck result{name, method->name(), {}, {}, study::errors(scene, problem, reference, {})};
       try
       {
@@ -90,23 +113,37 @@ namespace plumbline::app
                          ": weights of bonds alone are checked; write Material/model = bond-based");
     }
 
+    /// A volume that is out of line, by what is expected of it: were it left as it is, the weights
+    /// to that node would seem out of line as well, though they may be right.
+    std::vector<double> mended(std::vector<double> volumes, const std::vector<Outlier> &outliers)
+    {
+      for (const Outlier &one : outliers)
+        volumes[one.node] = one.expected;
+      return volumes;
+    }
+
     /// Weights as they stand, for what names their defects.
-    void find_defects(Findings &found, const scene::Problem &problem,
+    void find_defects(Findings &found, const scene::Scene &scene, const scene::Problem &problem,
                       const std::vector<double> &uncut_areas)
     {
-      const GivenBonds given{found.given.families, problem.kernel, *problem.cells, found.volumes};
+      const std::vector<Family> &families = found.given.families;
+      found.outliers = find_volume_outliers(
+          {families, problem.kernel, *problem.cells, found.volumes}, uncut_areas);
+      const std::vector<double> volumes = mended(found.volumes, found.outliers);
+      const GivenBonds given{families, problem.kernel, *problem.cells, volumes};
       const auto rule = recognise(given);
       if (rule)
       {
         found.rule = rule->rule;
         found.rule_factor = rule->factor;
       }
-      found.causes = find_causes(given, rule);
+      found.causes = find_causes(given, rule, scene.methods);
+      if (rule && rule->rule == "FA" && found.causes.empty())
+        found.rule_remark = ramp_text(ramp_effects(given, families));
       const double point_scale = found.causes.empty() ? 1 : found.causes.front().point_scale;
-      found.outliers = find_volume_outliers(given, uncut_areas);
       const std::size_t n_volumes = found.outliers.size();
       for (const Outlier &one : find_outliers(given, rule, point_scale))
-        // a volume that is wrong shows in all weights to that node as well
+        // weights that were made with a volume that is wrong are all off by its factor
         if (std::none_of(found.outliers.begin(),
                          found.outliers.begin() + static_cast<std::ptrdiff_t>(n_volumes),
                          [&](const Outlier &volume)
@@ -162,7 +199,7 @@ namespace plumbline::app
     found.moments = check_moments(families, problem.kernel);
     found.weights = check_weights(families, problem.kernel, found.volumes);
     found.symmetry = check_symmetry(families, problem.kernel);
-    find_defects(found, problem, cells.uncut_areas);
+    find_defects(found, scene, problem, cells.uncut_areas);
     const FamilySource source = [&](std::size_t i, Family &family) { family = families[i]; };
     try
     {
@@ -175,7 +212,8 @@ namespace plumbline::app
     }
     const auto names = scene.case_names();
     for (unsigned int c = 0; c < names.size(); ++c)
-      found.cases.push_back(check_case(scene, problem_of(c), names[c], source));
+      found.cases.push_back(
+          check_case(scene, problem_of(c), names[c], names[c] + ", " + found.level.text(), source));
     return found;
   }
 } // namespace plumbline::app

@@ -50,6 +50,7 @@ namespace plumbline::app
     std::string matrix_failure; ///< empty: there is a matrix that can be factorised
     std::string rule;           ///< of ours that the weights are; empty: none
     double rule_factor = 1;
+    std::string rule_remark; ///< what else there is to say of the rule
     std::vector<meshfree::Cause> causes;
     std::vector<meshfree::Outlier> outliers; ///< volumes first
     std::vector<CaseCheck> cases;

@@ -93,8 +93,10 @@ namespace plumbline::app
     json["exact_degree"] = found.moments.exact_degree;
     json["second_moment"] = {{"mean_ratio", found.moments.mean_ratio},
                              {"worst", worst(found.moments.second)}};
-    json["rule"] =
-        found.rule.empty() ? Json() : Json{{"name", found.rule}, {"factor", found.rule_factor}};
+    json["rule"] = found.rule.empty() ? Json()
+                                      : Json{{"name", found.rule},
+                                             {"factor", found.rule_factor},
+                                             {"remark", found.rule_remark}};
     json["causes"] = Json::array();
     for (const Cause &cause : found.causes)
       json["causes"].push_back({{"name", cause.name},

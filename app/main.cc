@@ -7,6 +7,7 @@
 #include "requirements.h"
 #include "run.h"
 #include "stability.h"
+#include "unexpected.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/multithread_info.h>
@@ -177,7 +178,7 @@ int main(int argc, char **argv)
   }
   catch (const std::exception &error)
   {
-    exit_code = fail(std::string("unexpected error: ") + error.what(), 3);
+    exit_code = fail(plumbline::app::explain_unexpected(error.what()), 3);
   }
   return finish_output(exit_code);
 }

@@ -61,6 +61,15 @@ namespace plumbline::app
                  : " (line " + std::to_string(found.given.lines[o.node][o.bond]) + " of the bonds)";
     }
 
+    /// The line of the bond back, from its neighbour.
+    std::string line_back(const Outlier &o, const Findings &found)
+    {
+      const auto &others = found.given.families[o.neighbour].neighbours;
+      const auto back = std::lower_bound(others.begin(), others.end(), o.node);
+      const auto at = static_cast<std::size_t>(back - others.begin());
+      return " (line " + std::to_string(found.given.lines[o.neighbour][at]) + ")";
+    }
+
     std::string weight_text(const Outlier &o)
     {
       const double ratio = o.expected == 0 ? 0 : o.found / o.expected;
@@ -161,7 +170,8 @@ namespace plumbline::app
              point(o.expected_point) + " is expected";
     case Defect::symmetry:
       return bond + line_of(o, found) + " has w C / volume = " + number(o.found) +
-             ", the bond back " + number(o.expected) + ": more apart than others";
+             ", the bond back" + line_back(o, found) + " " + number(o.expected) +
+             ": more apart than others";
     case Defect::family:
       return "the weights of all bonds from " + node + " are " + number(o.found, 3) +
              " times what is expected";
@@ -233,6 +243,8 @@ namespace plumbline::app
                             ? " times " + number(found.rule_factor)
                             : "") +
                        (found.outliers.empty() ? "" : ", but for what is out of line"));
+    if (!found.rule_remark.empty())
+      result.push_back(found.rule_remark);
     if (!moments.is_first_exact())
       result.push_back("first moments off by up to " + percent(first.worst.value) + " at node " +
                        found.id(first.worst.node) +

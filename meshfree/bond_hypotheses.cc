@@ -3,6 +3,7 @@
 #include "meshfree/bond_check.h"
 #include "meshfree/bond_pairs.h"
 #include "meshfree/bond_profile.h"
+#include "meshfree/bond_ramp.h"
 
 #include <algorithm>
 #include <cmath>
@@ -237,20 +238,34 @@ namespace plumbline::meshfree
 
     std::optional<Cause> find_missing_ramp(const GivenBonds &given,
                                            const std::vector<Family> &families,
-                                           const std::optional<Recognised> &rule)
+                                           const std::optional<Recognised> &rule,
+                                           const std::vector<std::string> &meant)
     {
       if (!rule || rule->rule != "FA")
         return {};
+      const auto is_meant = [&](const std::string &name)
+      { return std::find(meant.begin(), meant.end(), name) != meant.end(); };
       std::optional<Cause> best;
-      for (const std::string name : {"LAMMPS", "QWJ", "PA-AC"})
+      for (const RampEffect &effect : ramp_effects(given, families))
       {
         Cause cause{"missing ramp",
                     "all weights are whole cells where the horizon cuts them: the partial areas "
                     "of " +
-                        name + " are missing",
-                    typical(families, given.kernel),
-                    typical(rule_families(name, given), given.kernel)};
+                        effect.rule + " are missing",
+                    effect.before, effect.after};
         cause.is_own_error = true;
+        if (is_meant(effect.rule) && !is_meant("FA") && !is_meant("all") && effect.is_seen())
+        {
+          cause.is_own_error = false;
+          cause.text += " at " + std::to_string(effect.n_changed) + " of " +
+                        std::to_string(effect.n_bonds) +
+                        " bonds, though Methods/names has that rule and not FA";
+          cause.text += explains(cause) ? closer(cause)
+                                        : "; the moments do not tell: they are off by " +
+                                              percent(cause.before) + ", and by " +
+                                              percent(cause.after) + " with them";
+          return cause;
+        }
         if (explains(cause) && (!best || cause.after < best->after))
           best = cause;
       }
@@ -260,7 +275,8 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  std::vector<Cause> find_causes(const GivenBonds &given, const std::optional<Recognised> &rule)
+  std::vector<Cause> find_causes(const GivenBonds &given, const std::optional<Recognised> &rule,
+                                 const std::vector<std::string> &meant)
   {
     std::vector<Cause> causes;
     std::vector<Family> families = given.families;
@@ -270,7 +286,7 @@ namespace plumbline::meshfree
          {std::function<std::optional<Cause>()>([&] { return find_own_volume(given, families); }),
           std::function<std::optional<Cause>()>([&] { return find_factor(given, families, rule); }),
           std::function<std::optional<Cause>()>(
-              [&] { return find_missing_ramp(given, families, rule); })})
+              [&] { return find_missing_ramp(given, families, rule, meant); })})
       if (const auto cause = find())
       {
         causes.push_back(*cause);

@@ -24,8 +24,13 @@ namespace plumbline::meshfree
   /// scaled to the whole ball with the node's own volume, by another factor; whole cells where
   /// partial ones would do. A cause of weights counts if the moments are exact without it, or at
   /// least 4 times closer; of those that come as close the first in this order. One of kernel
-  /// points counts if they lie 4 times nearer to the neighbours without it.
-  /// @param rule  if one is recognised, a factor is that between the weights
-  /// @return      none, one of each kind or both, that of the kernel points first
-  std::vector<Cause> find_causes(const GivenBonds &given, const std::optional<Recognised> &rule);
+  /// points counts if they lie 4 times nearer to the neighbours without it. Whole cells are a cause
+  /// whatever the moments say where a rule with a ramp is meant, and FA is not, as long as the ramp
+  /// changes the operator. Where none is meant the moments alone cannot tell: of kernels that fall
+  /// to 0 at the horizon, FA's are as good as those of ramps, or better.
+  /// @param rule   if one is recognised, a factor is that between the weights
+  /// @param meant  names of rules that the weights are meant to be; empty: not known
+  /// @return       none, one of each kind or both, that of the kernel points first
+  std::vector<Cause> find_causes(const GivenBonds &given, const std::optional<Recognised> &rule,
+                                 const std::vector<std::string> &meant = {});
 } // namespace plumbline::meshfree

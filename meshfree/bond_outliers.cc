@@ -1,5 +1,6 @@
 #include "meshfree/bond_outliers.h"
 
+#include "meshfree/bond_nodes.h"
 #include "meshfree/bond_pairs.h"
 #include "meshfree/bond_profile.h"
 #include "meshfree/node_moments.h"
@@ -12,10 +13,16 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    /// Of a bond against its usual value, in what is allowed; at most 1: in line.
+    /// Of a bond beyond its usual values; negative among them.
+    double excess(double value, const BondProfile::Usual &usual)
+    {
+      return std::max(usual.low - value, value - usual.high);
+    }
+
+    /// The same in what is allowed; at most 1: in line.
     double distance(double value, const BondProfile::Usual &usual)
     {
-      return std::max({0., usual.low - value, value - usual.high}) / usual.allowed;
+      return std::max(0., excess(value, usual)) / usual.allowed;
     }
 
     double nearest(double value, const BondProfile::Usual &usual)
@@ -110,46 +117,54 @@ namespace plumbline::meshfree
         }
     }
 
-    /// w C over the neighbour's volume, from both ends.
+    /// w C over the neighbour's volume, from both ends. The end that is named is the one that is
+    /// farther from what is usual at its length.
     void compare_ends(const GivenBonds &given, const std::vector<Pair> &pairs,
                       std::vector<Outlier> &outliers)
     {
-      std::map<std::pair<std::size_t, std::size_t>, double> value_of;
-      const auto value = [&](const Pair &pair)
-      {
-        const Bond &bond = bond_of(given, pair);
-        return bond.weight * radial_value(given.kernel, bond) / given.volumes[pair.neighbour];
-      };
+      std::vector<Pair> bonds;
+      std::vector<Point<2>> xi;
+      std::vector<double> values;
+      std::map<std::pair<std::size_t, std::size_t>, std::size_t> index_of;
       double scale = 0;
       for (const Pair &pair : pairs)
         if (pair.bond != Outlier::none && pair.neighbour < given.families.size())
         {
-          const double there = value(pair);
-          value_of[{pair.node, pair.neighbour}] = there;
-          scale = std::max(scale, std::abs(there));
-        }
-      std::vector<Pair> twos;
-      std::vector<Point<2>> xi;
-      std::vector<double> differences;
-      for (const Pair &pair : pairs)
-        if (pair.bond != Outlier::none && pair.node < pair.neighbour &&
-            pair.neighbour < given.families.size())
-        {
-          const auto back = value_of.find({pair.neighbour, pair.node});
-          if (back == value_of.end())
-            continue; // unpaired: a matter of the weights
-          twos.push_back(pair);
+          const Bond &bond = bond_of(given, pair);
+          index_of[{pair.node, pair.neighbour}] = bonds.size();
+          bonds.push_back(pair);
           xi.push_back(pair.xi);
-          differences.push_back(value_of[{pair.node, pair.neighbour}] - back->second);
+          values.push_back(bond.weight * radial_value(given.kernel, bond) /
+                           given.volumes[pair.neighbour]);
+          scale = std::max(scale, std::abs(values.back()));
         }
-      const BondProfile profile(xi, node_size(given));
-      const auto usual = profile.usual(differences, file_tolerance * scale);
-      for (std::size_t k = 0; k < twos.size(); ++k)
-        if (const double away = distance(differences[k], usual[k]); away > 1)
+      struct Ends
+      {
+        std::size_t there, back;
+      };
+      std::vector<Ends> twos;
+      std::vector<Point<2>> xi_of_twos;
+      std::vector<double> differences;
+      for (std::size_t k = 0; k < bonds.size(); ++k)
+        if (const auto back = index_of.find({bonds[k].neighbour, bonds[k].node});
+            back != index_of.end() && bonds[k].node < bonds[k].neighbour)
+        { // without a bond back: a matter of the weights
+          twos.push_back({k, back->second});
+          xi_of_twos.push_back(xi[k]);
+          differences.push_back(values[k] - values[back->second]);
+        }
+      const double floor = file_tolerance * scale, size = node_size(given);
+      const auto usual_value = BondProfile(xi, size).usual(values, floor);
+      const auto usual = BondProfile(xi_of_twos, size).usual(differences, floor);
+      for (std::size_t two = 0; two < twos.size(); ++two)
+        if (const double away = distance(differences[two], usual[two]); away > 1)
         {
-          outliers.push_back(outlier(Defect::symmetry, twos[k], away));
-          outliers.back().found = value_of[{twos[k].node, twos[k].neighbour}];
-          outliers.back().expected = value_of[{twos[k].neighbour, twos[k].node}];
+          const auto [there, back] = twos[two];
+          const bool is_there =
+              excess(values[there], usual_value[there]) >= excess(values[back], usual_value[back]);
+          outliers.push_back(outlier(Defect::symmetry, bonds[is_there ? there : back], away));
+          outliers.back().found = values[is_there ? there : back];
+          outliers.back().expected = values[is_there ? back : there];
         }
     }
 
@@ -200,14 +215,27 @@ namespace plumbline::meshfree
     {
       constexpr double most = .8;
       constexpr std::size_t few = 4;
+      // of 0 any factor makes 0
+      const auto is_nothing = [&](double weight, std::size_t j)
+      { return std::abs(weight) <= file_tolerance * given.volumes[j]; };
       std::vector<std::size_t> n_of(given.families.size()), n_to(given.cells.size());
       for (std::size_t i = 0; i < given.families.size(); ++i)
-        for (const unsigned int j : given.families[i].neighbours)
+        for (std::size_t k = 0; k < given.families[i].bonds.size(); ++k)
         {
-          ++n_of[i];
-          ++n_to[j];
+          const std::size_t j = given.families[i].neighbours[k];
+          if (!is_nothing(given.families[i].bonds[k].weight, j))
+          {
+            ++n_of[i];
+            ++n_to[j];
+          }
         }
       const auto is_weight = [](const Outlier &o) { return o.defect == Defect::weight; };
+      for (const Outlier &o : outliers)
+        if (is_weight(o) && is_nothing(o.found, o.neighbour))
+        {
+          ++n_of[o.node];
+          ++n_to[o.neighbour];
+        }
       for (const bool is_to : {true, false})
       {
         std::map<std::size_t, std::vector<double>> ratios;
@@ -283,79 +311,58 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  std::vector<Outlier> find_outliers(const GivenBonds &given, const std::optional<Recognised> &rule,
-                                     double point_scale)
+  namespace
   {
-    const std::vector<Pair> pairs = all_pairs(given);
-    std::vector<Outlier> outliers, more;
-    if (rule)
-      compare_with_rule(given, *rule, outliers);
-    else
+    void find_by_rule(const GivenBonds &given, const Recognised &rule,
+                      const std::vector<Pair> &pairs, double point_scale,
+                      std::vector<Outlier> &outliers)
+    {
+      compare_with_rule(given, rule, outliers);
+      if (!rule.has_kernel_points)
+      {
+        std::vector<Outlier> points;
+        compare_points(given, pairs, point_scale, points);
+        add_new(points, outliers);
+      }
+      gather(given, outliers);
+    }
+
+    /// Without a rule to compare with. Nodes with a factor of their own first, since it hides what
+    /// else there is.
+    void find_by_others(const GivenBonds &raw, const std::vector<Pair> &pairs, double point_scale,
+                        std::vector<Outlier> &outliers)
     {
       std::vector<Point<2>> xi;
       for (const Pair &pair : pairs)
         xi.push_back(pair.xi);
-      compare_weights(given, pairs, BondProfile(xi, node_size(given)), outliers);
-    }
-    if (!rule || !rule->has_kernel_points)
-    {
+      const BondProfile profile(xi, node_size(raw));
+      outliers = find_scaled_nodes(raw, pairs, profile);
+      const std::vector<Family> families = without_factors(raw.families, outliers);
+      const GivenBonds given{families, raw.kernel, raw.cells, raw.volumes};
+      compare_weights(given, pairs, profile, outliers);
+      std::vector<Outlier> more;
       compare_points(given, pairs, point_scale, more);
       add_new(more, outliers);
+      gather(given, outliers);
       more.clear();
-    }
-    gather(given, outliers);
-    if (!rule)
-    {
       compare_ends(given, pairs, more);
       add_new(more, outliers);
       add_new(find_moment_outliers(given, pairs), outliers);
     }
+  } // namespace
+
+  std::vector<Outlier> find_outliers(const GivenBonds &given, const std::optional<Recognised> &rule,
+                                     double point_scale)
+  {
+    const std::vector<Pair> pairs = all_pairs(given);
+    std::vector<Outlier> outliers;
+    if (rule)
+      find_by_rule(given, *rule, pairs, point_scale, outliers);
+    else
+      find_by_others(given, pairs, point_scale, outliers);
     pair_up(outliers);
     std::stable_sort(outliers.begin(), outliers.end(),
                      [](const Outlier &a, const Outlier &b) { return a.distance > b.distance; });
-    return outliers;
-  }
-
-  std::vector<Outlier> find_volume_outliers(const GivenBonds &given,
-                                            const std::vector<double> &uncut_areas)
-  {
-    const auto &[families, kernel, cells, volumes] = given;
-    std::vector<Outlier> outliers;
-    const std::size_t n_free = families.size(), n = cells.size();
-    for (const auto &[first, last] : {std::pair{std::size_t{0}, n_free}, std::pair{n_free, n}})
-    {
-      // what is expected of each: its cell, its cell uncut, or one volume for all
-      const std::vector<double> ones(n, 1);
-      std::vector<double> values;
-      const std::vector<double> *best = nullptr;
-      Spread spread;
-      for (const auto *areas : {&cells.area, &uncut_areas, &ones})
-      {
-        std::vector<double> ratios;
-        for (std::size_t i = first; i < last; ++i)
-          ratios.push_back(volumes[i] / (*areas)[i]);
-        const double middle = spread_of(ratios).median;
-        for (double &ratio : ratios)
-          ratio /= middle;
-        const Spread own = spread_of(ratios);
-        if (best && own.allowed(file_tolerance) >= spread.allowed(file_tolerance))
-          continue;
-        best = areas;
-        spread = own;
-        spread.median = middle;
-        values = std::move(ratios);
-      }
-      for (std::size_t i = first; i < last; ++i)
-        if (const double away = std::abs(values[i - first] - 1) / spread.allowed(file_tolerance);
-            away > 1)
-        {
-          Outlier one{Defect::volume, i};
-          one.found = volumes[i];
-          one.expected = spread.median * (*best)[i];
-          one.distance = away;
-          outliers.push_back(one);
-        }
-    }
     return outliers;
   }
 } // namespace plumbline::meshfree

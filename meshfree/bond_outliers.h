@@ -42,10 +42,4 @@ namespace plumbline::meshfree
   /// defects of one kind (above one in 13) are no outliers. Cost: .2 ms a node, 3 kB a node.
   std::vector<Outlier> find_outliers(const GivenBonds &given, const std::optional<Recognised> &rule,
                                      double point_scale = 1);
-
-  /// Nodes whose volume is not what the others' volumes tell: that of the Voronoi cell, cut at the
-  /// boundary of Ω or not, or one for all, whichever fits most nodes.
-  /// @param uncut_areas  of the Voronoi cells that the boundary of Ω does not cut
-  std::vector<Outlier> find_volume_outliers(const GivenBonds &given,
-                                            const std::vector<double> &uncut_areas);
 } // namespace plumbline::meshfree

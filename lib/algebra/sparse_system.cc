@@ -1,6 +1,7 @@
 #include "algebra/sparse_system.h"
 
 #include "algebra/block_preconditioner.h"
+#include "algebra/solver_faults.h"
 #include "base/error.h"
 #include "base/memory.h"
 
@@ -111,31 +112,42 @@ namespace plumbline::algebra
     }
 
     /// Take a step that all ranks take; if it fails on one of them, it fails on all.
+    /// @param who  opens messages
     template <class Step>
-    void together(const Team &team, const Step &step)
+    void together(const std::string &who, const Team &team, const Step &step)
     {
-      std::ostringstream fault;
+      std::string fault;
       try
       {
         step();
       }
+      catch (const NumericalError &error)
+      {
+        fault = error.what();
+      }
+      catch (const std::bad_alloc &)
+      {
+        fault = "runs out of memory; write another Solver/linear solver (amg, jacobi), take larger "
+                "h (Study/h), or a machine with more";
+      }
       catch (const dealii::ExceptionBase &error)
       {
-        fault << "the solver of the sparse system fails:";
-        error.print_info(fault);
+        std::ostringstream text;
+        error.print_info(text);
+        fault = library_fault(text.str());
       }
       catch (const std::exception &error)
       {
-        fault << error.what();
+        fault = library_fault(error.what());
       }
       catch (int code) // as Trilinos does
       {
-        fault << "the solver of the sparse system fails with Trilinos' error code " << code;
+        fault = library_fault("Trilinos' error code " + std::to_string(code));
       }
-      const int is_bad = fault.str().empty() ? 0 : 1;
+      const int is_bad = fault.empty() ? 0 : 1;
       if (dealii::Utilities::MPI::max(is_bad, team.communicator) == 1)
-        throw NumericalError(is_bad ? fault.str()
-                                    : "the solver of the sparse system fails on another rank");
+        throw NumericalError(who + " " +
+                             (is_bad ? fault : "fails on another rank; see what that one says"));
     }
 
     // ---- what solvers ask of the matrix ---------------------------------------------------------
@@ -168,7 +180,8 @@ namespace plumbline::algebra
         if (result[i] == 0)
           bad = static_cast<int>(row);
       }
-      reject(bad, "has no diagonal entry, which iterations need; take the sparse solver direct",
+      reject(bad,
+             "has no diagonal entry, which iterations need; write Solver/linear solver = direct",
              options, matrix.shares().team);
       return result;
     }
@@ -186,14 +199,11 @@ namespace plumbline::algebra
     /// @throws NumericalError  on all ranks, where one of them has not as much
     void require_factors(double bytes, const SharedRows &rows)
     {
-      const std::string fault = base::memory_fault(
-          bytes,
-          "the factors of a sparse system of " + std::to_string(rows.shares().size_of_all()) +
-              " unknowns",
-          "take the sparse solver amg or jacobi (Solver/linear solver), or a larger h");
+      const std::string fault =
+          base::memory_fault(bytes, "for its factors",
+                             "write Solver/linear solver = amg or jacobi, or choose a larger h");
       if (rows.shares().team.any(!fault.empty()))
-        throw NumericalError(fault.empty() ? "the factors of a sparse system do not fit on another "
-                                             "rank's machine"
+        throw NumericalError(fault.empty() ? "has no memory for its factors on another rank"
                                            : fault);
     }
 
@@ -217,16 +227,12 @@ namespace plumbline::algebra
         require_factors(1e6 * info[16], rows);
       const bool is_done = is_analysed && mumps.NumericFactorization() == 0;
       const std::size_t bytes = heap_bytes() - bytes_before;
-      std::ostringstream fault;
       if (info[28] > 0)
-        fault << "the sparse system is singular: " << info[28]
-              << " of its unknowns are not determined; tie all nodes to the boundary data: raise "
-                 "the horizon or refine";
-      else if (!is_done || mumps.Solve() != 0)
-        fault << "the direct solver fails with MUMPS' error " << info[1] << ", " << info[2]
-              << "; take the sparse solver amg";
-      if (!fault.str().empty())
-        throw NumericalError(fault.str());
+        throw NumericalError("finds the system singular: " + std::to_string(info[28]) +
+                             " of its unknowns are not determined; tie all nodes to the boundary "
+                             "data: raise the horizon or refine");
+      if (!is_done || mumps.Solve() != 0)
+        throw NumericalError(mumps_fault(info[1], info[2]));
       return bytes;
     }
 
@@ -252,12 +258,14 @@ namespace plumbline::algebra
       catch (const dealii::SolverControl::NoConvergence &)
       {
         std::ostringstream message;
-        message << name_of(options.iteration, iteration_names) << " stops after "
-                << control.last_step() << " iterations (allowed: " << options.max_iterations
-                << ") at the relative residual " << control.last_value() / scale << ", wanted "
-                << options.tolerance
-                << "; the system may be singular: tie all nodes to the boundary data, or take "
-                   "another sparse solver";
+        const bool is_broken = control.last_step() < options.max_iterations;
+        message << (is_broken ? "breaks down after " : "stops after ") << control.last_step()
+                << " iterations, of " << options.max_iterations
+                << " allowed (Solver/max iterations), at the relative residual "
+                << control.last_value() / scale << ", wanted " << options.tolerance
+                << " (Solver/tolerance); allow more, or write Solver/linear solver = direct; where "
+                   "they do not get on the system is singular: tie all nodes to the boundary data, "
+                   "raise the horizon or refine";
         throw NumericalError(message.str());
       }
       return control.last_step();
@@ -386,7 +394,10 @@ namespace plumbline::algebra
     solution.solver = name_of(options.solver, solver_names);
     if (options.solver != SparseSolver::direct)
       solution.solver = name_of(options.iteration, iteration_names) + " + " + solution.solver;
-    together(team, [&] { solve_by(matrix, x, b, options, solution); });
+    const std::string who = "the sparse solver '" + solution.solver +
+                            "' (Solver/linear solver, Solver/iteration) of " + std::to_string(n) +
+                            " unknowns";
+    together(who, team, [&] { solve_by(matrix, x, b, options, solution); });
 
     // A x cannot be computed more accurately than this
     const double norm = b.l2_norm(), scale = norm > 0 ? norm : 1;
@@ -400,9 +411,10 @@ namespace plumbline::algebra
     if (!(solution.relative_residual <= allowed))
     {
       std::ostringstream message;
-      message << "the sparse solver " << solution.solver << " leaves the relative residual "
-              << solution.relative_residual << ", allowed " << allowed
-              << "; the system is singular or nearly so: tie all nodes to the boundary data";
+      message << who << " leaves the relative residual " << solution.relative_residual
+              << ", allowed " << allowed
+              << "; the system is singular or nearly so: tie all nodes to the boundary data, raise "
+                 "the horizon or refine";
       throw NumericalError(message.str());
     }
     solution.values.resize(n);

@@ -144,7 +144,28 @@ namespace plumbline::geometry
       }
     }
 
-    /// gmsh's first error in our words: "Error   : 'a.geo', line 3: syntax error (;)".
+    /// What is wrong and how it is mended, by gmsh's words for it: "syntax error (;)".
+    std::string in_our_words(const std::string &error)
+    {
+      const auto has = [&](const char *part) { return error.find(part) != std::string::npos; };
+      const std::string syntax = "syntax error (";
+      if (error.compare(0, syntax.size(), syntax) == 0 && error.back() == ')')
+        return "a syntax error at '" +
+               error.substr(syntax.size(), error.size() - syntax.size() - 1) +
+               "'; mend the line, or the end of the one before";
+      if (has("nknown"))
+        return "it names what is not there; mend the name or number, or define it before";
+      if (has("already exists"))
+        return "it gives a number that is in use; give another";
+      if (has("closed loop"))
+        return "a boundary is not closed; let each curve of a loop begin where another ends";
+      if (has("recover the edge"))
+        return "curves of a surface cross; let them meet at their ends alone";
+      return "gmsh cannot do what it says; mend it";
+    }
+
+    /// gmsh's first error, "Error   : 'a.geo', line 3: syntax error (;)": where it is, in our
+    /// words, and its own.
     std::string reason(const std::string &log, const std::string &source)
     {
       const std::string mark = "Error   : ";
@@ -152,25 +173,19 @@ namespace plumbline::geometry
       if (at == std::string::npos)
         return "";
       std::string error = log.substr(at + mark.size(), log.find('\n', at) - at - mark.size());
-      std::string place = source;
       const std::size_t number = error.find("', line ");
       const std::size_t colon = number == std::string::npos ? number : error.find(": ", number);
-      if (colon != std::string::npos)
-      {
-        const std::string file = fs::path(error.substr(1, number - 1)).filename().string();
-        place += source.find(file) == std::string::npos ? ", in '" + file + "'" : "";
-        // gmsh counts the lines that have ended
-        const std::string line = error.substr(number + 8, colon - number - 8);
-        place += ", line " + (line == "0" ? "1" : line);
-        error = error.substr(colon + 2);
-      }
-      const std::string syntax = "syntax error (";
-      if (error.compare(0, syntax.size(), syntax) == 0 && error.back() == ')')
-        return place + " is refused by gmsh: a syntax error at '" +
-               error.substr(syntax.size(), error.size() - syntax.size() - 1) +
-               "'; mend the line, or the end of the one before";
-      return place + " is refused by gmsh: " + error +
-             (colon != std::string::npos ? "; mend the line" : "; mend the file");
+      if (colon == std::string::npos)
+        return source + " is refused by gmsh: " + in_our_words(error) + " (gmsh says: " + error +
+               ")";
+      std::string place = source;
+      const std::string file = fs::path(error.substr(1, number - 1)).filename().string();
+      place += source.find(file) == std::string::npos ? ", in '" + file + "'" : "";
+      // gmsh counts the lines that have ended
+      const std::string line = error.substr(number + 8, colon - number - 8);
+      error = error.substr(colon + 2);
+      return place + ", line " + (line == "0" ? "1" : line) +
+             " is refused by gmsh: " + in_our_words(error) + " (gmsh says: " + error + ")";
     }
 
     /// Runs gmsh on the words, which leave a file. @return its text
@@ -255,9 +270,15 @@ namespace plumbline::geometry
     const std::string last = (folder.path() / "last.geo").string();
     std::ofstream(last) << "Mesh.Format = 1; Mesh.MshFileVersion = 2.2; Mesh.Binary = 0; "
                            "Mesh.SaveAll = 0; Mesh.SaveParametric = 0;\n";
-    return run({fs::absolute(file).string(), last, "-2", "-setnumber", "h", text(h, 17),
-                "-setnumber", "delta", text(delta, 17)},
-               folder, limits, source);
+    const std::string mesh = run({fs::absolute(file).string(), last, "-2", "-setnumber", "h",
+                                  text(h, 17), "-setnumber", "delta", text(delta, 17)},
+                                 folder, limits, source);
+    // a branch or loop that is not ended is no error to gmsh, it skips the rest
+    if (mesh.find("$Elements\n0\n") != std::string::npos)
+      throw InputError(source +
+                       ": gmsh makes no cells of it; end every If by EndIf and every For by "
+                       "EndFor, and define the surfaces that are physical");
+    return mesh;
   }
 
   std::string convert_by_gmsh(const std::string &file, const GmshLimits &limits,

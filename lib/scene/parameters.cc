@@ -4,6 +4,7 @@
 #include "base/text_file.h"
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 
 namespace plumbline::scene
@@ -12,36 +13,59 @@ namespace plumbline::scene
   {
     namespace Patterns = dealii::Patterns;
 
+    /// What a key may be, for deal.II and in words.
+    struct Allowed
+    {
+      std::shared_ptr<Patterns::PatternBase> pattern;
+      std::string words;
+    };
+
     struct Key
     {
       std::string section, name, value;
-      std::shared_ptr<Patterns::PatternBase> pattern;
+      Allowed allowed;
       std::string help;
     };
 
-    std::shared_ptr<Patterns::PatternBase> text()
+    std::string in_words(double value)
     {
-      return std::make_shared<Patterns::Anything>();
+      std::ostringstream text;
+      text << value;
+      return text.str();
     }
-    std::shared_ptr<Patterns::PatternBase> one_of(const std::string &names)
+
+    Allowed text()
     {
-      return std::make_shared<Patterns::Selection>(names);
+      return {std::make_shared<Patterns::Anything>(), "any text"};
     }
-    std::shared_ptr<Patterns::PatternBase> yes_or_no()
+    Allowed one_of(const std::string &names)
     {
-      return std::make_shared<Patterns::Bool>();
+      std::string list;
+      for (const char c : names)
+        list += c == '|' ? std::string(", ") : std::string(1, c);
+      return {std::make_shared<Patterns::Selection>(names), "one of " + list};
     }
-    std::shared_ptr<Patterns::PatternBase> count(int lowest)
+    Allowed yes_or_no()
     {
-      return std::make_shared<Patterns::Integer>(lowest);
+      return {std::make_shared<Patterns::Bool>(), "true or false"};
     }
-    std::shared_ptr<Patterns::PatternBase> number()
+    Allowed count(int lowest, int highest = std::numeric_limits<int>::max())
     {
-      return std::make_shared<Patterns::Double>();
+      return {std::make_shared<Patterns::Integer>(lowest, highest),
+              "a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest)};
     }
-    std::shared_ptr<Patterns::PatternBase> positive()
+    Allowed number()
     {
-      return std::make_shared<Patterns::Double>(1e-300);
+      return {std::make_shared<Patterns::Double>(), "a number such as 0.5 or 1e-3"};
+    }
+    Allowed positive()
+    {
+      return {std::make_shared<Patterns::Double>(1e-300), "a number above 0 such as 0.5 or 1e-3"};
+    }
+    Allowed between(double lowest, double highest)
+    {
+      return {std::make_shared<Patterns::Double>(lowest, highest),
+              "a number from " + in_words(lowest) + " to " + in_words(highest)};
     }
 
     std::string kernel_names()
@@ -118,8 +142,7 @@ namespace plumbline::scene
           {"Kernel", "coefficients", "", text(),
            "a_0, a_1, ... of the profile p(t) = a_0 + a_1 t + ..., t = r / horizon, of polynomial "
            "kernels."},
-          {"Kernel", "singularity", "0", std::make_shared<Patterns::Integer>(0, 1),
-           "a of the polynomial profile p(t) / t^a."},
+          {"Kernel", "singularity", "0", count(0, 1), "a of the polynomial profile p(t) / t^a."},
           {"Kernel", "coefficient", "", text(),
            "a > 0 of a kernel a C: an expression in x and y. Empty: homogeneous. Needs a mesh."},
           {"Kernel", "materials", "", text(),
@@ -172,7 +195,7 @@ namespace plumbline::scene
            "the "
            "data), mesh (centroids of its cells), or a file .csv with columns x and y. On meshes "
            "their cells are Voronoi cells."},
-          {"Methods", "perturbation", "0", std::make_shared<Patterns::Double>(0, .49),
+          {"Methods", "perturbation", "0", between(0, .49),
            "Centres are moved at random by up to so many h in x and in y (Geometry/seed). Needs a "
            "mesh."},
 
@@ -201,7 +224,7 @@ namespace plumbline::scene
            "reference, of "
            "every Galerkin solution, or of none. automatic: of the reference, and where there is "
            "neither one nor an exact solution of every Galerkin solution."},
-          {"Reference", "tolerance", "0", std::make_shared<Patterns::Double>(0, 1),
+          {"Reference", "tolerance", "0", between(0, 1),
            "Largest estimate of the reference's own error, relative to the solution; where it is "
            "not "
            "met the run ends with exit code 3. 0: the estimate is only reported."},
@@ -210,17 +233,17 @@ namespace plumbline::scene
            "Entries of axis-aligned rectangles of a mesh: exact by correlation, or by quadrature "
            "as "
            "all other cells."},
-          {"Quadrature", "tolerance", "1e-4", std::make_shared<Patterns::Double>(0, 1),
+          {"Quadrature", "tolerance", "1e-4", between(0, 1),
            "Outer quadrature on meshes is refined until the solution changes by less, relative to "
            "it. 0: the first rule is taken as it is, and nothing is known of its error."},
-          {"Quadrature", "max refinements", "4", std::make_shared<Patterns::Integer>(0, 8),
+          {"Quadrature", "max refinements", "4", count(0, 8),
            "Most refinements; where the tolerance is not met by then the run ends with exit code "
            "3."},
 
           {"Geometry", "backend", "fast", one_of("fast|cgal"),
            "Who intersects balls and cells: fast (double precision) or cgal (exact circular "
            "kernel)."},
-          {"Geometry", "checks", "24", std::make_shared<Patterns::Integer>(0, 100000),
+          {"Geometry", "checks", "24", count(0, 100000),
            "Cut cells of each reference that are recomputed with the exact backend, some 0.1 ms "
            "each."},
           {"Geometry", "seed", "1", count(0), "Seed of the sample of checked cells."},
@@ -243,7 +266,7 @@ namespace plumbline::scene
            "Of state-based solids on scattered nodes: eliminated, or kept as unknowns besides u, "
            "for half the memory; amg is multigrid of the rest of the system then. Both yield the "
            "same u."},
-          {"Solver", "tolerance", "1e-12", std::make_shared<Patterns::Double>(1e-15, 1e-3),
+          {"Solver", "tolerance", "1e-12", between(1e-15, 1e-3),
            "Relative residual of the linear system."},
           {"Solver", "max iterations", "1000", count(1), "Most iterations."},
 
@@ -298,7 +321,7 @@ namespace plumbline::scene
     {
       return path(key) + "\n  " + key.help +
              "\n  default: " + (key.value.empty() ? "(empty)" : key.value) +
-             "\n  allowed: " + key.pattern->description(Patterns::PatternBase::Text) + "\n";
+             "\n  allowed: " + key.allowed.words + "\n";
     }
   } // namespace
 
@@ -308,7 +331,7 @@ namespace plumbline::scene
     {
       if (!key.section.empty())
         parameters.enter_subsection(key.section);
-      parameters.declare_entry(key.name, key.value, *key.pattern, key.help);
+      parameters.declare_entry(key.name, key.value, *key.allowed.pattern, key.help);
       if (!key.section.empty())
         parameters.leave_subsection();
     }
@@ -333,9 +356,10 @@ namespace plumbline::scene
           name + " = '" + base::shown(value) +
           "' cannot be written in a scene: '#' begins a comment, a '\\' at the end "
           "continues the line; take them, line breaks and other control characters out");
-    if (!key.pattern->match(value))
-      throw InputError(name + " = '" + value + "' is not allowed; it must be " +
-                       key.pattern->description(Patterns::PatternBase::Text));
+    if (!key.allowed.pattern->match(value))
+      throw InputError(name + " = '" + base::shown(value) + "' is not allowed; write " +
+                       key.allowed.words + ", or take the key out: its default is '" + key.value +
+                       "'");
     if (!key.section.empty())
       parameters.enter_subsection(key.section);
     parameters.set(key.name, value);

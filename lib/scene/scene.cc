@@ -166,7 +166,7 @@ namespace plumbline::scene
       scene.local_solution = value("Problem/local solution");
       check_kernel_and_problem(scene);
 
-      scene.methods = to_names(value("Methods/names"));
+      scene.methods = to_methods(value("Methods/names"));
       if (scene.methods.empty())
         throw InputError("Methods/names is empty; name methods ('plumbline list methods'), or all");
       scene.nodes = {value("Methods/nodes"),
@@ -185,7 +185,7 @@ namespace plumbline::scene
       scene.series = make_series(scene.regime, h, m, horizon);
       check_levels(scene);
 
-      scene.reference = value("Reference/method");
+      scene.reference = method_name(value("Reference/method"));
       scene.estimate = value("Reference/estimate");
       scene.reference_tolerance = to_number("Reference/tolerance", value("Reference/tolerance"));
       scene.norms = to_names(value("Study/norms"));

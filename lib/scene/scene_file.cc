@@ -178,7 +178,8 @@ namespace plumbline::scene
         return without_blanks(value.get<std::string>());
       if (!value.is_number() && !value.is_boolean())
         settings.fail(key, std::string("is ") + (value.is_null() ? "null" : "a list") +
-                               "; give a text, a number, true or false");
+                               "; give a text, a number, true or false" +
+                               (value.is_null() ? "" : "; a list is a text with commas"));
       return value.dump();
     }
 

@@ -1,6 +1,7 @@
 #include "scene/values.h"
 
 #include "base/error.h"
+#include "base/text_file.h"
 #include "physics/expression.h"
 
 #include <algorithm>
@@ -17,28 +18,46 @@ namespace plumbline::scene
     return split_outside_brackets(text, '\0')[0];
   }
 
+  namespace
+  {
+    const std::string one_number = "write one such as 0.05 or 1e-3";
+
+    double to_number(const std::string &key, const std::string &text, const std::string &remedy)
+    {
+      std::size_t used = 0;
+      double value = 0;
+      try
+      {
+        value = std::stod(text, &used);
+      }
+      catch (const std::exception &)
+      {
+      }
+      if (used == 0 || used != text.size() || !std::isfinite(value))
+        throw InputError(key + ": '" + base::shown(text) + "' is not a number; " + remedy);
+      return value;
+    }
+  } // namespace
+
   double to_number(const std::string &key, const std::string &text)
   {
-    std::size_t used = 0;
-    double value = 0;
-    try
-    {
-      value = std::stod(text, &used);
-    }
-    catch (const std::exception &)
-    {
-    }
-    if (used == 0 || used != text.size() || !std::isfinite(value))
-      throw InputError(key + ": '" + text + "' is not a number");
-    return value;
+    return to_number(key, text, one_number);
   }
 
   std::vector<double> to_numbers(const std::string &key, const std::string &text, char separator)
   {
+    const bool is_by_commas = separator == ',';
+    const std::string remedy = "write numbers such as 0.05 or 1e-3, separated by " +
+                               std::string(is_by_commas ? "','" : "blanks");
+    const auto parts = split_outside_brackets(text, separator);
     std::vector<double> values;
-    for (const std::string &part : split_outside_brackets(text, separator))
+    for (const std::string &part : parts)
       if (!part.empty())
-        values.push_back(to_number(key, part));
+        values.push_back(to_number(key, part, remedy));
+      else if (is_by_commas && parts.size() > 1)
+        throw InputError(key + ": '" + base::shown(text) +
+                         "' has nothing between two commas, or behind the last one; take the comma "
+                         "out, or write a number there");
     return values;
   }
 
@@ -48,6 +67,18 @@ namespace plumbline::scene
     for (const std::string &part : split_outside_brackets(text, ','))
       if (!part.empty())
         names.push_back(part);
+    return names;
+  }
+
+  std::string method_name(const std::string &given)
+  {
+    return given == "HHB" ? "QWJ" : given;
+  }
+
+  std::vector<std::string> to_methods(const std::string &text)
+  {
+    std::vector<std::string> names = to_names(text);
+    std::transform(names.begin(), names.end(), names.begin(), method_name);
     return names;
   }
 
@@ -151,7 +182,7 @@ namespace plumbline::scene
       const auto subject = to_names(part.substr(0, colon));
       for (std::size_t i = 0; i < subject.size(); ++i)
         if (i == 0)
-          expected.method = subject[i];
+          expected.method = method_name(subject[i]);
         else if (subject[i].find('=') != std::string::npos)
           expected.series = subject[i];
         else if (std::find(cases.begin(), cases.end(), subject[i]) != cases.end())

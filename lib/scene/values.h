@@ -16,6 +16,12 @@ namespace plumbline::scene
   std::vector<double> to_numbers(const std::string &key, const std::string &text, char separator);
   std::vector<std::string> to_names(const std::string &text); ///< separated by commas
 
+  /// The name that a method has here; some rules have several in the literature: HHB is QWJ.
+  std::string method_name(const std::string &given);
+
+  /// Names of methods separated by commas, those that they have here.
+  std::vector<std::string> to_methods(const std::string &text);
+
   /// "x0, y0 : x1, y1; ..."
   std::vector<geometry::Box> to_boxes(const std::string &key, const std::string &text);
 

@@ -32,10 +32,8 @@ namespace plumbline::study
       if (std::find(chosen.begin(), chosen.end(), method) == chosen.end())
         chosen.push_back(method);
     };
-    for (const std::string &given_name : scene.methods)
+    for (const std::string &name : scene.methods)
     {
-      // one rule has two names in the literature
-      const std::string name = given_name == "HHB" ? "QWJ" : given_name;
       if (name == "all")
       {
         for (const auto &method : available)

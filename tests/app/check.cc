@@ -157,6 +157,21 @@ TEST(Check, refuses_nodes_that_cannot_be_used)
   refuse("2,-0.3125,-0.3125,0.015625\n", {"line 3: id 2 is that of line 2 already; give"});
   refuse("1,-0.1875,-0.3125,0.015625\n",
          {"line 3: node 2 lies at (-0.1875, -0.3125), where that of line 2 is; take"});
+  // nearer than 1e-12 of a cell, in the collar and among the free ones
+  refuse("1,-0.18750000000005,-0.3125,0.015625\n",
+         {"nodes.csv', line 3: node 2 lies 4.99",
+          "e-14 from node 1 of line 2, nearer than 1e-12 of", "; take one of them out"});
+  const std::string free_node = "46,0.0625,0.0625,0.015625\n";
+  for (const std::string options : {"", "--set Methods/nodes=vertices"})
+  {
+    const Outcome near =
+        check(write("nodes.csv", replace(text, free_node, "46,0.18749999999995,0.0625,0.015625\n")),
+              bonds_file, options);
+    EXPECT_EQ(near.exit_code, 2) << options;
+    EXPECT_EQ(near.out, "");
+    expect_found(near.err, "nodes.csv', line 48: node 47 lies");
+    expect_found(near.err, "from node 46 of line 47, nearer than 1e-12 of the cells' size");
+  }
   refuse("1,-0.3125,-0.4125,0.015625\n",
          {"line 2: node 1 at (-0.3125, -0.4125) lies outside of the domain and its collar at the "
           "level m = 3: h = 0.125, horizon = 0.375; take"});
@@ -196,6 +211,19 @@ TEST(Check, counts_the_bonds_of_collar_nodes_that_it_ignores)
       check(nodes_file, write("collar.csv", read(bonds_file) + "1,2,.01,,\n1,46,-5,,\n"));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_found(outcome.out, "2 of collar nodes ignored");
+}
+
+TEST(Check, says_whose_solution_the_solver_does_not_find)
+{
+  const Outcome outcome =
+      check(nodes_file, bonds_file,
+            "--quiet --set 'Solver/linear solver=jacobi' --set 'Solver/max iterations=2'");
+  EXPECT_EQ(outcome.exit_code, 3);
+  expect_found(
+      outcome.err,
+      "no solution by the reference Q1 of wave, m = 3: h = 0.125, horizon = 0.375: the "
+      "sparse solver 'cg + jacobi' (Solver/linear solver, Solver/iteration) of 49 unknowns "
+      "stops after 2 iterations, of 2 allowed (Solver/max iterations)");
 }
 
 TEST(Check, refuses_a_reference_that_is_no_galerkin_method)

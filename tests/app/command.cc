@@ -55,6 +55,28 @@ TEST(Command, check_fails_with_1_when_an_expectation_does_not_hold)
   EXPECT_EQ(run(common + "--set 'Expected/verdicts=IPA-AC: AC'").exit_code, 0);
 }
 
+TEST(Command, expectations_take_the_other_name_of_a_method)
+{
+  const std::string common = "run " + scene + " -o " + temporary("check").string() +
+                             " --levels 4 --set Study/m=3 --set Expected/errors= "
+                             "--set Expected/rates= --set Expected/bounds= --check ";
+  for (const std::string name : {"HHB", "QWJ"})
+    for (const std::string other : {"HHB", "QWJ"})
+    {
+      const auto expect = [&](const std::string &verdict)
+      {
+        return run(common + "--methods " + name + " --set 'Expected/verdicts=" + other + ": " +
+                   verdict + "'");
+      };
+      const Outcome good = expect("not AC");
+      EXPECT_EQ(good.exit_code, 0) << name << ", " << other << good.err << good.out;
+      const Outcome wrong = expect("AC");
+      EXPECT_EQ(wrong.exit_code, 1) << name << ", " << other << wrong.err;
+      expect_found(wrong.out, "expected AC, found not AC");
+    }
+  expect_refusal("--set 'Expected/verdicts=HBB: AC'", "Expected: method 'HBB' is not known");
+}
+
 TEST(Command, refuses_bad_input_with_2_and_leaves_nothing)
 {
   expect_refusal("--set Study/mesh=1", "key 'Study/mesh' is not known");

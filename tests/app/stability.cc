@@ -40,6 +40,12 @@ TEST(StabilityCommand, fails_with_1_when_a_verdict_is_not_as_expected)
   expect_end("stability " + scene("too_few_neighbours") +
                  " --levels 1 --check --set 'Expected/stability=OPT: stable'",
              1, "OPT: stable: found conditionally stable");
+  expect_end("stability " + scene("too_few_neighbours") +
+                 " --levels 1 --methods HHB --check --set 'Expected/stability=HHB: unstable'",
+             1, "HHB: unstable: found stable");
+  expect_end("stability " + scene("too_few_neighbours") +
+                 " --levels 1 --methods QWJ --check --set 'Expected/stability=HHB: stable'",
+             0, "");
 }
 
 TEST(Failures, that_are_refused)

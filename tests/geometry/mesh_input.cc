@@ -254,11 +254,30 @@ TEST_F(MeshFile, that_cannot_be_used_is_refused)
 {
   EXPECT_TRUE(says(error_of([] { read_mesh("no_such_file.msh", 1, 1); }), "cannot be read"));
   EXPECT_TRUE(says(fault_of("mesh.stl", ""), "must end in .msh or .geo"));
-  const std::string gmsh = fault_of("bad.geo", "Point(1) = {0, 0;");
-  EXPECT_TRUE(
-      says(gmsh, "bad.geo', line 1 is refused by gmsh: a syntax error at ';'; mend the line"));
-  EXPECT_TRUE(says(fault_of("bad.geo", "a = 1;\nb = c;\n"),
-                   "bad.geo', line 2 is refused by gmsh: Unknown variable 'c'; mend the line"));
+  // our words first, gmsh's own behind them
+  const auto refused = [&](const std::string &script, const std::string &message)
+  { EXPECT_TRUE(says(fault_of("bad.geo", script), message)) << fault_of("bad.geo", script); };
+  refused("Point(1) = {0, 0;", "bad.geo', line 1 is refused by gmsh: a syntax error at ';'; mend "
+                               "the line, or the end of the one before (gmsh says: syntax error");
+  const std::string missing =
+      " is refused by gmsh: it names what is not there; mend the name or number, or define it "
+      "before (gmsh says: ";
+  refused("a = 1;\nb = c;\n", "bad.geo', line 2" + missing + "Unknown variable 'c')");
+  refused("\nFoo(1);\n", "bad.geo', line 2" + missing + "Unknown command 'Foo')");
+  refused("Line(1) = {1, 2};\n", "bad.geo'" + missing + "Unknown control point 1");
+  refused("Point(1) = {0, 0, 0};\nPoint(1) = {1, 0, 0};\n",
+          "bad.geo' is refused by gmsh: it gives a number that is in use; give another (gmsh says: "
+          "GEO point with tag 1 already exists)");
+  refused("Point(1) = {0, 0, 0};\nPoint(2) = {1, 0, 0};\nPoint(3) = {1, 1, 0};\nLine(1) = {1, 2};\n"
+          "Line(2) = {2, 3};\nCurve Loop(1) = {1, 2};\nPlane Surface(1) = {1};\n",
+          "bad.geo' is refused by gmsh: a boundary is not closed; let each curve of a loop begin "
+          "where another ends (gmsh says: The 1D mesh");
+  refused(
+      "Error(\"of a user\");\n",
+      "bad.geo' is refused by gmsh: gmsh cannot do what it says; mend it (gmsh says: of a user)");
+  for (const std::string unfinished :
+       {"If (1)\n a = 1;\n", "For i In {1:3}\n", "Physical Surface(\"omega\") = {1};\n"})
+    refused(unfinished, "bad.geo': gmsh makes no cells of it; end every If by EndIf");
   EXPECT_TRUE(says(fault_of("exit.geo", disc + "Exit;"), "without a mesh; take Exit out"));
   EXPECT_TRUE(says(error_of([&] { read("h.geo", disc, 0); }), "h = 0 and delta = 0.3 must be"));
   EXPECT_TRUE(says(fault_of("call.geo", "SystemCall 'true';"), "would start a program"));

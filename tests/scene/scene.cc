@@ -121,6 +121,26 @@ TEST(Scene, cases_have_names_and_components)
   EXPECT_EQ(scene.solutions[1].expression, "x > 0 ? 1 : 2, x");
 }
 
+TEST(Scene, methods_may_be_called_by_their_other_names_wherever_they_are_named)
+{
+  const Scene scene = parse("subsection Methods\n set names = HHB, Q1, HHB-2\nend\n" +
+                            section("Reference", "method = HHB") +
+                            "subsection Expected\n set verdicts = HHB: AC; Q1: AC\n set errors = "
+                            "HHB: 1 2\n set rates = HHB, m = 3: 2\n set bounds = HHB, u: 1\n "
+                            "set monotone = HHB: yes\n set jitter = HHB: 0 1\n set stability = "
+                            "HHB: stable\nend\n");
+  EXPECT_EQ(scene.methods, (std::vector<std::string>{"QWJ", "Q1", "HHB-2"}));
+  EXPECT_EQ(scene.reference, "QWJ");
+  EXPECT_EQ(scene.expected_verdicts.at(1).method, "Q1");
+  for (const auto *list : {&scene.expected_verdicts, &scene.expected_errors, &scene.expected_rates,
+                           &scene.expected_bounds, &scene.expected_monotone, &scene.expected_jitter,
+                           &scene.expected_stability})
+  {
+    EXPECT_EQ(list->at(0).method, "QWJ") << list->at(0).text;
+    EXPECT_EQ(list->at(0).text.substr(0, 3), "HHB"); // as it was given
+  }
+}
+
 TEST(Scene, overrides_win_over_the_file_and_json_is_read_too)
 {
   EXPECT_EQ(parse_scene("t.prm", with(""), {{"Study/m", "5"}}).series[0].name, "m = 5");
@@ -154,7 +174,9 @@ TEST(SceneErrors, unknown_keys_and_wrong_types)
   expect_error("subsection Sudy\n set h = 1\nend\n", "Sudy");
   expect_error(section("Geometry", "checks = many"), "checks");
   expect_error(section("Kernel", "type = gauss"), "linear-decay");
-  expect_error(section("Study", "h = 0.1, fine"), "Study/h: 'fine' is not a number");
+  expect_error(
+      section("Study", "h = 0.1, fine"),
+      "Study/h: 'fine' is not a number; write numbers such as 0.05 or 1e-3, separated by ','");
   expect_error("", "key 'Study/hh' is not known; write one of: Study/regime, Study/h",
                {{"Study/hh", "1"}});
   expect_error("", "Solver/tolerance = 'small' is not allowed", {{"Solver/tolerance", "small"}});

@@ -149,7 +149,8 @@ TEST_F(SceneFile, in_json_takes_numbers_and_truth_values_and_says_what_it_does_n
                                 "true}}"),
             "no error");
   EXPECT_EQ(fault("a.json", "{\"Study\": {\"m\": [3, 4]}}"),
-            "scene 'a.json', Study/m: is a list; give a text, a number, true or false");
+            "scene 'a.json', Study/m: is a list; give a text, a number, true or false; "
+            "a list is a text with commas");
   EXPECT_EQ(fault("a.json", "{\"Study\": {\"m\": null}}"),
             "scene 'a.json', Study/m: is null; give a text, a number, true or false");
   EXPECT_EQ(fault("a.json", "{\n\"Study\": \n nonsense}"),

@@ -1,0 +1,94 @@
+// Values that keys do not take, and errors that nobody foresaw: said in our own words.
+
+#include "refusals.h"
+
+#include "app/unexpected.h"
+
+namespace
+{
+  using namespace plumbline::app;
+
+  class BadKeys : public Refusals
+  {
+  protected:
+    BadKeys()
+        : Refusals("bad_keys", "subsection Problem\n set solution = x^2\nend\n"
+                               "subsection Methods\n set names = FA\nend\n")
+    {
+    }
+  };
+
+  /// Of deal.II.
+  const std::vector<std::string> raw_words = {"such that",      "MAX_DOUBLE", "An integer",
+                                              "floating point", "Any one of", "boolean"};
+} // namespace
+
+TEST_F(BadKeys, are_refused_by_key_value_what_is_allowed_and_the_remedy)
+{
+  const auto refused = [](const std::string &key, const std::string &value,
+                          const std::string &allowed, const std::string &by_default)
+  {
+    return Trial{set(key, value),
+                 {key + " = '" + value + "' is not allowed; write " + allowed +
+                  ", or take the key out: its default is '" + by_default + "'"}};
+  };
+  const std::string whole = "a whole number from 0 to ", real = "a number such as 0.5 or 1e-3",
+                    rest = "a number above 0 such as 0.5 or 1e-3";
+  expect_refusals(
+      {refused("Quadrature/max refinements", "many", whole + "8", "4"),
+       refused("Quadrature/max refinements", "9", whole + "8", "4"),
+       refused("Quadrature/max refinements", "1.5", whole + "8", "4"),
+       refused("Kernel/singularity", "2", whole + "1", "0"),
+       refused("Geometry/checks", "99999999999", whole + "100000", "24"),
+       refused("Geometry/seed", "-1", whole + "2147483647", "1"),
+       refused("Solver/max iterations", "0", "a whole number from 1 to 2147483647", "1000"),
+       refused("Kernel/constant", "x", real, "1"), refused("Kernel/bulk modulus", "-1", rest, "1"),
+       refused("Expected/error tolerance", "0", rest, "5e-4"),
+       refused("Solver/tolerance", "nan", "a number from 1e-15 to 0.001", "1e-12"),
+       refused("Methods/perturbation", "0.5", "a number from 0 to 0.49", "0"),
+       refused("Study/regime", "x", "one of m, delta, delta-m, horizon", "delta"),
+       refused("Kernel/symmetrisation", "mean", "one of arithmetic, harmonic", "arithmetic"),
+       refused("Output/fields", "maybe", "true or false", "false")});
+}
+
+TEST_F(BadKeys, in_lists_are_named_with_how_a_list_is_written)
+{
+  const std::string write = "' is not a number; write numbers such as 0.05 or 1e-3, separated by ";
+  expect_refusals(
+      {{set("Study/h", "0.1, fine"), {"Study/h: 'fine" + write + "','"}},
+       {set("Study/h", "0.1; 0.05"), {"Study/h: '0.1; 0.05" + write + "','"}},
+       {set("Study/m", "1e999"), {"Study/m: '1e999" + write}},
+       {set("Study/m", "3,,4"), {"Study/m: '3,,4' has nothing between two commas", "; take the"}},
+       {set("Study/m", "3, 4,"), {"Study/m: '3, 4,' has nothing between", "behind the last one"}},
+       {set("Expected/errors", "FA: 1 one"), {"Expected/errors: 'one" + write + "blanks"}},
+       {set("Domain/collar", "wide"), {"Domain/collar: 'wide' is not a number; write one such as"}},
+       {set("Domain/boxes", "0, 0 : a, 1"), {"Domain/boxes: 'a' is not a number; write numbers"}}});
+}
+
+TEST(Descriptions, say_what_is_allowed_in_our_words)
+{
+  using namespace plumbline::app;
+  for (const std::string section :
+       {"Domain", "Kernel", "Material", "Problem", "Methods", "Study", "Reference", "Quadrature",
+        "Geometry", "Solver", "Output", "Expected"})
+  {
+    const Outcome outcome = run("describe " + section);
+    EXPECT_EQ(outcome.exit_code, 0) << section;
+    for (const std::string &raw : raw_words)
+      EXPECT_EQ(outcome.out.find(raw), std::string::npos) << section << ": " << raw;
+  }
+  expect_found(run("describe Solver/tolerance").out, "allowed: a number from 1e-15 to 0.001\n");
+  expect_found(run("describe Study/h").out, "allowed: any text\n");
+}
+
+TEST(Unexpected, errors_say_what_can_be_done_and_end_with_their_own_words_on_one_line)
+{
+  const std::string text = plumbline::app::explain_unexpected(
+      "\n--------------\nAn error occurred in line <5> of\n   well-known  file\n-----\n");
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  expect_found(text, "a fault of Plumbline");
+  expect_found(text, "try fewer levels (--levels) or methods (--methods), and report the scene");
+  const std::string own = "(it says: An error occurred in line <5> of well-known file)";
+  EXPECT_EQ(text.find(own), text.size() - own.size()) << text;
+  expect_found(plumbline::app::explain_unexpected("--\n"), "(it says: nothing)");
+}
