@@ -113,7 +113,9 @@ int main(int argc, char **argv)
   stability->add_flag("--json", measures.json, "Print stability.json instead of the table");
 
   std::string folder, subject, model, key;
-  auto *report = app.add_subcommand("report", "Rebuild tables, charts and page from results.json");
+  auto *report = app.add_subcommand(
+      "report",
+      "Rebuild tables, charts and page from the numbers of a run, also of one that was killed");
   report->add_option("DIR", folder, "Output folder of a run")->required();
   auto *list = app.add_subcommand("list", "List methods, kernels or scenes");
   list->add_option("WHAT", subject, "methods, kernels or scenes")->required();

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/team.h"
 #include "methods.h"
-#include "report/json.h"
+#include "report/journal.h"
 #include "report/report.h"
 #include "study/conclusions.h"
 #include "study/preflight.h"
@@ -92,12 +92,12 @@ namespace plumbline::app
     /// What an interrupted run of the same scene left in the folder.
     study::Results earlier_results(const fs::path &folder, const scene::Scene &scene)
     {
-      const fs::path file = folder / "results.json";
+      const fs::path file = report::results_file(folder);
       if (!fs::exists(file))
         return {};
       try
       {
-        const study::Results earlier = report::read_json(file);
+        const study::Results earlier = report::read_results(folder);
         // files that the scene names must be as old as the results
         const bool is_current = !is_newer(fs::path(scene.folder) / scene.mesh.kind, file) &&
                                 !is_newer(fs::path(scene.folder) / scene.nodes.kind, file);
@@ -269,6 +269,7 @@ namespace plumbline::app
 
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
+    report::Journal journal(folder);
     study::Results results;
     {
       ProgressLine progress(!is_quiet);
@@ -286,8 +287,7 @@ namespace plumbline::app
                 action();
             });
       };
-      control.on_result = [&](const study::Results &r)
-      { write([&] { report::write_json(r, folder / "results.json"); }); };
+      control.on_result = [&](const study::Results &r) { write([&] { journal.append(r); }); };
       control.should_stop = [&] { return team.any(is_interrupted != 0); };
       if (scene.write_fields)
         control.on_finest = [&](const study::Solution &solution, const study::Run &run)
@@ -314,8 +314,10 @@ namespace plumbline::app
     team.together(
         [&]
         {
-          if (is_first)
-            report::write_report(results, folder);
+          if (!is_first)
+            return;
+          report::write_report(results, folder);
+          journal.remove();
         });
     if (!is_first)
       return exit_code(results, options.check);
@@ -336,7 +338,7 @@ namespace plumbline::app
 
   int rebuild_report(const std::string &folder)
   {
-    report::write_report(report::read_json(fs::path(folder) / "results.json"), folder);
+    report::write_report(report::read_results(folder), folder);
     std::cout << "report: " << (fs::path(folder) / "report.html").string() << '\n';
     return 0;
   }

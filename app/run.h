@@ -24,7 +24,7 @@ namespace plumbline::app
   ///         finished is written)
   int run(const RunOptions &options);
 
-  /// Rebuild tables, charts and page of a folder from its results.json.
+  /// Rebuild tables, charts and page of a folder from its results.
   int rebuild_report(const std::string &folder);
 
   /// Names and help of methods, kernels or scenes.

@@ -1,6 +1,6 @@
 #include "atlas_survey.h"
 
-#include "report/json.h"
+#include "report/journal.h"
 #include "report/plot.h"
 
 #include <algorithm>
@@ -24,8 +24,8 @@ namespace plumbline::atlas
                     fs::relative(folder, atlas),
                     {},
                     ""};
-        if (fs::exists(folder / "results.json"))
-          entry.results = report::read_json(folder / "results.json");
+        if (fs::exists(report::results_file(folder)))
+          entry.results = report::read_results(folder);
         else
         {
           std::ifstream in(folder / "messages");

@@ -380,7 +380,7 @@ namespace plumbline::report
     };
   } // namespace
 
-  void write_json(const study::Results &results, const std::filesystem::path &file)
+  std::string to_json(const study::Results &results, int indent)
   {
     Json json = {{"schema", schema}};
     Writer writer;
@@ -388,25 +388,36 @@ namespace plumbline::report
         results; // one list of keys serves the reader, too, which changes its values
     visit(writer, copy);
     json.update(writer.take());
-    write_file(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
   }
 
-  study::Results read_json(const std::filesystem::path &file)
+  study::Results from_json(const std::string &text, const std::string &file)
   {
-    const std::string name = file.string(), what = "results file '" + name + "'";
-    const Json json = base::parse_json(
-        base::read_text_file(name, what, most_bytes, "the folder that 'plumbline run' has written"),
-        what, "run the scene again");
+    const std::string what = "results file '" + file + "'";
+    const Json json = base::parse_json(text, what, "run the scene again");
     unsigned int found = 0;
-    const Reader reader(json, "", name);
+    const Reader reader(json, "", file);
     reader("schema", found);
     if (found != schema)
-      throw InputError("results file '" + name + "': schema = " + std::to_string(found) +
+      throw InputError(what + ": schema = " + std::to_string(found) +
                        ", but this version reads schema " + std::to_string(schema) +
                        "; run the scene again, or use the version named under provenance");
     study::Results results;
     visit(reader, results);
     check_results(results, what);
     return results;
+  }
+
+  void write_json(const study::Results &results, const std::filesystem::path &file)
+  {
+    write_file(file, to_json(results, 1) + "\n");
+  }
+
+  study::Results read_json(const std::filesystem::path &file)
+  {
+    const std::string name = file.string();
+    return from_json(base::read_text_file(name, "results file '" + name + "'", most_bytes,
+                                          "the folder that 'plumbline run' has written"),
+                     name);
   }
 } // namespace plumbline::report

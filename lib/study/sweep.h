@@ -14,7 +14,7 @@ namespace plumbline::study
     /// grew; 0: none.
     double budget = 0;
     std::function<void(const std::string &what, double fraction)> on_progress;
-    std::function<void(const Results &)> on_result; ///< after each solve, to store what is finished
+    std::function<void(const Results &)> on_result; ///< after each solve; its lists have grown
     std::function<bool()> should_stop;              ///< asked before each solve
     std::function<void(const Solution &, const Run &)>
         on_finest; ///< solutions of the finest levels

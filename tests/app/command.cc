@@ -182,7 +182,7 @@ TEST(Command, an_interrupted_run_keeps_what_is_finished_and_goes_on)
     execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     _exit(127);
   }
-  for (int i = 0; i < 6000 && !fs::exists(folder / "results.json"); ++i)
+  for (int i = 0; i < 6000 && !fs::exists(folder / "results.jsonl"); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   kill(child, SIGINT);
   int status = 0;
@@ -191,11 +191,47 @@ TEST(Command, an_interrupted_run_keeps_what_is_finished_and_goes_on)
   EXPECT_EQ(WEXITSTATUS(status), 130);
   expect_found(read(folder / "results.json"), "\"is_complete\": false");
   EXPECT_TRUE(fs::exists(folder / "report.html"));
+  EXPECT_FALSE(fs::exists(folder / "results.jsonl"));
 
   const Outcome rest = run("run " + arguments);
   EXPECT_EQ(rest.exit_code, 0);
   expect_found(rest.err, "continuing: ");
   expect_found(read(folder / "results.json"), "\"is_complete\": true");
+}
+
+TEST(Command, a_killed_run_has_lost_nothing_that_is_finished)
+{
+  const fs::path folder = temporary("killed"), journal = folder / "results.jsonl";
+  const std::string arguments = scene + " -o " + folder.string() +
+                                " --methods FA,PA-AC,Q1,Q2,Q3,DGQ1,DGQ2 --set Study/m=3 --set "
+                                "Expected/verdicts= --set Expected/errors=";
+  const auto n_finished = [&]
+  {
+    const std::string text = fs::exists(journal) ? read(journal) : "";
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    const std::string command =
+        std::string("exec ") + PLUMBLINE_COMMAND + " run " + arguments + " >/dev/null 2>&1";
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(127);
+  }
+  for (int i = 0; i < 30000 && n_finished() < 2; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  ASSERT_GE(n_finished(), 2);
+  EXPECT_FALSE(fs::exists(folder / "results.json"));
+
+  EXPECT_EQ(run("report " + folder.string()).exit_code, 0);
+  expect_found(read(folder / "results.json"), "\"is_complete\": false");
+  const Outcome rest = run("run " + arguments);
+  EXPECT_EQ(rest.exit_code, 0);
+  expect_found(rest.err, "continuing: ");
+  expect_found(read(folder / "results.json"), "\"is_complete\": true");
+  EXPECT_FALSE(fs::exists(journal));
 }
 
 TEST(Command, lists_templates_and_descriptions_help_a_newcomer)

@@ -1,0 +1,96 @@
+#include "report/journal.h"
+
+#include "base/error.h"
+#include "report/formats.h"
+#include "report/json.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace plumbline::report
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    /// What a list has beyond its first n.
+    template <class T>
+    std::vector<T> beyond(std::size_t n, const std::vector<T> &list)
+    {
+      return {list.begin() + static_cast<std::ptrdiff_t>(n), list.end()};
+    }
+
+    template <class T>
+    void add(std::vector<T> &list, const std::vector<T> &more)
+    {
+      list.insert(list.end(), more.begin(), more.end());
+    }
+
+    void append_line(const fs::path &file, const std::string &line)
+    {
+      errno = 0;
+      std::ofstream out(file, std::ios::app);
+      out << line << std::flush;
+      if (!out)
+        throw InputError("'" + file.string() + "' cannot be written (" + std::strerror(errno) +
+                         "); free some space, or give another folder with -o");
+    }
+  } // namespace
+
+  void Journal::append(const study::Results &results)
+  {
+    if (is_begun_)
+    {
+      study::Results more;
+      more.runs = beyond(written_.runs, results.runs);
+      more.left_out = beyond(written_.left_out, results.left_out);
+      more.references = beyond(written_.references, results.references);
+      more.estimates = beyond(written_.estimates, results.estimates);
+      more.savings = beyond(written_.savings, results.savings);
+      more.maps = beyond(written_.maps, results.maps);
+      append_line(file_, to_json(more) + "\n");
+    }
+    else
+      write_file(file_, to_json(results) + "\n");
+    is_begun_ = true;
+    written_ = {results.runs.size(),      results.left_out.size(), results.references.size(),
+                results.estimates.size(), results.savings.size(),  results.maps.size()};
+  }
+
+  void Journal::remove() const
+  {
+    std::error_code not_there;
+    fs::remove(file_, not_there);
+  }
+
+  fs::path results_file(const fs::path &folder)
+  {
+    const fs::path journal = folder / "results.jsonl";
+    return fs::exists(journal) ? journal : folder / "results.json";
+  }
+
+  study::Results read_results(const fs::path &folder)
+  {
+    const fs::path file = results_file(folder);
+    if (file.extension() == ".json")
+      return read_json(file);
+    std::ifstream in(file);
+    std::string line;
+    std::getline(in, line);
+    study::Results results = from_json(line, file.string());
+    while (std::getline(in, line) && !in.eof()) // what ends without a line break was cut off
+    {
+      const study::Results more = from_json(line, file.string());
+      add(results.runs, more.runs);
+      add(results.left_out, more.left_out);
+      add(results.references, more.references);
+      add(results.estimates, more.estimates);
+      add(results.savings, more.savings);
+      add(results.maps, more.maps);
+    }
+    return results;
+  }
+} // namespace plumbline::report
