@@ -1,7 +1,7 @@
 #include "check_files.h"
 
 #include "check_text.h"
-#include "meshfree/cells_vtu.h"
+#include "meshfree/check/cells_vtu.h"
 #include "report/check_page.h"
 
 #include <cmath>

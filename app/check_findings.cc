@@ -1,9 +1,9 @@
 #include "check_findings.h"
 
 #include "base/error.h"
-#include "meshfree/bond_nodes.h"
-#include "meshfree/bond_ramp.h"
-#include "meshfree/scattered_operator.h"
+#include "meshfree/check/bond_nodes.h"
+#include "meshfree/check/bond_ramp.h"
+#include "meshfree/scattered/operator.h"
 #include "reference/method.h"
 #include "scene/mesh.h"
 #include "study/comparison.h"

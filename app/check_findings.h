@@ -2,10 +2,10 @@
 
 #include "algebra/spectrum.h"
 #include "check.h"
-#include "meshfree/bond_check.h"
-#include "meshfree/bond_file.h"
-#include "meshfree/bond_hypotheses.h"
-#include "meshfree/bond_outliers.h"
+#include "meshfree/check/bond_check.h"
+#include "meshfree/check/bond_file.h"
+#include "meshfree/check/bond_hypotheses.h"
+#include "meshfree/check/bond_outliers.h"
 
 #include <map>
 #include <memory>

@@ -1,11 +1,11 @@
 // Galerkin entries: stencils of lattices, blocks of one pair of cells after another, whole meshes.
 
+#include "reference/mesh/assembly.h"
 #include "geometry/mesh_input.h"
 #include "parts.h"
-#include "reference/lattice_stencil.h"
-#include "reference/mesh_assembly.h"
-#include "reference/pair_quadrature.h"
-#include "reference/rectangle_pairs.h"
+#include "reference/lattice/stencil.h"
+#include "reference/mesh/pair_quadrature.h"
+#include "reference/mesh/rectangle_pairs.h"
 #include "summary.h"
 
 #include <algorithm>
@@ -77,7 +77,7 @@ namespace plumbline::benchmarks
       {
         const auto [a, b] = pair;
         const double between = body.cells.centroid(a).distance(body.cells.centroid(b));
-        // as in reference/pair_quadrature.cc
+        // as in reference/mesh/pair_quadrature.cc
         const bool is_near = between <= 2 * (body.cells.radius(a) + body.cells.radius(b));
         const bool is_whole = body.cells.farthest(a, b) <= horizon;
         return place != (!is_whole ? Place::cut : is_near ? Place::near : Place::whole);

@@ -245,7 +245,7 @@ namespace plumbline::atlas
                       ? "<td class=\"absent\">–</td>"
                       : std::string("<td class=\"") +
                             (cell->cost.seconds() <= 1.1 * least ? "converges" : "") +
-                            "\" title=\"" + escape_html(cell->diagnostics.operator_road) +
+                            "\" title=\"" + escape_html(cell->diagnostics.operator_backend) +
                             "\"><b>" + report::rounded_seconds(cell->cost.seconds()) +
                             "</b><small>" +
                             report::rounded(static_cast<double>(cell->cost.peak_bytes) / 1e6) +
@@ -352,7 +352,7 @@ namespace plumbline::atlas
                           overview(entries)) +
         page::section(
             "solvers", "The choice of solver and operator",
-            page::paragraph("The same discrete problem, other roads to its solution. Green: "
+            page::paragraph("The same discrete problem, other ways to its solution. Green: "
                             "within a tenth of the fastest.") +
                 solvers(read_entries(atlas, "solvers"))) +
         page::section("scenes", "Scenes", scenes) + "</main>\n</body>\n</html>\n";

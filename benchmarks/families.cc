@@ -1,9 +1,9 @@
 // Ball ∩ cell per call; families of every rule, on lattices and on scattered nodes.
 
-#include "meshfree/families.h"
+#include "meshfree/rules/families.h"
 #include "geometry/ball_cell.h"
 #include "geometry/mesh_input.h"
-#include "meshfree/rules.h"
+#include "meshfree/rules/rules.h"
 #include "parts.h"
 #include "summary.h"
 

@@ -8,7 +8,7 @@
 #include "fuzz_inputs.h"
 #include "geometry/gmsh_script.h"
 #include "geometry/mesh_input.h"
-#include "meshfree/bond_file.h"
+#include "meshfree/check/bond_file.h"
 #include "report/json.h"
 #include "scene/csv.h"
 #include "scene/mesh.h"

@@ -4,13 +4,13 @@
 #include "algebra/sparse.h"
 #include "geometry/mesh_input.h"
 #include "geometry/vertex_cells.h"
-#include "meshfree/lattice_operator.h"
-#include "meshfree/rules.h"
-#include "meshfree/state_based_operator.h"
+#include "meshfree/lattice/stencil.h"
+#include "meshfree/rules/rules.h"
+#include "meshfree/scattered/state_based_operator.h"
 #include "parts.h"
-#include "reference/lattice_stencil.h"
-#include "reference/pair_quadrature.h"
-#include "reference/rectangle_pairs.h"
+#include "reference/lattice/stencil.h"
+#include "reference/mesh/pair_quadrature.h"
+#include "reference/mesh/rectangle_pairs.h"
 
 #include <cmath>
 #include <memory>

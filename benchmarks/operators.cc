@@ -1,8 +1,8 @@
 // Operator applications per bond.
 
 #include "algebra/operator.h"
-#include "meshfree/lattice_operator.h"
-#include "meshfree/rules.h"
+#include "meshfree/lattice/stencil.h"
+#include "meshfree/rules/rules.h"
 #include "parts.h"
 #include "summary.h"
 
@@ -12,7 +12,7 @@ namespace plumbline::benchmarks
 {
   namespace
   {
-    using algebra::Road;
+    using algebra::OperatorBackend;
 
     physics::Kernel<2> make_kernel(bool is_tensor, double horizon)
     {
@@ -21,7 +21,7 @@ namespace plumbline::benchmarks
                        : physics::Kernel<2>::with_diffusion(profile, horizon, .5);
     }
 
-    /// The least that a road has to do, c components on n unknowns of each.
+    /// The least that a backend has to do, c components on n unknowns of each.
     /// direct: opposite bonds share their weight w (u(+) + u(-)): 3 operations for two bonds, 10 of
     /// a tensor, and a neighbour loaded for each bond; u and the result are moved, and a padded
     /// copy of u lies beside them.
@@ -30,12 +30,12 @@ namespace plumbline::benchmarks
     /// fft: 5/2 N log2 N operations of a real transform there and one back, N points with at
     /// least the reach of padding; a real factor for each of N/2 modes, of a tensor three; moved
     /// are u, the result and the factors, touched the field and its modes as well.
-    Work work(Road road, double bonds, double n, double c, double n_padded)
+    Work work(OperatorBackend backend, double bonds, double n, double c, double n_padded)
     {
       const double vectors = 2 * 8 * c * n, entries = c * c * bonds;
-      if (road == Road::direct)
+      if (backend == OperatorBackend::direct)
         return {(c == 1 ? 1.5 : 5) * bonds, 8 * c * bonds, vectors, 1.5 * vectors};
-      if (road == Road::sparse)
+      if (backend == OperatorBackend::sparse)
         return {2 * entries, 20 * entries, 12 * entries + vectors, 12 * entries + vectors};
       const double factors = 8 * n_padded / 2 * c * (c + 1) / 2;
       return {c * 5 * n_padded * std::log2(n_padded) + (c == 1 ? 1 : 6) * n_padded, 0,
@@ -43,7 +43,7 @@ namespace plumbline::benchmarks
     }
 
     /// y = L_h x for IPA-AC on n × n nodes; arguments: m, n.
-    void apply(benchmark::State &state, bool is_tensor, Road road)
+    void apply(benchmark::State &state, bool is_tensor, OperatorBackend backend)
     {
       const auto m = static_cast<double>(state.range(0));
       const auto n = static_cast<double>(state.range(1));
@@ -53,7 +53,7 @@ namespace plumbline::benchmarks
                                           geometry::Backend::fast));
       const geometry::Lattice lattice({{{{0, 0}, {1, 1}}}, {}}, 1 / n);
       const auto nodes = free_nodes(lattice, {{.5, false, 0}}, kernel.n_components());
-      const auto matrix = make_operator(stencil, nodes, road);
+      const auto matrix = make_operator(stencil, nodes, backend);
       algebra::Vector x(nodes.size()), y(nodes.size());
       for (std::size_t i = 0; i < x.size(); ++i)
         x[i] = std::sin(static_cast<double>(i));
@@ -66,21 +66,24 @@ namespace plumbline::benchmarks
       const double c = kernel.n_components();
       const double bonds = static_cast<double>(matrix->n_bonds()) / (c * c);
       const double length = n + stencil.reach();
-      count(state, "bonds", bonds, work(road, bonds, n * n, c, length * length));
+      count(state, "bonds", bonds, work(backend, bonds, n * n, c, length * length));
     }
   } // namespace
 
   void register_operators()
   {
-    const std::vector<std::pair<std::string, Road>> roads = {
-        {"direct", Road::direct}, {"fft", Road::fft}, {"sparse", Road::sparse}};
+    const std::vector<std::pair<std::string, OperatorBackend>> backends = {
+        {"direct", OperatorBackend::direct},
+        {"fft", OperatorBackend::fft},
+        {"sparse", OperatorBackend::sparse}};
     for (const bool is_tensor : {false, true})
-      for (const auto &[name, road] : roads)
+      for (const auto &[name, backend] : backends)
       {
         const std::string title =
             std::string("apply/") + (is_tensor ? "tensor/" : "scalar/") + name;
-        auto *bench = benchmark::RegisterBenchmark(
-            title.c_str(), [=, road = road](benchmark::State &s) { apply(s, is_tensor, road); });
+        auto *bench =
+            benchmark::RegisterBenchmark(title.c_str(), [=, backend = backend](benchmark::State &s)
+                                         { apply(s, is_tensor, backend); });
         bench->ArgNames({"m", "n"})->Unit(benchmark::kMillisecond);
         // sizes where the sparse matrix still fits
         for (const auto &[m, n] : {std::pair<int, int>{3, 256}, {8, 256}, {16, 256}, {32, 128}})
@@ -88,7 +91,7 @@ namespace plumbline::benchmarks
             bench->Args({m, is_tensor && m == 16 ? 128 : n});
       }
     // vectors too large for any cache
-    benchmark::RegisterBenchmark("apply/scalar/direct", apply, false, Road::direct)
+    benchmark::RegisterBenchmark("apply/scalar/direct", apply, false, OperatorBackend::direct)
         ->ArgNames({"m", "n"})
         ->Args({3, 2048})
         ->Unit(benchmark::kMillisecond);

@@ -12,7 +12,7 @@ namespace plumbline::benchmarks
     return physics::Kernel<2>::with_diffusion(physics::kernel_type(type).profile, horizon, .5);
   }
 
-  void register_operators(); ///< applications, by every road
+  void register_operators(); ///< applications, by every backend
   void register_families();  ///< ball ∩ cell, rules on lattices and on scattered nodes
   void register_assembly();  ///< Galerkin entries: lattices, pairs of cells, whole meshes
 } // namespace plumbline::benchmarks

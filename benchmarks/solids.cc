@@ -5,11 +5,11 @@
 // at most.
 
 #include "geometry/vertex_cells.h"
-#include "meshfree/families.h"
+#include "meshfree/body/operator.h"
 #include "meshfree/method.h"
-#include "meshfree/rules.h"
-#include "meshfree/state_based_operator.h"
-#include "meshfree/variational_operator.h"
+#include "meshfree/rules/families.h"
+#include "meshfree/rules/rules.h"
+#include "meshfree/scattered/state_based_operator.h"
 #include "reference/method.h"
 #include "summary.h"
 
@@ -27,7 +27,7 @@ namespace
     meshfree::VariationalBody body;
     meshfree::VariationalOperator matrix;
 
-    Bar(double n, double horizon, algebra::Road road)
+    Bar(double n, double horizon, algebra::OperatorBackend backend)
         : body(meshfree::body_on_vertices(
               geometry::Lattice({{{{0, 0}, {2, 1}}}, {}}, 1 / n),
               {{{0, 0}, {.1, 0}, {.1, 1}, {0, 1}}},
@@ -35,7 +35,7 @@ namespace
           matrix(body, influence(horizon),
                  meshfree::lattice_bonds(meshfree::partial_area(influence(horizon)),
                                          influence(horizon), 1 / n, geometry::Backend::fast),
-                 road)
+                 backend)
     {
     }
 
@@ -51,7 +51,7 @@ namespace
     for (auto _ : state)
     {
       const base::MemoryGauge memory;
-      const Bar bar(n, .05, algebra::Road::automatic);
+      const Bar bar(n, .05, algebra::OperatorBackend::automatic);
       const auto load = meshfree::nodal_load(
           bar.body, [](const auto &x) { return dealii::Point<2>(x[0] > 1.9 - 1e-9 ? 100 : 0, 0); });
       algebra::Vector u(load.size());
@@ -67,11 +67,11 @@ namespace
   /// then 2 sums, the difference of θ, and 6 operations for each component of the force; of a bond,
   /// 2 loads and then 3. u and the result are moved; θ, the constants of each node and the padded
   /// fields are touched as well.
-  void apply_lattice(benchmark::State &state, algebra::Road road)
+  void apply_lattice(benchmark::State &state, algebra::OperatorBackend backend)
   {
     const auto m = static_cast<double>(state.range(0));
     constexpr double n = 200;
-    const Bar bar(n, m / n, road);
+    const Bar bar(n, m / n, backend);
     algebra::Vector x(2 * bar.body.size()), y(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
       x[i] = std::sin(static_cast<double>(i));
@@ -82,7 +82,7 @@ namespace
     }
     const auto bonds = static_cast<double>(bar.matrix.n_bonds());
     const double vectors = 2 * 8 * static_cast<double>(x.size());
-    if (road == algebra::Road::direct)
+    if (backend == algebra::OperatorBackend::direct)
       benchmarks::count(state, "bonds", bonds,
                         {10.5 * bonds, (2 + 3) * 8 * bonds, vectors, 4 * vectors});
     else
@@ -199,10 +199,12 @@ namespace
         ->Unit(benchmark::kMillisecond);
     for (const int m : {3, 8, 16})
     {
-      benchmark::RegisterBenchmark("apply/lattice/direct", apply_lattice, algebra::Road::direct)
+      benchmark::RegisterBenchmark("apply/lattice/direct", apply_lattice,
+                                   algebra::OperatorBackend::direct)
           ->Arg(m)
           ->Unit(benchmark::kMillisecond);
-      benchmark::RegisterBenchmark("apply/lattice/fft", apply_lattice, algebra::Road::fft)
+      benchmark::RegisterBenchmark("apply/lattice/fft", apply_lattice,
+                                   algebra::OperatorBackend::fft)
           ->Arg(m)
           ->Unit(benchmark::kMillisecond);
     }

@@ -152,11 +152,11 @@ namespace plumbline::benchmarks
       seconds[row.name] = row.seconds;
     std::ostringstream lines;
     for (const auto &[name, time] : seconds)
-      for (const std::string road : {"direct", "fft"})
-        if (const auto at = name.find("/" + road + "/"); at != std::string::npos)
+      for (const std::string backend : {"direct", "fft"})
+        if (const auto at = name.find("/" + backend + "/"); at != std::string::npos)
         {
           std::string sparse = name;
-          sparse.replace(at + 1, road.size(), "sparse");
+          sparse.replace(at + 1, backend.size(), "sparse");
           if (seconds.count(sparse) > 0)
             lines << "  " << name << ": " << seconds.at(sparse) / time << '\n';
         }

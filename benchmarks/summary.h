@@ -32,7 +32,7 @@ namespace plumbline::benchmarks
 
   /// The usual table, and after it what the machine can do at most and how far each benchmark is
   /// from that: the fraction of the limit that comes first, arithmetic, loads or memory. Then how
-  /// many times slower the sparse matrix is than the other roads.
+  /// many times slower the sparse matrix is than the other backends.
   class Summary : public benchmark::ConsoleReporter
   {
   public:

@@ -1,4 +1,4 @@
-// How fast are the parts: operator applications per bond on every road, ball ∩ cell, rules,
+// How fast are the parts: operator applications per bond by every backend, ball ∩ cell, rules,
 // entries, and how far each is from what one core of this machine can do. Run:
 // build/release/benchmarks/throughput [--benchmark_filter=...] All figures are CPU time on one
 // core; compare them within one run.

@@ -1,6 +1,6 @@
 #include "meshfree/method.h"
 
-#include "meshfree/roads.h"
+#include "meshfree/solutions.h"
 
 #include <utility>
 
@@ -35,9 +35,9 @@ namespace plumbline::meshfree
       study::Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
       {
         if (problem.body)
-          return body_road(rule_, scene, problem);
-        return problem.lattice ? lattice_road(rule_, scene, problem)
-                               : scattered_road(rule_, scene, problem);
+          return body_solution(rule_, scene, problem);
+        return problem.lattice ? lattice_solution(rule_, scene, problem)
+                               : scattered_solution(rule_, scene, problem);
       }
 
       double expected_bytes(const scene::Scene &scene,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference/mesh_cells.h"
+#include "reference/mesh/cells.h"
 
 namespace plumbline::reference
 {

@@ -1,8 +1,8 @@
 #include "reference/method.h"
 
-#include "reference/lattice_method.h"
-#include "reference/local_limit.h"
-#include "reference/mesh_method.h"
+#include "reference/lattice/solution.h"
+#include "reference/local/local_limit.h"
+#include "reference/mesh/solution.h"
 #include "study/lattice_solve.h"
 #include "study/limit_proof.h"
 

@@ -1,6 +1,7 @@
 # Walk the includes: base <- {physics, geometry} <- {scene, algebra} <- study <- report; reference and
-# meshfree include lib and never each other; Trilinos is named in algebra and reference alone; CGAL in
-# sources alone. Members of structs have values from the start.
+# meshfree include lib and never each other, and their folders some of their own alone; Trilinos is
+# named in algebra and reference alone; CGAL in sources alone. Members of structs have values from the
+# start.
 cmake_minimum_required(VERSION 3.22)
 set(may_include_base base)
 set(may_include_physics base physics)
@@ -11,6 +12,15 @@ set(may_include_study base physics geometry scene algebra study)
 set(may_include_report base physics geometry scene algebra study report)
 set(may_include_reference base physics geometry scene algebra study report reference)
 set(may_include_meshfree base physics geometry scene algebra study report meshfree)
+# what a folder of a side may include of its side's other folders
+set(meshfree_rules)
+set(meshfree_lattice rules)
+set(meshfree_scattered rules)
+set(meshfree_body rules scattered)
+set(meshfree_check rules)
+set(reference_lattice)
+set(reference_mesh)
+set(reference_local mesh)
 set(ours base physics geometry scene algebra study report reference meshfree app tests)
 
 set(n_includes 0)
@@ -20,7 +30,7 @@ foreach(folder base physics geometry scene algebra study report reference meshfr
   else()
     set(path ${ROOT}/lib/${folder})
   endif()
-  file(GLOB files ${path}/*.h ${path}/*.cc)
+  file(GLOB_RECURSE files ${path}/*.h ${path}/*.cc)
   foreach(file ${files})
     # a value that nobody set must not depend on what stood in memory; ball_cell_*.h are inner loops
     file(STRINGS ${file} unset REGEX
@@ -35,6 +45,13 @@ foreach(folder base physics geometry scene algebra study report reference meshfr
         math(EXPR n_includes "${n_includes} + 1")
         if(target IN_LIST ours AND NOT target IN_LIST may_include_${folder})
           message(SEND_ERROR "${file}: ${line}: '${folder}' may not include '${target}'")
+        endif()
+      endif()
+      if(line MATCHES "\"${folder}/([a-z]+)/" AND file MATCHES "/${folder}/([a-z]+)/")
+        set(own ${CMAKE_MATCH_1})
+        string(REGEX MATCH "\"${folder}/([a-z]+)/" ignored "${line}")
+        if(NOT CMAKE_MATCH_1 STREQUAL own AND NOT CMAKE_MATCH_1 IN_LIST ${folder}_${own})
+          message(SEND_ERROR "${file}: ${line}: '${folder}/${own}' may not include '${folder}/${CMAKE_MATCH_1}'")
         endif()
       endif()
       if(line MATCHES "[Tt]rilinos" AND NOT folder MATCHES "^(algebra|reference)$")

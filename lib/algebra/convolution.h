@@ -22,7 +22,7 @@ namespace plumbline::algebra
     /// @param output  shape (n_blocks, n[1], n[0])
     void apply(const double *input, double *output) const;
 
-    /// Estimated seconds an apply takes on one core, to choose a road (measured on one machine).
+    /// Estimated seconds an apply takes on one core, to choose a backend (measured on one machine).
     static double estimated_seconds(unsigned int n_blocks, int reach, std::array<int, 2> n);
 
   private:

@@ -21,7 +21,7 @@ namespace plumbline::algebra
     /// @param input, output  shape (n_blocks, n[1], n[0]); input counts as 0 outside
     void apply(const double *input, double *output) const;
 
-    /// Estimated seconds an apply takes on one core, to choose a road (measured on one machine).
+    /// Estimated seconds an apply takes on one core, to choose a backend (measured on one machine).
     static double estimated_seconds(const Stencil &stencil, std::array<int, 2> n);
 
   private:

@@ -19,14 +19,14 @@ namespace plumbline::algebra
           *values++ *= is_free != 0 ? 1. : 0.;
     }
 
-    /// A shared stencil applied by one of the two roads for it.
+    /// A shared stencil applied by one of the two backends for it.
     template <class Application>
     class StencilOperator : public Operator
     {
     public:
-      StencilOperator(const Stencil &stencil, const geometry::NodeSet &nodes, std::string road,
+      StencilOperator(const Stencil &stencil, const geometry::NodeSet &nodes, std::string backend,
                       Application &&application)
-          : nodes_(nodes), road_(std::move(road)), application_(std::move(application)),
+          : nodes_(nodes), backend_(std::move(backend)), application_(std::move(application)),
             n_bonds_(stencil.n_entries() * nodes.n_unknowns() / nodes.n_blocks()),
             is_masked_(std::any_of(nodes.is_free.begin(), nodes.is_free.end(),
                                    [](char c) { return c == 0; }))
@@ -38,46 +38,46 @@ namespace plumbline::algebra
         if (is_masked_)
           restrict_to_free(nodes_, result.begin());
       }
-      std::string road() const override { return road_; }
+      std::string backend() const override { return backend_; }
       std::uint64_t n_bonds() const override { return n_bonds_; }
 
     private:
       geometry::NodeSet nodes_;
-      std::string road_;
+      std::string backend_;
       Application application_;
       std::uint64_t n_bonds_;
       bool is_masked_;
     };
   } // namespace
 
-  Road road_from_name(const std::string &name)
+  OperatorBackend operator_backend_from_name(const std::string &name)
   {
     if (name == "automatic")
-      return Road::automatic;
+      return OperatorBackend::automatic;
     if (name == "fft")
-      return Road::fft;
+      return OperatorBackend::fft;
     if (name == "direct")
-      return Road::direct;
+      return OperatorBackend::direct;
     if (name == "sparse")
-      return Road::sparse;
+      return OperatorBackend::sparse;
     throw InputError("Solver/operator = '" + name +
                      "' is not known; choose automatic, fft, direct or sparse");
   }
 
   std::unique_ptr<Operator> make_operator(const Stencil &stencil, const geometry::NodeSet &nodes,
-                                          Road road)
+                                          OperatorBackend backend)
   {
-    if (road == Road::automatic)
+    if (backend == OperatorBackend::automatic)
     {
       const bool direct_is_faster =
           DirectStencil::fits(stencil) &&
           DirectStencil::estimated_seconds(stencil, nodes.n) <
               Convolution::estimated_seconds(stencil.n_blocks(), stencil.reach(), nodes.n);
-      road = direct_is_faster ? Road::direct : Road::fft;
+      backend = direct_is_faster ? OperatorBackend::direct : OperatorBackend::fft;
     }
-    if (road == Road::sparse)
+    if (backend == OperatorBackend::sparse)
       return std::make_unique<SparseOperator>(stencil, nodes);
-    if (road == Road::fft)
+    if (backend == OperatorBackend::fft)
       return std::make_unique<StencilOperator<Convolution>>(stencil, nodes, "fft",
                                                             Convolution(stencil, nodes.n, 0));
     if (!DirectStencil::fits(stencil))

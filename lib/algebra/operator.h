@@ -12,7 +12,7 @@ namespace plumbline::algebra
   using Vector = dealii::Vector<double>;
 
   /// How an operator is applied.
-  enum class Road
+  enum class OperatorBackend
   {
     automatic, ///< direct or fft, whichever is estimated to be faster
     fft,
@@ -21,7 +21,7 @@ namespace plumbline::algebra
   };
 
   /// @throws InputError  not one of automatic, fft, direct, sparse
-  Road road_from_name(const std::string &name);
+  OperatorBackend operator_backend_from_name(const std::string &name);
 
   /// A linear operator on the vectors of a NodeSet; positions that are not free are zero in and
   /// out.
@@ -30,14 +30,15 @@ namespace plumbline::algebra
   public:
     virtual ~Operator() = default;
     virtual void vmult(Vector &result, const Vector &input) const = 0;
-    virtual std::string road() const = 0;
+    virtual std::string backend() const = 0;
     virtual std::uint64_t n_bonds() const = 0; ///< pairs one application sums over
   };
 
-  /// Couplings between free nodes of a stencil, on the road asked for.
-  /// @throws InputError  Road::direct for a stencil that is not even or has more than two blocks
+  /// Couplings between free nodes of a stencil, by the backend asked for.
+  /// @throws InputError  OperatorBackend::direct for a stencil that is not even or has more than
+  /// two blocks
   std::unique_ptr<Operator> make_operator(const Stencil &stencil, const geometry::NodeSet &nodes,
-                                          Road road = Road::automatic);
+                                          OperatorBackend backend = OperatorBackend::automatic);
 
   /// The action of given values outside the free nodes on the free nodes: Σ_k A(k) g(i + k).
   /// @param data  shape (n_blocks, n[1] + 2 reach, n[0] + 2 reach), 0 at free positions

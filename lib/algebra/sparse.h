@@ -14,7 +14,7 @@ namespace plumbline::algebra
   /// Couplings between the free unknowns, numbered like that.
   Rows assemble(const Stencil &stencil, const geometry::NodeSet &nodes);
 
-  /// The same operator as an assembled Trilinos matrix: the second road to every number, and the
+  /// The same operator as an assembled Trilinos matrix: a second way to every number, and the
   /// one that other solvers can take. Memory O(unknowns × bonds).
   class SparseOperator : public Operator
   {
@@ -23,7 +23,7 @@ namespace plumbline::algebra
     ~SparseOperator() override;
 
     void vmult(Vector &result, const Vector &input) const override;
-    std::string road() const override { return "sparse"; }
+    std::string backend() const override { return "sparse"; }
     std::uint64_t n_bonds() const override;
 
     /// Solve by Trilinos' direct solver (Amesos KLU), for small systems.

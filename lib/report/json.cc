@@ -66,7 +66,7 @@ namespace plumbline::report
       a("rank", diagnostics.rank);
       a("smallest_singular_value", diagnostics.smallest_singular_value);
       a("relative_residual", diagnostics.relative_residual);
-      a("operator_road", diagnostics.operator_road);
+      a("operator_backend", diagnostics.operator_backend);
       a("n_geometry_checks", diagnostics.n_geometry_checks);
       a("geometry_difference", diagnostics.geometry_difference);
       a("outer_change", diagnostics.outer_change);

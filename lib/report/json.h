@@ -8,7 +8,7 @@
 namespace plumbline::report
 {
   /// The number that stands under "schema"; it changes when a key changes its meaning or goes away.
-  constexpr unsigned int schema = 5;
+  constexpr unsigned int schema = 6;
 
   /// Everything of one run, as schema.md describes it. Numbers are the shortest decimals (at most
   /// 17 digits) that read back to the same double; NaN and infinity are null, and read back as NaN.

@@ -230,7 +230,7 @@ namespace plumbline::report
     {
       double fewest = std::numeric_limits<double>::max(), most = 0, ratio = fewest, residual = 0;
       unsigned int n_negative = 0;
-      std::vector<std::string> roads, notes;
+      std::vector<std::string> backends, notes;
       const auto add = [](std::vector<std::string> &list, const std::string &text)
       {
         if (!text.empty() && std::find(list.begin(), list.end(), text) == list.end())
@@ -245,7 +245,7 @@ namespace plumbline::report
           ratio = std::min(ratio, d.smallest_weight_ratio);
           residual = std::max(residual, d.relative_residual);
           n_negative = std::max(n_negative, d.n_negative_weights);
-          add(roads, d.operator_road);
+          add(backends, d.operator_backend);
           for (const std::string &note : d.notes)
             add(notes, note);
         }
@@ -264,7 +264,7 @@ namespace plumbline::report
                             number_cell(ratio),
                             count_cell(n_negative),
                             error_cell(residual),
-                            text_cell(join(roads, ", ")),
+                            text_cell(join(backends, ", ")),
                             text_cell(join(notes, "; "))});
     }
     return table;

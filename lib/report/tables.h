@@ -31,7 +31,7 @@ namespace plumbline::report
   /// errors with the target "reference". A level without an estimate (zero) says nothing.
   Table doubtful_differences(const study::Results &results);
 
-  /// Of each method over all its runs: neighbours, weights, residual, road, notes.
+  /// Of each method over all its runs: neighbours, weights, residual, backend, notes.
   Table diagnostics_table(const study::Results &results);
 
   /// What the smallest model saved, where the full one was solved too.

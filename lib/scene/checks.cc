@@ -199,8 +199,8 @@ namespace plumbline::scene
                        "cracks and free surfaces; write none, or an expression");
     needs(mesh.is_lattice() || !scene.collar, "Domain/collar is given",
           "a mesh has the collar it has, and is checked; write Domain/collar = auto");
-    needs(mesh.is_lattice() || scene.is_free_body || scene.operator_road == "automatic",
-          "Solver/operator = " + scene.operator_road,
+    needs(mesh.is_lattice() || scene.is_free_body || scene.operator_backend == "automatic",
+          "Solver/operator = " + scene.operator_backend,
           "operators on meshes are sparse matrices; write automatic");
     needs(mesh.is_of_boxes() || scene.domain.exclude.empty(), "Domain/holes is given",
           "holes are for boxes; cut them out of the mesh itself");

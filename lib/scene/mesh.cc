@@ -5,6 +5,7 @@
 #include "geometry/mesh_input.h"
 #include "physics/expression.h"
 #include "scene/csv.h"
+#include "scene/mesh_files.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,8 +46,8 @@ namespace plumbline::scene
       if (source.is_file())
         try
         {
-          return geometry::read_mesh(path(scene, source.kind), level.h, level.horizon,
-                                     !scene.is_free_body);
+          return scene.mesh_files->read(path(scene, source.kind), level.h, level.horizon,
+                                        !scene.is_free_body);
         }
         catch (const InputError &error)
         {

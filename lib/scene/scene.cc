@@ -4,6 +4,7 @@
 #include "base/text_file.h"
 #include "scene/checks.h"
 #include "scene/material.h"
+#include "scene/mesh_files.h"
 #include "scene/parameters.h"
 #include "scene/scene_file.h"
 #include "scene/values.h"
@@ -119,6 +120,7 @@ namespace plumbline::scene
       const auto value = [&](const std::string &key) { return get(parameters, key); };
       const auto numbers = [&](const std::string &key) { return to_numbers(key, value(key), ','); };
       Scene scene;
+      scene.mesh_files = std::make_shared<MeshFiles>();
       scene.name = std::filesystem::path(file).stem().string();
       scene.purpose = value("Purpose");
       std::ostringstream text;
@@ -199,7 +201,7 @@ namespace plumbline::scene
           value("Geometry/backend") == "cgal" ? geometry::Backend::cgal : geometry::Backend::fast;
       scene.n_geometry_checks = std::stoi(value("Geometry/checks"));
       scene.seed = std::stoi(value("Geometry/seed"));
-      scene.operator_road = value("Solver/operator");
+      scene.operator_backend = value("Solver/operator");
       check_mesh_and_nodes(scene);
       scene.linear_solver = value("Solver/linear solver");
       scene.iteration = value("Solver/iteration");

@@ -8,12 +8,15 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace plumbline::scene
 {
+  class MeshFiles;
+
   /// How a sweep refines.
   enum class Regime
   {
@@ -99,7 +102,8 @@ namespace plumbline::scene
 
     geometry::Domain domain;
     MeshSource mesh;
-    std::optional<double> collar; ///< width; empty: as wide as the ball needs
+    std::shared_ptr<MeshFiles> mesh_files; ///< those read so far; copies share them
+    std::optional<double> collar;          ///< width; empty: as wide as the ball needs
     /// The boundary is free of traction and families end there; u is given in `fixed` parts of Ω.
     bool is_free_body = false;
     std::vector<geometry::Box> fixed;
@@ -161,7 +165,7 @@ namespace plumbline::scene
     geometry::Backend backend = geometry::Backend::fast;
     unsigned int n_geometry_checks = 24, seed = 1;
 
-    std::string operator_road, linear_solver, iteration;
+    std::string operator_backend, linear_solver, iteration;
     bool keeps_dilatation = false; ///< as an unknown of each scattered node
     double tolerance = 1e-12;
     unsigned int max_iterations = 1000;

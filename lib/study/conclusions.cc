@@ -240,7 +240,7 @@ namespace plumbline::study
           results.omissions.push_back({"a coefficient at every bond", "the material is homogeneous",
                                        "one evaluation a quadrature point"});
       }
-      else if (scene.operator_road != "sparse")
+      else if (scene.operator_backend != "sparse")
         results.omissions.push_back(
             {"a matrix", "uniform lattice and homogeneous kernel: all rows are one stencil",
              "an assembled matrix would hold " + number(bonds) + " entries, " +

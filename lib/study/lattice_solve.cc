@@ -88,7 +88,8 @@ namespace plumbline::study
     }
     LatticeSolve result;
     base::CpuTimer timer;
-    const auto matrix = make_operator(stencil, nodes, algebra::road_from_name(scene.operator_road));
+    const auto matrix =
+        make_operator(stencil, nodes, algebra::operator_backend_from_name(scene.operator_backend));
     const algebra::SchwarzPreconditioner preconditioner(stencil, nodes,
                                                         maximal_rectangles(*problem.lattice));
     result.cost.setup_seconds = timer.seconds();
@@ -109,7 +110,7 @@ namespace plumbline::study
     result.diagnostics.n_neighbours =
         static_cast<unsigned int>(stencil.n_entries() / stencil.n_blocks() - 1);
     result.diagnostics.relative_residual = solved.relative_residual;
-    result.diagnostics.operator_road = matrix->road();
+    result.diagnostics.operator_backend = matrix->backend();
     return result;
   }
 

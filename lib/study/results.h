@@ -43,7 +43,7 @@ namespace plumbline::study
     unsigned int n_conditions = 0, rank = 0; ///< moments asked of the family of lowest rank
     double smallest_singular_value = 1; ///< of such conditions, least of all, see meshfree::Fit
     double relative_residual = 0;       ///< of the linear system when the solver stopped
-    std::string operator_road;          ///< "fft", "direct", "sparse" or "sparse, <solver>"
+    std::string operator_backend;       ///< "fft", "direct", "sparse" or "sparse, <solver>"
     unsigned int n_geometry_checks = 0; ///< cut cells recomputed with the exact backend
     double geometry_difference = 0;     ///< worst difference among them, relative to the cell
     double outer_change = 0;            ///< L2, relative: the last refinement of outer quadrature

@@ -47,7 +47,7 @@ namespace plumbline::study
   bool has_fuller_model(const scene::Scene &scene)
   {
     const bool drops_dilatation = scene.material.is_state_based() && !scene.has_dilatation();
-    return !scene.is_full_model && !scene.collar && scene.operator_road == "automatic" &&
+    return !scene.is_full_model && !scene.collar && scene.operator_backend == "automatic" &&
            (scene.is_free_body ? drops_dilatation : scene.mesh.is_lattice());
   }
 

@@ -62,7 +62,8 @@ namespace
     return v;
   }
 
-  double relative_difference(const Stencil &stencil, const NodeSet &nodes, Road a, Road b)
+  double relative_difference(const Stencil &stencil, const NodeSet &nodes, OperatorBackend a,
+                             OperatorBackend b)
   {
     const Vector input = random_vector(nodes);
     Vector x(nodes.size()), y(nodes.size());
@@ -82,8 +83,12 @@ TEST(Operator, fft_direct_and_sparse_roads_agree_for_one_and_two_components)
       {
         const NodeSet nodes = free_nodes(Lattice(domain, 1. / 16), one_family, n_components);
         const Stencil stencil = random_stencil(n_components, reach, true);
-        EXPECT_LT(relative_difference(stencil, nodes, Road::sparse, Road::fft), 1e-13);
-        EXPECT_LT(relative_difference(stencil, nodes, Road::sparse, Road::direct), 1e-13);
+        EXPECT_LT(
+            relative_difference(stencil, nodes, OperatorBackend::sparse, OperatorBackend::fft),
+            1e-13);
+        EXPECT_LT(
+            relative_difference(stencil, nodes, OperatorBackend::sparse, OperatorBackend::direct),
+            1e-13);
       }
 }
 
@@ -91,8 +96,10 @@ TEST(Operator, reach_beyond_the_domain_is_allowed)
 {
   const NodeSet nodes = free_nodes(Lattice(square, .25), one_family, 1);
   const Stencil stencil = random_stencil(1, 6, true);
-  EXPECT_LT(relative_difference(stencil, nodes, Road::sparse, Road::fft), 1e-13);
-  EXPECT_LT(relative_difference(stencil, nodes, Road::sparse, Road::direct), 1e-13);
+  EXPECT_LT(relative_difference(stencil, nodes, OperatorBackend::sparse, OperatorBackend::fft),
+            1e-13);
+  EXPECT_LT(relative_difference(stencil, nodes, OperatorBackend::sparse, OperatorBackend::direct),
+            1e-13);
 }
 
 TEST(Operator, fft_and_sparse_roads_agree_for_several_families)
@@ -101,22 +108,24 @@ TEST(Operator, fft_and_sparse_roads_agree_for_several_families)
   {
     const NodeSet nodes = free_nodes(Lattice(domain, .125), two_families, 2);
     const Stencil stencil = random_stencil(8, 2, false);
-    EXPECT_LT(relative_difference(stencil, nodes, Road::sparse, Road::fft), 1e-13);
+    EXPECT_LT(relative_difference(stencil, nodes, OperatorBackend::sparse, OperatorBackend::fft),
+              1e-13);
   }
 }
 
 TEST(Operator, direct_road_is_refused_where_it_does_not_fit)
 {
   const NodeSet nodes = free_nodes(Lattice(square, .25), two_families, 1);
-  EXPECT_THROW(make_operator(random_stencil(4, 1, false), nodes, Road::direct), InputError);
-  EXPECT_THROW(road_from_name("quantum"), InputError);
+  EXPECT_THROW(make_operator(random_stencil(4, 1, false), nodes, OperatorBackend::direct),
+               InputError);
+  EXPECT_THROW(operator_backend_from_name("quantum"), InputError);
 }
 
 TEST(Operator, automatic_takes_the_direct_road_for_short_reach_and_transforms_for_long_reach)
 {
   const NodeSet nodes = free_nodes(Lattice(square, 1. / 128), one_family, 1);
-  EXPECT_EQ(make_operator(random_stencil(1, 2, true), nodes)->road(), "direct");
-  EXPECT_EQ(make_operator(random_stencil(1, 30, true), nodes)->road(), "fft");
+  EXPECT_EQ(make_operator(random_stencil(1, 2, true), nodes)->backend(), "direct");
+  EXPECT_EQ(make_operator(random_stencil(1, 30, true), nodes)->backend(), "fft");
 }
 
 TEST(CollarAction, equals_the_sum_over_given_neighbours)

@@ -178,9 +178,10 @@ TEST(Assembly, has_the_eigenvalues_of_the_operator_on_every_road)
   const Eigen::VectorXd exact = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense).eigenvalues();
 
   const auto positions = free_positions(nodes);
-  for (const Road road : {Road::fft, Road::direct, Road::sparse})
+  for (const OperatorBackend backend :
+       {OperatorBackend::fft, OperatorBackend::direct, OperatorBackend::sparse})
   {
-    const auto matrix = make_operator(stencil, nodes, road);
+    const auto matrix = make_operator(stencil, nodes, backend);
     const Action action = [&](const std::vector<double> &x, std::vector<double> &y)
     {
       Vector in(nodes.size()), out(nodes.size());
@@ -191,8 +192,8 @@ TEST(Assembly, has_the_eigenvalues_of_the_operator_on_every_road)
         y[i] = out[positions[i]];
     };
     const Spectrum found = spectrum(action, rows.n_rows(), 1e-9);
-    EXPECT_NEAR(found.smallest, exact[0], 1e-11) << matrix->road();
-    EXPECT_NEAR(found.largest, exact[n - 1], 1e-11) << matrix->road();
+    EXPECT_NEAR(found.smallest, exact[0], 1e-11) << matrix->backend();
+    EXPECT_NEAR(found.largest, exact[n - 1], 1e-11) << matrix->backend();
   }
   EXPECT_NEAR(check_matrix(rows).smallest_eigenvalue, exact[0], 1e-8);
 }

@@ -2,8 +2,8 @@
 
 #include "check_command.h"
 
-#include "meshfree/families.h"
-#include "meshfree/rules.h"
+#include "meshfree/rules/families.h"
+#include "meshfree/rules/rules.h"
 #include "scene/problem.h"
 
 namespace

@@ -79,7 +79,7 @@ TEST(FailureScenes, a_body_that_nothing_holds_has_exactly_three_zero_modes)
       EXPECT_EQ(level.n_zero, 0u) << held;
 }
 
-// Galerkin's operator of the same body, by another road.
+// Galerkin's operator of the same body, in another way.
 TEST(FailureScenes, so_it_has_for_galerkin_methods)
 {
   for (const Level &level : measure("body_that_nothing_holds", "Q1", "--levels 1"))

@@ -59,17 +59,6 @@ TEST_F(TooLarge, levels_that_are_not_run_do_not_count)
   EXPECT_EQ(outcome[0].exit_code, 0) << outcome[0].err;
 }
 
-TEST_F(TooLarge, meshes_that_do_not_follow_h_are_as_large_as_they_are)
-{
-  // its triangles have a size of their own: some 100, not 100 (0.1 / 0.0001)^2
-  const std::string bar =
-      set("Domain/mesh", std::string(PLUMBLINE_SCENES) + "/state_based/notched_bar.geo");
-  const std::string levels = set("Study/regime", "m") + set("Study/horizon", "0.2") +
-                             set("Study/h", "0.1, 0.0001") + "--methods P1 --quiet";
-  const auto outcome = run({{bar + levels, {}}});
-  EXPECT_EQ(outcome[0].err.find("of memory"), std::string::npos) << outcome[0].err;
-}
-
 TEST_F(TooLarge, checks_of_geometry_without_end_are_refused)
 {
   expect_refusals({{set("Geometry/checks", "2000000000"),

@@ -1,7 +1,7 @@
 // A project of somebody else: the weights of one rule, and the diagonal of a reference.
 
-#include <meshfree/rules.h>
-#include <reference/lattice_stencil.h>
+#include <meshfree/rules/rules.h>
+#include <reference/lattice/stencil.h>
 
 #include <iostream>
 

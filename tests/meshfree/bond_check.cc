@@ -1,8 +1,8 @@
-#include "meshfree/bond_check.h"
+#include "meshfree/check/bond_check.h"
 #include "base/error.h"
-#include "meshfree/bond_file.h"
-#include "meshfree/rules.h"
-#include "meshfree/scattered_operator.h"
+#include "meshfree/check/bond_file.h"
+#include "meshfree/rules/rules.h"
+#include "meshfree/scattered/operator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "meshfree/bond_hypotheses.h"
-#include "meshfree/bond_ramp.h"
+#include "meshfree/check/bond_hypotheses.h"
+#include "meshfree/check/bond_ramp.h"
 
 #include "given_bonds.h"
 

@@ -1,9 +1,9 @@
-#include "meshfree/bond_outliers.h"
+#include "meshfree/check/bond_outliers.h"
 
 #include "given_bonds.h"
 
 #include "base/error.h"
-#include "meshfree/bond_nodes.h"
+#include "meshfree/check/bond_nodes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What is said of the weights of families.
-#include "meshfree/family_statistics.h"
+#include "meshfree/rules/family_statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Weights of our own rules as another code could give them, to be spoilt.
 #pragma once
 
-#include "meshfree/bond_outliers.h"
-#include "meshfree/families.h"
-#include "meshfree/rules.h"
+#include "meshfree/check/bond_outliers.h"
+#include "meshfree/rules/families.h"
+#include "meshfree/rules/rules.h"
 #include "scene/problem.h"
 
 #include <stdexcept>

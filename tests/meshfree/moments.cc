@@ -1,6 +1,6 @@
 // Conditioning of families, against singular values by brute force.
-#include "meshfree/moments.h"
-#include "meshfree/rules.h"
+#include "meshfree/rules/moments.h"
+#include "meshfree/rules/rules.h"
 
 #include <Eigen/SVD>
 #include <gtest/gtest.h>

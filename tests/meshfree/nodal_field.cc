@@ -1,5 +1,5 @@
 // The piecewise constant field of nodal values on a lattice.
-#include "meshfree/nodal_field.h"
+#include "meshfree/lattice/nodal_field.h"
 
 #include <gtest/gtest.h>
 

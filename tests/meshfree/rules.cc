@@ -1,8 +1,8 @@
-#include "meshfree/rules.h"
+#include "meshfree/rules/rules.h"
 
 #include "algebra/solve.h"
 #include "base/error.h"
-#include "meshfree/lattice_operator.h"
+#include "meshfree/lattice/stencil.h"
 #include "meshfree/method.h"
 #include "study/comparison.h"
 

@@ -1,8 +1,8 @@
 #include "base/error.h"
 #include "meshfree/method.h"
-#include "meshfree/rules.h"
-#include "meshfree/scattered_field.h"
-#include "meshfree/scattered_operator.h"
+#include "meshfree/rules/rules.h"
+#include "meshfree/scattered/field.h"
+#include "meshfree/scattered/operator.h"
 #include "study/comparison.h"
 
 #include <gtest/gtest.h>
@@ -297,7 +297,7 @@ TEST(ScatteredMethods, say_how_many_weights_are_negative)
   ASSERT_EQ(diagnostics.notes.size(), 2u);
   EXPECT_NE(diagnostics.notes[0].find("of 64 families"), std::string::npos);
   EXPECT_NE(diagnostics.notes[1].find("no M-matrix"), std::string::npos);
-  EXPECT_EQ(diagnostics.operator_road, "sparse, direct");
+  EXPECT_EQ(diagnostics.operator_backend, "sparse, direct");
   EXPECT_TRUE(solve("IPA-AC-R2", scene, problem).diagnostics.notes.empty());
 }
 

@@ -1,7 +1,7 @@
 #include "base/error.h"
-#include "meshfree/lattice_operator.h"
+#include "meshfree/lattice/stencil.h"
 #include "meshfree/method.h"
-#include "meshfree/roads.h"
+#include "meshfree/solutions.h"
 #include "tests/meshfree/state_based_problems.h"
 
 #include <gtest/gtest.h>
@@ -266,7 +266,7 @@ TEST(ScatteredRoad, yields_the_same_with_its_dilatation_kept)
     const auto all = rules();
     const auto rule =
         std::find_if(all.begin(), all.end(), [](const Rule &one) { return one.name == "OPT"; });
-    return scattered_road(*rule, scene, make_problem(scene, 0, {.1, .25}));
+    return scattered_solution(*rule, scene, make_problem(scene, 0, {.1, .25}));
   };
   const auto eliminated = solve("eliminated"), kept = solve("kept");
   EXPECT_LT(largest_difference(eliminated.nodal, kept.nodal), 1e-10 * largest(kept.nodal));

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "algebra/sparse_system.h"
-#include "meshfree/rules.h"
-#include "meshfree/state_based_operator.h"
+#include "meshfree/rules/rules.h"
+#include "meshfree/scattered/state_based_operator.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "base/error.h"
-#include "meshfree/recipe.h"
-#include "meshfree/variational_operator.h"
+#include "meshfree/body/operator.h"
+#include "meshfree/rules/recipe.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
@@ -13,7 +13,7 @@
 
 using namespace plumbline;
 using namespace plumbline::meshfree;
-using algebra::Road;
+using algebra::OperatorBackend;
 using algebra::Vector;
 using geometry::Lattice;
 using geometry::Polygon;
@@ -56,9 +56,9 @@ namespace
 
   VariationalOperator small_operator(BondOf bond, const Polygons &fixed,
                                      const VariationalMaterial &material,
-                                     Road road = Road::automatic)
+                                     OperatorBackend backend = OperatorBackend::automatic)
   {
-    return {small_body(fixed, material), influence(.23), bonds_of(bond, .23, .1), road};
+    return {small_body(fixed, material), influence(.23), bonds_of(bond, .23, .1), backend};
   }
 
   Vector random_field(const VariationalBody &body)
@@ -277,9 +277,9 @@ TEST(VariationalOperator, is_the_block_form)
   const auto body = small_body({}, varying);
   const Vector u = random_field(body);
   for (const BondOf bond : all_rules)
-    for (const Road road : {Road::fft, Road::direct})
+    for (const OperatorBackend backend : {OperatorBackend::fft, OperatorBackend::direct})
     {
-      const Vector Bu = apply(small_operator(bond, {}, varying, road), u);
+      const Vector Bu = apply(small_operator(bond, {}, varying, backend), u);
       EXPECT_LT(distance(Bu, block_form(body, influence(.23), bonds_of(bond, .23, .1), u, true)),
                 1e-13 * Bu.linfty_norm());
     }
@@ -299,9 +299,9 @@ TEST(VariationalOperator, is_bond_based_where_l_is_4k)
 TEST(VariationalOperator, is_symmetric)
 {
   const Polygons fixed{rectangle(0, 0, .2, .9)};
-  for (const Road road : {Road::fft, Road::direct})
+  for (const OperatorBackend backend : {OperatorBackend::fft, OperatorBackend::direct})
   {
-    const auto matrix = small_operator(partial_area_bond, fixed, varying, road);
+    const auto matrix = small_operator(partial_area_bond, fixed, varying, backend);
     const Vector u = random_field(matrix.body());
     Vector v(u.size());
     for (std::size_t i = 0; i < u.size(); ++i)
@@ -347,10 +347,10 @@ TEST(VariationalOperator, transforms_give_what_sums_give)
   for (const double horizon : {.05, .1, .2})
   {
     const auto bonds = bonds_of(partial_area_bond, horizon, .03);
-    const VariationalOperator fft(body, influence(horizon), bonds, Road::fft),
-        direct(body, influence(horizon), bonds, Road::direct);
-    EXPECT_EQ(fft.road(), "fft");
-    EXPECT_EQ(direct.road(), "direct");
+    const VariationalOperator fft(body, influence(horizon), bonds, OperatorBackend::fft),
+        direct(body, influence(horizon), bonds, OperatorBackend::direct);
+    EXPECT_EQ(fft.backend(), "fft");
+    EXPECT_EQ(direct.backend(), "direct");
     const Vector u = random_field(body), Bu = apply(direct, u);
     EXPECT_LT(distance(apply(fft, u), Bu), 1e-12 * Bu.linfty_norm());
   }
@@ -373,7 +373,8 @@ TEST(VariationalOperator, refuses_what_it_cannot_use)
 {
   EXPECT_THROW(small_operator(full_area_bond, {}, uniform(-1, 1)), InputError);
   EXPECT_THROW(small_operator(full_area_bond, {}, uniform(1, 0)), InputError);
-  EXPECT_THROW(small_operator(full_area_bond, {}, uniform(1, 1), Road::sparse), InputError);
+  EXPECT_THROW(small_operator(full_area_bond, {}, uniform(1, 1), OperatorBackend::sparse),
+               InputError);
   auto body = small_body({}, uniform(1, 1));
   EXPECT_THROW(VariationalOperator(body, influence(.2), bonds_of(full_area_bond, .2, .05)),
                InputError);

@@ -4,7 +4,7 @@
 
 #include "../app/command.h"
 
-#include "meshfree/rules.h"
+#include "meshfree/rules/rules.h"
 
 #include <cmath>
 #include <cstdio>

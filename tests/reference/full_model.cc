@@ -60,8 +60,8 @@ namespace
     full.push_back({"Solver/model", "full"});
     full.push_back({"Quadrature/tolerance", outer_tolerance});
     const Solution small = solve(model, settings, name), whole = solve(model, full, name);
-    EXPECT_NE(small.diagnostics.operator_road.substr(0, 6), "sparse");
-    EXPECT_EQ(whole.diagnostics.operator_road.substr(0, 6), "sparse");
+    EXPECT_NE(small.diagnostics.operator_backend.substr(0, 6), "sparse");
+    EXPECT_EQ(whole.diagnostics.operator_backend.substr(0, 6), "sparse");
     return difference(small.nodes, small.nodal, whole.nodes, whole.nodal);
   }
 

@@ -1,7 +1,7 @@
-#include "reference/deal_field.h"
 #include "reference/geometry_check.h"
-#include "reference/lattice_method.h"
-#include "reference/lattice_stencil.h"
+#include "reference/lattice/deal_field.h"
+#include "reference/lattice/solution.h"
+#include "reference/lattice/stencil.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>

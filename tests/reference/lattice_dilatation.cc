@@ -1,8 +1,8 @@
-#include "reference/lattice_dilatation.h"
+#include "reference/lattice/dilatation.h"
 
 #include "algebra/solve.h"
 #include "physics/state_based.h"
-#include "reference/lattice_stencil.h"
+#include "reference/lattice/stencil.h"
 
 #include <deal.II/base/quadrature_lib.h>
 

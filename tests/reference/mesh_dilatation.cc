@@ -1,12 +1,12 @@
 // The dilatation's part of state-based Galerkin matrices on meshes: exact identities, the lattice's
 // entries, direct sums.
-#include "reference/mesh_dilatation.h"
+#include "reference/mesh/dilatation.h"
 
 #include "geometry/mesh_input.h"
-#include "reference/dilatation_row.h"
-#include "reference/lattice_dilatation.h"
-#include "reference/mesh_assembly.h"
-#include "reference/weighted_volume.h"
+#include "reference/lattice/dilatation.h"
+#include "reference/mesh/assembly.h"
+#include "reference/mesh/dilatation_row.h"
+#include "reference/mesh/weighted_volume.h"
 
 #include <deal.II/base/quadrature_lib.h>
 

@@ -1,7 +1,7 @@
 // Galerkin matrices on meshes against stored matrices, lattice entries and exact identities.
 #include "geometry/mesh_input.h"
-#include "reference/lattice_stencil.h"
-#include "reference/mesh_assembly.h"
+#include "reference/lattice/stencil.h"
+#include "reference/mesh/assembly.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Run on 1, 2 and 4 ranks: the solution on all of them is the solution on each one alone.
-#include "reference/mesh_method.h"
+#include "reference/mesh/solution.h"
 
 #include <gtest/gtest.h>
 

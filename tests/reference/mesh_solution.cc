@@ -1,8 +1,8 @@
 // Galerkin solutions on meshes: exactness, rates, agreement of spaces, projection, local limit.
 #include "base/error.h"
 #include "geometry/mesh_input.h"
-#include "reference/local_limit.h"
-#include "reference/mesh_method.h"
+#include "reference/local/local_limit.h"
+#include "reference/mesh/solution.h"
 #include "reference/method.h"
 #include "study/comparison.h"
 #include "study/reference_estimate.h"

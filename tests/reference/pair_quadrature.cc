@@ -1,5 +1,5 @@
 // Pairs of cells by quadrature against brute force.
-#include "reference/pair_quadrature.h"
+#include "reference/mesh/pair_quadrature.h"
 
 #include <deal.II/base/quadrature_lib.h>
 

@@ -2,10 +2,10 @@
 // material that varies, bodies with a free boundary, and rules against Galerkin solutions.
 #include "geometry/mesh_input.h"
 #include "meshfree/method.h"
-#include "reference/mesh_assembly.h"
-#include "reference/mesh_dilatation.h"
+#include "reference/mesh/assembly.h"
+#include "reference/mesh/dilatation.h"
+#include "reference/mesh/weighted_volume.h"
 #include "reference/method.h"
-#include "reference/weighted_volume.h"
 #include "study/comparison.h"
 
 #include <gtest/gtest.h>
@@ -128,7 +128,7 @@ namespace
   {
     const Scene scene =
         square(model, squares + settings + Settings{{"Solver/linear solver", "jacobi"}});
-    return solve(scene, make_problem(scene, 0, {.25, .3}), name).diagnostics.operator_road;
+    return solve(scene, make_problem(scene, 0, {.25, .3}), name).diagnostics.operator_backend;
   }
 } // namespace
 

@@ -1,4 +1,4 @@
-#include "reference/lattice_method.h"
+#include "reference/lattice/solution.h"
 #include "reference/method.h"
 #include "study/comparison.h"
 
@@ -157,19 +157,20 @@ TEST(SmallestModel, stencil_and_assembled_matrix_give_the_same_solution)
 {
   for (const std::string holes : {"", "0.5, 0.5 : 1, 1"})
   {
-    const auto text = [&](const std::string &road)
+    const auto text = [&](const std::string &backend)
     {
-      return domain(holes) + "subsection Solver\n set operator = " + road +
+      return domain(holes) + "subsection Solver\n set operator = " + backend +
              "\n set tolerance = 1e-14\nend\n";
     };
     for (const bool is_tensor : {false, true})
       for (const bool is_continuous : {true, false})
       {
         std::vector<double> averages;
-        for (const std::string road : {"fft", "sparse"})
+        for (const std::string backend : {"fft", "sparse"})
         {
-          const auto scene = is_tensor ? make_scene(tensor_kernel, trigonometric_vector, text(road))
-                                       : make_scene(scalar_kernel, trigonometric, text(road));
+          const auto scene = is_tensor
+                                 ? make_scene(tensor_kernel, trigonometric_vector, text(backend))
+                                 : make_scene(scalar_kernel, trigonometric, text(backend));
           const auto problem = make_problem(scene, 0, {.0625, .2});
           const auto solution = method(is_continuous ? "Q2" : "DGQ1")->solve(scene, problem);
           if (averages.empty())

@@ -94,7 +94,7 @@ namespace plumbline::report::fixture
             run.diagnostics.n_neighbours = static_cast<unsigned int>(3.14 * m * m);
             run.diagnostics.smallest_weight_ratio = model.family == "meshfree" ? .87 : 1;
             run.diagnostics.relative_residual = 3e-13;
-            run.diagnostics.operator_road = "fft";
+            run.diagnostics.operator_backend = "fft";
             run.diagnostics.n_geometry_checks = 40;
             run.diagnostics.geometry_difference = 2e-15;
             const double error =

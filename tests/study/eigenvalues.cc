@@ -1,6 +1,6 @@
-// Eigenvalues of operators against closed forms and dense solvers, on every road.
-#include "meshfree/bonds.h"
-#include "reference/lattice_stencil.h"
+// Eigenvalues of operators against closed forms and dense solvers, by every backend.
+#include "meshfree/rules/bonds.h"
+#include "reference/lattice/stencil.h"
 #include "tests/study/operators.h"
 
 #include <Eigen/Eigenvalues>

@@ -1,8 +1,8 @@
 // The measures tell sound operators from unsound ones, on both sides.
 #include "study/stability.h"
-#include "meshfree/family_statistics.h"
-#include "meshfree/lattice_operator.h"
-#include "meshfree/roads.h"
+#include "meshfree/lattice/stencil.h"
+#include "meshfree/rules/family_statistics.h"
+#include "meshfree/solutions.h"
 #include "study/lattice_solve.h"
 #include "tests/study/operators.h"
 

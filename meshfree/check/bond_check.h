@@ -1,0 +1,73 @@
+#pragma once
+
+#include "meshfree/rules/recipe.h"
+
+namespace plumbline::meshfree
+{
+  /// A value and where it is found.
+  struct Worst
+  {
+    double value = 0;
+    std::size_t node = 0;
+  };
+
+  /// How far sums Σ w C_ab(kernel_point) ξ^α over the families are from ∫ C_ab(ξ) ξ^α dξ, the
+  /// largest over |α| = degree and a, b, relative to ∫ |C| |ξ|^degree.
+  struct MomentDefect
+  {
+    int degree = 0;
+    Worst worst;
+    double median = 0;
+    std::vector<double> values = {}; ///< of each node
+  };
+
+  /// ∫ |C| |ξ|^degree over the ball, where |C| is the radial factor's.
+  double kernel_size(const Kernel<2> &kernel, int degree);
+
+  /// The moments of families, which decide what their operator tends to.
+  struct MomentCheck
+  {
+    static constexpr double tolerance = 1e-8; ///< for moments to count as exact
+
+    std::vector<MomentDefect> defects; ///< of degree 1 to 4
+    /// Polynomials up to this degree are mapped as by the nonlocal operator.
+    int exact_degree = 0;
+    /// Mean over the families of the ratio of Σ w tr C |ξ|² to its exact value.
+    double mean_ratio = 1;
+    /// Second-moment defect: the defect of degree 2 relative to ∫ C_11 ξ_1², or |ratio - 1| where
+    /// that is larger. Both are the same for scalars where all directions are alike.
+    Worst second;
+    std::vector<double> ratios, second_defects; ///< of each node: what mean_ratio and second are of
+
+    bool is_first_exact() const { return defects[0].worst.value < tolerance; }
+    bool is_second_exact() const { return second.value < tolerance; }
+
+    /// Of most nodes: the median of the larger of the defects of degree 1 and 2.
+    double typical() const;
+  };
+
+  /// @throws InputError  the kernel's second moment is 0: there is no local limit
+  MomentCheck check_moments(const std::vector<Family> &families, const Kernel<2> &kernel);
+
+  struct WeightCheck
+  {
+    std::size_t n_bonds = 0, n_negative = 0;
+    unsigned int largest_family = 0;
+    Worst area; ///< |Σ w - (ball - own volume)| relative to the ball
+    double smallest_ratio = 0, largest_ratio = 0; ///< of weights to the neighbours' volumes
+  };
+
+  /// @param volumes  of the free nodes, shape (n_families)
+  WeightCheck check_weights(const std::vector<Family> &families, const Kernel<2> &kernel,
+                            const std::vector<double> &volumes);
+
+  /// Pairs of free nodes seen from both ends.
+  struct SymmetryCheck
+  {
+    double asymmetry = 0; ///< largest |w_ij C(q_ij) - w_ji C(q_ji)| relative to the largest |w C|
+    std::array<std::size_t, 2> nodes{}; ///< of that pair
+    std::size_t n_unpaired = 0;         ///< bonds i to j without one from j to i
+  };
+
+  SymmetryCheck check_symmetry(const std::vector<Family> &families, const Kernel<2> &kernel);
+} // namespace plumbline::meshfree

@@ -1,0 +1,242 @@
+#include "meshfree/check/bond_file.h"
+
+#include "base/error.h"
+#include "geometry/cell_locator.h"
+#include "meshfree/rules/families.h"
+#include "scene/csv.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <sstream>
+#include <unordered_map>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    std::string to_text(const Point<2> &x)
+    {
+      std::ostringstream text;
+      text << '(' << x[0] << ", " << x[1] << ')';
+      return text.str();
+    }
+
+    /// A bond as it stands in the file.
+    struct Row
+    {
+      unsigned int neighbour;
+      Bond bond;
+      std::size_t line;
+    };
+  } // namespace
+
+  GivenNodes read_given_nodes(const std::string &file)
+  {
+    scene::Csv csv(file, {"id", "x", "y", "volume"});
+    GivenNodes nodes;
+    nodes.file = file;
+    std::unordered_map<std::int64_t, std::size_t> line_of_id;
+    std::map<std::pair<double, double>, std::size_t> line_of_place;
+    while (csv.next())
+    {
+      const std::int64_t id = csv.integer("id");
+      const Point<2> x(csv.number("x"), csv.number("y"));
+      const double volume = csv.number("volume");
+      if (!(volume > 0))
+        csv.fail("the volume " + std::to_string(volume) + " of node " + std::to_string(id) +
+                 " is not positive; give the area of its cell");
+      if (const auto [other, is_new] = line_of_id.emplace(id, csv.line()); !is_new)
+        csv.fail("id " + std::to_string(id) + " is that of line " + std::to_string(other->second) +
+                 " already; give every node an id of its own");
+      if (const auto [other, is_new] = line_of_place.emplace(std::pair(x[0], x[1]), csv.line());
+          !is_new)
+        csv.fail("node " + std::to_string(id) + " lies at " + to_text(x) + ", where that of line " +
+                 std::to_string(other->second) + " is; take one of them out");
+      nodes.id.push_back(id);
+      nodes.places.push_back(x);
+      nodes.volume.push_back(volume);
+      nodes.line.push_back(csv.line());
+    }
+    return nodes;
+  }
+
+  std::vector<std::size_t> nodes_inside(const GivenNodes &nodes, const geometry::Mesh &mesh)
+  {
+    const geometry::CellLocator cells(mesh);
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (const auto cell = cells.find(nodes.places[i]); cell && cells.is_inside(*cell))
+        result.push_back(i);
+    if (result.empty())
+      throw InputError("'" + nodes.file + "': none of the " + std::to_string(nodes.size()) +
+                       " nodes lies in the domain of the scene; check units and Domain/boxes");
+    return result;
+  }
+
+  void check_places(const GivenNodes &nodes, const geometry::Mesh &mesh, const std::string &level)
+  {
+    const geometry::CellLocator cells(mesh);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (!cells.find(nodes.places[i]))
+        throw InputError("'" + nodes.file + "', line " + std::to_string(nodes.line[i]) + ": node " +
+                         std::to_string(nodes.id[i]) + " at " + to_text(nodes.places[i]) +
+                         " lies outside of the domain and its collar at the level " + level +
+                         "; take it out, move it in, or choose another level (Study)");
+    if (const auto twins = geometry::find_twins(nodes.places, mesh))
+      throw InputError("'" + nodes.file + "', line " + std::to_string(nodes.line[twins->second]) +
+                       ": node " + std::to_string(nodes.id[twins->second]) + " " +
+                       twins->place("node " + std::to_string(nodes.id[twins->first]) + " of line " +
+                                    std::to_string(nodes.line[twins->first])) +
+                       "; take one of them out");
+  }
+
+  namespace
+  {
+    /// Whether a place lies on the boundary of Ω, to rounding of files.
+    std::vector<bool> on_boundary(const GivenNodes &nodes, const geometry::Mesh &mesh)
+    {
+      const double tolerance = 1e-6 * mesh.longest_side();
+      const geometry::CellLocator locator(mesh);
+      std::vector<bool> result;
+      std::vector<unsigned int> near;
+      for (const Point<2> &x : nodes.places)
+      {
+        locator.find(box_around(x, tolerance), near);
+        const auto is_free = [&](unsigned int cell) { return locator.is_inside(cell); };
+        result.push_back(std::any_of(near.begin(), near.end(), is_free) &&
+                         !std::all_of(near.begin(), near.end(), is_free));
+      }
+      return result;
+    }
+
+    /// The same cells in another order.
+    geometry::NodeCells reordered(const geometry::NodeCells &cells,
+                                  const std::vector<std::size_t> &order, std::size_t n_free)
+    {
+      geometry::NodeCells result;
+      result.n_free = n_free;
+      result.first_piece = {0};
+      for (const std::size_t c : order)
+      {
+        result.nodes.push_back(cells.nodes[c]);
+        result.source.push_back(cells.source[c]);
+        result.area.push_back(cells.area[c]);
+        result.centroid.push_back(cells.centroid[c]);
+        for (std::size_t p = cells.first_piece[c]; p < cells.first_piece[c + 1]; ++p)
+          result.pieces.push_back(cells.pieces[p]);
+        result.first_piece.push_back(result.pieces.size());
+      }
+      return result;
+    }
+  } // namespace
+
+  GivenCells given_cells(const GivenNodes &nodes, const geometry::Mesh &mesh, bool boundary_is_data)
+  {
+    const std::vector<bool> is_on_boundary = on_boundary(nodes, mesh);
+    geometry::Mesh everywhere = mesh;
+    for (geometry::MeshCell &cell : everywhere.cells)
+      cell.is_inside = true;
+    const geometry::NodeCells uncut = geometry::voronoi_cells(nodes.places, everywhere);
+    GivenCells result;
+    result.n_on_boundary =
+        static_cast<std::size_t>(std::count(is_on_boundary.begin(), is_on_boundary.end(), true));
+    if (boundary_is_data)
+    {
+      const geometry::CellLocator locator(mesh);
+      std::vector<std::size_t> order(nodes.size());
+      std::iota(order.begin(), order.end(), 0);
+      const auto in_collar =
+          std::stable_partition(order.begin(), order.end(),
+                                [&](std::size_t i)
+                                {
+                                  const auto cell = locator.find(nodes.places[i]);
+                                  return !is_on_boundary[i] && cell && locator.is_inside(*cell);
+                                });
+      if (in_collar == order.begin())
+        throw InputError("'" + nodes.file +
+                         "': every node of the domain lies on its boundary, where "
+                         "Methods/nodes = vertices puts data; add nodes inside");
+      result.cells = reordered(uncut, order, static_cast<std::size_t>(in_collar - order.begin()));
+    }
+    else
+      result.cells = geometry::voronoi_cells(nodes.places, mesh);
+    for (const std::size_t i : result.cells.source)
+      result.uncut_areas.push_back(uncut.area[i]);
+    return result;
+  }
+
+  GivenFamilies read_given_families(const std::string &file, const GivenNodes &nodes,
+                                    const geometry::NodeCells &cells)
+  {
+    scene::Csv csv(file, {"i", "j", "weight"});
+    if (csv.has("qx") != csv.has("qy"))
+      csv.fail("one of the columns qx and qy is missing; give both or none");
+    std::unordered_map<std::int64_t, unsigned int> node_of_id;
+    for (unsigned int k = 0; k < cells.size(); ++k)
+      node_of_id[nodes.id[cells.source[k]]] = k;
+    const auto node = [&](const std::string &name)
+    {
+      const std::int64_t id = csv.integer(name);
+      const auto found = node_of_id.find(id);
+      if (found == node_of_id.end())
+        csv.fail(name + " = " + std::to_string(id) + " is no node of '" + nodes.file +
+                 "'; take the bond out, or add the node");
+      return found->second;
+    };
+
+    std::vector<std::vector<Row>> rows(cells.size());
+    while (csv.next())
+    {
+      const unsigned int i = node("i"), j = node("j");
+      if (i == j)
+        csv.fail("a bond of node " + std::to_string(csv.integer("i")) +
+                 " with itself; take it out, it has no part in the operator");
+      const Point<2> xi(cells.nodes[j] - cells.nodes[i]);
+      Bond bond{xi, csv.number("weight"), xi, nodes.volume[cells.source[j]]};
+      if (csv.has("qx") && !(csv.is_empty("qx") && csv.is_empty("qy")))
+        bond.kernel_point = Point<2>(csv.number("qx"), csv.number("qy"));
+      if (bond.kernel_point.square() == 0)
+        csv.fail("the kernel point (qx, qy) is 0, the place of node i itself, where kernels may be "
+                 "infinite; give a point of the neighbour's cell, relative to node i");
+      rows[i].push_back({j, bond, csv.line()});
+    }
+
+    GivenFamilies result{std::vector<Family>(cells.n_free)};
+    result.lines.resize(cells.n_free);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      std::sort(rows[i].begin(), rows[i].end(),
+                [](const Row &a, const Row &b)
+                { return std::pair(a.neighbour, a.line) < std::pair(b.neighbour, b.line); });
+      const auto twin =
+          std::adjacent_find(rows[i].begin(), rows[i].end(),
+                             [](const Row &a, const Row &b) { return a.neighbour == b.neighbour; });
+      if (twin != rows[i].end())
+        csv.fail(twin[1].line, "the bond from node " + std::to_string(nodes.id[cells.source[i]]) +
+                                   " to node " +
+                                   std::to_string(nodes.id[cells.source[twin->neighbour]]) +
+                                   " is that of line " + std::to_string(twin->line) +
+                                   " already; take one of them out, or add their weights");
+      if (i >= cells.n_free)
+      {
+        result.n_ignored += rows[i].size();
+        continue;
+      }
+      if (rows[i].empty())
+        throw InputError("'" + nodes.file + "', line " +
+                         std::to_string(nodes.line[cells.source[i]]) + ": node " +
+                         std::to_string(nodes.id[cells.source[i]]) +
+                         " lies in the domain but has no bonds in '" + file +
+                         "'; add them, or, where nodes on the boundary carry data, write "
+                         "Methods/nodes = vertices");
+      for (const Row &row : rows[i])
+      {
+        result.families[i].neighbours.push_back(row.neighbour);
+        result.families[i].bonds.push_back(row.bond);
+        result.lines[i].push_back(row.line);
+      }
+    }
+    return result;
+  }
+} // namespace plumbline::meshfree

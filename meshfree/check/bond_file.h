@@ -1,0 +1,66 @@
+#pragma once
+
+#include "geometry/node_cells.h"
+#include "meshfree/rules/recipe.h"
+
+#include <cstdint>
+
+namespace plumbline::meshfree
+{
+  /// Nodes of another code, in the order of their file.
+  struct GivenNodes
+  {
+    std::string file;
+    std::vector<std::int64_t> id;
+    std::vector<Point<2>> places;  ///< [length]
+    std::vector<double> volume;    ///< [length^2]
+    std::vector<std::size_t> line; ///< in the file, for messages
+
+    std::size_t size() const { return id.size(); }
+  };
+
+  /// Nodes from a CSV file with the columns id (an integer), x, y and volume, others ignored.
+  /// @throws InputError  file not readable, missing columns, not a number, volume <= 0, an id given
+  /// twice, two nodes in one place; naming file, line and value
+  GivenNodes read_given_nodes(const std::string &file);
+
+  /// Which of the nodes lie in Ω.
+  /// @throws InputError  none does
+  std::vector<std::size_t> nodes_inside(const GivenNodes &nodes, const geometry::Mesh &mesh);
+
+  /// @param level  which the mesh is of, for the message
+  /// @throws InputError  a node outside of Ω and its collar
+  void check_places(const GivenNodes &nodes, const geometry::Mesh &mesh, const std::string &level);
+
+  /// The Voronoi cells of given nodes.
+  struct GivenCells
+  {
+    geometry::NodeCells cells;
+    std::vector<double> uncut_areas; ///< numbered as the cells; not cut at the boundary of Ω
+    std::size_t n_on_boundary = 0;   ///< nodes on the boundary of Ω
+  };
+
+  /// @param boundary_is_data  nodes on the boundary of Ω belong to the collar and no cell is cut
+  /// there, as with Methods/nodes = vertices; else they are free, and cells are cut
+  /// @throws InputError  as geometry::voronoi_cells; all nodes of Ω lie on its boundary
+  GivenCells given_cells(const GivenNodes &nodes, const geometry::Mesh &mesh,
+                         bool boundary_is_data);
+
+  /// Families of another code.
+  struct GivenFamilies
+  {
+    std::vector<Family> families; ///< of the free nodes; the area of a bond is the neighbour's
+                                  ///< volume
+    std::size_t n_ignored = 0;    ///< bonds of nodes in the collar
+    std::vector<std::vector<std::size_t>> lines = {}; ///< of the bonds in the file
+  };
+
+  /// Bonds from a CSV file with the columns i and j (ids), weight [length^2] and, if they are
+  /// there, qx and qy [length]: where the kernel is taken, relative to node i. Where a row leaves
+  /// them empty, or the file has no such columns, it is taken at node j.
+  /// @param cells  of the nodes, where source is the index into them
+  /// @throws InputError  file not readable, missing columns, not a finite number, unknown ids, a
+  /// bond of a node with itself or given twice, a kernel point at 0, a free node without bonds
+  GivenFamilies read_given_families(const std::string &file, const GivenNodes &nodes,
+                                    const geometry::NodeCells &cells);
+} // namespace plumbline::meshfree

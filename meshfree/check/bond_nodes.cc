@@ -1,0 +1,136 @@
+#include "meshfree/check/bond_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    /// Smaller factors are how rules treat nodes that are larger than others or near the horizon of
+    /// many: up to 1.1 for the rules of ours on nodes moved by .3 h.
+    constexpr double least = .25;
+
+    /// Of weights over volumes to what is usual of such bonds, where that is much the same for
+    /// shorter and longer ones; one for each pair, not finite where there is none.
+    std::vector<double> ratios(const GivenBonds &given, const std::vector<Pair> &pairs,
+                               const BondProfile &profile)
+    {
+      constexpr double steep = .2; // usual weights change by more over half a node's size
+      std::vector<double> values;
+      for (const Pair &pair : pairs)
+        values.push_back(pair.bond == Outlier::none
+                             ? 0
+                             : bond_of(given, pair).weight / given.volumes[pair.neighbour]);
+      const auto usual = profile.usual(values, file_tolerance);
+      for (std::size_t k = 0; k < pairs.size(); ++k)
+      {
+        const double middle = .5 * (usual[k].low + usual[k].high);
+        const bool is_flat = usual[k].high - usual[k].low < steep * std::abs(middle);
+        values[k] = is_flat && pairs[k].bond != Outlier::none
+                        ? values[k] / middle
+                        : std::numeric_limits<double>::quiet_NaN();
+      }
+      return values;
+    }
+
+    /// The median of each node that has enough bonds.
+    std::map<std::size_t, double> medians(const std::vector<Pair> &pairs,
+                                          const std::vector<double> &ratios, bool is_to)
+    {
+      constexpr std::size_t few = 4;
+      std::map<std::size_t, std::vector<double>> ratios_of;
+      for (std::size_t k = 0; k < pairs.size(); ++k)
+        if (std::isfinite(ratios[k]))
+          ratios_of[is_to ? pairs[k].neighbour : pairs[k].node].push_back(ratios[k]);
+      std::map<std::size_t, double> result;
+      for (const auto &[node, own] : ratios_of)
+        if (own.size() >= few)
+          result[node] = spread_of(own).median;
+      return result;
+    }
+  } // namespace
+
+  std::vector<Outlier> find_scaled_nodes(const GivenBonds &given, const std::vector<Pair> &pairs,
+                                         const BondProfile &profile)
+  {
+    std::vector<Outlier> outliers;
+    const std::vector<double> all = ratios(given, pairs, profile);
+    for (const bool is_to : {true, false})
+    {
+      const auto median_of = medians(pairs, all, is_to);
+      std::vector<double> values;
+      for (const auto &[node, median] : median_of)
+        values.push_back(median);
+      const Spread spread = spread_of(values);
+      for (const auto &[node, median] : median_of)
+        if (const double away =
+                std::abs(median - spread.median) / spread.allowed(least * std::abs(spread.median));
+            away > 1 && median != 0)
+        {
+          Outlier one{is_to ? Defect::neighbour : Defect::family, node};
+          one.found = median / spread.median;
+          one.expected = 1;
+          one.distance = away;
+          outliers.push_back(one);
+        }
+    }
+    return outliers;
+  }
+
+  std::vector<Family> without_factors(std::vector<Family> families,
+                                      const std::vector<Outlier> &scaled)
+  {
+    for (const Outlier &one : scaled)
+      for (std::size_t i = 0; i < families.size(); ++i)
+        for (std::size_t k = 0; k < families[i].bonds.size(); ++k)
+          if (one.node == (one.defect == Defect::family ? i : families[i].neighbours[k]))
+            families[i].bonds[k].weight /= one.found;
+    return families;
+  }
+
+  std::vector<Outlier> find_volume_outliers(const GivenBonds &given,
+                                            const std::vector<double> &uncut_areas)
+  {
+    const auto &[families, kernel, cells, volumes] = given;
+    std::vector<Outlier> outliers;
+    const std::size_t n_free = families.size(), n = cells.size();
+    for (const auto &[first, last] : {std::pair{std::size_t{0}, n_free}, std::pair{n_free, n}})
+    {
+      // what is expected of each: its cell, its cell uncut, or one volume for all
+      const std::vector<double> ones(n, 1);
+      std::vector<double> values;
+      const std::vector<double> *best = nullptr;
+      Spread spread;
+      for (const auto *areas : {&cells.area, &uncut_areas, &ones})
+      {
+        std::vector<double> ratios;
+        for (std::size_t i = first; i < last; ++i)
+          ratios.push_back(volumes[i] / (*areas)[i]);
+        const double middle = spread_of(ratios).median;
+        for (double &ratio : ratios)
+          ratio /= middle;
+        const Spread own = spread_of(ratios);
+        if (best && own.allowed(file_tolerance) >= spread.allowed(file_tolerance))
+          continue;
+        best = areas;
+        spread = own;
+        spread.median = middle;
+        values = std::move(ratios);
+      }
+      for (std::size_t i = first; i < last; ++i)
+        if (const double away = std::abs(values[i - first] - 1) / spread.allowed(file_tolerance);
+            away > 1)
+        {
+          Outlier one{Defect::volume, i};
+          one.found = volumes[i];
+          one.expected = spread.median * (*best)[i];
+          one.distance = away;
+          outliers.push_back(one);
+        }
+    }
+    return outliers;
+  }
+} // namespace plumbline::meshfree

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "meshfree/check/bond_pairs.h"
+#include "meshfree/check/bond_profile.h"
+
+namespace plumbline::meshfree
+{
+  /// Nodes all weights to which, or from which, carry a factor of their own: Defect::neighbour or
+  /// Defect::family, `found` is the factor. Of each node the median over its bonds of weight /
+  /// volume against what is usual at their length is held against those of the other nodes, so that
+  /// a factor shows that is lost among the differences of the weights themselves.
+  /// Limits: of nodes with four bonds at least whose length is out of the range where weights fall
+  /// off to 0, and of factors beyond 1.25, or more where weights differ from node to node anyway.
+  std::vector<Outlier> find_scaled_nodes(const GivenBonds &given, const std::vector<Pair> &pairs,
+                                         const BondProfile &profile);
+
+  /// The families with the weights of such nodes divided by their factors.
+  std::vector<Family> without_factors(std::vector<Family> families,
+                                      const std::vector<Outlier> &scaled);
+
+  /// Nodes whose volume is not what the others' volumes tell: that of the Voronoi cell, cut at the
+  /// boundary of Ω or not, or one for all, whichever fits most nodes.
+  /// @param uncut_areas  of the Voronoi cells that the boundary of Ω does not cut
+  std::vector<Outlier> find_volume_outliers(const GivenBonds &given,
+                                            const std::vector<double> &uncut_areas);
+} // namespace plumbline::meshfree

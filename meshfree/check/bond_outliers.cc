@@ -1,0 +1,368 @@
+#include "meshfree/check/bond_outliers.h"
+
+#include "meshfree/check/bond_nodes.h"
+#include "meshfree/check/bond_pairs.h"
+#include "meshfree/check/bond_profile.h"
+#include "meshfree/check/node_moments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    /// Of a bond beyond its usual values; negative among them.
+    double excess(double value, const BondProfile::Usual &usual)
+    {
+      return std::max(usual.low - value, value - usual.high);
+    }
+
+    /// The same in what is allowed; at most 1: in line.
+    double distance(double value, const BondProfile::Usual &usual)
+    {
+      return std::max(0., excess(value, usual)) / usual.allowed;
+    }
+
+    double nearest(double value, const BondProfile::Usual &usual)
+    {
+      return std::clamp(value, usual.low, usual.high);
+    }
+
+    Outlier outlier(Defect defect, const Pair &pair, double distance)
+    {
+      Outlier result{defect, pair.node, pair.neighbour, pair.bond};
+      result.distance = distance;
+      return result;
+    }
+
+    /// Weights over volumes, absent bonds as 0, against the profile.
+    void compare_weights(const GivenBonds &given, const std::vector<Pair> &pairs,
+                         const BondProfile &profile, std::vector<Outlier> &outliers)
+    {
+      std::vector<double> values;
+      for (const Pair &pair : pairs)
+        values.push_back(pair.bond == Outlier::none
+                             ? 0
+                             : bond_of(given, pair).weight / given.volumes[pair.neighbour]);
+      const auto usual = profile.usual(values, file_tolerance);
+      for (std::size_t k = 0; k < pairs.size(); ++k)
+        if (const double away = distance(values[k], usual[k]); away > 1)
+        {
+          const double volume = given.volumes[pairs[k].neighbour],
+                       expected = nearest(values[k], usual[k]);
+          const Defect defect = pairs[k].bond == Outlier::none        ? Defect::missing
+                                : std::abs(expected) < file_tolerance ? Defect::spurious
+                                                                      : Defect::weight;
+          outliers.push_back(outlier(defect, pairs[k], away));
+          outliers.back().found = values[k] * volume;
+          outliers.back().expected = expected * volume;
+        }
+    }
+
+    /// From where kernel points are measured: a part of the way to the neighbours, or the centroids
+    /// of their cells, whichever most bonds are nearer to.
+    std::vector<Point<2>> usual_points(const GivenBonds &given, const std::vector<Pair> &bonds,
+                                       double point_scale)
+    {
+      std::vector<Point<2>> nodes, centroids;
+      std::vector<double> to_nodes, to_centroids;
+      for (const Pair &pair : bonds)
+      {
+        const std::size_t j = pair.neighbour;
+        const Point<2> &q = bond_of(given, pair).kernel_point;
+        nodes.push_back(point_scale * pair.xi);
+        centroids.push_back(pair.xi + (given.cells.centroid[j] - given.cells.nodes[j]));
+        to_nodes.push_back(q.distance(nodes.back()));
+        to_centroids.push_back(q.distance(centroids.back()));
+      }
+      return spread_of(to_nodes).median <= spread_of(to_centroids).median ? nodes : centroids;
+    }
+
+    /// Where the kernel is taken: along the bond and beside it, in sizes of the neighbour.
+    void compare_points(const GivenBonds &given, const std::vector<Pair> &pairs, double point_scale,
+                        std::vector<Outlier> &outliers)
+    {
+      std::vector<Pair> bonds;
+      std::vector<Point<2>> xi;
+      for (const Pair &pair : pairs)
+        if (pair.bond != Outlier::none)
+        {
+          bonds.push_back(pair);
+          xi.push_back(pair.xi);
+        }
+      const auto base = usual_points(given, bonds, point_scale);
+      std::vector<double> along, beside;
+      for (std::size_t k = 0; k < bonds.size(); ++k)
+      {
+        const dealii::Tensor<1, 2> away = bond_of(given, bonds[k]).kernel_point - base[k];
+        const double r = xi[k].norm(), size = std::sqrt(given.volumes[bonds[k].neighbour]);
+        along.push_back(away * xi[k] / (r * size));
+        beside.push_back(std::abs(away[0] * xi[k][1] - away[1] * xi[k][0]) / (r * size));
+      }
+      const BondProfile profile(xi, node_size(given));
+      const auto usual_along = profile.usual(along, file_tolerance),
+                 usual_beside = profile.usual(beside, file_tolerance);
+      for (std::size_t k = 0; k < bonds.size(); ++k)
+        if (const double away =
+                std::max(distance(along[k], usual_along[k]), distance(beside[k], usual_beside[k]));
+            away > 1)
+        {
+          const double r = xi[k].norm(), size = std::sqrt(given.volumes[bonds[k].neighbour]);
+          outliers.push_back(outlier(Defect::kernel_point, bonds[k], away));
+          outliers.back().found_point = bond_of(given, bonds[k]).kernel_point;
+          outliers.back().expected_point =
+              base[k] + nearest(along[k], usual_along[k]) * size / r * xi[k];
+        }
+    }
+
+    /// w C over the neighbour's volume, from both ends. The end that is named is the one that is
+    /// farther from what is usual at its length.
+    void compare_ends(const GivenBonds &given, const std::vector<Pair> &pairs,
+                      std::vector<Outlier> &outliers)
+    {
+      std::vector<Pair> bonds;
+      std::vector<Point<2>> xi;
+      std::vector<double> values;
+      std::map<std::pair<std::size_t, std::size_t>, std::size_t> index_of;
+      double scale = 0;
+      for (const Pair &pair : pairs)
+        if (pair.bond != Outlier::none && pair.neighbour < given.families.size())
+        {
+          const Bond &bond = bond_of(given, pair);
+          index_of[{pair.node, pair.neighbour}] = bonds.size();
+          bonds.push_back(pair);
+          xi.push_back(pair.xi);
+          values.push_back(bond.weight * radial_value(given.kernel, bond) /
+                           given.volumes[pair.neighbour]);
+          scale = std::max(scale, std::abs(values.back()));
+        }
+      struct Ends
+      {
+        std::size_t there, back;
+      };
+      std::vector<Ends> twos;
+      std::vector<Point<2>> xi_of_twos;
+      std::vector<double> differences;
+      for (std::size_t k = 0; k < bonds.size(); ++k)
+        if (const auto back = index_of.find({bonds[k].neighbour, bonds[k].node});
+            back != index_of.end() && bonds[k].node < bonds[k].neighbour)
+        { // without a bond back: a matter of the weights
+          twos.push_back({k, back->second});
+          xi_of_twos.push_back(xi[k]);
+          differences.push_back(values[k] - values[back->second]);
+        }
+      const double floor = file_tolerance * scale, size = node_size(given);
+      const auto usual_value = BondProfile(xi, size).usual(values, floor);
+      const auto usual = BondProfile(xi_of_twos, size).usual(differences, floor);
+      for (std::size_t two = 0; two < twos.size(); ++two)
+        if (const double away = distance(differences[two], usual[two]); away > 1)
+        {
+          const auto [there, back] = twos[two];
+          const bool is_there =
+              excess(values[there], usual_value[there]) >= excess(values[back], usual_value[back]);
+          outliers.push_back(outlier(Defect::symmetry, bonds[is_there ? there : back], away));
+          outliers.back().found = values[is_there ? there : back];
+          outliers.back().expected = values[is_there ? back : there];
+        }
+    }
+
+    /// Weights, and kernel points where they are the rule's, against those of the rule.
+    void compare_with_rule(const GivenBonds &given, const Recognised &rule,
+                           std::vector<Outlier> &outliers)
+    {
+      for (std::size_t i = 0; i < given.families.size(); ++i)
+      {
+        const Family &mine = given.families[i], &right = rule.families[i];
+        std::size_t a = 0, b = 0;
+        while (a < mine.bonds.size() || b < right.bonds.size())
+        {
+          const bool has_a = a < mine.bonds.size(), has_b = b < right.bonds.size();
+          const bool is_mine = has_a && (!has_b || mine.neighbours[a] <= right.neighbours[b]),
+                     is_right = has_b && (!has_a || right.neighbours[b] <= mine.neighbours[a]);
+          const std::size_t j = is_mine ? mine.neighbours[a] : right.neighbours[b];
+          const double found = is_mine ? mine.bonds[a].weight : 0,
+                       expected = is_right ? right.bonds[b].weight : 0,
+                       allowed = file_tolerance * given.volumes[j] * std::abs(rule.factor);
+          Outlier one{Defect::weight, i, j, is_mine ? a : Outlier::none};
+          one.found = found;
+          one.expected = expected;
+          one.distance = std::abs(found - expected) / allowed;
+          if (one.distance > 1)
+          {
+            one.defect = !is_mine ? Defect::missing : !is_right ? Defect::spurious : Defect::weight;
+            outliers.push_back(one);
+          }
+          if (is_mine && is_right && rule.has_kernel_points)
+          {
+            one.found_point = mine.bonds[a].kernel_point;
+            one.expected_point = right.bonds[b].kernel_point;
+            one.distance = one.found_point.distance(one.expected_point) /
+                           (file_tolerance * std::sqrt(given.volumes[j]));
+            one.defect = Defect::kernel_point;
+            if (one.distance > 1)
+              outliers.push_back(one);
+          }
+          a += is_mine ? 1 : 0;
+          b += is_right ? 1 : 0;
+        }
+      }
+    }
+
+    /// Weight outliers of one node, or to one node, that are most of its bonds: one outlier.
+    void gather(const GivenBonds &given, std::vector<Outlier> &outliers)
+    {
+      constexpr double most = .8;
+      constexpr std::size_t few = 4;
+      // of 0 any factor makes 0
+      const auto is_nothing = [&](double weight, std::size_t j)
+      { return std::abs(weight) <= file_tolerance * given.volumes[j]; };
+      std::vector<std::size_t> n_of(given.families.size()), n_to(given.cells.size());
+      for (std::size_t i = 0; i < given.families.size(); ++i)
+        for (std::size_t k = 0; k < given.families[i].bonds.size(); ++k)
+        {
+          const std::size_t j = given.families[i].neighbours[k];
+          if (!is_nothing(given.families[i].bonds[k].weight, j))
+          {
+            ++n_of[i];
+            ++n_to[j];
+          }
+        }
+      const auto is_weight = [](const Outlier &o) { return o.defect == Defect::weight; };
+      for (const Outlier &o : outliers)
+        if (is_weight(o) && is_nothing(o.found, o.neighbour))
+        {
+          ++n_of[o.node];
+          ++n_to[o.neighbour];
+        }
+      for (const bool is_to : {true, false})
+      {
+        std::map<std::size_t, std::vector<double>> ratios;
+        for (const Outlier &o : outliers)
+          if (is_weight(o) && o.expected != 0)
+            ratios[is_to ? o.neighbour : o.node].push_back(o.found / o.expected);
+        for (const auto &[node, own] : ratios)
+        {
+          const std::size_t n = is_to ? n_to[node] : n_of[node];
+          if (n < few || static_cast<double>(own.size()) < most * static_cast<double>(n))
+            continue;
+          Outlier one{is_to ? Defect::neighbour : Defect::family, node};
+          one.found = spread_of(own).median;
+          one.expected = 1;
+          for (const Outlier &o : outliers)
+            if (is_weight(o) && (is_to ? o.neighbour : o.node) == node)
+              one.distance = std::max(one.distance, o.distance);
+          outliers.erase(std::remove_if(outliers.begin(), outliers.end(),
+                                        [&, at = node](const Outlier &o) {
+                                          return is_weight(o) &&
+                                                 (is_to ? o.neighbour : o.node) == at;
+                                        }),
+                         outliers.end());
+          outliers.push_back(one);
+        }
+      }
+    }
+
+    /// Two bonds that are missing from both ends are one outlier.
+    void pair_up(std::vector<Outlier> &outliers)
+    {
+      std::map<std::pair<std::size_t, std::size_t>, std::size_t> missing;
+      for (std::size_t k = 0; k < outliers.size(); ++k)
+        if (outliers[k].defect == Defect::missing)
+          missing[{outliers[k].node, outliers[k].neighbour}] = k;
+      std::vector<bool> is_double(outliers.size());
+      for (const auto &[ends, k] : missing)
+        if (const auto back = missing.find({ends.second, ends.first});
+            back != missing.end() && ends.first < ends.second)
+        {
+          outliers[k].is_both_ways = true;
+          is_double[back->second] = true;
+        }
+      std::size_t k = 0;
+      outliers.erase(std::remove_if(outliers.begin(), outliers.end(),
+                                    [&](const Outlier &) { return is_double[k++]; }),
+                     outliers.end());
+    }
+
+    bool names(const Outlier &o, std::size_t node, std::size_t neighbour)
+    {
+      return (o.node == node && o.neighbour == neighbour) ||
+             (o.node == neighbour && o.neighbour == node);
+    }
+
+    /// Adds those that say something that no other one says.
+    void add_new(const std::vector<Outlier> &more, std::vector<Outlier> &outliers)
+    {
+      const std::size_t n = outliers.size();
+      for (const Outlier &one : more)
+        if (std::none_of(outliers.begin(), outliers.begin() + static_cast<std::ptrdiff_t>(n),
+                         [&](const Outlier &o)
+                         {
+                           if (o.neighbour == Outlier::none)
+                             return o.node == one.node ||
+                                    (o.defect == Defect::neighbour && o.node == one.neighbour);
+                           return one.neighbour == Outlier::none
+                                      ? o.node == one.node ||
+                                            (o.is_both_ways && o.neighbour == one.node)
+                                      : names(o, one.node, one.neighbour);
+                         }))
+          outliers.push_back(one);
+    }
+  } // namespace
+
+  namespace
+  {
+    void find_by_rule(const GivenBonds &given, const Recognised &rule,
+                      const std::vector<Pair> &pairs, double point_scale,
+                      std::vector<Outlier> &outliers)
+    {
+      compare_with_rule(given, rule, outliers);
+      if (!rule.has_kernel_points)
+      {
+        std::vector<Outlier> points;
+        compare_points(given, pairs, point_scale, points);
+        add_new(points, outliers);
+      }
+      gather(given, outliers);
+    }
+
+    /// Without a rule to compare with. Nodes with a factor of their own first, since it hides what
+    /// else there is.
+    void find_by_others(const GivenBonds &raw, const std::vector<Pair> &pairs, double point_scale,
+                        std::vector<Outlier> &outliers)
+    {
+      std::vector<Point<2>> xi;
+      for (const Pair &pair : pairs)
+        xi.push_back(pair.xi);
+      const BondProfile profile(xi, node_size(raw));
+      outliers = find_scaled_nodes(raw, pairs, profile);
+      const std::vector<Family> families = without_factors(raw.families, outliers);
+      const GivenBonds given{families, raw.kernel, raw.cells, raw.volumes};
+      compare_weights(given, pairs, profile, outliers);
+      std::vector<Outlier> more;
+      compare_points(given, pairs, point_scale, more);
+      add_new(more, outliers);
+      gather(given, outliers);
+      more.clear();
+      compare_ends(given, pairs, more);
+      add_new(more, outliers);
+      add_new(find_moment_outliers(given, pairs), outliers);
+    }
+  } // namespace
+
+  std::vector<Outlier> find_outliers(const GivenBonds &given, const std::optional<Recognised> &rule,
+                                     double point_scale)
+  {
+    const std::vector<Pair> pairs = all_pairs(given);
+    std::vector<Outlier> outliers;
+    if (rule)
+      find_by_rule(given, *rule, pairs, point_scale, outliers);
+    else
+      find_by_others(given, pairs, point_scale, outliers);
+    pair_up(outliers);
+    std::stable_sort(outliers.begin(), outliers.end(),
+                     [](const Outlier &a, const Outlier &b) { return a.distance > b.distance; });
+    return outliers;
+  }
+} // namespace plumbline::meshfree

@@ -1,0 +1,67 @@
+#include "meshfree/check/bond_pairs.h"
+
+#include "meshfree/rules/families.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    /// The length that all bonds but one in a hundred have at most, with half a node's size.
+    double reach_of(const GivenBonds &given)
+    {
+      std::vector<double> lengths;
+      for (const Family &family : given.families)
+        for (const Bond &bond : family.bonds)
+          lengths.push_back(bond.xi.norm());
+      const auto at = lengths.begin() + static_cast<std::ptrdiff_t>(.99 * (lengths.size() - 1.));
+      std::nth_element(lengths.begin(), at, lengths.end());
+      return *at + .5 * node_size(given);
+    }
+  } // namespace
+
+  double node_size(const GivenBonds &given)
+  {
+    double volume = 0;
+    for (std::size_t i = 0; i < given.families.size(); ++i)
+      volume += given.volumes[i];
+    return std::sqrt(volume / static_cast<double>(given.families.size()));
+  }
+
+  std::vector<Pair> all_pairs(const GivenBonds &given)
+  {
+    std::vector<geometry::Box> places;
+    for (const Point<2> &x : given.cells.nodes)
+      places.push_back({x, x});
+    const geometry::BoxSearch search(places);
+    const double reach = reach_of(given);
+    std::vector<Pair> pairs;
+    std::vector<unsigned int> near;
+    for (std::size_t i = 0; i < given.families.size(); ++i)
+    {
+      const Family &family = given.families[i];
+      const Point<2> &x = given.cells.nodes[i];
+      search.find(box_around(x, reach), near);
+      std::size_t k = 0;
+      const auto add_bonds_before = [&](std::size_t j)
+      {
+        for (; k < family.bonds.size() && family.neighbours[k] < j; ++k)
+          pairs.push_back({i, family.neighbours[k], k, family.bonds[k].xi});
+      };
+      for (const unsigned int j : near)
+      {
+        add_bonds_before(j);
+        const Point<2> xi(given.cells.nodes[j] - x);
+        const bool has_bond = k < family.bonds.size() && family.neighbours[k] == j;
+        if (has_bond)
+          pairs.push_back({i, j, k++, xi});
+        else if (j != i && xi.norm() <= reach)
+          pairs.push_back({i, j, Outlier::none, xi});
+      }
+      add_bonds_before(given.cells.size());
+    }
+    return pairs;
+  }
+} // namespace plumbline::meshfree

@@ -1,0 +1,140 @@
+#include "meshfree/check/bond_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    /// Bonds of a bin: enough to tell a few from the others.
+    constexpr std::size_t fewest = 30;
+
+    /// Bonds repeat where there are so many of a class on average.
+    constexpr std::size_t repeated = 6;
+
+    double nth(std::vector<double> &values, std::size_t n)
+    {
+      const auto at = values.begin() + static_cast<std::ptrdiff_t>(n);
+      std::nth_element(values.begin(), at, values.end());
+      return *at;
+    }
+
+    /// With the length the same for all bonds that a turn by 90° or a reflection makes one.
+    double shorter_side(const Point<2> &xi)
+    {
+      return std::min(std::abs(xi[0]), std::abs(xi[1]));
+    }
+  } // namespace
+
+  double Spread::allowed(double floor) const
+  {
+    constexpr double in_deviations = 10, in_tails = 6;
+    return std::max({floor, in_deviations * deviation, in_tails * tail});
+  }
+
+  Spread spread_of(const std::vector<double> &values)
+  {
+    constexpr double normal = 1.4826;
+    constexpr std::size_t one_in = 13;
+    if (values.empty())
+      return {};
+    std::vector<double> copy = values;
+    Spread result;
+    result.median = nth(copy, copy.size() / 2);
+    for (double &value : copy)
+      value = std::abs(value - result.median);
+    result.deviation = normal * nth(copy, copy.size() / 2);
+    const std::size_t n_beyond = std::max<std::size_t>(1, copy.size() / one_in);
+    if (copy.size() > n_beyond)
+      result.tail = nth(copy, copy.size() - 1 - n_beyond);
+    return result;
+  }
+
+  BondProfile::BondProfile(const std::vector<Point<2>> &xi, double size) : order_(xi.size())
+  {
+    std::iota(order_.begin(), order_.end(), 0);
+    std::sort(order_.begin(), order_.end(),
+              [&](std::size_t a, std::size_t b) { return xi[a].square() < xi[b].square(); });
+    find_classes(xi, size);
+    if (!is_lattice_)
+      find_bins(xi, size);
+  }
+
+  void BondProfile::find_classes(const std::vector<Point<2>> &xi, double size)
+  {
+    const double same = 1e-8 * size; // far above rounding, far below what moves nodes
+    const auto side = [&](std::size_t k) { return shorter_side(xi[k]); };
+    std::vector<std::size_t> classes = order_, start;
+    for (std::size_t from = 0, to = 0; from < classes.size(); from = to)
+    {
+      while (to < classes.size() &&
+             (to == from || xi[classes[to]].norm() - xi[classes[to - 1]].norm() <= same))
+        ++to;
+      std::sort(classes.begin() + static_cast<std::ptrdiff_t>(from),
+                classes.begin() + static_cast<std::ptrdiff_t>(to),
+                [&](std::size_t a, std::size_t b) { return side(a) < side(b); });
+      for (std::size_t k = from; k < to; ++k)
+        if (k == from || side(classes[k]) - side(classes[k - 1]) > same)
+          start.push_back(k);
+    }
+    is_lattice_ = start.size() * repeated <= xi.size();
+    if (!is_lattice_)
+      return;
+    for (std::size_t c = 0; c < start.size(); ++c)
+      like_.emplace_back(c, c + 1);
+    start.push_back(classes.size());
+    order_ = std::move(classes);
+    start_ = std::move(start);
+  }
+
+  void BondProfile::find_bins(const std::vector<Point<2>> &xi, double size)
+  {
+    constexpr double width = .1, reach = .5; // in sizes
+    const auto length = [&](std::size_t k) { return xi[order_[k]].norm(); };
+    start_ = {0};
+    for (std::size_t k = 0; k < order_.size(); ++k)
+      if (k - start_.back() >= fewest && length(k) - length(start_.back()) > width * size &&
+          order_.size() - k >= fewest)
+        start_.push_back(k);
+    start_.push_back(order_.size());
+    const std::size_t n = start_.size() - 1;
+    for (std::size_t bin = 0; bin < n; ++bin)
+    {
+      std::size_t first = bin, last = bin + 1;
+      while (first > 0 && length(start_[bin]) - length(start_[first] - 1) < reach * size)
+        --first;
+      while (last < n && length(start_[last]) - length(start_[bin + 1] - 1) < reach * size)
+        ++last;
+      like_.emplace_back(first, last);
+    }
+  }
+
+  std::vector<BondProfile::Usual> BondProfile::usual(const std::vector<double> &values,
+                                                     double floor) const
+  {
+    std::vector<Spread> spreads;
+    for (std::size_t bin = 0; bin < like_.size(); ++bin)
+    {
+      std::vector<double> own;
+      for (std::size_t k = start_[bin]; k < start_[bin + 1]; ++k)
+        own.push_back(values[order_[k]]);
+      spreads.push_back(spread_of(own));
+    }
+    std::vector<Usual> result(values.size());
+    for (std::size_t bin = 0; bin < like_.size(); ++bin)
+    {
+      Usual usual{spreads[bin].median, spreads[bin].median, floor};
+      for (std::size_t other = like_[bin].first; other < like_[bin].second; ++other)
+      {
+        usual.low = std::min(usual.low, spreads[other].median);
+        usual.high = std::max(usual.high, spreads[other].median);
+        usual.allowed = std::max(usual.allowed, spreads[other].allowed(floor));
+      }
+      for (std::size_t k = start_[bin]; k < start_[bin + 1]; ++k)
+        result[order_[k]] = usual;
+    }
+    return result;
+  }
+} // namespace plumbline::meshfree

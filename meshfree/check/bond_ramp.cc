@@ -1,0 +1,85 @@
+#include "meshfree/check/bond_ramp.h"
+
+#include "meshfree/check/bond_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    /// Adds what differs from one family to the other; largest is of |w C|.
+    void compare(const Family &mine, const Family &ramped, const Kernel<2> &kernel,
+                 RampEffect &effect, double &largest)
+    {
+      const auto entry = [&](const Bond &bond) { return bond.weight * radial_value(kernel, bond); };
+      std::size_t a = 0, b = 0;
+      while (a < mine.bonds.size() || b < ramped.bonds.size())
+      {
+        const bool has_a = a < mine.bonds.size(), has_b = b < ramped.bonds.size();
+        const bool takes_a = has_a && (!has_b || mine.neighbours[a] <= ramped.neighbours[b]),
+                   takes_b = has_b && (!has_a || ramped.neighbours[b] <= mine.neighbours[a]);
+        const Bond *one = takes_a ? &mine.bonds[a++] : nullptr,
+                   *other = takes_b ? &ramped.bonds[b++] : nullptr;
+        const double weight = one ? one->weight : 0, ramped_weight = other ? other->weight : 0;
+        const double allowed = file_tolerance * (one ? one->area : other->area);
+        ++effect.n_bonds;
+        effect.n_changed += std::abs(weight - ramped_weight) > allowed ? 1 : 0;
+        const double before = one ? entry(*one) : 0, after = other ? entry(*other) : 0;
+        effect.change = std::max(effect.change, std::abs(before - after));
+        largest = std::max(largest, std::abs(before));
+      }
+    }
+
+    std::string percent(double value)
+    {
+      std::ostringstream text;
+      text.precision(3);
+      text << 100 * value << " %";
+      return text.str();
+    }
+  } // namespace
+
+  std::vector<RampEffect> ramp_effects(const GivenBonds &given, const std::vector<Family> &families)
+  {
+    const double before = check_moments(families, given.kernel).typical();
+    std::vector<RampEffect> effects;
+    for (const std::string name : {"LAMMPS", "QWJ", "PA-AC"})
+    {
+      const std::vector<Family> ramped = rule_families(name, given);
+      RampEffect effect;
+      effect.rule = name;
+      double largest = 0;
+      for (std::size_t i = 0; i < families.size(); ++i)
+        compare(families[i], ramped[i], given.kernel, effect, largest);
+      effect.change /= largest > 0 ? largest : 1;
+      effect.before = before;
+      effect.after = check_moments(ramped, given.kernel).typical();
+      effects.push_back(effect);
+    }
+    return effects;
+  }
+
+  std::string ramp_text(const std::vector<RampEffect> &effects)
+  {
+    std::string same, others;
+    for (const RampEffect &effect : effects)
+      if (effect.is_seen())
+        others +=
+            (others.empty() ? "" : ", ") + percent(effect.after) + " with those of " + effect.rule;
+      else
+        same += (same.empty() ? "" : " and ") + effect.rule;
+    std::string text = "whole cells where the horizon cuts them";
+    if (!others.empty())
+      text += "; with partial areas the moments of most nodes would be off by " + others +
+              ", instead of " + percent(effects.front().before) +
+              ", so that moments do not tell whether a ramp was left out: name the rule that is "
+              "meant in Methods/names";
+    if (!same.empty())
+      text += "; " + same + " would make the same operator here" +
+              (others.empty() ? "" : ", its ramp being where no node or no kernel is");
+    return text;
+  }
+} // namespace plumbline::meshfree

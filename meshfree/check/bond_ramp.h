@@ -1,0 +1,30 @@
+#pragma once
+
+#include "meshfree/check/bond_rule.h"
+
+namespace plumbline::meshfree
+{
+  /// What a rule with a ramp, or partial areas, would make of weights that are whole cells.
+  struct RampEffect
+  {
+    std::string rule;
+    std::size_t n_bonds = 0; ///< given or the rule's
+    std::size_t n_changed =
+        0;             ///< that would have another weight; 0: no cell is in the ramp's range
+    double change = 0; ///< the largest of w C, relative to the largest w C; 0: the same
+                       ///< operator, since the kernel is 0 where the ramp cuts
+    double before = 0, after = 0; ///< median defect of the moments of degree 1 and 2
+
+    /// Whether the operators differ, so that something can tell them apart.
+    bool is_seen() const { return change > file_tolerance; }
+  };
+
+  /// Of LAMMPS, QWJ and PA-AC.
+  /// @param families  weights that are those of FA
+  std::vector<RampEffect> ramp_effects(const GivenBonds &given,
+                                       const std::vector<Family> &families);
+
+  /// The same for people: that the weights are whole cells, and what ramps would make of the
+  /// moments.
+  std::string ramp_text(const std::vector<RampEffect> &effects);
+} // namespace plumbline::meshfree

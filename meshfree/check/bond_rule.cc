@@ -1,0 +1,123 @@
+#include "meshfree/check/bond_rule.h"
+
+#include "base/error.h"
+#include "meshfree/check/bond_profile.h"
+#include "meshfree/rules/families.h"
+#include "meshfree/rules/rules.h"
+
+#include <cmath>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    /// Calls visit(given bond or nullptr, bond of the rule or nullptr) for the neighbours of
+    /// either.
+    template <class Visit>
+    void for_both(const Family &given, const Family &rule, const Visit &visit)
+    {
+      std::size_t a = 0, b = 0;
+      while (a < given.bonds.size() || b < rule.bonds.size())
+      {
+        const bool has_a = a < given.bonds.size(), has_b = b < rule.bonds.size();
+        const bool takes_a = has_a && (!has_b || given.neighbours[a] <= rule.neighbours[b]),
+                   takes_b = has_b && (!has_a || rule.neighbours[b] <= given.neighbours[a]);
+        visit(takes_a ? &given.bonds[a++] : nullptr, takes_b ? &rule.bonds[b++] : nullptr);
+      }
+    }
+
+    /// The factor between the weights of most bonds.
+    double common_factor(const std::vector<Family> &given, const std::vector<Family> &rule)
+    {
+      constexpr double small = .1; // weights of which say little
+      std::vector<double> ratios;
+      for (std::size_t i = 0; i < given.size(); ++i)
+        for_both(given[i], rule[i],
+                 [&](const Bond *a, const Bond *b)
+                 {
+                   if (a && b && std::abs(b->weight) > small * a->area)
+                     ratios.push_back(a->weight / b->weight);
+                 });
+      return spread_of(ratios).median;
+    }
+
+    struct Agreement
+    {
+      std::size_t n_bonds = 0, n_weights = 0, n_points = 0;
+    };
+
+    Agreement agreement(const std::vector<Family> &given, const std::vector<Family> &rule,
+                        double factor)
+    {
+      Agreement result;
+      for (std::size_t i = 0; i < given.size(); ++i)
+        for_both(given[i], rule[i],
+                 [&](const Bond *a, const Bond *b)
+                 {
+                   const double volume = a ? a->area : b->area;
+                   const double difference =
+                       std::abs((a ? a->weight : 0) / factor - (b ? b->weight : 0));
+                   ++result.n_bonds;
+                   result.n_weights += difference <= file_tolerance * volume ? 1 : 0;
+                   if (a && b)
+                     result.n_points += a->kernel_point.distance(b->kernel_point) <=
+                                                file_tolerance * std::sqrt(volume)
+                                            ? 1
+                                            : 0;
+                 });
+      return result;
+    }
+
+    std::vector<Family> families_of(const Rule &rule, const GivenBonds &given)
+    {
+      geometry::NodeCells cells = given.cells;
+      cells.area = given.volumes;
+      const Families families(rule.recipe(given.kernel), given.kernel, cells, Backend::fast);
+      std::vector<Family> result(families.size());
+      for (std::size_t i = 0; i < families.size(); ++i)
+        families.make(i, result[i]);
+      return result;
+    }
+  } // namespace
+
+  std::vector<Family> rule_families(const std::string &name, const GivenBonds &given)
+  {
+    for (const Rule &rule : rules())
+      if (rule.name == name)
+        return families_of(rule, given);
+    throw InputError("'" + name + "' is no rule");
+  }
+
+  std::optional<Recognised> recognise(const GivenBonds &given)
+  {
+    constexpr double enough = .9;
+    std::vector<Rule> candidates = rules();
+    candidates.insert(candidates.end(), traps().begin(), traps().end());
+    std::optional<Recognised> best;
+    std::size_t best_score = 0;
+    for (const Rule &rule : candidates)
+      try
+      {
+        std::vector<Family> families = families_of(rule, given);
+        const double factor = common_factor(given.families, families);
+        if (factor == 0)
+          continue;
+        const Agreement found = agreement(given.families, families, factor);
+        const double wanted = enough * static_cast<double>(found.n_bonds);
+        const std::size_t score = found.n_weights + found.n_points;
+        if (static_cast<double>(found.n_weights) < wanted || score <= best_score)
+          continue;
+        best_score = score;
+        for (Family &family : families)
+          for (Bond &bond : family.bonds)
+            bond.weight *= factor;
+        best = {rule.name, factor, static_cast<double>(found.n_points) >= wanted,
+                std::move(families)};
+      }
+      catch (const NumericalError &)
+      {
+        // infeasible on these nodes: it is not what the code did
+      }
+    return best;
+  }
+} // namespace plumbline::meshfree

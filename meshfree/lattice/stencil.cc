@@ -1,0 +1,57 @@
+#include "meshfree/lattice/stencil.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    /// Where a bond ends, in cells.
+    std::array<int, 2> offset(const Bond &bond, double h)
+    {
+      return {static_cast<int>(std::lround(bond.xi[0] / h)),
+              static_cast<int>(std::lround(bond.xi[1] / h))};
+    }
+  } // namespace
+
+  algebra::Stencil lattice_operator(const physics::Kernel<2> &kernel, const Bonds &bonds)
+  {
+    int reach = 0;
+    for (const Bond &bond : bonds.family)
+      for (const int k : offset(bond, bonds.h))
+        reach = std::max(reach, std::abs(k));
+    algebra::Stencil stencil(kernel.n_components(), reach);
+    for (const Bond &bond : bonds.family)
+      for (unsigned int a = 0; a < kernel.n_components(); ++a)
+        for (unsigned int b = 0; b < kernel.n_components(); ++b)
+        {
+          const auto k = offset(bond, bonds.h);
+          const double entry = kernel_value(kernel, bond, a, b) * bond.weight;
+          stencil(a, b, k[0], k[1]) -= entry;
+          stencil(a, b, 0, 0) += entry;
+        }
+    return stencil;
+  }
+
+  algebra::Stencil state_based_stencil(const physics::Dilatation &dilatation, const Bonds &bonds)
+  {
+    const physics::Lame lame = dilatation.material({});
+    const auto deviatoric =
+        lattice_operator(physics::deviatoric_kernel(dilatation.influence, lame.mu), bonds);
+    algebra::Stencil stencil(2, 2 * deviatoric.reach());
+    for (const Bond &one : bonds.family)
+      for (const Bond &two : bonds.family)
+      {
+        const auto k = offset(one, bonds.h), l = offset(two, bonds.h);
+        const double factor = (lame.lambda - lame.mu) * one.weight * two.weight *
+                              radial_value(dilatation.influence, one) *
+                              radial_value(dilatation.influence, two);
+        for (unsigned int a = 0; a < 2; ++a)
+          for (unsigned int b = 0; b < 2; ++b)
+            stencil(a, b, k[0] + l[0], k[1] + l[1]) -= factor * one.xi[a] * two.xi[b];
+      }
+    return add(deviatoric, stencil);
+  }
+} // namespace plumbline::meshfree

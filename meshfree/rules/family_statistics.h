@@ -1,0 +1,31 @@
+#pragma once
+
+#include "base/team.h"
+#include "meshfree/rules/recipe.h"
+#include "study/results.h"
+
+namespace plumbline::meshfree
+{
+  /// Add a family to what a method says of its weights.
+  void describe_weights(const std::vector<Bond> &family, const Fit &fit,
+                        study::Diagnostics &diagnostics);
+
+  /// What the families of scattered nodes are like.
+  class FamilyStatistics
+  {
+  public:
+    void add(const Kernel<2> &kernel, const Family &family);
+
+    /// The largest family, the distribution of moments, the smallest weight and the number of
+    /// negative ones, with notes on how many families are concerned; over all ranks.
+    /// @note Collective.
+    study::Diagnostics diagnostics(const base::Team &team) const;
+
+  private:
+    study::Diagnostics weights_;
+    bool is_scalar_ = true;
+    double worst_defect_ = 0, ratio_ = 0,
+           squared_ratio_ = 0; ///< of second moments, sums of the last
+    double n_families_ = 0, n_negative_ = 0, n_unstable_ = 0, n_dependent_ = 0, n_clipped_ = 0;
+  };
+} // namespace plumbline::meshfree

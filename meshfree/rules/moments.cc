@@ -1,0 +1,148 @@
+#include "meshfree/rules/moments.h"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    using Eigen::Index;
+    using Eigen::MatrixXd;
+    using Eigen::VectorXd;
+
+    /// A condition of norm 1 whose part orthogonal to others is shorter depends on them.
+    constexpr double rank_tolerance = 1e-7;
+
+    /// Of a square upper triangular matrix whose diagonal falls, to 1 % of itself: inverse
+    /// iteration with RᵀR, from the last unit vector and a little of all others.
+    double smallest_singular_value(const MatrixXd &R)
+    {
+      constexpr double tolerance = 1e-5; // of the change in one iteration
+      constexpr int most_iterations = 100;
+      if ((R.diagonal().array() == 0).any())
+        return 0;
+      VectorXd x(R.cols()); // orthogonal to no singular vector, most likely
+      for (Index i = 0; i < x.size(); ++i)
+        x[i] = .02 + .01 * std::sin(1. + static_cast<double>(i * i));
+      x[x.size() - 1] = 1;
+      double inverse = 0;
+      for (int iteration = 0; iteration < most_iterations; ++iteration)
+      {
+        x.normalize();
+        R.transpose().triangularView<Eigen::Lower>().solveInPlace(x);
+        const double before = inverse;
+        inverse = x.norm();
+        if (inverse - before <= tolerance * inverse)
+          break;
+        R.triangularView<Eigen::Upper>().solveInPlace(x);
+      }
+      return 1 / inverse;
+    }
+
+    /// Least |y| with columnsᵀ y = values, up to what is inconsistent: modified Gram-Schmidt with
+    /// pivoting.
+    /// @param columns  shape (n_neighbours, n_conditions), of norm 1
+    VectorXd least_norm(MatrixXd columns, VectorXd values, unsigned int &rank,
+                        double &smallest_singular)
+    {
+      const Index n = columns.cols();
+      VectorXd y = VectorXd::Zero(columns.rows());
+      VectorXd squares = columns.colwise().squaredNorm(); // kept up to rounding
+      MatrixXd R = MatrixXd::Zero(n, n);
+      rank = 0;
+      for (Index k = 0; k < n; ++k)
+      {
+        Index pivot;
+        squares.tail(n - k).maxCoeff(&pivot);
+        pivot += k;
+        columns.col(k).swap(columns.col(pivot));
+        R.col(k).swap(R.col(pivot));
+        std::swap(values[k], values[pivot]);
+        std::swap(squares[k], squares[pivot]);
+        auto direction = columns.col(k);
+        const double norm = direction.norm();
+        R(k, k) = norm;
+        if (norm == 0)
+          break;
+        direction /= norm;
+        values[k] /= norm;
+        if (norm >= rank_tolerance) // pivots fall: those below tell of the singular value alone
+        {
+          y += values[k] * direction;
+          ++rank;
+        }
+        for (Index i = k + 1; i < n; ++i)
+        {
+          const double share = columns.col(i).dot(direction);
+          R(k, i) = share;
+          columns.col(i) -= share * direction;
+          values[i] -= share * values[k];
+          squares[i] -= share * share;
+        }
+      }
+      smallest_singular = smallest_singular_value(R);
+      return y;
+    }
+  } // namespace
+
+  std::vector<Exponents> exponents(int lowest, int highest)
+  {
+    std::vector<Exponents> result;
+    for (int order = lowest; order <= highest; ++order)
+      for (int a = order; a >= 0; --a)
+        result.push_back({a, order - a});
+    return result;
+  }
+
+  std::vector<Exponents> even_exponents(int lowest, int highest)
+  {
+    std::vector<Exponents> result;
+    for (const Exponents &e : exponents(lowest, highest))
+      if (e[0] % 2 == 0 && e[1] % 2 == 0)
+        result.push_back(e);
+    return result;
+  }
+
+  void meet(const MomentConditions &conditions, Family &family)
+  {
+    const auto n = static_cast<Index>(family.bonds.size());
+    const auto n_conditions = static_cast<Index>(conditions.exponents.size());
+    const int highest = conditions.exponents.back()[0] + conditions.exponents.back()[1];
+    // in y = w / √ω the conditions have the columns g s^α √ω, scaled to norm 1
+    VectorXd root(n), before(n);
+    std::array<MatrixXd, 2> powers{MatrixXd(n, highest + 1), MatrixXd(n, highest + 1)};
+    for (Index j = 0; j < n; ++j)
+    {
+      const Bond &bond = family.bonds[j];
+      root[j] = std::sqrt(conditions.scale(bond));
+      before[j] = bond.weight / root[j];
+      powers[0](j, 0) = conditions.factor(bond) * root[j];
+      powers[1](j, 0) = 1;
+      for (unsigned int d = 0; d < 2; ++d)
+        for (int p = 0; p < highest; ++p)
+          powers[d](j, p + 1) = powers[d](j, p) * bond.xi[d] / conditions.horizon;
+    }
+    MatrixXd columns(n, n_conditions);
+    VectorXd moments(n_conditions);
+    for (Index i = 0; i < n_conditions; ++i)
+    {
+      const Exponents &alpha = conditions.exponents[i];
+      columns.col(i) = powers[0].col(alpha[0]).cwiseProduct(powers[1].col(alpha[1]));
+      for (Index j = 0; j < n && conditions.own_factor; ++j)
+        columns(j, i) *= conditions.own_factor(family.bonds[j], i);
+      const double norm = columns.col(i).norm(), scale = norm > 0 ? 1 / norm : 1;
+      columns.col(i) *= scale;
+      moments[i] = conditions.moments[i] * scale;
+    }
+    family.fit = {conditions.degree, static_cast<unsigned int>(n_conditions), 0, 0, 1};
+    const VectorXd after = before + least_norm(columns, moments - columns.transpose() * before,
+                                               family.fit.rank, family.fit.smallest_singular_value);
+    family.fit.residual = (columns.transpose() * after - moments).cwiseAbs().maxCoeff() /
+                          moments.cwiseAbs().maxCoeff();
+    for (Index j = 0; j < n; ++j)
+      family.bonds[j].weight = after[j] * root[j];
+  }
+} // namespace plumbline::meshfree

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "geometry/cracks.h"
+#include "meshfree/rules/recipe.h"
+
+namespace plumbline::meshfree
+{
+  using dealii::Tensor;
+
+  /// What of a body is broken.
+  struct Damage
+  {
+    std::vector<geometry::Polyline> cracks;
+    std::vector<char> is_ghost;    ///< of each node: beyond a free surface, where it only completes
+                                   ///< the balls of others; empty: none is
+    bool has_surface_terms = true; ///< what makes surfaces free of traction, eq. (3.19); false to
+                                   ///< see what it is good for
+  };
+
+  /// Tells which bonds are broken: those that cross a crack and those to ghosts. A bond through an
+  /// end of a crack is intact, and so is one that runs along a crack; to 1e-9 of the horizon.
+  class BrokenBonds
+  {
+  public:
+    /// @throws InputError  as geometry::check_cracks and check_ghosts
+    BrokenBonds(const Damage &damage, const geometry::NodeCells &cells, double horizon);
+
+    /// Thread safe.
+    /// @param is_intact  overwritten, of each bond
+    /// @return           whether all are
+    bool find(std::size_t node, const Family &family, std::vector<char> &is_intact) const;
+
+    bool is_ghost(std::size_t node) const { return !is_ghost_.empty() && is_ghost_[node] != 0; }
+
+  private:
+    struct Segment
+    {
+      Point<2> first, last;
+      bool begins = false, ends = false; ///< the crack
+    };
+
+    bool crosses(const Segment &segment, const Point<2> &p, const Point<2> &q) const;
+
+    const geometry::NodeCells *cells_;
+    std::vector<char> is_ghost_;
+    double tolerance_; ///< [length]
+    std::vector<Segment> segments_;
+    geometry::BoxSearch search_; ///< over the segments
+  };
+
+  /// What broken bonds make of a family.
+  /// Source: Fan et al. 2022, doi:10.1016/j.cma.2022.115340, eqs. (3.21), (3.22).
+  struct Remainder
+  {
+    Tensor<2, 2> correction; ///< M, with which the dilatation of a linear field is its divergence;
+                             ///< a pseudo-inverse where the bonds left lie on a line
+    Tensor<1, 2> normal;     ///< out of the body; 0 where bonds are missing on all sides alike
+  };
+
+  Remainder remainder(const Kernel<2> &influence, const Family &family,
+                      const std::vector<char> &is_intact);
+} // namespace plumbline::meshfree

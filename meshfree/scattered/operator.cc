@@ -1,0 +1,100 @@
+#include "meshfree/scattered/operator.h"
+
+#include <algorithm>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    /// The coupling of a node to one neighbour, or to itself.
+    struct Block
+    {
+      unsigned int node;
+      std::array<std::array<double, 2>, 2> entries; ///< C_ab
+    };
+
+    std::vector<double> coefficients(const scene::Problem &problem)
+    {
+      std::vector<double> values;
+      if (problem.coefficient)
+        for (const Point<2> &x : problem.cells->nodes)
+          values.push_back(problem.coefficient->at(x));
+      return values;
+    }
+
+    /// The constraint at the nodes of the collar, shape (n_collar, n_components).
+    std::vector<double> collar_data(const scene::Problem &problem)
+    {
+      const geometry::NodeCells &cells = *problem.cells;
+      std::vector<double> values;
+      for (std::size_t i = cells.n_free; i < cells.size(); ++i)
+        for (unsigned int c = 0; c < problem.n_components; ++c)
+          values.push_back(problem.constraint.value(cells.nodes[i], c));
+      return values;
+    }
+  } // namespace
+
+  ScatteredOperator scattered_operator(const FamilySource &families, const scene::Problem &problem,
+                                       std::pair<std::size_t, std::size_t> share)
+  {
+    const std::size_t n_free = problem.cells->n_free;
+    const unsigned int n_components = problem.n_components;
+    const auto a = coefficients(problem), data = collar_data(problem);
+    ScatteredOperator result;
+    result.right_hand_side.assign(n_free * n_components, 0);
+    result.rows.start.assign(share.first * n_components + 1, 0);
+    Family family;
+    std::vector<Block> blocks;
+    for (auto i = static_cast<unsigned int>(share.first); i < share.second; ++i)
+    {
+      families(i, family);
+      result.statistics.add(problem.kernel, family);
+      blocks.clear();
+      Block own{i, {}};
+      for (std::size_t k = 0; k < family.bonds.size(); ++k)
+      {
+        const Bond &bond = family.bonds[k];
+        const unsigned int j = family.neighbours[k];
+        const double mean = a.empty() ? 1 : problem.coefficient->mean(a[i], a[j]);
+        const double factor = mean * bond.weight * radial_value(problem.kernel, bond);
+        if (factor == 0)
+          continue;
+        Block block{j, {}};
+        for (unsigned int c = 0; c < n_components; ++c)
+          for (unsigned int d = 0; d < n_components; ++d)
+          {
+            const double entry = factor * problem.kernel.direction_factor(c, d, bond.kernel_point);
+            block.entries[c][d] = -entry;
+            own.entries[c][d] += entry;
+            if (j >= n_free)
+              result.right_hand_side[i * n_components + c] +=
+                  entry * data[(j - n_free) * n_components + d];
+          }
+        if (j < n_free)
+          blocks.push_back(block);
+      }
+      blocks.insert(std::find_if(blocks.begin(), blocks.end(),
+                                 [i](const Block &block) { return block.node > i; }),
+                    own);
+      for (unsigned int c = 0; c < n_components; ++c)
+      {
+        for (const Block &block : blocks)
+          for (unsigned int d = 0; d < n_components; ++d)
+          {
+            result.rows.column.push_back(block.node * n_components + d);
+            result.rows.value.push_back(block.entries[c][d]);
+          }
+        result.rows.start.push_back(result.rows.column.size());
+      }
+    }
+    result.rows.start.resize(n_free * n_components + 1, result.rows.column.size());
+    return result;
+  }
+
+  ScatteredOperator scattered_operator(const Families &families, const scene::Problem &problem,
+                                       std::pair<std::size_t, std::size_t> share)
+  {
+    return scattered_operator([&](std::size_t i, Family &family) { families.make(i, family); },
+                              problem, share);
+  }
+} // namespace plumbline::meshfree

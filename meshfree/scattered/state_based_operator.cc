@@ -1,0 +1,334 @@
+#include "meshfree/scattered/state_based_operator.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    using physics::Lame;
+
+    /// A bond of the body.
+    struct Link
+    {
+      unsigned int node; ///< at its other end
+      bool is_intact;
+      double strength; ///< w K
+      Tensor<1, 2> xi, direction;
+    };
+
+    struct Node
+    {
+      std::size_t first = 0, last = 0; ///< of its links
+      Remainder remainder;
+    };
+
+    /// The families of a share of Ω and of the nodes that it reaches.
+    class Links
+    {
+    public:
+      Links(const FamilySource &families, const StateBasedBody &body,
+            std::pair<std::size_t, std::size_t> share)
+          : nodes_(body.cells->size())
+      {
+        const Kernel<2> &influence = body.dilatation.influence;
+        const BrokenBonds broken(body.damage, *body.cells, influence.horizon());
+        const Kernel<2> deviatoric = physics::deviatoric_kernel(influence, 1);
+        Family family;
+        std::vector<char> is_intact;
+        const auto add = [&](std::size_t i)
+        {
+          families(i, family);
+          Node &node = nodes_[i];
+          node.first = links_.size();
+          for (std::size_t d = 0; d < 2; ++d)
+            node.remainder.correction[d][d] = 1;
+          if (!broken.find(i, family, is_intact))
+            node.remainder = meshfree::remainder(influence, family, is_intact);
+          for (std::size_t k = 0; k < family.bonds.size(); ++k)
+          {
+            const Bond &bond = family.bonds[k];
+            links_.push_back({family.neighbours[k], is_intact[k] != 0,
+                              bond.weight * radial_value(influence, bond), bond.xi,
+                              bond.kernel_point / bond.kernel_point.norm()});
+          }
+          node.last = links_.size();
+        };
+        for (std::size_t i = share.first; i < share.second; ++i)
+        {
+          add(i);
+          statistics.add(deviatoric, family);
+          if (std::find(is_intact.begin(), is_intact.end(), 1) == is_intact.end())
+            refuse_isolated(*body.cells, i);
+        }
+        const std::size_t n_own = links_.size();
+        for (std::size_t k = 0; k < n_own; ++k)
+          if (const Link link = links_[k]; link.is_intact && !has(link.node))
+            add(link.node);
+      }
+
+      bool has(std::size_t node) const { return nodes_[node].last > nodes_[node].first; }
+      const Remainder &remainder(std::size_t node) const { return nodes_[node].remainder; }
+
+      dealii::ArrayView<const Link> of(std::size_t node) const
+      {
+        return {links_.data() + nodes_[node].first, nodes_[node].last - nodes_[node].first};
+      }
+
+      /// θ = Σ g·(u_j - u_i).
+      Tensor<1, 2> gradient(std::size_t node, const Link &link) const
+      {
+        return link.strength * (nodes_[node].remainder.correction * link.xi);
+      }
+
+      FamilyStatistics statistics; ///< of the share
+
+    private:
+      [[noreturn]] static void refuse_isolated(const geometry::NodeCells &cells, std::size_t node)
+      {
+        std::ostringstream message;
+        message << "all bonds of node " << cells.source[node] << " at (" << cells.nodes[node]
+                << ") are broken, so that nothing holds it; move the crack, or take the node out";
+        throw InputError(message.str());
+      }
+
+      std::vector<Node> nodes_;
+      std::vector<Link> links_;
+    };
+
+    /// The couplings of (u_1, u_2, θ) of one node to those of others.
+    class BlockRow
+    {
+    public:
+      explicit BlockRow(std::size_t n_nodes) : place_(n_nodes, none) {}
+
+      void clear()
+      {
+        for (const unsigned int node : nodes_)
+          place_[node] = none;
+        nodes_.clear();
+        blocks_.clear();
+      }
+
+      /// Zero at first.
+      Tensor<2, 3> &operator[](unsigned int node)
+      {
+        if (place_[node] == none)
+        {
+          place_[node] = static_cast<unsigned int>(blocks_.size());
+          nodes_.push_back(node);
+          blocks_.emplace_back();
+        }
+        return blocks_[place_[node]];
+      }
+
+      const std::vector<unsigned int> &sorted_nodes()
+      {
+        std::sort(nodes_.begin(), nodes_.end());
+        return nodes_;
+      }
+
+    private:
+      static constexpr unsigned int none = -1;
+
+      std::vector<unsigned int> place_; ///< of each node in blocks_
+      std::vector<unsigned int> nodes_;
+      std::vector<Tensor<2, 3>> blocks_;
+    };
+
+    /// Makes the rows of a share, node by node.
+    class Assembly
+    {
+    public:
+      Assembly(const FamilySource &families, const StateBasedBody &body,
+               std::pair<std::size_t, std::size_t> share, bool keeps_dilatation)
+          : cells_(*body.cells), dilatation_(body.dilatation),
+            has_surface_terms_(body.damage.has_surface_terms),
+            has_collar_dilatation_(body.has_collar_dilatation), keeps_dilatation_(keeps_dilatation),
+            share_(share), links_(families, body, share), row_(cells_.size()),
+            n_unknowns_(2 * cells_.n_free)
+      {
+        for (const Point<2> &x : cells_.nodes)
+          material_.push_back(dilatation_.is_homogeneous && !material_.empty()
+                                  ? material_.front()
+                                  : dilatation_.material(x));
+        for (std::size_t i = cells_.n_free; i < cells_.size(); ++i)
+        {
+          const bool is_ghost = !body.damage.is_ghost.empty() && body.damage.is_ghost[i] != 0;
+          for (unsigned int c = 0; c < 2; ++c)
+            data_.push_back(is_ghost ? 0 : body.data(cells_.nodes[i], c));
+        }
+        for (std::size_t i = 0; i < cells_.size(); ++i)
+          number_of_dilatation_.push_back(
+              static_cast<unsigned int>(has_row(i) ? n_unknowns_++ : 0));
+      }
+
+      ScatteredOperator make()
+      {
+        result_.statistics = links_.statistics;
+        result_.right_hand_side.assign(n_unknowns_, 0);
+        result_.rows.start.assign(2 * share_.first + 1, 0);
+        for (auto i = static_cast<unsigned int>(share_.first); i < share_.second; ++i)
+          add_node(i);
+        for (unsigned int i = 0; i < cells_.size(); ++i)
+          if (has_row(i))
+          {
+            row_.clear();
+            define_dilatation(i);
+            put_row(2);
+          }
+        result_.rows.start.resize(n_unknowns_ + 1, result_.rows.column.size());
+        return std::move(result_);
+      }
+
+    private:
+      /// A node whose θ is unknown.
+      bool has_row(std::size_t node) const
+      {
+        return keeps_dilatation_ && links_.has(node) &&
+               (node < cells_.n_free || has_collar_dilatation_);
+      }
+
+      Lame between(const Lame &a, const Lame &b) const
+      {
+        const auto kind =
+            dilatation_.is_two_point ? physics::Mean::harmonic : physics::Mean::arithmetic;
+        return {physics::mean(kind, a.lambda, b.lambda), physics::mean(kind, a.mu, b.mu)};
+      }
+
+      /// The force on a node of Ω.
+      void add_node(unsigned int i)
+      {
+        row_.clear();
+        const Lame &own = material_[i];
+        const Tensor<1, 2> n = links_.remainder(i).normal;
+        Tensor<1, 2> own_factor;
+        for (const Link &link : links_.of(i))
+        {
+          const unsigned int j = link.node;
+          const Lame &other = material_[j], pair = between(own, other);
+          if (link.is_intact)
+          {
+            own_factor -= link.strength * dilatation_.factor(own, other) * link.xi;
+            add_dilatation(j, -link.strength * dilatation_.factor(other, own) * link.xi);
+            const Tensor<2, 2> bond =
+                8 * pair.mu * link.strength * outer_product(link.direction, link.direction);
+            add(j, -bond);
+            add(i, bond);
+          }
+          else if (has_surface_terms_)
+          {
+            const double normal = link.direction * n, along = link.xi * n,
+                         tangential = link.direction[0] * n[1] - link.direction[1] * n[0];
+            own_factor -= 2 * (pair.lambda - pair.mu) * link.strength * link.xi;
+            own_factor -= 4 * link.strength * along *
+                          ((pair.lambda + 2 * pair.mu) * tangential * tangential -
+                           pair.lambda * normal * normal) *
+                          n;
+          }
+        }
+        add_dilatation(i, own_factor);
+        put_row(0);
+        put_row(1);
+      }
+
+      void add(unsigned int node, const Tensor<2, 2> &block)
+      {
+        Tensor<2, 3> &whole = row_[node];
+        for (unsigned int c = 0; c < 2; ++c)
+          for (unsigned int d = 0; d < 2; ++d)
+            whole[c][d] += block[c][d];
+      }
+
+      /// The force factor θ_j.
+      void add_dilatation(unsigned int j, const Tensor<1, 2> &factor)
+      {
+        if (j >= cells_.n_free && !has_collar_dilatation_)
+          return;
+        if (keeps_dilatation_)
+        {
+          Tensor<2, 3> &whole = row_[j];
+          for (unsigned int c = 0; c < 2; ++c)
+            whole[c][2] += factor[c];
+          return;
+        }
+        Tensor<1, 2> sum;
+        for (const Link &link : links_.of(j))
+          if (link.is_intact)
+          {
+            const Tensor<1, 2> gradient = links_.gradient(j, link);
+            sum += gradient;
+            add(link.node, outer_product(factor, gradient));
+          }
+        add(j, -outer_product(factor, sum));
+      }
+
+      /// θ_i - Σ g·(u_j - u_i) = 0.
+      void define_dilatation(unsigned int i)
+      {
+        row_[i][2][2] = 1;
+        for (const Link &link : links_.of(i))
+          if (link.is_intact)
+          {
+            const Tensor<1, 2> gradient = links_.gradient(i, link);
+            for (unsigned int d = 0; d < 2; ++d)
+            {
+              row_[link.node][2][d] -= gradient[d];
+              row_[i][2][d] += gradient[d];
+            }
+          }
+      }
+
+      /// Row c of a node, u before θ: what is known goes to the right.
+      void put_row(unsigned int c)
+      {
+        const std::size_t number = result_.rows.start.size() - 1;
+        const auto put = [&](unsigned int column, double entry)
+        {
+          result_.rows.column.push_back(column);
+          result_.rows.value.push_back(entry);
+        };
+        const std::vector<unsigned int> &nodes = row_.sorted_nodes();
+        for (const unsigned int j : nodes)
+          for (unsigned int d = 0; d < 2; ++d)
+            if (const double entry = row_[j][c][d]; entry != 0)
+            {
+              if (j < cells_.n_free)
+                put(2 * j + d, entry);
+              else
+                result_.right_hand_side[number] -= entry * data_[2 * (j - cells_.n_free) + d];
+            }
+        for (const unsigned int j : nodes)
+          if (const double entry = row_[j][c][2]; entry != 0)
+            put(number_of_dilatation_[j], entry);
+        result_.rows.start.push_back(result_.rows.column.size());
+      }
+
+      const geometry::NodeCells &cells_;
+      const physics::Dilatation &dilatation_;
+      bool has_surface_terms_, has_collar_dilatation_, keeps_dilatation_;
+      std::pair<std::size_t, std::size_t> share_;
+      Links links_;
+      BlockRow row_;
+      std::vector<Lame> material_;
+      std::vector<double> data_; ///< shape (n_collar, 2)
+      std::size_t n_unknowns_;
+      std::vector<unsigned int> number_of_dilatation_; ///< θ of each node is this unknown, if any
+      ScatteredOperator result_;
+    };
+  } // namespace
+
+  ScatteredOperator state_based_operator(const FamilySource &families, const StateBasedBody &body,
+                                         std::pair<std::size_t, std::size_t> share)
+  {
+    return Assembly(families, body, share, false).make();
+  }
+
+  ScatteredOperator state_based_system(const FamilySource &families, const StateBasedBody &body)
+  {
+    return Assembly(families, body, {0, body.cells->n_free}, true).make();
+  }
+} // namespace plumbline::meshfree

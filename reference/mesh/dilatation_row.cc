@@ -1,0 +1,180 @@
+#include "reference/mesh/dilatation_row.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+
+namespace plumbline::reference
+{
+  namespace
+  {
+    /// Relative, of rules for influence functions that are no polynomials.
+    constexpr double accuracy = 1e-13;
+    /// Angles that suffice between any two corners for a function times 1/r (`polar_rule`).
+    constexpr unsigned int most_angles = 16;
+
+    int highest_exponent(const physics::Kernel<2> &kernel)
+    {
+      const auto highest =
+          std::max_element(kernel.profile().begin(), kernel.profile().end(),
+                           [](const physics::PowerTerm &a, const physics::PowerTerm &b)
+                           { return a.exponent < b.exponent; });
+      return highest->exponent;
+    }
+
+    /// Exact to degree 2 n - 1.
+    dealii::Quadrature<2> gauss(unsigned int n_vertices, unsigned int n)
+    {
+      constexpr unsigned int most = 7;
+      if (n_vertices == 4)
+        return dealii::QGauss<2>(n);
+      if (n <= most)
+        return dealii::QWitherdenVincentSimplex<2>(n);
+      return dealii::QDuffy(n + 1, 1.);
+    }
+
+    std::vector<ShapeRule> whole_rules(const CellShapes &shapes)
+    {
+      constexpr unsigned int n_rules = 11; // beyond, polar rules cost less
+      std::vector<ShapeRule> rules;
+      for (unsigned int n = 1; n <= n_rules; ++n)
+      {
+        const dealii::Quadrature<2> points = gauss(shapes.n_vertices(), n);
+        ShapeRule rule{points.get_points(), points.get_weights(), {}};
+        rule.phi.resize(points.size() * shapes.size());
+        for (unsigned int q = 0; q < points.size(); ++q)
+          shapes.values(rule.unit[q], &rule.phi[q * shapes.size()]);
+        rules.push_back(std::move(rule));
+      }
+      return rules;
+    }
+  } // namespace
+
+  DilatationRow::DilatationRow(const MeshSpace &space, const MeshCells &cells,
+                               const physics::Dilatation &dilatation, unsigned int smooth_degree,
+                               geometry::Backend backend)
+      : space_(space), cells_(cells), dilatation_(dilatation), profile_(dilatation.influence),
+        highest_exponent_(highest_exponent(dilatation.influence)), smooth_degree_(smooth_degree),
+        backend_(backend), whole_(whole_rules(space.shapes())), theta_(2 * space.shapes().size()),
+        test_(2 * space.shapes().size())
+  {
+  }
+
+  void DilatationRow::evaluate(std::size_t cell, const Point<2> &unit,
+                               const std::vector<unsigned int> &near,
+                               const std::vector<unsigned int> &slot, std::vector<double> &theta,
+                               std::vector<double> &test)
+  {
+    const unsigned int n = space_.shapes().size();
+    const Point<2> x = space_.map(cell).point(unit);
+    const bool is_two_point = !dilatation_.is_symmetric();
+    own_ = dilatation_.material(x);
+    std::fill(theta.begin(), theta.end(), 0.);
+    std::fill(test.begin(), test.end(), 0.);
+    std::array<double, 2> theta_sum{}, test_sum{};
+    for (const unsigned int inner : near)
+    {
+      if (x.distance(cells_.centroid(inner)) >=
+          dilatation_.influence.horizon() + cells_.radius(inner))
+        continue;
+      integrate(x, inner);
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int c = 0; c < 2; ++c)
+        {
+          const std::size_t to = 2 * slot[space_.dofs(inner)[a]] + c;
+          theta[to] += theta_[2 * a + c];
+          theta_sum[c] += theta_[2 * a + c];
+          if (is_two_point)
+          {
+            test[to] += test_[2 * a + c];
+            test_sum[c] += test_[2 * a + c];
+          }
+        }
+    }
+    phi_.resize(n);
+    space_.shapes().values(unit, phi_.data());
+    for (unsigned int a = 0; a < n; ++a)
+      for (unsigned int c = 0; c < 2; ++c)
+      {
+        const std::size_t to = 2 * slot[space_.dofs(cell)[a]] + c;
+        theta[to] -= phi_[a] * theta_sum[c];
+        test[to] -= phi_[a] * test_sum[c];
+      }
+    if (!is_two_point)
+      std::transform(theta.begin(), theta.end(), test.begin(),
+                     [f = dilatation_.factor(own_, own_)](double value) { return f * value; });
+  }
+
+  /// theta_ and test_ of ball(x) ∩ cell.
+  void DilatationRow::integrate(const Point<2> &x, std::size_t inner)
+  {
+    const double *phi = find_rule(x, inner);
+    const std::size_t n = space_.shapes().size();
+    const bool is_two_point = !dilatation_.is_symmetric();
+    std::fill(theta_.begin(), theta_.end(), 0.);
+    std::fill(test_.begin(), test_.end(), 0.);
+    for (std::size_t q = 0; q < rule_.points.size(); ++q, phi += n)
+    {
+      const Point<2> &y = rule_.points[q];
+      const double xi[2] = {y[0] - x[0], y[1] - x[1]};
+      double k;
+      profile_.operator()<1>(xi[0], xi[1], &k);
+      k *= rule_.weights[q];
+      for (std::size_t a = 0; a < n; ++a)
+      {
+        theta_[2 * a] += k * xi[0] * phi[a];
+        theta_[2 * a + 1] += k * xi[1] * phi[a];
+      }
+      if (is_two_point)
+      {
+        k *= dilatation_.factor(own_, dilatation_.material(y));
+        for (std::size_t a = 0; a < n; ++a)
+        {
+          test_[2 * a] += k * xi[0] * phi[a];
+          test_[2 * a + 1] += k * xi[1] * phi[a];
+        }
+      }
+    }
+  }
+
+  /// rule_ on ball(x) ∩ cell. @return  shape functions at its points, shape (n_points, n_shapes)
+  const double *DilatationRow::find_rule(const Point<2> &x, std::size_t inner)
+  {
+    const CellShapes &shapes = space_.shapes();
+    const geometry::ConvexCell &cell = cells_[inner];
+    const CellMap &map = space_.map(inner);
+    const geometry::Ball ball{x, dilatation_.influence.horizon()};
+    const double distance = x.distance(cells_.centroid(inner)), radius = cells_.radius(inner);
+    const unsigned int smooth = map.is_affine() && dilatation_.is_symmetric() ? 0 : smooth_degree_;
+    unsigned int kernel = 1 + highest_exponent_;
+    if (!profile_.is_polynomial())
+      kernel += degree_away_from_singularity(distance, radius, accuracy);
+    const bool is_whole =
+        std::all_of(cell.vertices().begin(), cell.vertices().end(),
+                    [&](const Point<2> &v) { return v.distance(x) <= ball.radius; });
+    if (const unsigned int i = (kernel + shapes.degree() + smooth) / 2;
+        i < whole_.size() && is_whole)
+    {
+      const ShapeRule &whole = whole_[i];
+      rule_.points.resize(whole.unit.size());
+      rule_.weights.resize(whole.unit.size());
+      for (std::size_t q = 0; q < whole.unit.size(); ++q)
+      {
+        rule_.points[q] = map.point(whole.unit[q]);
+        rule_.weights[q] = whole.weight[q] * map.determinant(whole.unit[q]);
+      }
+      return whole.phi.data();
+    }
+    // along a line shape functions of squares have twice their degree along an axis
+    const unsigned int line = shapes.degree() * (shapes.n_vertices() - 2) + smooth;
+    if (profile_.is_polynomial())
+      geometry::cut_rule(ball, cell, kernel + line, rule_, backend_);
+    else // along a ray Kξ and the factor r of the weights are a polynomial
+      geometry::polar_rule(ball, cell, std::min(most_angles, kernel / 2 + 1),
+                           (2 + highest_exponent_ + line) / 2 + 1, rule_, backend_);
+    phi_.resize(rule_.points.size() * shapes.size());
+    for (std::size_t q = 0; q < rule_.points.size(); ++q)
+      shapes.values(map.unit(rule_.points[q]), &phi_[q * shapes.size()]);
+    return phi_.data();
+  }
+} // namespace plumbline::reference

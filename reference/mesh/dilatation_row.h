@@ -1,0 +1,52 @@
+#pragma once
+
+#include "physics/state_based.h"
+#include "reference/mesh/cells.h"
+#include "reference/mesh/pair_quadrature.h"
+#include "reference/mesh/space.h"
+
+namespace plumbline::reference
+{
+  /// At a point x of a mesh, as rows of numbers that multiply the unknowns of vector fields,
+  ///   θ_u(x) = ∫ K ξ·(u(x+ξ) - u(x)) dξ  and  E_v(x) = ∫ f(x, x+ξ) K ξ·(v(x+ξ) - v(x)) dξ
+  /// over the part of ball(x) that the mesh covers: few points on whole cells; on those that the
+  /// circle cuts a rule for the curved piece or, for influence functions that are no polynomials
+  /// and near x, polar about x.
+  /// Accuracy: constants give 0 and, where the ball is covered, linear fields their divergence to
+  /// 1e-13. Not thread safe: give each thread its own copy.
+  class DilatationRow
+  {
+  public:
+    /// @param smooth_degree  of polynomials that stand on a cell for functions that are none: the
+    /// material of two-point models, shape functions through a bilinear map
+    DilatationRow(const MeshSpace &space, const MeshCells &cells,
+                  const physics::Dilatation &dilatation, unsigned int smooth_degree,
+                  geometry::Backend backend);
+
+    /// @param cell, unit  where x is
+    /// @param near   cells, among them all in reach of x
+    /// @param slot   of each dof of these in the rows
+    /// @param theta, test  rows of θ and E, shape (n_slots, 2), overwritten
+    void evaluate(std::size_t cell, const Point<2> &unit, const std::vector<unsigned int> &near,
+                  const std::vector<unsigned int> &slot, std::vector<double> &theta,
+                  std::vector<double> &test);
+
+  private:
+    void integrate(const Point<2> &x, std::size_t inner);
+    const double *find_rule(const Point<2> &x, std::size_t inner);
+
+    const MeshSpace &space_;
+    const MeshCells &cells_;
+    physics::Dilatation dilatation_;
+    RadialProfile profile_;
+    int highest_exponent_; ///< of |ξ| in the influence function
+    unsigned int smooth_degree_;
+    geometry::Backend backend_;
+    std::vector<ShapeRule> whole_; ///< on whole cells, exact to degree 2 i + 1
+
+    physics::Lame own_{};              ///< the material at x
+    std::vector<double> theta_, test_; ///< ∫Kξφ, ∫fKξφ of a cell, shape (n_shapes, 2)
+    std::vector<double> phi_;
+    geometry::CutRule rule_;
+  };
+} // namespace plumbline::reference

@@ -1,0 +1,385 @@
+#include "reference/mesh/pair_quadrature.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::reference
+{
+  namespace
+  {
+    /// Relative accuracy of inner rules for kernels that are smooth on a cell: a refinement of the
+    /// outer rule gains about a digit.
+    double inner_accuracy(unsigned int refinement)
+    {
+      return std::pow(.1, std::min(11u, 5 + refinement));
+    }
+    /// Nearer than so many radii of a cell, a kernel that is no polynomial is taken in polar form.
+    constexpr double near = 2;
+    constexpr unsigned int n_whole_rules = 7;
+    /// Points of a graded rule along an axis, of the smallest parts and degree 0; two more for each
+    /// doubling of the part keep the errors of all parts alike (measured).
+    constexpr unsigned int n_graded = 4;
+
+    /// Exact to degree 2 n - 1.
+    dealii::Quadrature<2> gauss(unsigned int n_vertices, unsigned int n)
+    {
+      if (n_vertices == 4)
+        return dealii::QGauss<2>(n);
+      return dealii::QWitherdenVincentSimplex<2>(n);
+    }
+
+    /// Of least cost, exact to degree 2 p (at least 2).
+    dealii::Quadrature<2> outer_gauss(unsigned int n_vertices, unsigned int p)
+    {
+      if (n_vertices == 4)
+        return dealii::QGauss<2>(std::max(2u, p + 1));
+      if (p <= 1)
+        return dealii::Quadrature<2>(
+            {Point<2>(1. / 6, 1. / 6), Point<2>(2. / 3, 1. / 6), Point<2>(1. / 6, 2. / 3)},
+            std::vector<double>(3, 1. / 6));
+      return dealii::QWitherdenVincentSimplex<2>(p + 1);
+    }
+
+    /// For integrands like d log d at distances d from the sides and smooth inside: n² points on
+    /// axes stretched at both ends by t²(3 - 2t), for triangles with one side collapsed.
+    dealii::Quadrature<2> graded_gauss(unsigned int n_vertices, unsigned int n)
+    {
+      const dealii::QGauss<2> gauss(n);
+      auto points = gauss.get_points();
+      auto weights = gauss.get_weights();
+      for (std::size_t q = 0; q < points.size(); ++q)
+      {
+        Point<2> &x = points[q];
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          weights[q] *= 6 * x[d] * (1 - x[d]);
+          x[d] *= x[d] * (3 - 2 * x[d]);
+        }
+        if (n_vertices == 3)
+        {
+          weights[q] *= 1 - x[0];
+          x[1] *= 1 - x[0];
+        }
+      }
+      return {points, weights};
+    }
+
+    ShapeRule shape_rule(const CellShapes &shapes, const dealii::Quadrature<2> &gauss)
+    {
+      ShapeRule rule{gauss.get_points(), gauss.get_weights(), {}};
+      rule.phi.resize(rule.unit.size() * shapes.size());
+      for (std::size_t q = 0; q < rule.unit.size(); ++q)
+        shapes.values(rule.unit[q], &rule.phi[q * shapes.size()]);
+      return rule;
+    }
+  } // namespace
+
+  PairQuadrature::PairQuadrature(const MeshSpace &space, const MeshCells &cells,
+                                 const RadialProfile &profile, double horizon,
+                                 std::optional<physics::Coefficient> coefficient,
+                                 unsigned int refinement, geometry::Backend backend)
+      : space_(space), cells_(cells), profile_(profile), horizon_(horizon),
+        coefficient_(std::move(coefficient)), refinement_(refinement),
+        accuracy_(inner_accuracy(refinement)), backend_(backend), n_(space.shapes().size()),
+        has_moments_(profile.is_constant() && !coefficient_ && space.shapes().degree() <= 1 &&
+                     space.shapes().n_vertices() == 3)
+  {
+    const CellShapes &shapes = space.shapes();
+    Tables tables;
+    tables.outer = shape_rule(shapes, outer_gauss(shapes.n_vertices(), shapes.degree()));
+    tables.refined = shape_rule(shapes, gauss(shapes.n_vertices(), shapes.degree() + 2));
+    for (unsigned int i = 0; i <= refinement; ++i)
+      tables.graded.push_back(shape_rule(
+          shapes, graded_gauss(shapes.n_vertices(), shapes.degree() + n_graded + 2 * i)));
+    for (unsigned int n = 1; n <= n_whole_rules; ++n)
+      tables.whole.push_back(shape_rule(shapes, gauss(shapes.n_vertices(), n)));
+    tables.integrals.assign(n_, 0.);
+    tables.mass.assign(n_ * n_, 0.);
+    const ShapeRule &fine = tables.whole[shapes.degree()];
+    const double unit_area = shapes.n_vertices() == 3 ? .5 : 1;
+    for (std::size_t q = 0; q < fine.unit.size(); ++q)
+      for (unsigned int a = 0; a < n_; ++a)
+      {
+        const double value = fine.weight[q] / unit_area * fine.phi[q * n_ + a];
+        tables.integrals[a] += value;
+        for (unsigned int b = 0; b < n_; ++b)
+          tables.mass[a * n_ + b] += value * fine.phi[q * n_ + b];
+      }
+    tables_ = std::make_shared<const Tables>(std::move(tables));
+    sum_.resize(profile.n_entries());
+    first_.resize(n_ * profile.n_entries());
+    second_.resize(n_ * n_ * profile.n_entries());
+    phi_.resize(n_);
+    outer_phi_.resize(n_);
+  }
+
+  void PairQuadrature::integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks)
+  {
+    // loops of a length known to the compiler for linear triangles, the common case
+    const bool is_linear = n_ == 3;
+    if (profile_.is_tensor())
+      is_linear ? integrate_as<3, 3>(outer, inner, blocks)
+                : integrate_as<3, 0>(outer, inner, blocks);
+    else
+      is_linear ? integrate_as<1, 3>(outer, inner, blocks)
+                : integrate_as<1, 0>(outer, inner, blocks);
+  }
+
+  bool PairQuadrature::is_product(std::size_t outer, std::size_t inner) const
+  {
+    return profile_.is_constant() && !coefficient_ && cells_.farthest(outer, inner) <= horizon_ &&
+           space_.map(outer).is_affine() && space_.map(inner).is_affine();
+  }
+
+  template <int n_entries, int n_shapes>
+  void PairQuadrature::integrate_as(std::size_t outer, std::size_t inner, PairBlocks &blocks)
+  {
+    blocks.reset(n_, n_entries);
+    if (is_product(outer, inner))
+      return integrate_constant(outer, inner, blocks);
+    const bool is_whole = cells_.farthest(outer, inner) <= horizon_;
+    const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
+    const bool is_smooth =
+        is_whole && (profile_.is_polynomial() ||
+                     between > near * (cells_.radius(outer) + cells_.radius(inner)));
+    const ShapeRule &rule = tables_->outer;
+    if (refinement_ > 0 && !is_smooth)
+      return integrate_part<n_entries, n_shapes>({0, 0, 1, false}, 0, outer, inner, blocks);
+    for (std::size_t q = 0; q < rule.unit.size(); ++q)
+      integrate_point<n_entries, n_shapes>(outer, inner, rule.unit[q], rule.weight[q],
+                                           &rule.phi[q * n_], blocks);
+  }
+
+  template <int n_entries, int n_shapes>
+  void PairQuadrature::integrate_point(std::size_t outer, std::size_t inner, const Point<2> &unit,
+                                       double weight, const double *phi, PairBlocks &blocks)
+  {
+    const CellMap &map = space_.map(outer);
+    integrate_inner<n_entries, n_shapes>(map.point(unit), inner);
+    if (sum_[0] == 0 && sum_[n_entries - 1] == 0)
+      return;
+    weight *= map.determinant(unit);
+    for (unsigned int a = 0; a < n_; ++a)
+    {
+      const double row = weight * phi[a];
+      double *const outer_row = &blocks.outer[a * n_ * n_entries];
+      double *const cross_row = &blocks.cross[a * n_ * n_entries];
+      double *const inner_row = &blocks.inner[a * n_ * n_entries];
+      for (unsigned int b = 0; b < n_; ++b)
+        for (int e = 0; e < n_entries; ++e)
+        {
+          outer_row[b * n_entries + e] += row * phi[b] * sum_[e];
+          cross_row[b * n_entries + e] += row * first_[b * n_entries + e];
+          inner_row[b * n_entries + e] += weight * second_[(a * n_ + b) * n_entries + e];
+        }
+    }
+  }
+
+  template <int n_entries, int n_shapes>
+  void PairQuadrature::integrate_part(const Part &part, unsigned int level, std::size_t outer,
+                                      std::size_t inner, PairBlocks &blocks)
+  {
+    const Kink kink = find_kink(part, outer, inner);
+    if (level == refinement_ || kink == Kink::at_side ||
+        (3 * level >= refinement_ && kink == Kink::none))
+    {
+      const ShapeRule &rule =
+          kink == Kink::at_side ? tables_->graded[refinement_ - level] : tables_->refined;
+      for (std::size_t q = 0; q < rule.unit.size(); ++q)
+      {
+        const Point<2> unit = part.point(rule.unit[q]);
+        space_.shapes().values(unit, outer_phi_.data());
+        integrate_point<n_entries, n_shapes>(
+            outer, inner, unit, rule.weight[q] * part.size * part.size, outer_phi_.data(), blocks);
+      }
+      return;
+    }
+    const double half = part.size / 2;
+    for (const double i : {0., 1.})
+      for (const double j : {0., 1.})
+      {
+        // a triangle has no part in the far corner of its square: there its middle is meant, which
+        // lies turned over in the near one
+        const bool is_middle =
+            space_.shapes().n_vertices() == 3 && i == j && (i == 1) != part.is_turned;
+        const double s = part.s + (is_middle ? 1 - i : i) * half;
+        const double t = part.t + (is_middle ? 1 - j : j) * half;
+        const Part child{s, t, half, part.is_turned != is_middle};
+        integrate_part<n_entries, n_shapes>(child, level + 1, outer, inner, blocks);
+      }
+  }
+
+  /// Of the inner integral, for x in this part.
+  PairQuadrature::Kink PairQuadrature::find_kink(const Part &part, std::size_t outer,
+                                                 std::size_t inner) const
+  {
+    const CellMap &map = space_.map(outer);
+    const bool is_triangle = space_.shapes().n_vertices() == 3;
+    const double middle = is_triangle ? 1. / 3 : .5;
+    const Point<2> centre = map.point(part.point(Point<2>(middle, middle)));
+    // parts keep as far from a kink as they are wide, so that Gauss's rule sees a smooth function;
+    // a bilinear map stretches some parts more than others
+    const double reach = 2 * part.size * cells_.radius(outer) * (map.is_affine() ? 1 : 1.5);
+    const auto vertices = cells_[inner].vertices();
+    Kink kink = Kink::none;
+    for (unsigned int v = 0; v < vertices.size(); ++v)
+    {
+      const Point<2> &a = vertices[v];
+      const dealii::Tensor<1, 2> side = vertices[(v + 1) % vertices.size()] - a, from = centre - a;
+      const double length = side.norm(), along = (from * side) / length;
+      const double across = std::abs(side[0] * from[1] - side[1] * from[0]) / length;
+      const bool is_beside = along > -reach && along < length + reach;
+      if (std::abs(from.norm() - horizon_) <= reach ||
+          (is_beside && std::abs(across - horizon_) <= reach))
+        return Kink::at_circle;
+      if (!profile_.is_polynomial() && is_beside && across <= reach)
+        kink = Kink::at_side;
+    }
+    return kink;
+  }
+
+  /// All of both cells, a constant kernel: products of integrals.
+  void PairQuadrature::integrate_constant(std::size_t outer, std::size_t inner,
+                                          PairBlocks &blocks) const
+  {
+    const double c = profile_.constant() * cells_.area(outer) * cells_.area(inner);
+    for (unsigned int a = 0; a < n_; ++a)
+      for (unsigned int b = 0; b < n_; ++b)
+      {
+        blocks.outer[a * n_ + b] = blocks.inner[a * n_ + b] = c * tables_->mass[a * n_ + b];
+        blocks.cross[a * n_ + b] = c * tables_->integrals[a] * tables_->integrals[b];
+      }
+  }
+
+  /// Of the kernel on a cell, as a rule must take it.
+  unsigned int PairQuadrature::kernel_degree(double distance, double radius) const
+  {
+    return profile_.is_polynomial() ? profile_.degree()
+                                    : degree_away_from_singularity(distance, radius, accuracy_);
+  }
+
+  /// sum_, first_, second_ of ball(x) ∩ cell.
+  template <int n_entries, int n_shapes>
+  void PairQuadrature::integrate_inner(const Point<2> &x, std::size_t inner)
+  {
+    std::fill(sum_.begin(), sum_.end(), 0.);
+    const geometry::ConvexCell &cell = cells_[inner];
+    const double distance = x.distance(cells_.centroid(inner)), radius = cells_.radius(inner);
+    if (distance >= horizon_ + radius)
+      return;
+    bool is_whole = distance + radius <= horizon_;
+    if (!is_whole)
+      is_whole = std::all_of(cell.vertices().begin(), cell.vertices().end(),
+                             [&](const Point<2> &v)
+                             { return (v - x).norm_square() <= horizon_ * horizon_; });
+    const geometry::Ball ball{x, horizon_};
+    if (has_moments_)
+      return add_moments(is_whole ? cell.moments() : geometry::intersect(ball, cell, backend_),
+                         inner);
+
+    std::fill(first_.begin(), first_.end(), 0.);
+    std::fill(second_.begin(), second_.end(), 0.);
+    if (coefficient_)
+      a_x_ = coefficient_->at(x);
+    if (!profile_.is_polynomial() && distance < near * radius)
+    {
+      // along a ray the integrand is a polynomial: two shape functions, r C(r)
+      const unsigned int p = space_.shapes().degree();
+      const unsigned int along = (space_.shapes().n_vertices() - 2) * 2 * p + profile_.degree() + 1;
+      geometry::polar_rule(ball, cell, 5 + p + std::min(6u, refinement_), along / 2 + 1, rule_,
+                           backend_);
+      add_points<n_entries, n_shapes>(x, inner, rule_);
+    }
+    else
+    {
+      // of two shape functions, along an axis; on quadrilaterals their total degree is twice that
+      const unsigned int p = 2 * space_.shapes().degree();
+      const unsigned int degree = kernel_degree(distance, radius);
+      if (const unsigned int i = (p + degree) / 2; is_whole && i < n_whole_rules)
+        add_whole<n_entries, n_shapes>(x, inner, tables_->whole[i]);
+      else
+      {
+        const bool is_quad = space_.shapes().n_vertices() == 4;
+        geometry::cut_rule(ball, cell, (is_quad ? 2 * p : p) + degree, rule_, backend_);
+        add_points<n_entries, n_shapes>(x, inner, rule_);
+      }
+    }
+    for (unsigned int a = 0; a < n_; ++a)
+      for (unsigned int b = 0; b < a; ++b)
+        for (int e = 0; e < n_entries; ++e)
+          second_[(a * n_ + b) * n_entries + e] = second_[(b * n_ + a) * n_entries + e];
+  }
+
+  template <int n_entries, int n_shapes>
+  void PairQuadrature::add(const Point<2> &x, const Point<2> &y, double weight, const double *phi)
+  {
+    double entries[n_entries];
+    profile_.template operator()<n_entries>(y[0] - x[0], y[1] - x[1], entries);
+    if (coefficient_)
+      weight *= coefficient_->mean(a_x_, coefficient_->at(y));
+    const unsigned int n = n_shapes > 0 ? n_shapes : n_;
+    for (int e = 0; e < n_entries; ++e)
+    {
+      const double value = weight * entries[e];
+      sum_[e] += value;
+      double *const first = first_.data() + e;
+      double *const second = second_.data() + e;
+      for (unsigned int a = 0; a < n; ++a)
+      {
+        const double row = value * phi[a];
+        first[a * n_entries] += row;
+        for (unsigned int b = a; b < n; ++b)
+          second[(a * n + b) * n_entries] += row * phi[b];
+      }
+    }
+  }
+
+  template <int n_entries, int n_shapes>
+  void PairQuadrature::add_points(const Point<2> &x, std::size_t inner,
+                                  const geometry::CutRule &rule)
+  {
+    const CellMap &map = space_.map(inner);
+    for (std::size_t q = 0; q < rule.points.size(); ++q)
+    {
+      space_.shapes().values(map.unit(rule.points[q]), phi_.data());
+      add<n_entries, n_shapes>(x, rule.points[q], rule.weights[q], phi_.data());
+    }
+  }
+
+  template <int n_entries, int n_shapes>
+  void PairQuadrature::add_whole(const Point<2> &x, std::size_t inner, const ShapeRule &rule)
+  {
+    const CellMap &map = space_.map(inner);
+    for (std::size_t q = 0; q < rule.unit.size(); ++q)
+      add<n_entries, n_shapes>(x, map.point(rule.unit[q]),
+                               rule.weight[q] * map.determinant(rule.unit[q]), &rule.phi[q * n_]);
+  }
+
+  /// A constant kernel on functions that are linear: area, centroid and second moments are all.
+  void PairQuadrature::add_moments(const geometry::Moments &moments, std::size_t inner)
+  {
+    const double mass = profile_.constant() * moments.area;
+    sum_[0] = mass;
+    if (n_ == 1)
+    {
+      first_[0] = second_[0] = mass;
+      return;
+    }
+    const CellMap &map = space_.map(inner);
+    const Point<2> unit = map.unit(moments.centroid);
+    const double phi[3] = {1 - unit[0] - unit[1], unit[0], unit[1]};
+    const auto j = map.inverse();
+    const double gx[3] = {-j[0] - j[2], j[0], j[2]}, gy[3] = {-j[1] - j[3], j[1], j[3]};
+    const auto &m = moments.second;
+    for (unsigned int a = 0; a < 3; ++a)
+    {
+      first_[a] = mass * phi[a];
+      const double mx = profile_.constant() * (m[0] * gx[a] + m[1] * gy[a]);
+      const double my = profile_.constant() * (m[1] * gx[a] + m[2] * gy[a]);
+      for (unsigned int b = 0; b < 3; ++b)
+        second_[a * 3 + b] = mass * phi[a] * phi[b] + mx * gx[b] + my * gy[b];
+    }
+  }
+} // namespace plumbline::reference

@@ -1,0 +1,100 @@
+#include "reference/mesh/space.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <map>
+
+namespace plumbline::reference
+{
+  namespace
+  {
+    unsigned int cell_size(const geometry::Mesh &mesh)
+    {
+      if (mesh.is_triangles())
+        return 3;
+      if (mesh.is_quads())
+        return 4;
+      throw InputError("the mesh has both triangles and quadrilaterals, but a space stands on one "
+                       "kind; recombine all cells, or none (Domain/mesh)");
+    }
+
+    /// Numbers the points that cells share: vertices, and inner points of sides.
+    class SharedPoints
+    {
+    public:
+      explicit SharedPoints(const geometry::Mesh &mesh) : vertex_(mesh.vertices.size(), none) {}
+
+      unsigned int at_vertex(unsigned int vertex, unsigned int &n)
+      {
+        if (vertex_[vertex] == none)
+          vertex_[vertex] = n++;
+        return vertex_[vertex];
+      }
+
+      /// The k-th of n_inner points of the side from a to b.
+      unsigned int on_side(unsigned int a, unsigned int b, unsigned int k, unsigned int n_inner,
+                           unsigned int &n)
+      {
+        const auto [side, is_new] = side_.try_emplace(std::minmax(a, b), n);
+        if (is_new)
+          n += n_inner;
+        return side->second + (a < b ? k : n_inner - 1 - k);
+      }
+
+    private:
+      static constexpr unsigned int none = -1;
+      std::vector<unsigned int> vertex_;
+      std::map<std::pair<unsigned int, unsigned int>, unsigned int> side_;
+    };
+  } // namespace
+
+  MeshSpace::MeshSpace(std::shared_ptr<const geometry::Mesh> mesh, bool is_continuous,
+                       unsigned int degree)
+      : mesh_(std::move(mesh)), is_continuous_(is_continuous && degree > 0),
+        shapes_(cell_size(*mesh_), degree)
+  {
+    const unsigned int n_sides = shapes_.n_vertices(), n_inner = degree > 0 ? degree - 1 : 0;
+    SharedPoints shared(*mesh_);
+    unsigned int n = 0;
+    dofs_.reserve(mesh_->cells.size() * shapes_.size());
+    for (std::size_t cell = 0; cell < mesh_->cells.size(); ++cell)
+    {
+      const auto &vertex = mesh_->cells[cell].vertex;
+      maps_.emplace_back(mesh_->polygon(cell));
+      const std::size_t end = dofs_.size() + shapes_.size();
+      if (is_continuous_)
+      {
+        for (unsigned int v = 0; v < n_sides; ++v)
+          dofs_.push_back(shared.at_vertex(vertex[v], n));
+        for (unsigned int side = 0; side < n_sides; ++side)
+          for (unsigned int k = 0; k < n_inner; ++k)
+            dofs_.push_back(
+                shared.on_side(vertex[side], vertex[(side + 1) % n_sides], k, n_inner, n));
+      }
+      while (dofs_.size() < end)
+        dofs_.push_back(n++);
+    }
+
+    // free ones first, in the order of the cells
+    std::vector<char> is_free(n, 1);
+    for (std::size_t cell = 0; cell < mesh_->cells.size(); ++cell)
+      for (unsigned int a = 0; a < shapes_.size() && !mesh_->cells[cell].is_inside; ++a)
+        is_free[dofs(cell)[a]] = 0;
+    std::vector<unsigned int> number(n);
+    for (unsigned int i = 0; i < n; ++i)
+      if (is_free[i] != 0)
+        number[i] = static_cast<unsigned int>(n_free_++);
+    unsigned int next = static_cast<unsigned int>(n_free_);
+    for (unsigned int i = 0; i < n; ++i)
+      if (is_free[i] == 0)
+        number[i] = next++;
+    for (unsigned int &dof : dofs_)
+      dof = number[dof];
+
+    support_.resize(n);
+    for (std::size_t cell = 0; cell < mesh_->cells.size(); ++cell)
+      for (unsigned int a = 0; a < shapes_.size(); ++a)
+        support_[dofs(cell)[a]] = maps_[cell].point(shapes_.support()[a]);
+  }
+} // namespace plumbline::reference

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "reference/mesh/cell_shapes.h"
+
+#include <memory>
+
+namespace plumbline::reference
+{
+  /// Continuous or discontinuous piecewise polynomials on a mesh of triangles or of quadrilaterals.
+  /// Degrees of freedom that are not given by the volume constraint (free) come first.
+  class MeshSpace
+  {
+  public:
+    /// @param degree  0 to 4; 0 is discontinuous in any case
+    /// @throws InputError  a mesh of both triangles and quadrilaterals
+    MeshSpace(std::shared_ptr<const geometry::Mesh> mesh, bool is_continuous, unsigned int degree);
+
+    const geometry::Mesh &mesh() const { return *mesh_; }
+    bool is_continuous() const { return is_continuous_; }
+    const CellShapes &shapes() const { return shapes_; }
+    const CellMap &map(std::size_t cell) const { return maps_[cell]; }
+
+    std::size_t n_dofs() const { return support_.size(); }
+    std::size_t n_free() const { return n_free_; } ///< dofs 0 ... n_free - 1 touch no collar cell
+    const Point<2> &support(std::size_t dof) const { return support_[dof]; }
+
+    /// Degrees of freedom of a cell in the order of the shape functions.
+    const unsigned int *dofs(std::size_t cell) const { return &dofs_[cell * shapes_.size()]; }
+
+  private:
+    std::shared_ptr<const geometry::Mesh> mesh_;
+    bool is_continuous_;
+    CellShapes shapes_;
+    std::vector<CellMap> maps_;
+    std::vector<unsigned int> dofs_; ///< shape (n_cells, shapes.size())
+    std::vector<Point<2>> support_;
+    std::size_t n_free_ = 0;
+  };
+} // namespace plumbline::reference

@@ -1,0 +1,124 @@
+#include "reference/mesh/weighted_volume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace plumbline::reference
+{
+  namespace
+  {
+    using geometry::Point;
+
+    /// Sides of one cell only.
+    std::vector<std::array<Point<2>, 2>> outer_sides(const geometry::Mesh &mesh)
+    {
+      std::map<std::array<unsigned int, 2>, bool> is_outer; // from, to
+      for (const geometry::MeshCell &cell : mesh.cells)
+        for (unsigned int v = 0; v < cell.n_vertices; ++v)
+        {
+          const unsigned int from = cell.vertex[v], to = cell.vertex[(v + 1) % cell.n_vertices];
+          if (const auto neighbour = is_outer.find({to, from}); neighbour != is_outer.end())
+            neighbour->second = false;
+          else
+            is_outer[{from, to}] = true;
+        }
+      std::map<unsigned int, std::vector<unsigned int>> next, last; // along the boundary
+      for (const auto &[vertices, is] : is_outer)
+        if (is)
+        {
+          next[vertices[0]].push_back(vertices[1]);
+          last[vertices[1]].push_back(vertices[0]);
+        }
+      // sides on a line are one
+      const auto is_straight = [&](unsigned int v)
+      {
+        if (next[v].size() != 1 || last[v].size() != 1)
+          return false;
+        const auto before = mesh.vertices[v] - mesh.vertices[last[v][0]];
+        const auto after = mesh.vertices[next[v][0]] - mesh.vertices[v];
+        return std::abs(before[0] * after[1] - before[1] * after[0]) <= 1e-14 * (before * after);
+      };
+      std::vector<std::array<Point<2>, 2>> sides;
+      for (const auto &[first, ends] : next)
+        for (unsigned int end : is_straight(first) ? std::vector<unsigned int>() : ends)
+        {
+          while (is_straight(end))
+            end = next[end][0];
+          sides.push_back({mesh.vertices[first], mesh.vertices[end]});
+        }
+      return sides;
+    }
+
+    std::vector<geometry::Box> boxes(const std::vector<std::array<Point<2>, 2>> &sides)
+    {
+      std::vector<geometry::Box> result;
+      for (const auto &side : sides)
+        result.push_back(geometry::bounding_box({side.data(), side.size()}));
+      return result;
+    }
+
+    /// ∫ (d² + s²)^(n/2) ds, odd in s. n >= 0
+    double power_integral(int n, double d, double s)
+    {
+      const double r = std::hypot(d, s);
+      double power = n % 2 == 0 ? 1 : r; // r^(k - 2), k from 2 or 3
+      double value = n % 2 == 0 ? s : .5 * (s * r + (d > 0 ? d * d * std::asinh(s / d) : 0));
+      for (int k = n % 2 + 2; k <= n; k += 2)
+      {
+        power *= r * r;
+        value = (s * power + k * d * d * value) / (k + 1);
+      }
+      return value;
+    }
+  } // namespace
+
+  WeightedVolume::WeightedVolume(const geometry::Mesh &mesh, const physics::Kernel<2> &kernel)
+      : WeightedVolume(outer_sides(mesh), kernel)
+  {
+  }
+
+  WeightedVolume::WeightedVolume(std::vector<Side> outer_sides, const physics::Kernel<2> &kernel)
+      : kernel_(kernel), full_(kernel.moment({2, 0}) + kernel.moment({0, 2})),
+        sides_(std::move(outer_sides)), search_(boxes(sides_))
+  {
+  }
+
+  double WeightedVolume::operator()(const Point<2> &x) const
+  {
+    const dealii::Tensor<1, 2> reach({kernel_.horizon(), kernel_.horizon()});
+    thread_local std::vector<unsigned int> near; // asked at every quadrature point
+    search_.find({x - reach, x + reach}, near);
+    double value = full_;
+    for (const unsigned int side : near)
+      value -= missing(sides_[side][0] - x, sides_[side][1] - x);
+    return value;
+  }
+
+  /// ∫ [G(δ) - G(|ξ|)] dφ over a side's part in the ball, relative to its centre.
+  double WeightedVolume::missing(const dealii::Tensor<1, 2> &from,
+                                 const dealii::Tensor<1, 2> &to) const
+  {
+    const double delta = kernel_.horizon(), length = (to - from).norm();
+    const dealii::Tensor<1, 2> along = (to - from) / length;
+    const double height = from[0] * along[1] - from[1] * along[0], d = std::abs(height);
+    if (d >= delta)
+      return 0;
+    const double half_chord = std::sqrt((delta - d) * (delta + d));
+    const double s0 = std::max(from * along, -half_chord), s1 = std::min(to * along, half_chord);
+    if (s0 >= s1)
+      return 0;
+    // rounding does not put a point of the boundary outside
+    const double sign = height < -1e-14 * (from.norm() + to.norm()) ? -1 : 1;
+    double value = 0;
+    for (const physics::PowerTerm &term : kernel_.profile())
+    {
+      // K = c t^e, so that G = c r^(e+4) / (e+4) δ^e and dφ = d ds / r²
+      const int e = term.exponent;
+      const double c = kernel_.constant() * term.coefficient / ((e + 4) * std::pow(delta, e));
+      value += c * (std::pow(delta, e + 4) * (std::atan2(s1, d) - std::atan2(s0, d)) -
+                    d * (power_integral(e + 2, d, s1) - power_integral(e + 2, d, s0)));
+    }
+    return sign * value;
+  }
+} // namespace plumbline::reference
