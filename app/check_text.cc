@@ -1,5 +1,7 @@
 #include "check_text.h"
 
+#include "base/number_text.h"
+
 #include <nlohmann/json.hpp>
 
 #include <iomanip>
@@ -19,7 +21,7 @@ namespace plumbline::app
     out << std::setprecision(4);
     out << "nodes     " << options.nodes_file << ": " << found.cells->n_free << " free, "
         << found.ids.size() - found.cells->n_free << " in the collar; volumes of the free ones off "
-        << "their cells' area by " << percent(found.volume_defect) << '\n'
+        << "their cells' area by " << base::to_percent(found.volume_defect) << '\n'
         << "bonds     " << options.bonds_file << ": " << found.weights.n_bonds << ", at most "
         << found.weights.largest_family << " of a node";
     if (found.given.n_ignored > 0)
@@ -35,10 +37,10 @@ namespace plumbline::app
         << "weights   " << found.weights.n_negative << " negative, " << found.weights.smallest_ratio
         << " to " << found.weights.largest_ratio
         << " of the neighbour's volume; their sum is off the ball without the node's own cell by "
-        << percent(found.weights.area.value) << " at worst, at node " << id(found.weights.area.node)
-        << '\n'
+        << base::to_percent(found.weights.area.value) << " at worst, at node "
+        << id(found.weights.area.node) << '\n'
         << "symmetry  w C of a pair differs from end to end by "
-        << percent(found.symmetry.asymmetry) << " of the largest";
+        << base::to_percent(found.symmetry.asymmetry) << " of the largest";
     if (found.symmetry.asymmetry > 0)
       out << ", between nodes " << id(found.symmetry.nodes[0]) << " and "
           << id(found.symmetry.nodes[1]);

@@ -1,6 +1,7 @@
 #include "requirements.h"
 
 #include "base/error.h"
+#include "base/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,24 +30,17 @@ namespace plumbline::app
 
     constexpr std::size_t most_named = 5;
 
-    std::string number(double value, int digits = 5)
-    {
-      std::ostringstream text;
-      text << std::setprecision(digits) << value;
-      return text.str();
-    }
-
     std::string point(const dealii::Point<2> &x)
     {
-      return "(" + number(x[0]) + ", " + number(x[1]) + ")";
+      return "(" + base::to_text(x[0], 5) + ", " + base::to_text(x[1], 5) + ")";
     }
 
     std::string off(const Findings &found)
     {
       const Worst &first = found.moments.defects[0].worst, &second = found.moments.second;
-      return "second moments are off by " + percent(second.value) + " at node " +
-             found.id(second.node) + ", first moments by " + percent(first.value) + " at node " +
-             found.id(first.node);
+      return "second moments are off by " + base::to_percent(second.value) + " at node " +
+             found.id(second.node) + ", first moments by " + base::to_percent(first.value) +
+             " at node " + found.id(first.node);
     }
 
     double worst_of_both(const Findings &found)
@@ -73,14 +67,14 @@ namespace plumbline::app
     std::string weight_text(const Outlier &o)
     {
       const double ratio = o.expected == 0 ? 0 : o.found / o.expected;
-      std::string result =
-          "has the weight " + number(o.found) + " where " + number(o.expected) + " is expected";
+      std::string result = "has the weight " + base::to_text(o.found, 5) + " where " +
+                           base::to_text(o.expected, 5) + " is expected";
       if (std::abs(ratio + 1) < .01)
         result += ": its sign is flipped";
       else if (ratio < 0)
-        result += ": negative, " + number(ratio, 3) + " times";
+        result += ": negative, " + base::to_text(ratio, 3) + " times";
       else if (ratio > 0)
-        result += ": " + number(ratio, 3) + " times";
+        result += ": " + base::to_text(ratio, 3) + " times";
       return result;
     }
 
@@ -98,18 +92,11 @@ namespace plumbline::app
       return found.moments.mean_ratio > 0
                  ? "as horizon and h go to 0 together the solution tends to a wrong limit, off by "
                    "about " +
-                       percent(std::abs(1 / found.moments.mean_ratio - 1))
+                       base::to_percent(std::abs(1 / found.moments.mean_ratio - 1))
                  : "as horizon and h go to 0 together there is no limit, the operator has the "
                    "wrong sign";
     }
   } // namespace
-
-  std::string percent(double fraction)
-  {
-    std::ostringstream text;
-    text << std::setprecision(3) << 100 * fraction << " %";
-    return text.str();
-  }
 
   Requirements parse_requirements(const std::vector<std::string> &words)
   {
@@ -160,35 +147,36 @@ namespace plumbline::app
       return o.is_both_ways
                  ? "the bonds between node " + found.id(o.node) + " and node " +
                        found.id(o.neighbour) + " are missing from both ends; weights of about " +
-                       number(o.expected) + " are expected"
-                 : bond + " is missing; a weight of " + number(o.expected) + " is expected";
+                       base::to_text(o.expected, 5) + " are expected"
+                 : bond + " is missing; a weight of " + base::to_text(o.expected, 5) +
+                       " is expected";
     case Defect::spurious:
-      return bond + line_of(o, found) + " has the weight " + number(o.found) +
+      return bond + line_of(o, found) + " has the weight " + base::to_text(o.found, 5) +
              " where others like it have none";
     case Defect::kernel_point:
       return bond + line_of(o, found) + " takes the kernel at " + point(o.found_point) + " where " +
              point(o.expected_point) + " is expected";
     case Defect::symmetry:
-      return bond + line_of(o, found) + " has w C / volume = " + number(o.found) +
-             ", the bond back" + line_back(o, found) + " " + number(o.expected) +
+      return bond + line_of(o, found) + " has w C / volume = " + base::to_text(o.found, 5) +
+             ", the bond back" + line_back(o, found) + " " + base::to_text(o.expected, 5) +
              ": more apart than others";
     case Defect::family:
-      return "the weights of all bonds from " + node + " are " + number(o.found, 3) +
+      return "the weights of all bonds from " + node + " are " + base::to_text(o.found, 3) +
              " times what is expected";
     case Defect::neighbour:
-      return "the weights of all bonds to " + node + " are " + number(o.found, 3) +
+      return "the weights of all bonds to " + node + " are " + base::to_text(o.found, 3) +
              " times what is expected, as if its volume were";
     case Defect::volume:
       return "the volume of " + node + " (line " +
              std::to_string(found.nodes.line[found.cells->source[o.node]]) + " of the nodes) is " +
-             number(o.found) + " where " + number(o.expected) +
-             " is expected: " + number(o.found / o.expected, 3) + " times";
+             base::to_text(o.found, 5) + " where " + base::to_text(o.expected, 5) +
+             " is expected: " + base::to_text(o.found / o.expected, 3) + " times";
     case Defect::moments:
       break;
     }
     return "the weights of " + node + " are out of line with the others: moments of degree " +
-           std::to_string(o.degree) + " are " + number(o.found) + " where " + number(o.expected) +
-           " is usual, and no bond explains it";
+           std::to_string(o.degree) + " are " + base::to_text(o.found, 5) + " where " +
+           base::to_text(o.expected, 5) + " is usual, and no bond explains it";
   }
 
   std::vector<std::string> complaints(const Findings &found, const Requirements &required)
@@ -208,15 +196,16 @@ namespace plumbline::app
       result.push_back("required ac: " + off(found) + "; " + consequence(found));
     if (required.consistent && found.moments.typical() > ratio)
       result.push_back("required consistent: moments of most nodes are off by " +
-                       percent(found.moments.typical()) + ", more than h/horizon = " +
-                       percent(ratio) + ", so that it is no matter of h/horizon");
+                       base::to_percent(found.moments.typical()) + ", more than h/horizon = " +
+                       base::to_percent(ratio) + ", so that it is no matter of h/horizon");
     if (required.moments && worst_of_both(found) > *required.moments)
-      result.push_back("required moments=" + number(*required.moments) + ": " + off(found));
+      result.push_back("required moments=" + base::to_text(*required.moments, 5) + ": " +
+                       off(found));
     if (required.symmetric && (found.symmetry.asymmetry > written || found.symmetry.n_unpaired > 0))
       result.push_back("required symmetric: w C of a pair differs from end to end by up to " +
-                       percent(found.symmetry.asymmetry) + " of the largest, between nodes " +
-                       found.id(found.symmetry.nodes[0]) + " and " +
-                       found.id(found.symmetry.nodes[1]) + "; " +
+                       base::to_percent(found.symmetry.asymmetry) +
+                       " of the largest, between nodes " + found.id(found.symmetry.nodes[0]) +
+                       " and " + found.id(found.symmetry.nodes[1]) + "; " +
                        std::to_string(found.symmetry.n_unpaired) + " bonds without a partner");
     if (required.m_matrix && !found.matrix.is_m_matrix())
       result.push_back("required m-matrix: " + std::to_string(found.matrix.n_positive) +
@@ -240,23 +229,23 @@ namespace plumbline::app
     if (!found.rule.empty())
       result.push_back("the weights are those of " + found.rule +
                        (std::abs(found.rule_factor - 1) > file_tolerance
-                            ? " times " + number(found.rule_factor)
+                            ? " times " + base::to_text(found.rule_factor, 5)
                             : "") +
                        (found.outliers.empty() ? "" : ", but for what is out of line"));
     if (!found.rule_remark.empty())
       result.push_back(found.rule_remark);
     if (!moments.is_first_exact())
-      result.push_back("first moments off by up to " + percent(first.worst.value) + " at node " +
-                       found.id(first.worst.node) +
+      result.push_back("first moments off by up to " + base::to_percent(first.worst.value) +
+                       " at node " + found.id(first.worst.node) +
                        ": the operator has a drift there that grows as 1 / horizon");
     if (moments.is_second_exact())
       result.push_back(
           std::string("second moments exact") +
           (moments.is_first_exact() ? ": asymptotically compatible as far as moments tell" : ""));
     else
-      result.push_back("second moments off by " + percent(moments.mean_ratio - 1) +
-                       " on average (worst " + percent(moments.second.value) + " at node " +
-                       found.id(moments.second.node) + "): " + consequence(found));
+      result.push_back("second moments off by " + base::to_percent(moments.mean_ratio - 1) +
+                       " on average (worst " + base::to_percent(moments.second.value) +
+                       " at node " + found.id(moments.second.node) + "): " + consequence(found));
     if (found.n_on_boundary > 0)
       result.push_back(std::to_string(found.n_on_boundary) +
                        " free nodes lie on the boundary of the domain; if they carry data, write "

@@ -31,6 +31,4 @@ namespace plumbline::app
 
   /// One outlier in words: which, where in the files, what is expected.
   std::string text(const meshfree::Outlier &outlier, const Findings &found);
-
-  std::string percent(double fraction);
 } // namespace plumbline::app

@@ -1,6 +1,7 @@
 #include "geometry/gmsh_process.h"
 
 #include "base/error.h"
+#include "base/number_text.h"
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -30,14 +31,6 @@ namespace plumbline::geometry
 
     /// The clock runs on where other programs have the processors.
     constexpr double clock_over_cpu = 4;
-
-    std::string text(double value, int n_digits = 6)
-    {
-      std::ostringstream out;
-      out.precision(n_digits);
-      out << value;
-      return out.str();
-    }
 
     std::string read_all(const fs::path &file)
     {
@@ -217,7 +210,7 @@ namespace plumbline::geometry
 
       const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
       if (signal == SIGXCPU || signal == SIGKILL)
-        throw InputError(source + ": gmsh was ended after " + text(limits.seconds) +
+        throw InputError(source + ": gmsh was ended after " + base::to_text(limits.seconds, 6) +
                          " CPU seconds; mend a loop that does not end, choose a larger h, or set "
                          "the environment's PLUMBLINE_GMSH_SECONDS");
       const std::string error = reason(read_all(log), source);
@@ -227,7 +220,8 @@ namespace plumbline::geometry
       const bool is_crash = signal == SIGABRT || signal == SIGSEGV;
       if (is_crash && (error.empty() || error.find("Out of memory") != std::string::npos))
         throw InputError(source + ": gmsh ended " + ended +
-                         ", as it does on a broken file or past " + text(limits.gibibytes) +
+                         ", as it does on a broken file or past " +
+                         base::to_text(limits.gibibytes, 6) +
                          " GiB of memory; mend the file, choose a larger h, or set the "
                          "environment's PLUMBLINE_GMSH_GIBIBYTES");
       if (!error.empty())
@@ -270,9 +264,10 @@ namespace plumbline::geometry
     const std::string last = (folder.path() / "last.geo").string();
     std::ofstream(last) << "Mesh.Format = 1; Mesh.MshFileVersion = 2.2; Mesh.Binary = 0; "
                            "Mesh.SaveAll = 0; Mesh.SaveParametric = 0;\n";
-    const std::string mesh = run({fs::absolute(file).string(), last, "-2", "-setnumber", "h",
-                                  text(h, 17), "-setnumber", "delta", text(delta, 17)},
-                                 folder, limits, source);
+    const std::string mesh =
+        run({fs::absolute(file).string(), last, "-2", "-setnumber", "h", base::to_text(h, 17),
+             "-setnumber", "delta", base::to_text(delta, 17)},
+            folder, limits, source);
     // a branch or loop that is not ended is no error to gmsh, it skips the rest
     if (mesh.find("$Elements\n0\n") != std::string::npos)
       throw InputError(source +

@@ -1,6 +1,7 @@
 #include "geometry/mesh_input.h"
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "geometry/gmsh_process.h"
 #include "geometry/gmsh_script.h"
 #include "geometry/msh_file.h"
@@ -30,14 +31,6 @@ namespace plumbline::geometry
 
     /// Cells of some 100 bytes, with as much again for their sides.
     constexpr double most_cells = 1e7;
-
-    std::string text(double value, int n_digits = 6)
-    {
-      std::ostringstream out;
-      out.precision(n_digits);
-      out << value;
-      return out.str();
-    }
 
     void drop_unused_vertices(Mesh &mesh)
     {
@@ -114,7 +107,7 @@ namespace plumbline::geometry
           const bool may_be_negative = is_first ? !begins_with_counts : is_list;
           if (std::abs(number) > most || (number < 0 && !may_be_negative))
             throw InputError(source + ": " + word + " may be a number of cells, of which 0 to " +
-                             text(most) +
+                             base::to_text(most, 6) +
                              " along a side are allowed; give another, which h "
                              "refines, or write a length with its decimal point, '" +
                              word + ".'");
@@ -149,8 +142,8 @@ namespace plumbline::geometry
       for (double longest = longest_side(); longest > h; longest = longest_side())
       {
         if (std::pow(longest / h, 2) * triangulation.n_active_cells() > most_cells)
-          throw InputError(source + ": h = " + text(h) + " makes more than " + text(most_cells) +
-                           " cells; choose a larger h");
+          throw InputError(source + ": h = " + base::to_text(h, 6) + " makes more than " +
+                           base::to_text(most_cells, 6) + " cells; choose a larger h");
         triangulation.refine_global();
       }
     }
@@ -172,8 +165,8 @@ namespace plumbline::geometry
       static std::mutex mutex;
       static std::deque<std::pair<std::string, std::string>> kept;
 
-      const std::string script =
-          text(h, 17) + ' ' + text(delta, 17) + ' ' + file + '\n' + check_script(file);
+      const std::string script = base::to_text(h, 17) + ' ' + base::to_text(delta, 17) + ' ' +
+                                 file + '\n' + check_script(file);
       const std::lock_guard<std::mutex> lock(mutex);
       for (const auto &[key, mesh] : kept)
         if (key == script)
@@ -256,8 +249,8 @@ namespace plumbline::geometry
     if (!is_script && !ends_with(file, ".msh"))
       throw InputError(source + " is of unknown kind; its name must end in .msh or .geo");
     if (!(h > 0) || !std::isfinite(h) || !std::isfinite(delta))
-      throw InputError(source + ": h = " + text(h) + " and delta = " + text(delta) +
-                       " must be lengths");
+      throw InputError(source + ": h = " + base::to_text(h, 6) +
+                       " and delta = " + base::to_text(delta, 6) + " must be lengths");
     std::string msh;
     if (is_script)
       msh = mesh_script(file, h, delta, source);
@@ -279,7 +272,7 @@ namespace plumbline::geometry
                      const std::function<bool(const Point<2> &)> &is_inside)
   {
     if (!(h > 0))
-      throw InputError("mesh size h = " + text(h) + " must be a positive length");
+      throw InputError("mesh size h = " + base::to_text(h, 6) + " must be a positive length");
     const std::string source = "mesh generator " + generator + " (" + arguments + ")";
     check_counts(generator, arguments, source);
     dealii::Triangulation<2> triangulation;
@@ -333,9 +326,10 @@ namespace plumbline::geometry
       if (!map || width >= delta * (1 - rounding))
         return mesh;
       if (width < last_width + least_gain * delta)
-        throw InputError("the map keeps the collar from becoming delta = " + text(delta) +
-                         " wide: after " + std::to_string(n_added) + " more layers it is " +
-                         text(width) + "; choose a Domain/map that widens it or a smaller delta");
+        throw InputError(
+            "the map keeps the collar from becoming delta = " + base::to_text(delta, 6) +
+            " wide: after " + std::to_string(n_added) + " more layers it is " +
+            base::to_text(width, 6) + "; choose a Domain/map that widens it or a smaller delta");
       last_width = width;
     }
   }

@@ -1,5 +1,6 @@
 #include "study/conclusions.h"
 
+#include "base/number_text.h"
 #include "study/expectations.h"
 #include "study/trend.h"
 
@@ -7,26 +8,18 @@
 #include <cmath>
 #include <iomanip>
 #include <set>
-#include <sstream>
 #include <tuple>
 
 namespace plumbline::study
 {
   namespace
   {
-    std::string number(double value)
-    {
-      std::ostringstream text;
-      text << std::setprecision(4) << value;
-      return text.str();
-    }
-
     std::string verdict(scene::Regime regime, const Trend &trend)
     {
       if (trend.outcome == Outcome::failed)
         return "failed";
       if (regime == scene::Regime::horizon)
-        return "rate " + number(trend.rate);
+        return "rate " + base::to_text(trend.rate, 4);
       const std::string name = regime == scene::Regime::delta ? "AC"
                                : regime == scene::Regime::m   ? "m-convergent"
                                                               : "delta-m-convergent";
@@ -64,9 +57,9 @@ namespace plumbline::study
       if (trend.values.back() < 10 * estimate)
       {
         trend.outcome = Outcome::undecided;
-        trend.reason = "the last difference " + number(trend.values.back()) +
-                       " is not ten times the reference's own estimate " + number(estimate) +
-                       ": take a better reference (Reference/method)";
+        trend.reason = "the last difference " + base::to_text(trend.values.back(), 4) +
+                       " is not ten times the reference's own estimate " +
+                       base::to_text(estimate, 4) + ": take a better reference (Reference/method)";
       }
     }
 
@@ -149,7 +142,8 @@ namespace plumbline::study
       {
         // no limit is approached: the rate tells how the error depends on the horizon
         trend.outcome = Outcome::undecided;
-        trend.reason = "error ~ horizon^" + number(trend.rate) + " at the smallest horizons";
+        trend.reason =
+            "error ~ horizon^" + base::to_text(trend.rate, 4) + " at the smallest horizons";
       }
       trend.verdict = verdict(scene.regime, trend);
       return trend;
@@ -229,8 +223,9 @@ namespace plumbline::study
         return;
       const double bonds = static_cast<double>(largest->cost.n_bonds);
       const double rows = std::max<double>(1., static_cast<double>(largest->cost.n_unknowns));
-      const std::string where = " (" + largest->method + ", h = " + number(largest->h) + ")";
-      const auto megabytes = [](double bytes) { return number(bytes / 1e6) + " MB"; };
+      const std::string where =
+          " (" + largest->method + ", h = " + base::to_text(largest->h, 4) + ")";
+      const auto megabytes = [](double bytes) { return base::to_text(bytes / 1e6, 4) + " MB"; };
       if (!scene.mesh.is_lattice())
       {
         results.omissions.push_back({"exact geometry in every cell",
@@ -243,9 +238,9 @@ namespace plumbline::study
       else if (scene.operator_backend != "sparse")
         results.omissions.push_back(
             {"a matrix", "uniform lattice and homogeneous kernel: all rows are one stencil",
-             "an assembled matrix would hold " + number(bonds) + " entries, " +
-                 megabytes(12 * bonds) + "; the stencil holds " + number(bonds / rows) + " a row" +
-                 where});
+             "an assembled matrix would hold " + base::to_text(bonds, 4) + " entries, " +
+                 megabytes(12 * bonds) + "; the stencil holds " + base::to_text(bonds / rows, 4) +
+                 " a row" + where});
       if (scene.is_full_model)
       {
         results.omissions.clear();

@@ -1,27 +1,20 @@
 #include "study/expectations.h"
 
+#include "base/number_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iomanip>
-#include <sstream>
 
 namespace plumbline::study
 {
   namespace
   {
-    std::string number(double value, int n_digits = 4)
-    {
-      std::ostringstream text;
-      text << std::setprecision(n_digits) << value;
-      return text.str();
-    }
-
     std::string join(const std::vector<double> &values)
     {
       std::string text;
       for (const double value : values)
-        text += (text.empty() ? "" : " ") + number(value, 7);
+        text += (text.empty() ? "" : " ") + base::to_text(value, 7);
       return text;
     }
 
@@ -80,10 +73,11 @@ namespace plumbline::study
               [&](const scene::Expected &expected, const Trend &trend)
               {
                 const double rate = trend.rates.empty() ? 0 : trend.rates.back();
-                return Expectation{"", join(expected.values) + " ± " + number(scene.rate_tolerance),
-                                   number(rate),
-                                   !trend.rates.empty() && expected.values.size() == 1 &&
-                                       std::abs(rate - expected.values[0]) <= scene.rate_tolerance};
+                return Expectation{
+                    "", join(expected.values) + " ± " + base::to_text(scene.rate_tolerance, 4),
+                    base::to_text(rate, 4),
+                    !trend.rates.empty() && expected.values.size() == 1 &&
+                        std::abs(rate - expected.values[0]) <= scene.rate_tolerance};
               });
     check_all(
         scene.expected_bounds, results, "largest error",
@@ -92,7 +86,7 @@ namespace plumbline::study
           const double largest = trend.values.empty()
                                      ? 0
                                      : *std::max_element(trend.values.begin(), trend.values.end());
-          return Expectation{"", "<= " + join(expected.values), number(largest),
+          return Expectation{"", "<= " + join(expected.values), base::to_text(largest, 4),
                              !trend.values.empty() && trend.outcome != Outcome::failed &&
                                  expected.values.size() == 1 && largest <= expected.values[0]};
         });
@@ -114,7 +108,7 @@ namespace plumbline::study
                   rises /= trend.values.front();
                 const bool is_range = expected.values.size() == 2;
                 return Expectation{"", is_range ? join(expected.values) : "least and most",
-                                   number(rises),
+                                   base::to_text(rises, 4),
                                    is_range && trend.values.size() > 1 &&
                                        expected.values[0] <= rises && rises <= expected.values[1]};
               });

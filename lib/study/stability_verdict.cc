@@ -1,29 +1,21 @@
 #include "study/stability.h"
 
+#include "base/number_text.h"
 #include "study/trend.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iomanip>
 #include <limits>
 #include <optional>
-#include <sstream>
 
 namespace plumbline::study
 {
   namespace
   {
-    std::string number(double value)
-    {
-      std::ostringstream text;
-      text << std::setprecision(4) << value;
-      return text.str();
-    }
-
     std::string place(const StabilityRow &row)
     {
-      return "m = " + number(row.m()) + ", h = " + number(row.h);
+      return "m = " + base::to_text(row.m(), 4) + ", h = " + base::to_text(row.h, 4);
     }
 
     bool is_sound(const StabilityRow &row)
@@ -42,7 +34,7 @@ namespace plumbline::study
       { text += is ? (text.empty() ? "" : ", ") + what : ""; };
       add(d.n_negative_weights > 0 && d.smallest_weight_ratio < -rounding,
           std::to_string(d.n_negative_weights) + " negative weights, down to " +
-              number(d.smallest_weight_ratio) + " of their area");
+              base::to_text(d.smallest_weight_ratio, 4) + " of their area");
       add(d.rank < d.n_conditions, "moment conditions of rank " + std::to_string(d.rank) + " of " +
                                        std::to_string(d.n_conditions));
       add(signs.n_parts > 1, "bonds leave " + std::to_string(signs.n_parts) + " separate parts");
@@ -63,7 +55,7 @@ namespace plumbline::study
         return s.zero_modes() + " zero-energy modes";
       if (!s.is_definite())
         return "the symmetric part is not positive definite, smallest eigenvalue " +
-               number(s.smallest) + " of " + number(s.largest);
+               base::to_text(s.smallest, 4) + " of " + base::to_text(s.largest, 4);
       return doubt(row);
     }
 
@@ -138,7 +130,7 @@ namespace plumbline::study
       if (trend.smallest > most_decay)
       {
         result.explanation = "the coercivity constant falls like " + trend.parameter +
-                             " to the power " + number(trend.smallest) + " in series " +
+                             " to the power " + base::to_text(trend.smallest, 4) + " in series " +
                              trend.series;
         return result;
       }
@@ -152,7 +144,7 @@ namespace plumbline::study
       result.explanation = "no level is sound: " + defect(rows.back());
       return result;
     }
-    const std::string coercive = "coercive with " + number(lowest->stability.smallest) +
+    const std::string coercive = "coercive with " + base::to_text(lowest->stability.smallest, 4) +
                                  " or more (least at " + place(*lowest) + ")";
     if (first_not(is_good) == rows.end())
     {
@@ -165,7 +157,8 @@ namespace plumbline::study
       if (const auto m = threshold(rows, is))
       {
         const auto bad = first_not(is);
-        result.condition = bad == rows.end() ? "A stays positive definite" : "m >= " + number(*m);
+        result.condition =
+            bad == rows.end() ? "A stays positive definite" : "m >= " + base::to_text(*m, 4);
         const auto doubtful =
             std::find_if(rows.begin(), rows.end(),
                          [&](const StabilityRow &row) { return is(row) && !is_good(row); });

@@ -1,9 +1,9 @@
 #include "study/trend.h"
 
+#include "base/number_text.h"
+
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace plumbline::study
 {
@@ -56,12 +56,6 @@ namespace plumbline::study
       return best;
     }
 
-    std::string number(double value)
-    {
-      std::ostringstream text;
-      text << std::setprecision(3) << value;
-      return text.str();
-    }
   } // namespace
 
   PlateauFit fit_plateau(const std::vector<double> &x, const std::vector<double> &e)
@@ -118,10 +112,10 @@ namespace plumbline::study
     const double largest = *std::max_element(trend.values.begin(), trend.values.end());
     if (trend.values.back() <= floor && !(floor <= blurred * trend.size))
     {
-      trend.reason = "round-off, up to " + number(floor) +
+      trend.reason = "round-off, up to " + base::to_text(floor, 3) +
                      ", hides the errors of a solution that "
                      "varies by " +
-                     number(trend.size) +
+                     base::to_text(trend.size, 3) +
                      " only: subtract a constant from the data, which the operator does not see, "
                      "or lower Solver/tolerance";
       return;
@@ -131,7 +125,7 @@ namespace plumbline::study
       trend.outcome = Outcome::converges;
       trend.reason =
           (largest <= floor ? "exact to round-off, largest error " : "reaches round-off, from ") +
-          number(largest);
+          base::to_text(largest, 3);
       return;
     }
     std::vector<double> x, e; // a level that is exact by chance does not count
@@ -144,7 +138,7 @@ namespace plumbline::study
     if (x.size() < levels_for_verdict)
     {
       trend.reason = std::to_string(x.size()) + " of the " + std::to_string(levels_for_verdict) +
-                     " levels that a verdict needs are above round-off, " + number(floor);
+                     " levels that a verdict needs are above round-off, " + base::to_text(floor, 3);
       return;
     }
 
@@ -164,13 +158,15 @@ namespace plumbline::study
     const bool is_certain = fit.a > 10 * fit.a_uncertainty;
     // coarse levels that lie above their power law look like a plateau of the others
     const bool is_flattening = e.back() / e[e.size() - 2] > x.back() / x[x.size() - 2];
-    const std::string numbers = "plateau " + number(fit.a) + " ± " + number(fit.a_uncertainty) +
-                                ", last error " + number(last) + ", rate " + number(slope.value) +
-                                " ± " + number(slope.uncertainty);
+    const std::string numbers = "plateau " + base::to_text(fit.a, 3) + " ± " +
+                                base::to_text(fit.a_uncertainty, 3) + ", last error " +
+                                base::to_text(last, 3) + ", rate " + base::to_text(slope.value, 3) +
+                                " ± " + base::to_text(slope.uncertainty, 3);
     if (last > 2 * smallest)
     {
       trend.outcome = Outcome::stalls;
-      trend.reason = "the error grows again, from " + number(smallest) + " to " + number(last);
+      trend.reason = "the error grows again, from " + base::to_text(smallest, 3) + " to " +
+                     base::to_text(last, 3);
     }
     else if (is_nil && slope.value - 2 * slope.uncertainty >= .75)
     {

@@ -1,5 +1,6 @@
 #include "meshfree/check/bond_hypotheses.h"
 
+#include "base/number_text.h"
 #include "meshfree/check/bond_check.h"
 #include "meshfree/check/bond_pairs.h"
 #include "meshfree/check/bond_profile.h"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <sstream>
 
 namespace plumbline::meshfree
 {
@@ -19,27 +19,11 @@ namespace plumbline::meshfree
     /// ... or to round-off of a file.
     constexpr double exact = file_tolerance;
 
-    std::string number(double value)
-    {
-      std::ostringstream text;
-      text.precision(4);
-      text << value;
-      return text.str();
-    }
-
-    std::string percent(double value)
-    {
-      std::ostringstream text;
-      text.precision(3);
-      text << 100 * value << " %";
-      return text.str();
-    }
-
     std::string closer(const Cause &cause)
     {
       return "; without that the moments are off by " +
-             (cause.after < exact ? "nothing" : percent(cause.after)) + " instead of " +
-             percent(cause.before);
+             (cause.after < exact ? "nothing" : base::to_percent(cause.after)) + " instead of " +
+             base::to_percent(cause.before);
     }
 
     bool explains(const Cause &cause)
@@ -129,7 +113,10 @@ namespace plumbline::meshfree
       if (kernel.n_components() > 1 || !(diffusion > 0))
         return {};
       const auto laplace = [](double d)
-      { return std::abs(d - 1) < exact ? std::string("-Laplace") : "-" + number(d) + " Laplace"; };
+      {
+        return std::abs(d - 1) < exact ? std::string("-Laplace")
+                                       : "-" + base::to_text(d, 4) + " Laplace";
+      };
       return ", as if made for the limit " + laplace(factor * diffusion) + ", not " +
              laplace(diffusion);
     }
@@ -148,11 +135,11 @@ namespace plumbline::meshfree
               {.5, "factor 1/2",
                "all weights are half of what they should be" + limit_text(given.kernel, .5)},
               {.75 / m, "volume of a ball",
-               "all weights carry the factor 3/(4 m) = " + number(.75 / m) +
+               "all weights carry the factor 3/(4 m) = " + base::to_text(.75 / m, 4) +
                    ", the volume of the horizon in 2D, pi delta^2 h, over that of a ball, 4/3 pi "
                    "delta^3: a formula for 3D on a plane of nodes"},
               {1.25 / m, "bond constant of 3D",
-               "all weights carry the factor 5/(4 m) = " + number(1.25 / m) +
+               "all weights carry the factor 5/(4 m) = " + base::to_text(1.25 / m, 4) +
                    ", the bond constant of 3D, 18 k / (pi delta^4), times h over that of plane "
                    "strain"}};
     }
@@ -219,7 +206,8 @@ namespace plumbline::meshfree
       const double m = given.kernel.horizon() / node_size(given);
       if (!best && (rule ? std::abs(found - 1) > exact : std::abs(found - 1) > 1 / m))
       {
-        Cause cause{"common factor", "all weights carry a common factor of " + number(size), before,
+        Cause cause{"common factor",
+                    "all weights carry a common factor of " + base::to_text(size, 4), before,
                     undone(found), found};
         if (rule || explains(cause))
           best = cause;
@@ -262,8 +250,8 @@ namespace plumbline::meshfree
                         " bonds, though Methods/names has that rule and not FA";
           cause.text += explains(cause) ? closer(cause)
                                         : "; the moments do not tell: they are off by " +
-                                              percent(cause.before) + ", and by " +
-                                              percent(cause.after) + " with them";
+                                              base::to_percent(cause.before) + ", and by " +
+                                              base::to_percent(cause.after) + " with them";
           return cause;
         }
         if (explains(cause) && (!best || cause.after < best->after))

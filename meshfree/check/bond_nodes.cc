@@ -19,11 +19,7 @@ namespace plumbline::meshfree
                                const BondProfile &profile)
     {
       constexpr double steep = .2; // usual weights change by more over half a node's size
-      std::vector<double> values;
-      for (const Pair &pair : pairs)
-        values.push_back(pair.bond == Outlier::none
-                             ? 0
-                             : bond_of(given, pair).weight / given.volumes[pair.neighbour]);
+      std::vector<double> values = weights_over_volumes(given, pairs);
       const auto usual = profile.usual(values, file_tolerance);
       for (std::size_t k = 0; k < pairs.size(); ++k)
       {

@@ -41,11 +41,7 @@ namespace plumbline::meshfree
     void compare_weights(const GivenBonds &given, const std::vector<Pair> &pairs,
                          const BondProfile &profile, std::vector<Outlier> &outliers)
     {
-      std::vector<double> values;
-      for (const Pair &pair : pairs)
-        values.push_back(pair.bond == Outlier::none
-                             ? 0
-                             : bond_of(given, pair).weight / given.volumes[pair.neighbour]);
+      const std::vector<double> values = weights_over_volumes(given, pairs);
       const auto usual = profile.usual(values, file_tolerance);
       for (std::size_t k = 0; k < pairs.size(); ++k)
         if (const double away = distance(values[k], usual[k]); away > 1)

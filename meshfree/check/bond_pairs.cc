@@ -64,4 +64,14 @@ namespace plumbline::meshfree
     }
     return pairs;
   }
+
+  std::vector<double> weights_over_volumes(const GivenBonds &given, const std::vector<Pair> &pairs)
+  {
+    std::vector<double> values;
+    for (const Pair &pair : pairs)
+      values.push_back(pair.bond == Outlier::none
+                           ? 0
+                           : bond_of(given, pair).weight / given.volumes[pair.neighbour]);
+    return values;
+  }
 } // namespace plumbline::meshfree

@@ -22,4 +22,7 @@ namespace plumbline::meshfree
   {
     return given.families[pair.node].bonds[pair.bond];
   }
+
+  /// Of each pair's weight to its neighbour's volume; 0 where there is no bond.
+  std::vector<double> weights_over_volumes(const GivenBonds &given, const std::vector<Pair> &pairs);
 } // namespace plumbline::meshfree

@@ -1,10 +1,10 @@
 #include "meshfree/check/bond_ramp.h"
 
+#include "base/number_text.h"
 #include "meshfree/check/bond_check.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace plumbline::meshfree
 {
@@ -33,13 +33,6 @@ namespace plumbline::meshfree
       }
     }
 
-    std::string percent(double value)
-    {
-      std::ostringstream text;
-      text.precision(3);
-      text << 100 * value << " %";
-      return text.str();
-    }
   } // namespace
 
   std::vector<RampEffect> ramp_effects(const GivenBonds &given, const std::vector<Family> &families)
@@ -67,14 +60,14 @@ namespace plumbline::meshfree
     std::string same, others;
     for (const RampEffect &effect : effects)
       if (effect.is_seen())
-        others +=
-            (others.empty() ? "" : ", ") + percent(effect.after) + " with those of " + effect.rule;
+        others += (others.empty() ? "" : ", ") + base::to_percent(effect.after) +
+                  " with those of " + effect.rule;
       else
         same += (same.empty() ? "" : " and ") + effect.rule;
     std::string text = "whole cells where the horizon cuts them";
     if (!others.empty())
       text += "; with partial areas the moments of most nodes would be off by " + others +
-              ", instead of " + percent(effects.front().before) +
+              ", instead of " + base::to_percent(effects.front().before) +
               ", so that moments do not tell whether a ramp was left out: name the rule that is "
               "meant in Methods/names";
     if (!same.empty())

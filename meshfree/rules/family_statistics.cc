@@ -1,9 +1,9 @@
 #include "meshfree/rules/family_statistics.h"
 
+#include "base/number_text.h"
+
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace plumbline::meshfree
 {
@@ -73,12 +73,6 @@ namespace plumbline::meshfree
     {
       using Answer = study::LimitProof::Answer;
       constexpr double n_errors = 3; // standard errors of the mean, to be more than chance
-      const auto percent = [](double value)
-      {
-        std::ostringstream text;
-        text << std::setprecision(3) << 100 * value << " %";
-        return text.str();
-      };
       if (!limit.has_wrong_moments())
       {
         limit.answer = is_m_matrix ? Answer::compatible : Answer::unknown;
@@ -91,9 +85,10 @@ namespace plumbline::meshfree
           std::abs(limit.mean_defect) >
           n_errors * limit.spread / std::sqrt(n_families) + study::LimitProof::tolerance;
       limit.answer = is_biased ? Answer::incompatible : Answer::unknown;
-      limit.reason = "second moments are off by " + percent(limit.mean_defect) +
-                     " on average over the families, with a spread of " + percent(limit.spread) +
-                     " and moments up to the second by " + percent(limit.defect) + " at worst";
+      limit.reason = "second moments are off by " + base::to_percent(limit.mean_defect) +
+                     " on average over the families, with a spread of " +
+                     base::to_percent(limit.spread) + " and moments up to the second by " +
+                     base::to_percent(limit.defect) + " at worst";
     }
   } // namespace
 
