@@ -9,10 +9,11 @@ namespace plumbline::meshfree
   {
     std::string rule;
     std::size_t n_bonds = 0; ///< given or the rule's
-    std::size_t n_changed =
-        0;             ///< that would have another weight; 0: no cell is in the ramp's range
-    double change = 0; ///< the largest of w C, relative to the largest w C; 0: the same
-                       ///< operator, since the kernel is 0 where the ramp cuts
+    /// That would have another weight; 0: no cell is in the ramp's range.
+    std::size_t n_changed = 0;
+    /// The largest of w C, relative to the largest w C; 0: the same operator, since the kernel is 0
+    /// where the ramp cuts.
+    double change = 0;
     double before = 0, after = 0; ///< median defect of the moments of degree 1 and 2
 
     /// Whether the operators differ, so that something can tell them apart.
