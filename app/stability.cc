@@ -88,7 +88,11 @@ namespace plumbline::app
     if (!options.methods.empty())
       overrides.push_back({"Methods/names", options.methods});
     const scene::Scene scene = scene::read_scene(options.scene_file, overrides);
-    const study::Methods methods = study::choose_methods(scene, all_methods());
+    const study::Methods available = all_methods();
+    const study::Methods methods = study::choose_methods(scene, available);
+    scene::Scene alone = scene; // nothing is held against a reference here
+    alone.reference = alone.estimate = "none";
+    study::check_memory(alone, methods, available, options.n_levels);
 
     const fs::path folder =
         options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);

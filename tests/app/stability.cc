@@ -35,6 +35,12 @@ TEST(StabilityCommand, says_and_writes_where_a_rule_breaks)
   expect_found(read(folder / "stability.html"), "m &gt;= 2.24");
 }
 
+TEST(StabilityCommand, refuses_levels_that_do_not_fit_into_memory)
+{
+  expect_end("stability " + scene("too_few_neighbours") + " --methods FA --set Study/h=0.1,0.00001",
+             2, "FA at h = 1e-05, horizon = ");
+}
+
 TEST(StabilityCommand, fails_with_1_when_a_verdict_is_not_as_expected)
 {
   expect_end("stability " + scene("too_few_neighbours") +
