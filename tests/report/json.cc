@@ -190,7 +190,7 @@ namespace plumbline::report
       EXPECT_NE(message.find("; "), std::string::npos) << "no remedy in: " << message;
     };
     expect("cannot be read");
-    write(file, "{\"schema\": 5, ");
+    write(file, "{\"schema\": " + std::to_string(schema) + ", ");
     expect("is not JSON");
     write(file, "[1]");
     expect("is not an object");
@@ -198,7 +198,7 @@ namespace plumbline::report
     expect("schema is missing");
     write(file, "{\"schema\": 2}");
     expect("schema = 2");
-    write(file, "{\"schema\": 5}");
+    write(file, "{\"schema\": " + std::to_string(schema) + "}");
     expect("scene_name is missing");
 
     const auto damaged = [&](const std::string &from, const std::string &to)

@@ -23,9 +23,12 @@ TEST(MeshFiles, are_read_once_for_all_cases_and_copies_of_a_scene)
     Physical Surface("omega") = {1};
     Physical Surface("collar") = {2};
   )");
-  const Scene scene = parse_scene(
-      "square.prm", "",
-      {{"Methods/names", "P1"}, {"Domain/mesh", file}, {"Study/h", "0.5, 0.25"}, {"Study/m", "2"}});
+  const Scene scene = parse_scene("square.prm", "",
+                                  {{"Problem/solution", "x"},
+                                   {"Methods/names", "P1"},
+                                   {"Domain/mesh", file},
+                                   {"Study/h", "0.5, 0.25"},
+                                   {"Study/m", "2"}});
   const Level coarse{.5, .5}, fine{.25, .5};
   const std::size_t n_coarse = make_mesh(scene, coarse).cells.size();
   const std::size_t n_fine = make_mesh(scene, fine).cells.size();
