@@ -263,10 +263,10 @@ TEST(SparseSystem, TooFewIterationsAreAnErrorThatSaysHowFarTheyCame)
 #ifndef __SANITIZE_ADDRESS__ // which takes all of the address space
 TEST(SparseSystem, FactorsThatDoNotFitAreRefusedBeforeTheyAreMade)
 {
-  const auto system = known({200, 3.2, 1, true, true});
-  const LittleMemory some(150'000'000); // the factors take more, on four ranks, too
+  const auto system = known({300, 3.2, 1, true, true});
+  const LittleMemory some(200'000'000); // the factors take 330 MB and more, on four ranks, too
   expect_error(system, with(SparseSolver::direct),
-               {"40000 unknowns", "for its factors: needs some ", "Solver/linear solver = amg"});
+               {"90000 unknowns", "for its factors: needs some ", "Solver/linear solver = amg"});
 }
 #endif
 
