@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "meshfree/check/bond_nodes.h"
 #include "meshfree/check/bond_ramp.h"
-#include "meshfree/scattered/operator.h"
+#include "meshfree/discretisations.h"
 #include "reference/method.h"
 #include "scene/mesh.h"
 #include "study/comparison.h"
@@ -44,8 +44,8 @@ namespace plumbline::app
     }
 
     /// That of the scene, or Q1 or P1.
-    std::shared_ptr<const study::Method> reference_method(const scene::Scene &scene,
-                                                          const scene::Problem &problem)
+    std::shared_ptr<const method::Method> reference_method(const scene::Scene &scene,
+                                                           const scene::Problem &problem)
     {
       const std::string name = scene.reference != "none"      ? scene.reference
                                : problem.mesh->is_triangles() ? "P1"
@@ -63,12 +63,12 @@ namespace plumbline::app
     }
 
     /// @throws NumericalError  there is none, naming method, case and level
-    study::Solution reference_solution(const scene::Scene &scene, const scene::Problem &problem,
-                                       const study::Method &method, const std::string &place)
+    analysis::Solution reference_solution(const scene::Scene &scene, const scene::Problem &problem,
+                                          const method::Method &method, const std::string &place)
     {
       try
       {
-        return method.solve(scene, problem);
+        return analysis::solve(method, scene, problem);
       }
       catch (const MemoryError &)
       {
@@ -81,19 +81,42 @@ namespace plumbline::app
       }
     }
 
+    /// A user's own families in place of a rule's.
+    class GivenWeights : public method::Method
+    {
+    public:
+      explicit GivenWeights(const FamilySource &families) : families_(families) {}
+      std::string name() const override { return "given"; }
+      std::string family() const override { return "meshfree"; }
+      std::string help() const override { return "weights of a file"; }
+      std::string why_not(const scene::Scene &, const scene::Problem &) const override
+      {
+        return {};
+      }
+      std::unique_ptr<method::Discretisation> discretise(const scene::Scene &scene,
+                                                         const scene::Problem &problem,
+                                                         const base::Team &team) const override
+      {
+        return discretise_on_scattered_nodes(
+            [&](auto share) { return scattered_operator(families_, problem, share); }, scene,
+            problem, team);
+      }
+
+    private:
+      const FamilySource &families_;
+    };
+
     /// @param place  the case and the level, for messages
     CaseCheck check_case(const scene::Scene &scene, const scene::Problem &problem,
                          const std::string &name, const std::string &place,
                          const FamilySource &families)
     {
       const auto method = reference_method(scene, problem);
-      const study::Solution reference = reference_solution(scene, problem, *method, place);
+      const analysis::Solution reference = reference_solution(scene, problem, *method, place);
       CaseCheck result{name, method->name(), {}, {}, study::errors(scene, problem, reference, {})};
       try
       {
-        const study::Solution solution = scattered_solution(
-            [&](auto share) { return scattered_operator(families, problem, share); }, scene,
-            problem);
+        const analysis::Solution solution = analysis::solve(GivenWeights(families), scene, problem);
         result.errors = study::errors(scene, problem, solution, {reference.averages, {}});
       }
       catch (const NumericalError &error)
@@ -204,7 +227,7 @@ namespace plumbline::app
     try
     {
       found.matrix =
-          algebra::check_matrix(scattered_operator(source, problem, {0, found.cells->n_free}).rows);
+          algebra::check_matrix(scattered_operator(source, problem, {0, found.cells->n_free}).rows.free);
     }
     catch (const NumericalError &error)
     {

@@ -6,9 +6,9 @@
 namespace plumbline::app
 {
   /// Those of both sides, meshfree rules first: the one place that knows both.
-  inline study::Methods all_methods()
+  inline method::Methods all_methods()
   {
-    study::Methods methods = meshfree::methods();
+    method::Methods methods = meshfree::methods();
     for (const auto &method : reference::methods())
       methods.push_back(method);
     return methods;

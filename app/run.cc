@@ -81,7 +81,7 @@ namespace plumbline::app
     }
 
     /// Whether ranks do the same side by side: on lattices, and rules on free bodies.
-    bool repeats_work(const scene::Scene &scene, const study::Methods &methods)
+    bool repeats_work(const scene::Scene &scene, const method::Methods &methods)
     {
       if (!scene.is_free_body)
         return scene.mesh.is_lattice();
@@ -241,8 +241,8 @@ namespace plumbline::app
     if (!options.model.empty())
       overrides.push_back({"Solver/model", options.model});
     const scene::Scene scene = scene::read_scene(options.scene_file, overrides);
-    const study::Methods available = all_methods();
-    const study::Methods methods = study::choose_methods(scene, available);
+    const method::Methods available = all_methods();
+    const method::Methods methods = study::choose_methods(scene, available);
     study::check_memory(scene, methods, available, options.n_levels);
     study::check_data(scene);
 
@@ -290,7 +290,7 @@ namespace plumbline::app
       control.on_result = [&](const study::Results &r) { write([&] { journal.append(r); }); };
       control.should_stop = [&] { return team.any(is_interrupted != 0); };
       if (scene.write_fields)
-        control.on_finest = [&](const study::Solution &solution, const study::Run &run)
+        control.on_finest = [&](const analysis::Solution &solution, const study::Run &run)
         {
           write(
               [&]

@@ -41,20 +41,22 @@ namespace plumbline::app
       }
     }
 
-    StabilityRow measure_level(const study::Method &method, const scene::Scene &scene,
+    StabilityRow measure_level(const method::Method &method, const scene::Scene &scene,
                                const scene::Problem &problem, const std::string &series,
                                const scene::Level &level)
     {
       StabilityRow row{method.name(), method.family(), series, level.h, level.horizon, {}, {}, {}};
       try
       {
-        const auto matrix = method.discrete_operator(scene, problem);
-        if (!matrix)
+        const auto discretisation = method.discretise(scene, problem, base::Team::alone());
+        const method::DiscreteOperator matrix = discretisation->matrix();
+        if (matrix.size() == 0)
           throw InputError("Methods/names: '" + method.name() +
                            "' shows no operator, so nothing can be measured; leave it out "
                            "(--methods)");
-        row.stability = study::measure(*matrix);
-        row.consistency = study::check_consistency(*matrix, problem);
+        row.stability = analysis::measure(matrix);
+        row.stability.diagnostics = discretisation->diagnostics();
+        row.consistency = analysis::check_consistency(matrix, problem);
       }
       catch (const NumericalError &error)
       {
@@ -88,10 +90,11 @@ namespace plumbline::app
     if (!options.methods.empty())
       overrides.push_back({"Methods/names", options.methods});
     const scene::Scene scene = scene::read_scene(options.scene_file, overrides);
-    const study::Methods available = all_methods();
-    const study::Methods methods = study::choose_methods(scene, available);
+    const method::Methods available = all_methods();
+    const method::Methods methods = study::choose_methods(scene, available);
     scene::Scene alone = scene; // nothing is held against a reference here
     alone.reference = alone.estimate = "none";
+    alone.keeps_dilatation = false; // the operator on displacements is measured
     study::check_memory(alone, methods, available, options.n_levels);
 
     const fs::path folder =
@@ -109,7 +112,7 @@ namespace plumbline::app
         const scene::Problem problem = scene::make_problem(scene, 0, series.levels[level]);
         for (std::size_t i = 0; i < methods.size(); ++i)
           rows[i].push_back(
-              measure_level(*methods[i], scene, problem, series.name, series.levels[level]));
+              measure_level(*methods[i], alone, problem, series.name, series.levels[level]));
       }
       for (const auto &own : rows)
         write_modes(own.back(), folder / "stability");

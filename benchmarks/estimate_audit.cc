@@ -20,7 +20,7 @@ namespace plumbline::audit
     };
 
     Truth against_solution(const scene::Scene &scene, const scene::Problem &problem,
-                           const study::Solution &solution)
+                           const analysis::Solution &solution)
     {
       constexpr unsigned int degree = 14;
       const auto exact = study::cell_averages(*problem.solution, scene, problem);
@@ -29,8 +29,8 @@ namespace plumbline::audit
     }
 
     Truth against_finer(const scene::Scene &scene, const scene::Problem &problem,
-                        unsigned int case_index, const study::Method &method, unsigned int n,
-                        const study::Solution &solution)
+                        unsigned int case_index, const method::Method &method, unsigned int n,
+                        const analysis::Solution &solution)
     {
       const auto better = method.higher_degree();
       const study::Resized fine = study::finer(scene, problem, case_index, n);
@@ -46,10 +46,10 @@ namespace plumbline::audit
   } // namespace
 
   std::vector<Entry> audit(const scene::Scene &scene, const scene::Problem &problem,
-                           unsigned int case_index, const study::Method &method, unsigned int n,
+                           unsigned int case_index, const method::Method &method, unsigned int n,
                            double &seconds)
   {
-    const study::Solution solution = method.solve(scene, problem);
+    const analysis::Solution solution = analysis::solve(method, scene, problem);
     seconds = solution.cost.seconds();
     const std::vector<double> zero(solution.averages.size());
     const double size = study::averages_l2(problem, solution.averages, zero);

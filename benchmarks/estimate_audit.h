@@ -1,6 +1,6 @@
 #pragma once
 
-#include "study/method.h"
+#include "analysis/statics.h"
 
 #include <string>
 #include <vector>
@@ -28,7 +28,7 @@ namespace plumbline::audit
   /// @param seconds  out: of the solution [CPU s]
   /// @throws as Method::solve
   std::vector<Entry> audit(const scene::Scene &scene, const scene::Problem &problem,
-                           unsigned int case_index, const study::Method &method, unsigned int n,
+                           unsigned int case_index, const method::Method &method, unsigned int n,
                            double &seconds);
 
   /// The middle one of estimate / error.

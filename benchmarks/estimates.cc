@@ -75,7 +75,7 @@ namespace
   private:
     /// The levels of a series as far as they are cheap.
     void add(const std::string &name, const scene::Scene &scene, unsigned int c,
-             const scene::Series &series, const study::Method &method)
+             const scene::Series &series, const method::Method &method)
     {
       constexpr unsigned int much_finer = 8;
       constexpr double growth = 16; // of the finer solutions of an estimate

@@ -1,6 +1,6 @@
 #include "meshfree/method.h"
 
-#include "meshfree/solutions.h"
+#include "meshfree/discretisations.h"
 
 #include <utility>
 
@@ -8,7 +8,7 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    class RuleMethod : public study::Method
+    class RuleMethod : public method::Method
     {
     public:
       explicit RuleMethod(Rule rule, bool is_trap = false)
@@ -32,27 +32,20 @@ namespace plumbline::meshfree
                "; write automatic, gmres or bicgstab";
       }
 
-      study::Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
+      std::unique_ptr<method::Discretisation> discretise(const scene::Scene &scene,
+                                                         const scene::Problem &problem,
+                                                         const base::Team &team) const override
       {
         if (problem.body)
-          return body_solution(rule_, scene, problem);
-        return problem.lattice ? lattice_solution(rule_, scene, problem)
-                               : scattered_solution(rule_, scene, problem);
+          return discretise_on_body(rule_, scene, problem);
+        return problem.lattice ? discretise_on_lattice(rule_, scene, problem)
+                               : discretise_on_scattered_nodes(rule_, scene, problem, team);
       }
 
       double expected_bytes(const scene::Scene &scene,
-                            const study::ProblemSize &size) const override
+                            const method::ProblemSize &size) const override
       {
         return meshfree::expected_bytes(scene, size);
-      }
-
-      std::optional<study::DiscreteOperator>
-      discrete_operator(const scene::Scene &scene, const scene::Problem &problem) const override
-      {
-        if (problem.body)
-          return body_discrete(rule_, scene, problem);
-        return problem.lattice ? lattice_discrete(rule_, scene, problem)
-                               : scattered_discrete(rule_, scene, problem);
       }
 
     private:
@@ -61,9 +54,9 @@ namespace plumbline::meshfree
     };
   } // namespace
 
-  study::Methods methods()
+  method::Methods methods()
   {
-    study::Methods methods;
+    method::Methods methods;
     for (const Rule &rule : rules())
       methods.push_back(std::make_shared<RuleMethod>(rule));
     for (const Rule &rule : traps())

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "study/method.h"
+#include "method/method.h"
 
 namespace plumbline::meshfree
 {
   /// Every rule of the table as a method, on lattices and on scattered nodes.
-  study::Methods methods();
+  method::Methods methods();
 } // namespace plumbline::meshfree

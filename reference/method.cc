@@ -1,10 +1,9 @@
 #include "reference/method.h"
 
-#include "reference/lattice/solution.h"
+#include "method/lattice_discretisation.h"
+#include "reference/lattice/discretisation.h"
 #include "reference/local/local_limit.h"
-#include "reference/mesh/solution.h"
-#include "study/lattice_solve.h"
-#include "study/limit_proof.h"
+#include "reference/mesh/discretisation.h"
 
 #include <algorithm>
 
@@ -12,7 +11,7 @@ namespace plumbline::reference
 {
   namespace
   {
-    class GalerkinMethod : public study::Method
+    class GalerkinMethod : public method::Method
     {
     public:
       GalerkinMethod(unsigned int n_vertices, bool is_continuous, unsigned int degree)
@@ -65,34 +64,26 @@ namespace plumbline::reference
         return {};
       }
       unsigned int order() const override { return degree_ + 1; }
-      std::shared_ptr<const study::Method> higher_degree() const override
+      std::shared_ptr<const method::Method> higher_degree() const override
       {
         return std::make_shared<GalerkinMethod>(n_vertices_, is_continuous_, degree_ + 1);
       }
-      study::Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
+      std::unique_ptr<method::Discretisation> discretise(const scene::Scene &scene,
+                                                         const scene::Problem &problem,
+                                                         const base::Team &team) const override
       {
-        study::Solution solution =
-            problem.lattice ? lattice_solution(scene, problem, AxisShapes(is_continuous_, degree_))
-                            : mesh_solution(scene, problem, is_continuous_, degree_);
-        if (degree_ > 0)
-          solution.diagnostics.limit = study::prove_galerkin(scene, problem, solution.diagnostics);
-        return solution;
+        if (problem.lattice)
+          return discretise_on_lattice(scene, problem, AxisShapes(is_continuous_, degree_));
+        return discretise_on_mesh(scene, problem, is_continuous_, degree_, team);
       }
       double expected_bytes(const scene::Scene &scene,
-                            const study::ProblemSize &size) const override
+                            const method::ProblemSize &size) const override
       {
         if (!size.is_lattice())
           return expected_mesh_bytes(scene, size, n_vertices_, is_continuous_, degree_);
         const unsigned int n_axis = is_continuous_ ? degree_ : degree_ + 1;
-        return study::expected_lattice_bytes(size, n_axis * n_axis, scene.is_vector() ? 2 : 1,
+        return method::expected_lattice_bytes(size, n_axis * n_axis, scene.is_vector() ? 2 : 1,
                                              scene.reach(size.level.horizon) / size.level.h + 1);
-      }
-      std::optional<study::DiscreteOperator>
-      discrete_operator(const scene::Scene &scene, const scene::Problem &problem) const override
-      {
-        if (problem.lattice)
-          return lattice_discrete(scene, problem, AxisShapes(is_continuous_, degree_));
-        return mesh_discrete(scene, problem, is_continuous_, degree_);
       }
 
     private:
@@ -101,7 +92,7 @@ namespace plumbline::reference
       unsigned int degree_;
     };
 
-    class LocalMethod : public study::Method
+    class LocalMethod : public method::Method
     {
     public:
       std::string name() const override { return "LOCAL"; }
@@ -123,16 +114,18 @@ namespace plumbline::reference
                  "Study/regime = delta, or a decisive error against local";
         return {};
       }
-      study::Solution solve(const scene::Scene &, const scene::Problem &problem) const override
+      std::unique_ptr<method::Discretisation> discretise(const scene::Scene &,
+                                                         const scene::Problem &problem,
+                                                         const base::Team &) const override
       {
-        return as_solution(problem, solve_local(problem));
+        return discretise_local_limit(problem);
       }
     };
   } // namespace
 
-  study::Methods methods()
+  method::Methods methods()
   {
-    study::Methods methods;
+    method::Methods methods;
     for (const unsigned int n_vertices : {4u, 3u})
     {
       for (unsigned int degree = 1; degree <= 3; ++degree)

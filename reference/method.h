@@ -1,11 +1,11 @@
 #pragma once
 
-#include "study/method.h"
+#include "method/method.h"
 
 namespace plumbline::reference
 {
   /// Galerkin methods: continuous Q1 to Q3 and discontinuous DGQ0 to DGQ3 on lattices (exact
   /// entries, one stencil) and on meshes of quadrilaterals, P1 to P3 and DGP0 to DGP3 on meshes of
   /// triangles; and LOCAL, classical finite elements for the local limit, on meshes.
-  study::Methods methods();
+  method::Methods methods();
 } // namespace plumbline::reference

@@ -82,7 +82,7 @@ namespace plumbline::report
       if (!row.failure.empty())
         continue;
       const study::Stability &s = row.stability;
-      const study::Diagnostics &d = s.diagnostics;
+      const method::Diagnostics &d = s.diagnostics;
       const study::Consistency &c = row.consistency;
       Cell norm = number_cell(s.inverse_norm);
       if (!s.is_norm_exact)

@@ -179,15 +179,6 @@ namespace plumbline::study
     }
   } // namespace
 
-  geometry::NodeSet comparison_nodes(const scene::Scene &scene, const geometry::Lattice &lattice,
-                                     unsigned int n_components)
-  {
-    const geometry::AxisSpecies nodes = scene.nodes_at_vertices()
-                                            ? geometry::AxisSpecies{0, true, 0}
-                                            : geometry::AxisSpecies{.5, false, 0};
-    return free_nodes(lattice, {nodes}, n_components);
-  }
-
   std::vector<double> cell_averages(const Field &field, const geometry::Lattice &lattice,
                                     const NodeSet &cells)
   {
@@ -232,7 +223,7 @@ namespace plumbline::study
     if (problem.cells)
       return cell_averages(field, *problem.cells, problem.n_components);
     return cell_averages(field, *problem.lattice,
-                         comparison_nodes(scene, *problem.lattice, problem.n_components));
+                         method::comparison_nodes(scene, *problem.lattice, problem.n_components));
   }
 
   std::vector<dealii::Point<2>> comparison_points(const scene::Scene &scene,
@@ -242,7 +233,7 @@ namespace plumbline::study
       return {problem.cells->nodes.begin(),
               problem.cells->nodes.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free)};
     std::vector<dealii::Point<2>> points;
-    const NodeSet cells = comparison_nodes(scene, *problem.lattice, 1);
+    const NodeSet cells = method::comparison_nodes(scene, *problem.lattice, 1);
     for (int j = 0; j < cells.n[1]; ++j)
       for (int i = 0; i < cells.n[0]; ++i)
         if (cells.free(0, i, j))

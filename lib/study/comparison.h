@@ -1,11 +1,14 @@
 #pragma once
 
-#include "study/method.h"
+#include "analysis/statics.h"
+#include "study/results.h"
 
 #include <map>
 
 namespace plumbline::study
 {
+  using analysis::Solution;
+
   /// P_κ of a field: its averages over the comparison cells, shape (n_cells, n_components). By
   /// exact integration of the field's series, or 6 × 6 Gauss points on each quarter of a cell.
   std::vector<double> cell_averages(const scene::Field &field, const geometry::Lattice &lattice,

@@ -13,18 +13,18 @@ namespace plumbline::study
 {
   namespace
   {
-    ProblemSize lattice_size(const scene::Scene &scene, const scene::Level &level)
+    method::ProblemSize lattice_size(const scene::Scene &scene, const scene::Level &level)
     {
-      ProblemSize size;
+      method::ProblemSize size;
       size.level = level;
       const auto n = geometry::Lattice(scene.domain, level.h).n_cells();
       size.extents = {static_cast<double>(n[0]), static_cast<double>(n[1])};
       return size;
     }
 
-    ProblemSize mesh_size(const geometry::Mesh &mesh, const scene::Level &level)
+    method::ProblemSize mesh_size(const geometry::Mesh &mesh, const scene::Level &level)
     {
-      ProblemSize size;
+      method::ProblemSize size;
       size.level = level;
       size.n_cells = static_cast<double>(mesh.cells.size());
       for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
@@ -37,7 +37,7 @@ namespace plumbline::study
     }
 
     /// The same body in cells of another size.
-    ProblemSize at_level(ProblemSize size, const scene::Level &level)
+    method::ProblemSize at_level(method::ProblemSize size, const scene::Level &level)
     {
       const double finer = std::pow(size.level.h / level.h, 2);
       size.level = level;
@@ -49,7 +49,7 @@ namespace plumbline::study
       return size;
     }
 
-    void require(const scene::Scene &scene, const Method &method, const ProblemSize &size,
+    void require(const scene::Scene &scene, const Method &method, const method::ProblemSize &size,
                  const std::string &what)
     {
       std::ostringstream text;
@@ -66,7 +66,7 @@ namespace plumbline::study
     }
 
     /// With what an estimate of its error solves besides.
-    void require_estimate(const scene::Scene &scene, const Method &method, const ProblemSize &size)
+    void require_estimate(const scene::Scene &scene, const Method &method, const method::ProblemSize &size)
     {
       const std::string what = "the estimate of the error of ";
       if (size.is_lattice() || method.name() == scene.reference)
@@ -85,7 +85,7 @@ namespace plumbline::study
     }
 
     /// Of a level, measured: the coarsest one, from which that of finer ones follows.
-    ProblemSize measured_size(const scene::Scene &scene, const scene::Level &level)
+    method::ProblemSize measured_size(const scene::Scene &scene, const scene::Level &level)
     {
       if (scene.is_free_body)
         return mesh_size(*scene::make_body(scene, level).mesh, level);
@@ -94,7 +94,7 @@ namespace plumbline::study
     }
 
     /// Whether the cells of a mesh are fewer where h is larger.
-    bool follows_h(const scene::Scene &scene, const ProblemSize &coarse)
+    bool follows_h(const scene::Scene &scene, const method::ProblemSize &coarse)
     {
       if (!scene.mesh.is_file())
         return true;
@@ -104,14 +104,14 @@ namespace plumbline::study
              1.5 * coarse.n_cells;
     }
 
-    ProblemSize of_same_cells(ProblemSize size, const scene::Level &level)
+    method::ProblemSize of_same_cells(method::ProblemSize size, const scene::Level &level)
     {
       size.level = level;
       return size;
     }
 
     /// The first error of a method that does not fit.
-    void require_all(const scene::Scene &scene, const Methods &methods, const ProblemSize &size)
+    void require_all(const scene::Scene &scene, const Methods &methods, const method::ProblemSize &size)
     {
       for (const auto &method : methods)
       {
@@ -128,7 +128,7 @@ namespace plumbline::study
     Methods all = methods;
     if (scene.reference != "none")
       all.push_back(find_method(available, scene.reference, "Reference/method"));
-    const ProblemSize coarse = measured_size(scene, scene.series.front().levels.front());
+    const method::ProblemSize coarse = measured_size(scene, scene.series.front().levels.front());
     for (const auto &series : scene.series)
     {
       const std::size_t n = n_levels == 0 ? series.levels.size()

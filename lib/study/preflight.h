@@ -1,10 +1,13 @@
 #pragma once
 
-#include "study/method.h"
+#include "analysis/statics.h"
 
 // What is settled before anything is solved.
 namespace plumbline::study
 {
+  using method::Method;
+  using method::Methods;
+
   /// @param key  of the scene, for the message
   /// @throws InputError  unknown name; the message names the known ones
   std::shared_ptr<const Method> find_method(const Methods &available, const std::string &name,

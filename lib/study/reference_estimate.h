@@ -1,9 +1,13 @@
 #pragma once
 
-#include "study/method.h"
+#include "analysis/statics.h"
+#include "study/results.h"
 
 namespace plumbline::study
 {
+  using analysis::Solution;
+  using method::Method;
+
   /// Decimal digits of a solution of a given size that an estimate of its error leaves certain.
   unsigned int certified_digits(double estimate, double size);
 

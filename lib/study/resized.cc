@@ -76,7 +76,7 @@ namespace plumbline::study
 
     geometry::NodeSet centres(const scene::Scene &scene, double h, unsigned int n_components)
     {
-      return comparison_nodes(centred(scene), geometry::Lattice(scene.domain, h), n_components);
+      return method::comparison_nodes(centred(scene), geometry::Lattice(scene.domain, h), n_components);
     }
 
     /// Averages over the cells of a finer lattice, halving by halving over those of the problem.
@@ -88,7 +88,7 @@ namespace plumbline::study
       for (; !is_last(); h *= 2)
         averages = coarsen_averages(averages, centres(scene, h, n), centres(scene, 2 * h, n));
       return coarsen_averages(averages, centres(scene, h, n),
-                              comparison_nodes(scene, *problem.lattice, n));
+                              method::comparison_nodes(scene, *problem.lattice, n));
     }
   } // namespace
 
@@ -127,7 +127,7 @@ namespace plumbline::study
   ResizedSolution solve_resized(const Resized &resized, const scene::Scene &scene,
                                 const scene::Problem &problem, const Method &method)
   {
-    Solution solution = method.solve(resized.scene, resized.problem);
+    Solution solution = analysis::solve(method, resized.scene, resized.problem);
     if (problem.lattice)
       solution.averages =
           resized.problem.h < problem.h

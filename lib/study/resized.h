@@ -4,6 +4,8 @@
 
 namespace plumbline::study
 {
+  using method::Method;
+
   /// A problem with cells of another size, whose solutions are still averaged over the comparison
   /// cells of the first one.
   struct Resized

@@ -1,9 +1,12 @@
 #pragma once
 
-#include "study/method.h"
+#include "analysis/statics.h"
+#include "study/results.h"
 
 namespace plumbline::study
 {
+  using analysis::Solution;
+
   /// Up to which size errors of a solution are round-off: 10 (ε (A v + max|u|) + r s). A = ∫|C|
   /// ‖L⁻¹‖ is by how much the operator's two terms, which cancel, exceed their difference; r the
   /// solver's relative residual, at least ε; s what is solved for: max|u|, or on lattices, where a

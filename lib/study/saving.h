@@ -1,11 +1,15 @@
 #pragma once
 
-#include "study/method.h"
+#include "analysis/statics.h"
+#include "study/results.h"
 
 #include <optional>
 
 namespace plumbline::study
 {
+  using analysis::Solution;
+  using method::Method;
+
   /// Whether Solver/model = full would build anything besides what this scene's solves build, and
   /// can: not with a given collar or operator, which a full model has no use for.
   bool has_fuller_model(const scene::Scene &scene);

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
+#include <tuple>
 
 namespace plumbline::study
 {
@@ -51,7 +52,7 @@ namespace plumbline::study
       Sweep(const scene::Scene &scene, const Methods &methods, const Methods &available,
             const SweepControl &control, const Results &earlier)
           : scene_(scene), methods_(methods), available_(available), control_(control),
-            earlier_(earlier)
+            earlier_(earlier), cases_(scene.case_names())
       {
         results_.scene_name = scene.name;
         results_.purpose = scene.purpose;
@@ -63,23 +64,27 @@ namespace plumbline::study
 
       Results run()
       {
-        const auto cases = scene_.case_names();
-        std::size_t n_done = 0, n_all = 0;
         for (const auto &series : scene_.series)
-          n_all += cases.size() * n_levels(series) * methods_.size();
-        for (unsigned int c = 0; c < cases.size() && !is_stopped_; ++c)
-          for (const auto &series : scene_.series)
-            for (unsigned int level = 0; level < n_levels(series) && !is_stopped_; ++level)
-            {
-              run_level(c, cases[c], series, level, n_done, n_all);
-              n_done += methods_.size();
-            }
+          n_all_ += cases_.size() * n_levels(series) * methods_.size();
+        for (const auto &series : scene_.series)
+          for (unsigned int level = 0; level < n_levels(series) && !is_stopped_; ++level)
+            run_level(series, level);
         results_.is_complete = !is_stopped_;
+        sort_by_case();
         conclude(scene_, results_);
         return results_;
       }
 
     private:
+      /// A case of the level that is being solved.
+      struct Case
+      {
+        unsigned int index = 0; ///< into the scene's
+        Methods due;
+        scene::Problem problem;
+        Targets targets = {};
+      };
+
       unsigned int n_levels(const scene::Series &series) const
       {
         const auto n = static_cast<unsigned int>(series.levels.size());
@@ -163,41 +168,93 @@ namespace plumbline::study
         return true;
       }
 
-      void run_level(unsigned int case_index, const std::string &name, const scene::Series &series,
-                     unsigned int level, std::size_t n_done, std::size_t n_all)
+      void run_level(const scene::Series &series, unsigned int level)
       {
-        const Methods due = affordable(name, series, level);
-        if (take_earlier(due, name, series, level))
-          return;
-        const scene::Level &sizes = series.levels[level];
+        std::vector<Case> open;
+        const std::size_t n_before = n_done_;
+        for (unsigned int c = 0; c < cases_.size(); ++c)
+        {
+          Methods due = affordable(cases_[c], series, level);
+          if (take_earlier(due, cases_[c], series, level))
+            continue;
+          say(cases_[c], series, level, "load and reference");
+          open.push_back({c, std::move(due), make_problem(scene_, c, series.levels[level])});
+        }
+        solve_targets(open, series, level);
+        for (const auto &method : methods_)
+          run_method(*method, open, series, level);
+        n_done_ = n_before + cases_.size() * methods_.size();
+      }
+
+      void say(const std::string &name, const scene::Series &series, unsigned int level,
+               const std::string &what) const
+      {
         if (control_.on_progress)
           control_.on_progress(name + ", " + series.name + ", level " + std::to_string(level + 1) +
-                                   ": load and reference",
-                               static_cast<double>(n_done) / static_cast<double>(n_all));
-        const scene::Problem problem = make_problem(scene_, case_index, sizes);
-        Targets targets;
-        if (scene_.reference != "none")
+                                   ": " + what,
+                               static_cast<double>(n_done_) / static_cast<double>(n_all_));
+      }
+
+      void solve_targets(std::vector<Case> &open, const scene::Series &series, unsigned int level)
+      {
+        for (Case &one : open)
         {
-          ReferenceAverages reference =
-              solve_reference(scene_, problem, case_index,
-                              *find_method(available_, scene_.reference, "Reference/method"));
-          results_.references.push_back(placed(reference.estimate, name, series, level));
-          targets.reference = std::move(reference.averages);
-        }
-        if (scene_.local_solution == "computed")
-          targets.local = local_averages(problem);
-        for (const auto &method : due)
-        {
-          if (control_.should_stop && control_.should_stop())
+          if (scene_.reference != "none")
           {
-            is_stopped_ = true;
-            return;
+            ReferenceAverages reference =
+                solve_reference(scene_, one.problem, one.index,
+                                *find_method(available_, scene_.reference, "Reference/method"));
+            results_.references.push_back(
+                placed(reference.estimate, cases_[one.index], series, level));
+            one.targets.reference = std::move(reference.averages);
           }
-          if (control_.on_progress)
-            control_.on_progress(name + ", " + series.name + ", level " +
-                                     std::to_string(level + 1) + ": " + method->name(),
-                                 static_cast<double>(n_done++) / static_cast<double>(n_all));
-          run_method(*method, case_index, name, series, level, problem, targets);
+          if (scene_.local_solution == "computed")
+            one.targets.local = local_averages(one.problem);
+        }
+      }
+
+      /// All cases by one discretisation; on several ranks, where all must fail alike, one by one.
+      void run_method(const Method &method, std::vector<Case> &open, const scene::Series &series,
+                      unsigned int level)
+      {
+        std::vector<const Case *> due;
+        for (const Case &one : open)
+          if (std::any_of(one.due.begin(), one.due.end(),
+                          [&](const auto &other) { return other.get() == &method; }))
+            due.push_back(&one);
+        if (due.empty() || is_stopped_)
+          return;
+        if (control_.should_stop && control_.should_stop())
+        {
+          is_stopped_ = true;
+          return;
+        }
+        say(cases_[due.front()->index], series, level, method.name());
+        const bool is_alone = base::Team::all().n_ranks() == 1;
+        std::vector<analysis::Outcome> solved;
+        if (is_alone)
+          solved = solve_and_time(method, due);
+        for (std::size_t i = 0; i < due.size(); ++i)
+        {
+          Run run = empty_run(method, *due[i], series, level);
+          const auto solve = [&]
+          {
+            analysis::Outcome outcome =
+                is_alone ? std::move(solved[i]) : solve_and_time(method, {due[i]}).front();
+            if (!outcome.solution)
+              std::rethrow_exception(outcome.failure);
+            evaluate(method, *due[i], *outcome.solution, series, run);
+          };
+          try
+          {
+            ranks_.team().together(solve, patience); // what one fails at, all have failed at
+          }
+          catch (const NumericalError &error)
+          {
+            run.failure = error.what();
+          }
+          results_.runs.push_back(run);
+          ++n_done_;
           if (control_.on_result)
             control_.on_result(results_);
         }
@@ -224,57 +281,50 @@ namespace plumbline::study
       bool is_saving_due(const Method &method, const Run &run) const
       {
         constexpr std::uint64_t most_bonds = 100000;
-        return run.problem == scene_.case_names().front() &&
-               run.series == scene_.series.front().name && run.level == 0 &&
-               run.cost.n_bonds <= most_bonds && has_fuller_model(scene_) &&
+        return run.problem == cases_.front() && run.series == scene_.series.front().name &&
+               run.level == 0 && run.cost.n_bonds <= most_bonds && has_fuller_model(scene_) &&
                std::none_of(results_.runs.begin(), results_.runs.end(),
                             [&](const Run &other) { return other.family == method.family(); });
       }
 
-      void run_method(const Method &method, unsigned int case_index, const std::string &name,
-                      const scene::Series &series, unsigned int level,
-                      const scene::Problem &problem, const Targets &targets)
+      Run empty_run(const Method &method, const Case &one, const scene::Series &series,
+                    unsigned int level) const
       {
         Run run;
         run.method = method.name();
         run.family = method.family();
-        run.problem = name;
+        run.problem = cases_[one.index];
         run.series = series.name;
         run.level = level;
         run.h = series.levels[level].h;
         run.horizon = series.levels[level].horizon;
-        const auto solve = [&]
-        {
-          const Solution solution = solve_and_time(method, problem);
-          run.cost = solution.cost;
-          run.size = variation(problem, solution);
-          run.round_off = round_off_error(scene_, problem, solution);
-          run.diagnostics = solution.diagnostics;
-          run.errors = errors(scene_, problem, solution, targets);
-          for (const auto &[error, value] : run.errors)
-            if (!std::isfinite(value))
-              throw NumericalError("the error " + error + " is not a finite number");
-          if (is_estimated(method, problem))
-            results_.estimates.push_back(
-                placed(estimate_error(scene_, problem, case_index, method, solution, true), name,
-                       series, level));
-          if (is_saving_due(method, run))
-            if (const auto saving =
-                    measure_saving(scene_, case_index, series.levels[level], method, solution))
-              results_.savings.push_back(*saving);
-          if (level + 1 == n_levels(series))
-            finish_series(solution, run, problem,
-                          targets.reference.empty() ? targets.local : targets.reference);
-        };
-        try
-        {
-          ranks_.team().together(solve, patience); // what one of them fails at, all have failed at
-        }
-        catch (const NumericalError &error)
-        {
-          run.failure = error.what();
-        }
-        results_.runs.push_back(run);
+        return run;
+      }
+
+      /// Everything that is known of a solution.
+      void evaluate(const Method &method, const Case &one, const Solution &solution,
+                    const scene::Series &series, Run &run)
+      {
+        const scene::Problem &problem = one.problem;
+        run.cost = solution.cost;
+        run.size = variation(problem, solution);
+        run.round_off = round_off_error(scene_, problem, solution);
+        run.diagnostics = solution.diagnostics;
+        run.errors = errors(scene_, problem, solution, one.targets);
+        for (const auto &[error, value] : run.errors)
+          if (!std::isfinite(value))
+            throw NumericalError("the error " + error + " is not a finite number");
+        if (is_estimated(method, problem))
+          results_.estimates.push_back(
+              placed(estimate_error(scene_, problem, one.index, method, solution, true),
+                     run.problem, series, run.level));
+        if (is_saving_due(method, run))
+          if (const auto saving =
+                  measure_saving(scene_, one.index, series.levels[run.level], method, solution))
+            results_.savings.push_back(*saving);
+        if (run.level + 1 == n_levels(series))
+          finish_series(solution, run, problem,
+                        one.targets.reference.empty() ? one.targets.local : one.targets.reference);
       }
 
       /// Averages of the local limit, by classical finite elements on the mesh refined once.
@@ -282,28 +332,63 @@ namespace plumbline::study
       {
         scene::Problem fine = problem;
         fine.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh));
-        return find_method(available_, "LOCAL", "Problem/local solution")
-            ->solve(scene_, fine)
+        return analysis::solve(*find_method(available_, "LOCAL", "Problem/local solution"), scene_,
+                               fine)
             .averages;
       }
 
       /// Short solves are repeated and the fastest counts: their times are mostly noise.
-      Solution solve_and_time(const Method &method, const scene::Problem &problem) const
+      std::vector<analysis::Outcome> solve_and_time(const Method &method,
+                                                    const std::vector<const Case *> &cases) const
       {
         constexpr double short_seconds = .02;
-        Solution solution = method.solve(scene_, problem);
+        std::vector<const scene::Problem *> problems;
+        for (const Case *one : cases)
+          problems.push_back(&one->problem);
+        const auto is_short = [](const analysis::Outcome &outcome)
+        { return outcome.solution && outcome.solution->cost.seconds() < short_seconds; };
+        const auto solve = [&]
+        {
+          return control_.solve ? control_.solve(method, scene_, problems)
+                                : analysis::solve(method, scene_, problems);
+        };
+        auto outcomes = solve();
         const int n_repeats = base::Team::all().n_ranks() == 1 ? 2 : 0; // ranks must agree
-        for (int repeat = 0; repeat < n_repeats && solution.cost.seconds() < short_seconds;
+        for (int repeat = 0;
+             repeat < n_repeats && std::any_of(outcomes.begin(), outcomes.end(), is_short);
              ++repeat)
         {
-          const base::Cost again = method.solve(scene_, problem).cost;
-          if (again.seconds() < solution.cost.seconds())
-          {
-            solution.cost.setup_seconds = again.setup_seconds;
-            solution.cost.solve_seconds = again.solve_seconds;
-          }
+          const auto again = solve();
+          for (std::size_t i = 0; i < outcomes.size(); ++i)
+            if (is_short(outcomes[i]) && again[i].solution &&
+                again[i].solution->cost.seconds() < outcomes[i].solution->cost.seconds())
+            {
+              base::Cost &cost = outcomes[i].solution->cost;
+              cost.setup_seconds = again[i].solution->cost.setup_seconds;
+              cost.solve_seconds = again[i].solution->cost.solve_seconds;
+            }
         }
-        return solution;
+        return outcomes;
+      }
+
+      /// Levels were solved for all cases at once; results read case by case.
+      void sort_by_case()
+      {
+        const auto sort = [&](auto &list)
+        {
+          const auto place = [&](const auto &one)
+          {
+            const auto series = std::find_if(scene_.series.begin(), scene_.series.end(),
+                                             [&](const auto &s) { return s.name == one.series; });
+            return std::tuple(std::find(cases_.begin(), cases_.end(), one.problem) - cases_.begin(),
+                              series - scene_.series.begin(), one.level);
+          };
+          std::stable_sort(list.begin(), list.end(),
+                           [&](const auto &a, const auto &b) { return place(a) < place(b); });
+        };
+        sort(results_.runs);
+        sort(results_.references);
+        sort(results_.estimates);
       }
 
       /// What is done with a solution of the finest level: stored, and drawn for the first series.
@@ -312,7 +397,7 @@ namespace plumbline::study
       {
         if (control_.on_finest)
           control_.on_finest(solution, run);
-        if (run.problem != scene_.case_names().back() || run.series != scene_.series.front().name ||
+        if (run.problem != cases_.back() || run.series != scene_.series.front().name ||
             (!problem.solution && target.empty()))
           return;
         ErrorMap map = error_map(scene_, problem, solution, target);
@@ -326,8 +411,10 @@ namespace plumbline::study
       const Methods &methods_, &available_;
       const SweepControl &control_;
       const Results &earlier_;
+      const std::vector<std::string> cases_;
       const base::SeparateTeam ranks_{base::Team::all()};
       Results results_;
+      std::size_t n_done_ = 0, n_all_ = 0;
       bool is_stopped_ = false;
     };
   } // namespace

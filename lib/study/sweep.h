@@ -1,11 +1,16 @@
 #pragma once
 
-#include "study/method.h"
+#include "analysis/statics.h"
+#include "study/results.h"
 
 #include <functional>
 
 namespace plumbline::study
 {
+  using analysis::Solution;
+  using method::Method;
+  using method::Methods;
+
   /// How a sweep talks to its caller.
   struct SweepControl
   {
@@ -18,6 +23,10 @@ namespace plumbline::study
     std::function<bool()> should_stop;              ///< asked before each solve
     std::function<void(const Solution &, const Run &)>
         on_finest; ///< solutions of the finest levels
+    /// How cases are solved; empty: analysis::solve.
+    std::function<std::vector<analysis::Outcome>(const Method &, const scene::Scene &,
+                                                 const std::vector<const scene::Problem *> &)>
+        solve = {};
   };
 
   /// Run all methods over all cases, series and levels; hold them against exact solution, local

@@ -8,7 +8,7 @@
 namespace plumbline::meshfree
 {
   void describe_weights(const std::vector<Bond> &family, const Fit &fit,
-                        study::Diagnostics &diagnostics)
+                        method::Diagnostics &diagnostics)
   {
     diagnostics.n_neighbours =
         std::max(diagnostics.n_neighbours, static_cast<unsigned int>(family.size()));
@@ -69,9 +69,9 @@ namespace plumbline::meshfree
     }
 
     /// What the moments of all families say of the limit.
-    void judge_moments(study::LimitProof &limit, double n_families, bool is_m_matrix)
+    void judge_moments(method::LimitProof &limit, double n_families, bool is_m_matrix)
     {
-      using Answer = study::LimitProof::Answer;
+      using Answer = method::LimitProof::Answer;
       constexpr double n_errors = 3; // standard errors of the mean, to be more than chance
       if (!limit.has_wrong_moments())
       {
@@ -83,7 +83,7 @@ namespace plumbline::meshfree
       }
       const bool is_biased =
           std::abs(limit.mean_defect) >
-          n_errors * limit.spread / std::sqrt(n_families) + study::LimitProof::tolerance;
+          n_errors * limit.spread / std::sqrt(n_families) + method::LimitProof::tolerance;
       limit.answer = is_biased ? Answer::incompatible : Answer::unknown;
       limit.reason = "second moments are off by " + base::to_percent(limit.mean_defect) +
                      " on average over the families, with a spread of " +
@@ -110,10 +110,10 @@ namespace plumbline::meshfree
     n_clipped_ += family.is_clipped ? 1 : 0;
   }
 
-  study::Diagnostics FamilyStatistics::diagnostics(const base::Team &team) const
+  method::Diagnostics FamilyStatistics::diagnostics(const base::Team &team) const
   {
     const auto total = [&](double n) { return static_cast<std::uint64_t>(team.sum(n)); };
-    study::Diagnostics result;
+    method::Diagnostics result;
     result.n_neighbours = static_cast<unsigned int>(team.largest(weights_.n_neighbours));
     result.smallest_weight_ratio = -team.largest(-weights_.smallest_weight_ratio);
     result.n_negative_weights = static_cast<unsigned int>(total(weights_.n_negative_weights));

@@ -2,13 +2,13 @@
 
 #include "base/team.h"
 #include "meshfree/rules/recipe.h"
-#include "study/results.h"
+#include "method/diagnostics.h"
 
 namespace plumbline::meshfree
 {
   /// Add a family to what a method says of its weights.
   void describe_weights(const std::vector<Bond> &family, const Fit &fit,
-                        study::Diagnostics &diagnostics);
+                        method::Diagnostics &diagnostics);
 
   /// What the families of scattered nodes are like.
   class FamilyStatistics
@@ -19,10 +19,10 @@ namespace plumbline::meshfree
     /// The largest family, the distribution of moments, the smallest weight and the number of
     /// negative ones, with notes on how many families are concerned; over all ranks.
     /// @note Collective.
-    study::Diagnostics diagnostics(const base::Team &team) const;
+    method::Diagnostics diagnostics(const base::Team &team) const;
 
   private:
-    study::Diagnostics weights_;
+    method::Diagnostics weights_;
     bool is_scalar_ = true;
     double worst_defect_ = 0, ratio_ = 0,
            squared_ratio_ = 0; ///< of second moments, sums of the last

@@ -1,6 +1,7 @@
 #include "meshfree/scattered/operator.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace plumbline::meshfree
 {
@@ -21,17 +22,6 @@ namespace plumbline::meshfree
           values.push_back(problem.coefficient->at(x));
       return values;
     }
-
-    /// The constraint at the nodes of the collar, shape (n_collar, n_components).
-    std::vector<double> collar_data(const scene::Problem &problem)
-    {
-      const geometry::NodeCells &cells = *problem.cells;
-      std::vector<double> values;
-      for (std::size_t i = cells.n_free; i < cells.size(); ++i)
-        for (unsigned int c = 0; c < problem.n_components; ++c)
-          values.push_back(problem.constraint.value(cells.nodes[i], c));
-      return values;
-    }
   } // namespace
 
   ScatteredOperator scattered_operator(const FamilySource &families, const scene::Problem &problem,
@@ -39,10 +29,10 @@ namespace plumbline::meshfree
   {
     const std::size_t n_free = problem.cells->n_free;
     const unsigned int n_components = problem.n_components;
-    const auto a = coefficients(problem), data = collar_data(problem);
+    const auto a = coefficients(problem);
     ScatteredOperator result;
-    result.right_hand_side.assign(n_free * n_components, 0);
-    result.rows.start.assign(share.first * n_components + 1, 0);
+    algebra::Rows rows; // columns of all nodes
+    rows.start.assign(share.first * n_components + 1, 0);
     Family family;
     std::vector<Block> blocks;
     for (auto i = static_cast<unsigned int>(share.first); i < share.second; ++i)
@@ -66,12 +56,8 @@ namespace plumbline::meshfree
             const double entry = factor * problem.kernel.direction_factor(c, d, bond.kernel_point);
             block.entries[c][d] = -entry;
             own.entries[c][d] += entry;
-            if (j >= n_free)
-              result.right_hand_side[i * n_components + c] +=
-                  entry * data[(j - n_free) * n_components + d];
           }
-        if (j < n_free)
-          blocks.push_back(block);
+        blocks.push_back(block);
       }
       blocks.insert(std::find_if(blocks.begin(), blocks.end(),
                                  [i](const Block &block) { return block.node > i; }),
@@ -81,13 +67,14 @@ namespace plumbline::meshfree
         for (const Block &block : blocks)
           for (unsigned int d = 0; d < n_components; ++d)
           {
-            result.rows.column.push_back(block.node * n_components + d);
-            result.rows.value.push_back(block.entries[c][d]);
+            rows.column.push_back(block.node * n_components + d);
+            rows.value.push_back(block.entries[c][d]);
           }
-        result.rows.start.push_back(result.rows.column.size());
+        rows.start.push_back(rows.column.size());
       }
     }
-    result.rows.start.resize(n_free * n_components + 1, result.rows.column.size());
+    rows.start.resize(n_free * n_components + 1, rows.column.size());
+    result.rows = method::part(std::move(rows), n_free * n_components);
     return result;
   }
 

@@ -155,12 +155,6 @@ namespace plumbline::meshfree
           material_.push_back(dilatation_.is_homogeneous && !material_.empty()
                                   ? material_.front()
                                   : dilatation_.material(x));
-        for (std::size_t i = cells_.n_free; i < cells_.size(); ++i)
-        {
-          const bool is_ghost = !body.damage.is_ghost.empty() && body.damage.is_ghost[i] != 0;
-          for (unsigned int c = 0; c < 2; ++c)
-            data_.push_back(is_ghost ? 0 : body.data(cells_.nodes[i], c));
-        }
         for (std::size_t i = 0; i < cells_.size(); ++i)
           number_of_dilatation_.push_back(
               static_cast<unsigned int>(has_row(i) ? n_unknowns_++ : 0));
@@ -169,8 +163,8 @@ namespace plumbline::meshfree
       ScatteredOperator make()
       {
         result_.statistics = links_.statistics;
-        result_.right_hand_side.assign(n_unknowns_, 0);
-        result_.rows.start.assign(2 * share_.first + 1, 0);
+        result_.rows.free.start.assign(2 * share_.first + 1, 0);
+        result_.rows.held.start = result_.rows.free.start;
         for (auto i = static_cast<unsigned int>(share_.first); i < share_.second; ++i)
           add_node(i);
         for (unsigned int i = 0; i < cells_.size(); ++i)
@@ -180,7 +174,8 @@ namespace plumbline::meshfree
             define_dilatation(i);
             put_row(2);
           }
-        result_.rows.start.resize(n_unknowns_ + 1, result_.rows.column.size());
+        for (algebra::Rows *rows : {&result_.rows.free, &result_.rows.held})
+          rows->start.resize(n_unknowns_ + 1, rows->column.size());
         return std::move(result_);
       }
 
@@ -282,14 +277,14 @@ namespace plumbline::meshfree
           }
       }
 
-      /// Row c of a node, u before θ: what is known goes to the right.
+      /// Row c of a node, u before θ.
       void put_row(unsigned int c)
       {
-        const std::size_t number = result_.rows.start.size() - 1;
-        const auto put = [&](unsigned int column, double entry)
+        auto &[free, held] = result_.rows;
+        const auto put = [](algebra::Rows &rows, std::size_t column, double entry)
         {
-          result_.rows.column.push_back(column);
-          result_.rows.value.push_back(entry);
+          rows.column.push_back(static_cast<unsigned int>(column));
+          rows.value.push_back(entry);
         };
         const std::vector<unsigned int> &nodes = row_.sorted_nodes();
         for (const unsigned int j : nodes)
@@ -297,14 +292,15 @@ namespace plumbline::meshfree
             if (const double entry = row_[j][c][d]; entry != 0)
             {
               if (j < cells_.n_free)
-                put(2 * j + d, entry);
+                put(free, 2 * j + d, entry);
               else
-                result_.right_hand_side[number] -= entry * data_[2 * (j - cells_.n_free) + d];
+                put(held, 2 * (j - cells_.n_free) + d, entry);
             }
         for (const unsigned int j : nodes)
           if (const double entry = row_[j][c][2]; entry != 0)
-            put(number_of_dilatation_[j], entry);
-        result_.rows.start.push_back(result_.rows.column.size());
+            put(free, number_of_dilatation_[j], entry);
+        for (algebra::Rows *rows : {&free, &held})
+          rows->start.push_back(rows->column.size());
       }
 
       const geometry::NodeCells &cells_;
@@ -314,7 +310,6 @@ namespace plumbline::meshfree
       Links links_;
       BlockRow row_;
       std::vector<Lame> material_;
-      std::vector<double> data_; ///< shape (n_collar, 2)
       std::size_t n_unknowns_;
       std::vector<unsigned int> number_of_dilatation_; ///< θ of each node is this unknown, if any
       ScatteredOperator result_;

@@ -11,7 +11,6 @@ namespace plumbline::meshfree
   {
     const geometry::NodeCells *cells = nullptr; ///< Ω and a collar twice as wide as the horizon
     physics::Dilatation dilatation;
-    std::function<double(const Point<2> &, unsigned int component)> data; ///< u in the collar
     Damage damage = {};
     /// Else θ counts as 0 in the collar. That is wrong, of first order in the horizon and the more
     /// so the less compressible the solid is; it is there to be shown.

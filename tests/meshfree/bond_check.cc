@@ -49,7 +49,7 @@ namespace
     return algebra::check_matrix(scattered_operator([&](std::size_t i, Family &family)
                                                     { family = families[i]; },
                                                     problem, {0, families.size()})
-                                     .rows);
+                                     .rows.free);
   }
 
   /// The bond of a node to the one at a distance of (1, 0) h.

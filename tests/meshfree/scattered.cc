@@ -78,29 +78,29 @@ namespace
   std::vector<double> apply(const Families &families, const scene::Problem &problem)
   {
     const auto matrix = scattered_operator(families, problem, {0, families.size()});
-    std::vector<double> result;
-    for (std::size_t row = 0; row < matrix.rows.n_rows(); ++row)
+    std::vector<double> result(matrix.rows.free.n_rows());
+    const unsigned int nc = problem.n_components;
+    const auto multiply = [&](const algebra::Rows &rows, std::size_t first_node)
     {
-      result.push_back(-matrix.right_hand_side[row]);
-      for (std::size_t k = matrix.rows.start[row]; k < matrix.rows.start[row + 1]; ++k)
-      {
-        const unsigned int column = matrix.rows.column[k];
-        result.back() +=
-            matrix.rows.value[k] *
-            problem.constraint.value(problem.cells->nodes[column / problem.n_components],
-                                     column % problem.n_components);
-      }
-    }
+      for (std::size_t row = 0; row < rows.n_rows(); ++row)
+        for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
+          result[row] += rows.value[k] * problem.constraint.value(
+                                             problem.cells->nodes[first_node + rows.column[k] / nc],
+                                             rows.column[k] % nc);
+    };
+    multiply(matrix.rows.free, 0);
+    multiply(matrix.rows.held, problem.cells->n_free);
     return result;
   }
 
-  study::Solution solve(const std::string &name, const scene::Scene &scene,
-                        const scene::Problem &problem)
+  analysis::Solution solve(const std::string &name, const scene::Scene &scene,
+                           const scene::Problem &problem)
   {
     const auto all = methods();
-    return (*std::find_if(all.begin(), all.end(),
-                          [&](const auto &method) { return method->name() == name; }))
-        ->solve(scene, problem);
+    return analysis::solve(**std::find_if(all.begin(), all.end(),
+                                          [&](const auto &method)
+                                          { return method->name() == name; }),
+                           scene, problem);
   }
 
   double nodal_error(const std::string &name, const scene::Scene &scene, const scene::Level &level)
@@ -217,8 +217,8 @@ TEST(ScatteredOperator, takes_the_mean_of_the_coefficients_at_both_nodes)
                       (is_harmonic ? " set symmetrisation = harmonic\n" : "");
     const auto plain = make_problem(0, false, .125, 2),
                varied = make_problem(0, false, .125, 2, keys);
-    const auto a = scattered_operator(make_families("FA", plain), plain, {0, 64}).rows;
-    const auto b = scattered_operator(make_families("FA", varied), varied, {0, 64}).rows;
+    const auto a = scattered_operator(make_families("FA", plain), plain, {0, 64}).rows.free;
+    const auto b = scattered_operator(make_families("FA", varied), varied, {0, 64}).rows.free;
     ASSERT_EQ(a.column, b.column);
     for (unsigned int i = 0; i < 64; ++i)
       for (std::size_t k = a.start[i]; k < a.start[i + 1]; ++k)

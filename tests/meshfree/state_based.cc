@@ -1,7 +1,7 @@
+#include "analysis/statics.h"
 #include "base/error.h"
 #include "meshfree/lattice/stencil.h"
 #include "meshfree/method.h"
-#include "meshfree/solutions.h"
 #include "tests/meshfree/state_based_problems.h"
 
 #include <gtest/gtest.h>
@@ -258,15 +258,15 @@ TEST(StateBasedOperator, with_its_dilatation_kept_yields_the_same)
   }
 }
 
-TEST(ScatteredRoad, yields_the_same_with_its_dilatation_kept)
+TEST(ScatteredNodes, yields_the_same_with_its_dilatation_kept)
 {
   const auto solve = [](const std::string &dilatation)
   {
     const auto scene = solid_scene({{"Solver/dilatation", dilatation}});
-    const auto all = rules();
-    const auto rule =
-        std::find_if(all.begin(), all.end(), [](const Rule &one) { return one.name == "OPT"; });
-    return scattered_solution(*rule, scene, make_problem(scene, 0, {.1, .25}));
+    const auto all = methods();
+    const auto method =
+        std::find_if(all.begin(), all.end(), [](const auto &one) { return one->name() == "OPT"; });
+    return analysis::solve(**method, scene, make_problem(scene, 0, {.1, .25}));
   };
   const auto eliminated = solve("eliminated"), kept = solve("kept");
   EXPECT_LT(largest_difference(eliminated.nodal, kept.nodal), 1e-10 * largest(kept.nodal));
@@ -277,7 +277,7 @@ TEST(ScatteredRoad, yields_the_same_with_its_dilatation_kept)
   EXPECT_GT(kept.cost.n_unknowns, 300u); // dilatations in the collar too
 }
 
-TEST(ScatteredRoad, has_no_symmetric_operator_for_conjugate_gradients)
+TEST(ScatteredNodes, has_no_symmetric_operator_for_conjugate_gradients)
 {
   const auto why_not = [](const scene::Scene &scene) {
     return methods().front()->why_not(scene, make_problem(scene, 0, {.25, .5}));
@@ -333,17 +333,21 @@ TEST(StateBasedOperator, shares_are_parts_of_the_whole)
   const auto whole = state_based_operator(make, one.body, {0, 64}),
              first = state_based_operator(make, one.body, {0, 23}),
              second = state_based_operator(make, one.body, {23, 64});
-  EXPECT_EQ(first.rows.column.size() + second.rows.column.size(), whole.rows.column.size());
-  for (std::size_t row = 0; row < whole.rows.n_rows(); ++row)
+  for (const auto rows : {&method::PartedRows::free, &method::PartedRows::held})
   {
-    const auto &part = row < 46 ? first : second;
-    EXPECT_EQ(part.right_hand_side[row], whole.right_hand_side[row]);
-    const std::size_t from = part.rows.start[row];
-    ASSERT_EQ(part.rows.start[row + 1] - from, whole.rows.start[row + 1] - whole.rows.start[row]);
-    for (std::size_t k = whole.rows.start[row]; k < whole.rows.start[row + 1]; ++k)
+    const algebra::Rows &all = whole.rows.*rows;
+    EXPECT_EQ((first.rows.*rows).column.size() + (second.rows.*rows).column.size(),
+              all.column.size());
+    for (std::size_t row = 0; row < all.n_rows(); ++row)
     {
-      EXPECT_EQ(part.rows.column[from + k - whole.rows.start[row]], whole.rows.column[k]);
-      EXPECT_EQ(part.rows.value[from + k - whole.rows.start[row]], whole.rows.value[k]);
+      const algebra::Rows &part = (row < 46 ? first : second).rows.*rows;
+      const std::size_t from = part.start[row];
+      ASSERT_EQ(part.start[row + 1] - from, all.start[row + 1] - all.start[row]);
+      for (std::size_t k = all.start[row]; k < all.start[row + 1]; ++k)
+      {
+        EXPECT_EQ(part.column[from + k - all.start[row]], all.column[k]);
+        EXPECT_EQ(part.value[from + k - all.start[row]], all.value[k]);
+      }
     }
   }
 }

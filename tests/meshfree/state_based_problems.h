@@ -124,6 +124,12 @@ namespace plumbline::meshfree
     return {material, solution, no_load, {{{Point<2>(-10, 0), Point<2>()}}, {}, true}};
   }
 
+  struct System
+  {
+    algebra::Rows rows;
+    std::vector<double> right_hand_side;
+  };
+
   /// A problem with a rule on a square.
   struct StateBasedCase
   {
@@ -138,8 +144,6 @@ namespace plumbline::meshfree
           square(square), body{&square.cells,
                                {physics::influence_function({{1, -1}}, square.horizon),
                                 problem.material, problem.is_two_point, problem.is_homogeneous},
-                               [&problem](const Point<2> &x, unsigned int c)
-                               { return problem.solution(x)[c]; },
                                problem.damage},
           families(rule(deviatoric()), deviatoric(), square.cells, Backend::fast)
     {
@@ -150,15 +154,22 @@ namespace plumbline::meshfree
       return physics::deviatoric_kernel(body.dilatation.influence, 1);
     }
 
-    ScatteredOperator system(bool keeps_dilatation = false) const
+    System system(bool keeps_dilatation = false) const
     {
       const auto make = [this](std::size_t i, Family &family) { families.make(i, family); };
-      auto result = keeps_dilatation ? state_based_system(make, body)
-                                     : state_based_operator(make, body, {0, square.cells.n_free});
-      for (std::size_t i = 0; i < square.cells.n_free; ++i)
+      const std::size_t n_free = square.cells.n_free;
+      auto made = keeps_dilatation ? state_based_system(make, body)
+                                   : state_based_operator(make, body, {0, n_free});
+      std::vector<double> data;
+      for (std::size_t i = n_free; i < square.cells.size(); ++i)
         for (unsigned int c = 0; c < 2; ++c)
-          result.right_hand_side[2 * i + c] += problem.load(square.cells.nodes[i])[c];
-      return result;
+          data.push_back(problem.solution(square.cells.nodes[i])[c]);
+      method::Vector load(made.rows.free.n_rows());
+      for (std::size_t i = 0; i < n_free; ++i)
+        for (unsigned int c = 0; c < 2; ++c)
+          load[2 * i + c] = problem.load(square.cells.nodes[i])[c];
+      method::subtract_held(made.rows.held, data, load);
+      return {std::move(made.rows.free), {load.begin(), load.end()}};
     }
 
     /// √(h² Σ |u_i - u0|²); dilatations may come after the displacements.
@@ -172,7 +183,7 @@ namespace plumbline::meshfree
     }
   };
 
-  inline algebra::SparseSolution solve(const ScatteredOperator &system,
+  inline algebra::SparseSolution solve(const System &system,
                                        algebra::SparseSolver solver = algebra::SparseSolver::direct,
                                        unsigned int n_components = 1)
   {

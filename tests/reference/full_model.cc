@@ -11,8 +11,8 @@
 namespace
 {
   using namespace plumbline;
+  using analysis::Solution;
   using geometry::Point;
-  using study::Solution;
 
   using Settings = std::vector<scene::Override>;
 
@@ -24,7 +24,7 @@ namespace
     for (const auto &methods : {reference::methods(), meshfree::methods()})
       for (const auto &method : methods)
         if (method->name() == name)
-          return method->solve(scene, make_problem(scene, 0, scene.series[0].levels[0]));
+          return analysis::solve(*method, scene, make_problem(scene, 0, scene.series[0].levels[0]));
     throw std::logic_error(name);
   }
 

@@ -1,8 +1,6 @@
 // Galerkin solutions on meshes: exactness, rates, agreement of spaces, projection, local limit.
 #include "base/error.h"
 #include "geometry/mesh_input.h"
-#include "reference/local/local_limit.h"
-#include "reference/mesh/solution.h"
 #include "reference/method.h"
 #include "study/comparison.h"
 #include "study/reference_estimate.h"
@@ -37,7 +35,7 @@ namespace
       "subsection Kernel\n set type = constant\n set limit = -Laplace\nend\n";
   const std::string no_refinement = "subsection Quadrature\n set tolerance = 0\nend\n";
 
-  std::shared_ptr<const study::Method> method(const std::string &name)
+  std::shared_ptr<const method::Method> method(const std::string &name)
   {
     for (const auto &candidate : reference::methods())
       if (candidate->name() == name)
@@ -49,7 +47,7 @@ namespace
                const std::string &norm = "field L2")
   {
     const auto problem = make_problem(scene, 0, {h, horizon});
-    return study::errors(scene, problem, method(name)->solve(scene, problem), {})
+    return study::errors(scene, problem, analysis::solve(*method(name), scene, problem), {})
         .at(norm + " | exact");
   }
 } // namespace
@@ -76,7 +74,8 @@ TEST(MeshGalerkin, OnSquaresIsTheLatticeSolution)
     const auto on_mesh = make_scene("squares", wave), on_lattice = make_scene("lattice", wave);
     const auto mesh = make_problem(on_mesh, 0, {.125, .3}),
                lattice = make_problem(on_lattice, 0, {.125, .3});
-    const auto a = method(name)->solve(on_mesh, mesh), b = method(name)->solve(on_lattice, lattice);
+    const auto a = analysis::solve(*method(name), on_mesh, mesh),
+               b = analysis::solve(*method(name), on_lattice, lattice);
     EXPECT_LT(study::averages_l2(lattice, a.averages, b.averages), 1e-11) << name;
   }
 }
@@ -117,13 +116,13 @@ TEST(MeshGalerkin, KnowsItsOuterError)
 {
   const auto coarse = make_scene("triangles", wave, no_refinement);
   const auto problem = make_problem(coarse, 0, {.125, .3});
-  const auto first = reference::solve_on_mesh(coarse, problem, true, 1);
+  const auto first = analysis::solve(*method("P1"), coarse, problem);
   EXPECT_EQ(first.diagnostics.n_refinements, 0u);
   EXPECT_FALSE(first.diagnostics.is_outer_error_known);
 
   const auto scene =
       make_scene("triangles", wave, "subsection Quadrature\n set tolerance = 1e-6\nend\n");
-  const auto settled = reference::solve_on_mesh(scene, problem, true, 1);
+  const auto settled = analysis::solve(*method("P1"), scene, problem);
   EXPECT_GT(settled.diagnostics.n_refinements, 0u);
   EXPECT_TRUE(settled.diagnostics.is_outer_error_known);
   EXPECT_LE(settled.diagnostics.outer_change, 1e-6);
@@ -134,7 +133,7 @@ TEST(MeshGalerkin, KnowsItsOuterError)
                  "subsection Quadrature\n set tolerance = 1e-14\n set max refinements = 1\nend\n");
   try
   {
-    reference::solve_on_mesh(impossible, problem, true, 1);
+    analysis::solve(*method("P1"), impossible, problem);
     FAIL() << "a tolerance of 1e-14 was met";
   }
   catch (const NumericalError &failure)
@@ -227,7 +226,7 @@ TEST(LocalLimit, IsTheSolutionOfPoissonsAndNaviersEquation)
     const auto local_error = [&](double h)
     {
       const auto problem = make_problem(scene, 0, {h, h});
-      const auto solution = reference::as_solution(problem, reference::solve_local(problem));
+      const auto solution = analysis::solve(*method("LOCAL"), scene, problem);
       return study::errors(scene, problem, solution, {}).at("field L2 | exact");
     };
     return std::log2(local_error(.125) / local_error(.0625));
@@ -263,7 +262,7 @@ TEST(LocalLimit, HasTheDilatationOfASolid)
   for (const double h : {.125, .0625})
   {
     const auto problem = make_problem(scene, 0, {h, h});
-    const auto solution = reference::as_solution(problem, reference::solve_local(problem));
+    const auto solution = analysis::solve(*method("LOCAL"), scene, problem);
     errors.push_back(study::errors(scene, problem, solution, {}).at("field L2 | exact"));
   }
   EXPECT_NEAR(std::log2(errors[0] / errors[1]), 3, .2);
@@ -287,7 +286,7 @@ TEST(MeshMethods, WriteFieldsForEveryDegree)
     {
       const std::string name = (mesh == "squares" ? "Q" : "P") + degree;
       const auto file = std::filesystem::temp_directory_path() / ("plumbline_" + name + ".vtu");
-      method(name)->solve(scene, problem).write_vtu(file.string());
+      analysis::solve(*method(name), scene, problem).write_vtu(file.string());
       std::ifstream written(file);
       std::string first;
       std::getline(written, first);
@@ -301,7 +300,7 @@ TEST(MeshGalerkin, DoesNotDependOnTheFirstVertexOfRectangles)
 {
   const auto scene = make_scene("squares", wave);
   auto problem = make_problem(scene, 0, {.25, .3});
-  const auto expected = method("Q2")->solve(scene, problem).averages;
+  const auto expected = analysis::solve(*method("Q2"), scene, problem).averages;
   for (unsigned int turn = 1; turn < 4; ++turn)
   {
     geometry::Mesh mesh = *problem.mesh;
@@ -309,18 +308,18 @@ TEST(MeshGalerkin, DoesNotDependOnTheFirstVertexOfRectangles)
       std::rotate(cell.vertex.begin(), cell.vertex.begin() + turn, cell.vertex.end());
     auto turned = problem;
     turned.mesh = std::make_shared<const geometry::Mesh>(mesh);
-    EXPECT_LT(study::averages_l2(problem, method("Q2")->solve(scene, turned).averages, expected),
+    EXPECT_LT(study::averages_l2(problem, analysis::solve(*method("Q2"), scene, turned).averages,
+                                 expected),
               1e-4)
         << turn;
   }
   // refined cells are rectangles like those they come from: entries stay exact
-  auto fine = problem;
+  auto fine = problem; // averaged over the same cells
   fine.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh));
-  const auto refined = reference::solve_on_mesh(scene, fine, true, 2);
+  const auto refined = analysis::solve(*method("Q2"), scene, fine);
   EXPECT_EQ(refined.diagnostics.n_refinements, 0u);
-  const auto half = make_problem(scene, 0, {.125, .3});
-  const auto direct = reference::solve_on_mesh(scene, half, true, 2);
-  EXPECT_LT(study::averages_l2(problem, refined.field.averages(*problem.cells),
-                               direct.field.averages(*problem.cells)),
-            1e-11);
+  auto half = make_problem(scene, 0, {.125, .3});
+  half.cells = problem.cells;
+  const auto direct = analysis::solve(*method("Q2"), scene, half);
+  EXPECT_LT(study::averages_l2(problem, refined.averages, direct.averages), 1e-11);
 }

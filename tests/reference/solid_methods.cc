@@ -15,10 +15,10 @@
 namespace
 {
   using namespace plumbline;
+  using analysis::Solution;
   using geometry::Point;
   using scene::Problem;
   using scene::Scene;
-  using study::Solution;
 
   using Settings = std::vector<scene::Override>;
 
@@ -70,7 +70,7 @@ namespace
     for (const auto &methods : {reference::methods(), meshfree::methods()})
       for (const auto &method : methods)
         if (method->name() == name)
-          return method->solve(scene, problem);
+          return analysis::solve(*method, scene, problem);
     throw std::logic_error(name);
   }
 

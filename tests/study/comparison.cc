@@ -3,6 +3,9 @@
 #include "study/preflight.h"
 #include "study/sweep.h"
 
+#include "method/lattice_discretisation.h"
+#include "tests/study/given_solutions.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,32 +24,23 @@ namespace
   }
 
   /// The exact solution plus a known error, as if a method had found it.
-  class FakeMethod : public Method
+  class FakeMethod : public GivenSolutions
   {
   public:
-    explicit FakeMethod(double rate, double plateau = 0) : rate_(rate), plateau_(plateau) {}
-    std::string name() const override { return "fake"; }
-    std::string family() const override { return "meshfree"; }
-    std::string help() const override { return ""; }
-    std::string why_not(const scene::Scene &, const scene::Problem &problem) const override
+    explicit FakeMethod(double rate, double plateau = 0)
+        : GivenSolutions("fake"), rate_(rate), plateau_(plateau)
     {
-      return problem.lattice ? "" : "it is for lattices";
     }
-    Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
+
+  private:
+    method::Field field(const scene::Scene &scene, const scene::Problem &problem) const override
     {
-      ++n_solves;
       const double error = plateau_ + std::pow(problem.lattice->h(), rate_);
-      const auto cells = comparison_nodes(scene, *problem.lattice, problem.n_components);
-      Solution solution;
-      solution.cost.solve_seconds = 1; // long enough not to be repeated for its time
-      for (int j = 0; j < cells.n[1]; ++j)
-        for (int i = 0; i < cells.n[0]; ++i)
-          if (cells.free(0, i, j))
-          {
-            const auto place = cells.place(0, i, j);
-            solution.nodes.push_back(problem.lattice->point(place[0], place[1]));
-            solution.nodal.push_back(problem.solution->value(solution.nodes.back(), 0) + error);
-          }
+      const auto cells = method::comparison_nodes(scene, *problem.lattice, problem.n_components);
+      method::Field solution;
+      solution.nodes = method::free_points(*problem.lattice, cells);
+      for (const auto &node : solution.nodes)
+        solution.nodal.push_back(problem.solution->value(node, 0) + error);
       solution.averages = cell_averages(*problem.solution, *problem.lattice, cells);
       for (double &average : solution.averages)
         average -= error;
@@ -55,9 +49,7 @@ namespace
       { return exact(x, c) + error; };
       return solution;
     }
-    mutable unsigned int n_solves = 0;
 
-  private:
     double rate_, plateau_;
   };
 } // namespace
@@ -68,7 +60,7 @@ TEST(CellAverages, are_exact_for_polynomials_at_centres_and_vertices)
   {
     const auto scene = make_scene("subsection Methods\n set nodes = " + nodes + "\nend\n");
     const auto problem = make_problem(scene, 0, {.125, .25});
-    const auto cells = comparison_nodes(scene, *problem.lattice, 1);
+    const auto cells = method::comparison_nodes(scene, *problem.lattice, 1);
     const auto averages = cell_averages(*problem.solution, *problem.lattice, cells);
     std::size_t index = 0;
     const auto mean = [](int power, double a, double b)
@@ -90,7 +82,7 @@ TEST(CellAverages, without_a_series_agree_with_those_with_one)
 {
   const auto scene = make_scene();
   const auto problem = make_problem(scene, 0, {.25, .25});
-  const auto cells = comparison_nodes(scene, *problem.lattice, 1);
+  const auto cells = method::comparison_nodes(scene, *problem.lattice, 1);
   scene::Field pointwise = *problem.solution;
   pointwise.series.reset();
   const auto a = cell_averages(*problem.solution, *problem.lattice, cells);
@@ -107,8 +99,8 @@ TEST(CoarsenAverages, of_exact_fine_averages_are_exact_coarse_averages)
     const auto fine_scene = make_scene(holes);
     const auto coarse = make_problem(scene, 0, {.125, .25}),
                fine = make_problem(fine_scene, 0, {.0625, .25});
-    const auto cells = comparison_nodes(scene, *coarse.lattice, 1);
-    const auto fine_cells = comparison_nodes(fine_scene, *fine.lattice, 1);
+    const auto cells = method::comparison_nodes(scene, *coarse.lattice, 1);
+    const auto fine_cells = method::comparison_nodes(fine_scene, *fine.lattice, 1);
     const auto coarsened = coarsen_averages(
         cell_averages(*fine.solution, *fine.lattice, fine_cells), fine_cells, cells);
     EXPECT_LT(
@@ -123,7 +115,7 @@ TEST(Errors, are_those_put_in)
       make_scene("subsection Study\n set norms = nodal Linf, nodal L2, averages Linf, averages "
                  "L2, field Linf, field L2\nend\n");
   const auto problem = make_problem(scene, 0, {.1, .3});
-  const auto solution = FakeMethod(2).solve(scene, problem);
+  const auto solution = analysis::solve(FakeMethod(2), scene, problem);
   const auto reference = std::vector<double>(solution.averages.size(), 0.);
   const auto found = errors(scene, problem, solution, {reference, {}});
   for (const std::string norm :
@@ -179,7 +171,7 @@ TEST(ErrorMap, shows_each_error_in_its_block_and_nothing_outside)
     const auto scene = make_scene(
         holes + "subsection Study\n set h = 0.125\n set decisive error = " + decisive + "\nend\n");
     const auto problem = make_problem(scene, 0, {.125, .25});
-    auto solution = FakeMethod(2).solve(scene, problem);
+    auto solution = analysis::solve(FakeMethod(2), scene, problem);
     const bool is_nodal = decisive[0] == 'n';
     (is_nodal ? solution.nodal : solution.averages)[8 + 2] += 7; // cell (2, 1)
     const auto map = error_map(scene, problem, solution, {});
@@ -202,7 +194,7 @@ TEST(Sweep, judges_checks_and_resumes)
   const auto scene = make_scene(study);
   const auto good = std::make_shared<FakeMethod>(2);
   const Methods methods = {good};
-  const Results results = run_sweep(scene, methods, methods, {});
+  const Results results = run_sweep(scene, methods, methods, at_cost());
   EXPECT_TRUE(results.is_complete);
   EXPECT_EQ(results.runs.size(), 8u);
   ASSERT_EQ(results.trends.size(), 2u);
@@ -217,18 +209,18 @@ TEST(Sweep, judges_checks_and_resumes)
 
   // a sweep stopped after three solves goes on where it was
   unsigned int n_allowed = 3;
-  SweepControl control;
+  SweepControl control = at_cost();
   control.should_stop = [&] { return n_allowed-- == 0; };
   const Results partial = run_sweep(scene, methods, methods, control);
   EXPECT_FALSE(partial.is_complete);
   EXPECT_EQ(partial.runs.size(), 3u);
   good->n_solves = 0;
-  const Results whole = run_sweep(scene, methods, methods, {}, partial);
+  const Results whole = run_sweep(scene, methods, methods, at_cost(), partial);
   EXPECT_EQ(good->n_solves, 5u);
   EXPECT_EQ(whole.runs.size(), 8u);
 
   const Methods stalling = {std::make_shared<FakeMethod>(1, .01)};
-  EXPECT_EQ(run_sweep(scene, stalling, stalling, {}).trends[0].verdict, "not AC");
+  EXPECT_EQ(run_sweep(scene, stalling, stalling, at_cost()).trends[0].verdict, "not AC");
 }
 
 TEST(Sweep, unknown_methods_are_errors_that_name_the_known_ones)

@@ -10,6 +10,8 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include "tests/study/given_solutions.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -89,28 +91,25 @@ namespace
   }
 
   /// A method that errs by outer quadrature alone: a part of the solution at every h.
-  class QuadratureFault : public Method
+  class QuadratureFault : public GivenSolutions
   {
   public:
-    explicit QuadratureFault(double part) : part_(part) {}
-    std::string name() const override { return "fault"; }
-    std::string family() const override { return "reference"; }
-    std::string help() const override { return ""; }
-    std::string why_not(const scene::Scene &, const scene::Problem &) const override { return {}; }
-    Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
+    explicit QuadratureFault(double part) : GivenSolutions("fault", "reference"), part_(part) {}
+
+  private:
+    method::Field field(const scene::Scene &scene, const scene::Problem &problem) const override
     {
-      Solution solution;
+      method::Field solution;
       solution.averages = cell_averages(*problem.solution, scene, problem);
       for (double &average : solution.averages)
         average *= 1 + part_;
       solution.value =
           [u = problem.solution->value, part = part_](const dealii::Point<2> &x, unsigned int c)
       { return (1 + part) * u(x, c); };
-      solution.diagnostics.outer_change = part_;
       return solution;
     }
+    double outer_change() const override { return part_; }
 
-  private:
     double part_;
   };
 } // namespace
@@ -204,12 +203,12 @@ TEST(Estimates, of_a_mesh_file_hold_for_its_polygon_and_say_so)
   const auto scene = make_scene(with(rough, settings));
   const auto problem = make_problem(scene, 0, {.25, .25});
   const auto method = galerkin("DGQ0");
-  const Solution solution = method->solve(scene, problem);
+  const Solution solution = analysis::solve(*method, scene, problem);
   EXPECT_TRUE(estimate_error(scene, problem, 0, *method, solution, false).is_of_polygon);
   const auto boxes = make_scene(with(rough, {{"Domain/mesh", "squares"}}));
   const auto same = make_problem(boxes, 0, {.25, .25});
-  EXPECT_FALSE(
-      estimate_error(boxes, same, 0, *method, method->solve(boxes, same), false).is_of_polygon);
+  EXPECT_FALSE(estimate_error(boxes, same, 0, *method, analysis::solve(*method, boxes, same), false)
+                   .is_of_polygon);
   std::filesystem::remove(file);
 }
 
@@ -264,7 +263,7 @@ TEST(Estimates, include_what_outer_quadrature_errs_whatever_the_size_of_the_solu
     const auto scene =
         make_scene({{"Problem/solution", size + "*(2 + x*y)"}, {"Problem/load", "1"}});
     const auto problem = make_problem(scene, 0, {.125, .25});
-    const Solution solution = method.solve(scene, problem);
+    const Solution solution = analysis::solve(method, scene, problem);
     const auto exact = cell_averages(*problem.solution, scene, problem);
     const double error = averages_l2(problem, solution.averages, exact);
     const auto found = estimate_error(scene, problem, 0, method, solution, false);

@@ -1,4 +1,4 @@
-#include "study/limit_proof.h"
+#include "method/limit_proof.h"
 
 #include "meshfree/method.h"
 #include "reference/method.h"
@@ -13,9 +13,9 @@ using Answer = study::LimitProof::Answer;
 
 namespace
 {
-  study::Methods all()
+  method::Methods all()
   {
-    study::Methods methods = meshfree::methods();
+    method::Methods methods = meshfree::methods();
     for (const auto &method : reference::methods())
       methods.push_back(method);
     return methods;
@@ -30,7 +30,8 @@ namespace
   study::LimitProof proof(const scene::Scene &scene, const std::string &name)
   {
     const scene::Problem problem = make_problem(scene, 0, scene.series.front().levels.front());
-    return study::find_method(all(), name, "test")->solve(scene, problem).diagnostics.limit;
+    return analysis::solve(*study::find_method(all(), name, "test"), scene, problem)
+        .diagnostics.limit;
   }
 
   const std::string harmonic = "subsection Problem\n set solution = exp(x)*cos(y)\nend\n";
@@ -138,7 +139,7 @@ TEST(RoundOff, grows_with_the_offset_and_size_does_not)
         scene_of("subsection Problem\n" + fields + "\nend\n", {{"Study/decisive error", error}});
     const scene::Problem problem = make_problem(scene, 0, scene.series.front().levels.front());
     const auto method = study::find_method(all(), "FA", "test");
-    const study::Solution solution = method->solve(scene, problem);
+    const analysis::Solution solution = analysis::solve(*method, scene, problem);
     return std::pair(study::variation(problem, solution),
                      study::round_off_error(scene, problem, solution));
   };
@@ -165,7 +166,7 @@ TEST(RoundOff, a_constant_on_a_lattice_costs_no_more_than_its_own_rounding)
                                 {{"Study/decisive error", "nodal Linf | local"}});
     const scene::Problem problem = make_problem(scene, 0, scene.series.front().levels.front());
     const auto method = study::find_method(all(), name, "test");
-    return method->solve(scene, problem).nodal;
+    return analysis::solve(*method, scene, problem).nodal;
   };
   for (const char *name : {"FA", "Q1", "DGQ1"})
   {

@@ -35,8 +35,8 @@ namespace
     for (const std::string &name : scene.methods)
     {
       const auto method = find_method(available, name, "Methods/names");
-      (void)method->solve(scene, problem); // libraries make their tables
-      const Solution solution = method->solve(scene, problem);
+      (void)analysis::solve(*method, scene, problem); // libraries make their tables
+      const Solution solution = analysis::solve(*method, scene, problem);
       const double ratio =
           method->expected_bytes(scene, size) / static_cast<double>(solution.cost.peak_bytes);
       EXPECT_GT(ratio, .5) << name << ", of " << solution.cost.peak_bytes;

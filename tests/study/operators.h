@@ -12,6 +12,9 @@
 /// Operators of methods on small scenes.
 namespace plumbline::study
 {
+  using analysis::measure;
+  using method::DiscreteOperator;
+
   inline scene::Scene make_scene(bool is_tensor, const std::string &more = "")
   {
     return scene::parse_scene(
@@ -33,6 +36,7 @@ namespace plumbline::study
       methods.push_back(method);
     const auto method = std::find_if(methods.begin(), methods.end(),
                                      [&](const auto &one) { return one->name() == name; });
-    return *(*method)->discrete_operator(scene, scene::make_problem(scene, 0, level));
+    const scene::Problem problem = scene::make_problem(scene, 0, level);
+    return (*method)->discretise(scene, problem)->matrix();
   }
 } // namespace plumbline::study

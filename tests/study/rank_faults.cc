@@ -5,6 +5,8 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include "tests/study/given_solutions.h"
+
 #include <gtest/gtest.h>
 
 #include <new>
@@ -42,19 +44,20 @@ namespace
   }
 
   /// Solves nothing, and fails as it is told on the last rank.
-  class FaultyMethod : public study::Method
+  class FaultyMethod : public study::GivenSolutions
   {
   public:
-    explicit FaultyMethod(std::function<void()> fail) : fail_(std::move(fail)) {}
-    std::string name() const override { return "FAULTY"; }
-    std::string family() const override { return "meshfree"; }
-    std::string help() const override { return ""; }
-    std::string why_not(const scene::Scene &, const scene::Problem &) const override { return ""; }
-    study::Solution solve(const scene::Scene &, const scene::Problem &problem) const override
+    explicit FaultyMethod(std::function<void()> fail)
+        : GivenSolutions("FAULTY"), fail_(std::move(fail))
+    {
+    }
+
+  private:
+    method::Field field(const scene::Scene &, const scene::Problem &problem) const override
     {
       if (is_last())
         fail_();
-      study::Solution solution;
+      method::Field solution;
       const std::size_t n = problem.lattice->n_cells()[0] * problem.lattice->n_cells()[1];
       solution.averages.assign(n, 0);
       solution.nodal.assign(n, 0);
@@ -63,7 +66,6 @@ namespace
       return solution;
     }
 
-  private:
     std::function<void()> fail_;
   };
 
@@ -74,7 +76,7 @@ namespace
                      "subsection Methods\n set names = FAULTY\nend\n"
                      "subsection Study\n set h = 0.1, 0.05\n set norms = averages L2\n"
                      " set decisive error = averages L2 | exact\nend\n");
-    const study::Methods methods = {std::make_shared<FaultyMethod>(fail)};
+    const method::Methods methods = {std::make_shared<FaultyMethod>(fail)};
     return study::run_sweep(scene, methods, methods, {}, {});
   }
 } // namespace

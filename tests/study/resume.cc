@@ -6,6 +6,8 @@
 #include "study/comparison.h"
 #include "study/preflight.h"
 
+#include "tests/study/given_solutions.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -87,17 +89,15 @@ TEST(SweepResume, keeps_the_estimates_of_finished_levels)
 namespace
 {
   /// Its averages are no numbers.
-  class BrokenMethod : public Method
+  class BrokenMethod : public GivenSolutions
   {
   public:
-    std::string name() const override { return "broken"; }
-    std::string family() const override { return "meshfree"; }
-    std::string help() const override { return ""; }
-    std::string why_not(const scene::Scene &, const scene::Problem &) const override { return {}; }
-    Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
+    BrokenMethod() : GivenSolutions("broken") {}
+
+  private:
+    method::Field field(const scene::Scene &scene, const scene::Problem &problem) const override
     {
-      Solution solution;
-      solution.cost.solve_seconds = 1; // long enough not to be repeated for its time
+      method::Field solution;
       solution.averages.assign(comparison_points(scene, problem).size(),
                                std::numeric_limits<double>::quiet_NaN());
       return solution;
@@ -116,7 +116,7 @@ TEST(SweepErrors, that_are_no_numbers_are_a_failure_and_are_not_stored)
                                                  {"Solver/operator", "sparse"},
                                                  {"Study/m", "2"},
                                                  {"Study/h", "0.25"}});
-  const Results results = run_sweep(scene, methods, methods, {});
+  const Results results = run_sweep(scene, methods, methods, at_cost());
   ASSERT_EQ(results.runs.size(), 1u);
   EXPECT_NE(results.runs[0].failure.find("not a finite number"), std::string::npos)
       << results.runs[0].failure;

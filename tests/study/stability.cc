@@ -1,9 +1,9 @@
 // The measures tell sound operators from unsound ones, on both sides.
 #include "study/stability.h"
+#include "meshfree/discretisations.h"
 #include "meshfree/lattice/stencil.h"
 #include "meshfree/rules/family_statistics.h"
-#include "meshfree/solutions.h"
-#include "study/lattice_solve.h"
+#include "method/lattice_discretisation.h"
 #include "tests/study/operators.h"
 
 #include <Eigen/QR>
@@ -56,9 +56,10 @@ namespace
     const auto bonds = meshfree::lattice_bonds(recipe, kernel, h, geometry::Backend::fast);
     const geometry::Lattice lattice({{{{0, 0}, {1, 1}}}, {}}, h);
     const auto nodes = free_nodes(lattice, {{.5, false, 0}}, kernel.n_components());
-    auto matrix = show_on_lattice(lattice, nodes, meshfree::lattice_operator(kernel, bonds), {1});
-    meshfree::describe_weights(bonds.family, bonds.fit, matrix.diagnostics);
-    return measure(matrix);
+    Stability found =
+        measure(method::show(lattice, nodes, meshfree::lattice_operator(kernel, bonds), {1}));
+    meshfree::describe_weights(bonds.family, bonds.fit, found.diagnostics);
+    return found;
   }
 
   StabilityRow row(double m, double h, double smallest, unsigned int n_negative = 0)
@@ -99,7 +100,8 @@ TEST(Stability, the_barrier_bounds_the_inverse_where_the_printed_lemma_does_not)
     const scene::Level level{.1, horizon};
     const auto matrix = operator_of("IPA-AC", scene, level);
     const Stability found = measure(matrix);
-    const double barrier = check_consistency(matrix, scene::make_problem(scene, 0, level)).barrier;
+    const double barrier =
+        analysis::check_consistency(matrix, scene::make_problem(scene, 0, level)).barrier;
     EXPECT_TRUE(found.is_norm_exact);
     EXPECT_LT(found.inverse_norm, barrier) << horizon;
     EXPECT_GT(found.inverse_norm, horizon == .8 ? .247 : 0);
@@ -118,7 +120,8 @@ TEST(Stability, the_barrier_of_a_rectangle_is_that_of_its_narrow_side)
                                                "\n set boxes = " + box + "\nend\n");
       const scene::Level level{.125, .25};
       const auto matrix = operator_of("IPA-AC", scene, level);
-      const double found = check_consistency(matrix, scene::make_problem(scene, 0, level)).barrier;
+      const double found =
+          analysis::check_consistency(matrix, scene::make_problem(scene, 0, level)).barrier;
       EXPECT_LT(measure(matrix).inverse_norm, found) << mesh << ' ' << box;
       return found;
     };
@@ -135,7 +138,8 @@ TEST(Stability, finds_the_degree_that_rules_reproduce)
   {
     const auto scene = make_scene(is_tensor, more);
     const scene::Level level{.0625, .1875};
-    return check_consistency(operator_of(name, scene, level), scene::make_problem(scene, 0, level))
+    return analysis::check_consistency(operator_of(name, scene, level),
+                                       scene::make_problem(scene, 0, level))
         .degree;
   };
   const std::string moved = "subsection Domain\n set mesh = squares\nend\n"

@@ -8,6 +8,8 @@
 #include "study/preflight.h"
 #include "study/saving.h"
 
+#include "tests/study/given_solutions.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -114,17 +116,15 @@ namespace
 {
   /// Nodes with the values 1, 2, ..., from the last one to the first in the full model, where the
   /// value 2 is off by a given defect.
-  class BackwardMethod : public Method
+  class BackwardMethod : public GivenSolutions
   {
   public:
-    explicit BackwardMethod(double defect) : defect_(defect) {}
-    std::string name() const override { return "backward"; }
-    std::string family() const override { return "meshfree"; }
-    std::string help() const override { return ""; }
-    std::string why_not(const scene::Scene &, const scene::Problem &) const override { return {}; }
-    Solution solve(const scene::Scene &scene, const scene::Problem &) const override
+    explicit BackwardMethod(double defect) : GivenSolutions("backward"), defect_(defect) {}
+
+  private:
+    method::Field field(const scene::Scene &scene, const scene::Problem &) const override
     {
-      Solution solution;
+      method::Field solution;
       solution.nodes = {{.25, .25}, {.75, .25}, {.25, .75}, {.75, .75}};
       solution.nodal = {1, 2, 3, 4};
       if (scene.is_full_model)
@@ -136,7 +136,6 @@ namespace
       return solution;
     }
 
-  private:
     double defect_;
   };
 } // namespace
@@ -149,7 +148,7 @@ TEST(SweepSavings, compare_values_at_the_same_place_in_whatever_order_nodes_come
   for (const double defect : {0., .5})
   {
     const BackwardMethod method(defect);
-    const Solution solution = method.solve(scene, scene::make_problem(scene, 0, level));
+    const Solution solution = analysis::solve(method, scene, scene::make_problem(scene, 0, level));
     const auto saving = measure_saving(scene, 0, level, method, solution);
     ASSERT_TRUE(saving);
     EXPECT_EQ(saving->difference, defect / 4);
@@ -166,23 +165,19 @@ TEST(SweepSavings, compare_values_at_the_same_place_in_whatever_order_nodes_come
 
 namespace
 {
-  /// Each level costs four times the one before, as it says.
-  class DearMethod : public Method
+  /// Zero everywhere.
+  class DearMethod : public GivenSolutions
   {
   public:
-    std::string name() const override { return "dear"; }
-    std::string family() const override { return "meshfree"; }
-    std::string help() const override { return ""; }
-    std::string why_not(const scene::Scene &, const scene::Problem &) const override { return {}; }
-    Solution solve(const scene::Scene &scene, const scene::Problem &problem) const override
+    DearMethod() : GivenSolutions("dear") {}
+
+  private:
+    method::Field field(const scene::Scene &scene, const scene::Problem &problem) const override
     {
-      ++n_solves;
-      Solution solution;
-      solution.cost.solve_seconds = std::pow(.1 / problem.h, 2);
+      method::Field solution;
       solution.averages.assign(comparison_points(scene, problem).size(), 0.);
       return solution;
     }
-    mutable unsigned int n_solves = 0;
   };
 } // namespace
 
@@ -197,7 +192,9 @@ TEST(SweepBudget, leaves_out_what_the_levels_before_say_is_too_dear)
                                                  {"Study/norms", "averages L2"},
                                                  {"Study/decisive error", "averages L2 | exact"},
                                                  {"Study/h", "0.1, 0.05, 0.025, 0.0125"}});
-  SweepControl control;
+  // each level costs four times the one before
+  SweepControl control =
+      at_cost([](const scene::Problem &problem) { return std::pow(.1 / problem.h, 2); });
   control.budget = 5; // levels of 1 and 4 seconds; the next ones would take 16 and 64
   const Results results = run_sweep(scene, methods, methods, control);
   EXPECT_EQ(results.runs.size(), 2u);

@@ -1,10 +1,11 @@
-#include "reference/lattice/solution.h"
+#include "reference/lattice/discretisation.h"
 
+#include "method/lattice_discretisation.h"
+#include "method/limit_proof.h"
 #include "reference/geometry_check.h"
 #include "reference/lattice/dilatation.h"
+#include "reference/lattice/field.h"
 #include "reference/lattice/stencil.h"
-#include "study/lattice_solve.h"
-#include "study/limit_proof.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -107,11 +108,11 @@ namespace plumbline::reference
                                            shapes));
     }
 
-    /// Masses of the families along an axis, the cell's length being 1.
-    std::vector<double> axis_masses(const AxisShapes &shapes)
+    /// Masses of all families, from those along an axis.
+    std::vector<double> masses(const AxisShapes &shapes, double h)
     {
       const dealii::QGauss<1> gauss(shapes.degree() + 1);
-      std::vector<double> squares(shapes.n_local());
+      std::vector<double> squares(shapes.n_local()), along(shapes.families().size()), result;
       double sum = 0;
       for (unsigned int a = 0; a < shapes.n_local(); ++a)
         for (unsigned int q = 0; q < gauss.size(); ++q)
@@ -120,82 +121,95 @@ namespace plumbline::reference
           squares[a] += part;
           sum += part;
         }
-      std::vector<double> masses(shapes.families().size());
-      for (unsigned int s = 0; s < masses.size(); ++s)
+      for (unsigned int s = 0; s < along.size(); ++s)
         for (const auto &part : shapes.restrictions(s))
-          masses[s] += squares[part.local] / sum;
-      return masses;
+          along[s] += squares[part.local] / sum;
+      for (const double b : along)
+        for (const double a : along)
+          result.push_back(a * b * h * h);
+      return result;
     }
+
+    class GalerkinOnLattice : public method::LatticeDiscretisation
+    {
+    public:
+      GalerkinOnLattice(const scene::Scene &scene, const scene::Problem &problem,
+                        const AxisShapes &shapes)
+          : LatticeDiscretisation(
+                scene, problem,
+                free_nodes(*problem.lattice, shapes.families(), problem.n_components),
+                make_stencil(scene, problem, shapes), masses(shapes, problem.lattice->h())),
+            shapes_(shapes), horizon_(problem.horizon()),
+            n_geometry_checks_(scene.n_geometry_checks), seed_(scene.seed),
+            cells_(method::comparison_nodes(scene, lattice(), problem.n_components))
+      {
+        if (shapes.degree() == 0)
+          limit_ = method::prove_by_moments(scene, problem, stencil(), problem.h * problem.h);
+        else
+          limit_ = method::prove_galerkin(scene, problem, {});
+      }
+
+      method::DiscreteOperator matrix() const override
+      {
+        method::DiscreteOperator result = LatticeDiscretisation::matrix();
+        result.is_collocated = false;
+        return result;
+      }
+
+      method::Diagnostics diagnostics() const override
+      {
+        method::Diagnostics result;
+        result.n_neighbours =
+            static_cast<unsigned int>(stencil().n_entries() / stencil().n_blocks() - 1);
+        result.limit = limit_;
+        const auto check = check_geometry(horizon_, lattice().h(), n_geometry_checks_, seed_);
+        result.n_geometry_checks = check.n_checked;
+        result.geometry_difference = check.worst_difference;
+        return result;
+      }
+
+    private:
+      Vector load(const scene::Problem &problem) const override
+      {
+        return load_vector(problem, shapes_, nodes());
+      }
+
+      method::Field field(std::vector<double> values) const override
+      {
+        const unsigned int nc = nodes().n_components;
+        const auto field =
+            std::make_shared<const LatticeField>(lattice(), shapes_, nc, std::move(values));
+        const auto local = [&](unsigned int family)
+        { return shapes_.is_continuous() && family == 0 ? 0 : family; };
+        const auto n_axis = static_cast<unsigned int>(nodes().axis.size());
+        method::Field result;
+        result.nodes = method::free_points(lattice(), nodes());
+        for (unsigned int s = 0; s < nodes().n_families(); ++s)
+          for (int j = 0; j < nodes().n[1]; ++j)
+            for (int i = 0; i < nodes().n[0]; ++i)
+              if (nodes().free(s, i, j))
+                for (unsigned int c = 0; c < nc; ++c)
+                  result.nodal.push_back(
+                      field->local(c, i, j, local(s % n_axis), local(s / n_axis)));
+        result.averages = field->averages(cells_);
+        result.value = [field](const Point<2> &x, unsigned int c) { return field->value(x, c); };
+        result.write_vtu = [field](const std::string &file)
+        { reference::write_vtu(*field, file); };
+        return result;
+      }
+
+      AxisShapes shapes_;
+      double horizon_;
+      unsigned int n_geometry_checks_, seed_;
+      NodeSet cells_; ///< to compare over
+      method::LimitProof limit_;
+    };
   } // namespace
 
-  LatticeSolution solve_lattice(const scene::Scene &scene, const scene::Problem &problem,
-                                const AxisShapes &shapes)
+  std::unique_ptr<method::Discretisation> discretise_on_lattice(const scene::Scene &scene,
+                                                                const scene::Problem &problem,
+                                                                const AxisShapes &shapes)
   {
-    const base::MemoryGauge memory;
-    const base::CpuTimer timer;
-    const NodeSet nodes = free_nodes(*problem.lattice, shapes.families(), problem.n_components);
-    const algebra::Stencil stencil = make_stencil(scene, problem, shapes);
-    const double stencil_seconds = timer.seconds();
-    study::LatticeSolve solved = study::solve_on_lattice(
-        scene, problem, nodes, stencil, [&] { return load_vector(problem, shapes, nodes); });
-    if (shapes.degree() == 0)
-      solved.diagnostics.limit =
-          study::prove_by_moments(scene, problem, stencil, problem.h * problem.h);
-    LatticeField field(*problem.lattice, shapes, problem.n_components, std::move(solved.values));
-    solved.cost.setup_seconds += stencil_seconds;
-    solved.cost.peak_bytes = memory.peak_bytes();
-    return {std::move(field), nodes, solved.cost, solved.diagnostics};
-  }
-
-  study::Solution lattice_solution(const scene::Scene &scene, const scene::Problem &problem,
-                                   const AxisShapes &shapes)
-  {
-    auto result = std::make_shared<const LatticeSolution>(solve_lattice(scene, problem, shapes));
-    const LatticeField &field = result->field;
-    const NodeSet &nodes = result->nodes;
-
-    study::Solution solution;
-    solution.cost = result->cost;
-    solution.diagnostics = result->diagnostics;
-    const auto check = check_geometry(problem.horizon(), problem.lattice->h(),
-                                      scene.n_geometry_checks, scene.seed);
-    solution.diagnostics.n_geometry_checks = check.n_checked;
-    solution.diagnostics.geometry_difference = check.worst_difference;
-
-    for (unsigned int s = 0; s < nodes.n_families(); ++s)
-      for (int j = 0; j < nodes.n[1]; ++j)
-        for (int i = 0; i < nodes.n[0]; ++i)
-          if (nodes.free(s, i, j))
-          {
-            const Point<2> place = nodes.place(s, i, j);
-            solution.nodes.push_back(problem.lattice->point(place[0], place[1]));
-            const auto local = [&](unsigned int family)
-            { return field.shapes().is_continuous() && family == 0 ? 0 : family; };
-            const auto n_axis = static_cast<unsigned int>(nodes.axis.size());
-            for (unsigned int c = 0; c < nodes.n_components; ++c)
-              solution.nodal.push_back(field.local(c, i, j, local(s % n_axis), local(s / n_axis)));
-          }
-    solution.averages =
-        field.averages(study::comparison_nodes(scene, *problem.lattice, problem.n_components));
-    solution.value = [result](const Point<2> &x, unsigned int c)
-    { return result->field.value(x, c); };
-    solution.write_vtu = [result](const std::string &file) { write_vtu(result->field, file); };
-    return solution;
-  }
-
-  study::DiscreteOperator lattice_discrete(const scene::Scene &scene, const scene::Problem &problem,
-                                           const AxisShapes &shapes)
-  {
-    const geometry::Lattice &lattice = *problem.lattice;
-    std::vector<double> mass;
-    const auto masses = axis_masses(shapes);
-    for (const double b : masses)
-      for (const double a : masses)
-        mass.push_back(a * b * lattice.h() * lattice.h());
-    auto result = study::show_on_lattice(
-        lattice, free_nodes(lattice, shapes.families(), problem.n_components),
-        make_stencil(scene, problem, shapes), mass);
-    result.is_collocated = false;
-    return result;
+    return std::make_unique<GalerkinOnLattice>(scene, problem, shapes);
   }
 } // namespace plumbline::reference

@@ -1,15 +1,13 @@
-#include "study/lattice_solve.h"
+#include "method/lattice_discretisation.h"
 
-#include "algebra/solve.h"
 #include "algebra/sparse.h"
-#include "base/error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <utility>
 
-namespace plumbline::study
+namespace plumbline::method
 {
   namespace
   {
@@ -55,7 +53,7 @@ namespace plumbline::study
     }
 
     /// Solution and data together on positions -1 ... n.
-    std::vector<double> merge(const geometry::NodeSet &nodes, const algebra::Vector &solution,
+    std::vector<double> merge(const geometry::NodeSet &nodes, const Vector &solution,
                               const CollarData &data, int margin)
     {
       std::vector<double> values;
@@ -75,42 +73,57 @@ namespace plumbline::study
     }
   } // namespace
 
-  LatticeSolve solve_on_lattice(const scene::Scene &scene, const scene::Problem &problem,
-                                const geometry::NodeSet &nodes, const algebra::Stencil &stencil,
-                                const std::function<algebra::Vector()> &load)
+  LatticeDiscretisation::LatticeDiscretisation(const scene::Scene &scene,
+                                               const scene::Problem &problem,
+                                               geometry::NodeSet nodes, algebra::Stencil stencil,
+                                               std::vector<double> mass)
+      : lattice_(*problem.lattice), nodes_(std::move(nodes)), stencil_(std::move(stencil)),
+        mass_(std::move(mass)),
+        backend_(algebra::operator_backend_from_name(scene.operator_backend))
   {
-    if (const double defect = stencil.symmetry_defect(); defect > 1e-12)
-    {
-      std::ostringstream message;
-      message << "the operator is not symmetric (defect " << defect
-              << "), so conjugate gradients would give a wrong solution";
-      throw NumericalError(message.str());
-    }
-    LatticeSolve result;
-    base::CpuTimer timer;
-    const auto matrix =
-        make_operator(stencil, nodes, algebra::operator_backend_from_name(scene.operator_backend));
-    const algebra::SchwarzPreconditioner preconditioner(stencil, nodes,
-                                                        maximal_rectangles(*problem.lattice));
-    result.cost.setup_seconds = timer.seconds();
+  }
 
-    timer.restart();
-    const int margin = stencil.reach();
-    const auto data = collar_data(problem, nodes, margin);
-    algebra::Vector right_hand_side = load();
-    right_hand_side -= collar_action(stencil, nodes, data.values);
-    algebra::Vector solution(nodes.size());
-    const auto solved = algebra::solve(*matrix, preconditioner, solution, right_hand_side,
-                                       scene.tolerance, scene.max_iterations);
-    result.values = merge(nodes, solution, data, margin);
-    result.cost.solve_seconds = timer.seconds();
-    result.cost.n_unknowns = nodes.n_unknowns();
-    result.cost.n_bonds = matrix->n_bonds();
-    result.cost.n_iterations = solved.n_iterations;
-    result.diagnostics.n_neighbours =
-        static_cast<unsigned int>(stencil.n_entries() / stencil.n_blocks() - 1);
-    result.diagnostics.relative_residual = solved.relative_residual;
-    result.diagnostics.operator_backend = matrix->backend();
+  CaseData LatticeDiscretisation::data(const scene::Problem &problem) const
+  {
+    const int margin = stencil_.reach();
+    const auto around = std::make_shared<const CollarData>(collar_data(problem, nodes_, margin));
+    CaseData result;
+    result.load = load(problem);
+    result.load -= collar_action(stencil_, nodes_, around->values);
+    result.field = [this, around, margin](const Vector &u)
+    { return field(merge(nodes_, u, *around, margin)); };
+    return result;
+  }
+
+  std::unique_ptr<algebra::LinearSystem> LatticeDiscretisation::tangent() const
+  {
+    return std::make_unique<algebra::StencilSystem>(stencil_, nodes_, maximal_rectangles(lattice_),
+                                                    backend_);
+  }
+
+  DiscreteOperator show(const geometry::Lattice &lattice, const geometry::NodeSet &nodes,
+                        const algebra::Stencil &stencil, const std::vector<double> &mass)
+  {
+    constexpr std::size_t most_entries = 20000000;
+    DiscreteOperator result;
+    result.n_components = nodes.n_components;
+    result.nodes = free_points(lattice, nodes);
+    for (unsigned int s = 0; s < nodes.n_families(); ++s)
+      for (int j = 0; j < nodes.n[1]; ++j)
+        for (int i = 0; i < nodes.n[0]; ++i)
+          if (nodes.free(s, i, j))
+            result.mass.push_back(mass[s]);
+    if (stencil.n_entries() / stencil.n_blocks() * nodes.n_unknowns() <= most_entries)
+      result.rows = algebra::assemble(stencil, nodes);
+    if (const int reach = stencil.reach(); stencil.n_blocks() == 1)
+    {
+      for (int k2 = -reach; k2 <= reach; ++k2)
+        for (int k1 = -reach; k1 <= reach; ++k1)
+          result.second_moment -= stencil(0, 0, k1, k2) * std::pow(k1 * lattice.h(), 2) / mass[0];
+      result.reach = reach * lattice.h();
+    }
+    result.action = algebra::restrict(make_operator(stencil, nodes), nodes.size(),
+                                      algebra::free_positions(nodes));
     return result;
   }
 
@@ -128,29 +141,18 @@ namespace plumbline::study
            std::pow((2 * reach + 1) * n_blocks, 2) * value + 3.2 * reach * reach * bond;
   }
 
-  DiscreteOperator show_on_lattice(const geometry::Lattice &lattice, const geometry::NodeSet &nodes,
-                                   const algebra::Stencil &stencil, const std::vector<double> &mass)
+  std::vector<dealii::Point<2>> free_points(const geometry::Lattice &lattice,
+                                            const geometry::NodeSet &nodes)
   {
-    constexpr std::size_t most_entries = 20000000;
-    DiscreteOperator result;
-    result.n_components = nodes.n_components;
+    std::vector<dealii::Point<2>> result;
     for (unsigned int s = 0; s < nodes.n_families(); ++s)
       for (int j = 0; j < nodes.n[1]; ++j)
         for (int i = 0; i < nodes.n[0]; ++i)
           if (nodes.free(s, i, j))
           {
             const auto place = nodes.place(s, i, j);
-            result.nodes.push_back(lattice.point(place[0], place[1]));
-            result.mass.push_back(mass[s]);
+            result.push_back(lattice.point(place[0], place[1]));
           }
-    if (stencil.n_entries() / stencil.n_blocks() * nodes.n_unknowns() <= most_entries)
-      result.rows = algebra::assemble(stencil, nodes);
-    for (int k2 = -stencil.reach(); k2 <= stencil.reach() && stencil.n_blocks() == 1; ++k2)
-      for (int k1 = -stencil.reach(); k1 <= stencil.reach(); ++k1)
-        result.second_moment -= stencil(0, 0, k1, k2) * std::pow(k1 * lattice.h(), 2) / mass[0];
-    result.reach = stencil.n_blocks() == 1 ? stencil.reach() * lattice.h() : 0;
-    result.action = algebra::restrict(make_operator(stencil, nodes), nodes.size(),
-                                      algebra::free_positions(nodes));
     return result;
   }
-} // namespace plumbline::study
+} // namespace plumbline::method

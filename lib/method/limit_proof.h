@@ -2,11 +2,11 @@
 
 #include "algebra/stencil.h"
 #include "scene/problem.h"
-#include "study/results.h"
+#include "method/diagnostics.h"
 
 // What is known of a method's limit without solving for any field. A field may hide what is wrong:
 // a harmonic one has no second moment to miss.
-namespace plumbline::study
+namespace plumbline::method
 {
   /// The operator of the nodes of a lattice, all alike: L_h u_a(0) = Σ_k A_ab(k) u_b(k h) / mass.
   /// Where Σ A = Σ A k = 0 and -½ Σ A_ab k_c k_d h² / mass is the local operator's tensor T_abcd
@@ -28,4 +28,4 @@ namespace plumbline::study
   /// error.
   LimitProof prove_galerkin(const scene::Scene &scene, const scene::Problem &problem,
                             const Diagnostics &diagnostics);
-} // namespace plumbline::study
+} // namespace plumbline::method

@@ -1,4 +1,4 @@
-#include "study/stability.h"
+#include "analysis/stability.h"
 
 #include "algebra/sparse_system.h"
 #include "base/error.h"
@@ -9,11 +9,12 @@
 #include <cmath>
 #include <limits>
 
-namespace plumbline::study
+namespace plumbline::analysis
 {
   namespace
   {
     using algebra::Rows;
+    using method::DiscreteOperator;
     using Values = std::vector<double>;
 
     /// y = A x.
@@ -176,11 +177,10 @@ namespace plumbline::study
     }
   } // namespace
 
-  Stability measure(const DiscreteOperator &matrix)
+  Stability measure(const method::DiscreteOperator &matrix)
   {
     Stability result;
     result.n_unknowns = matrix.size();
-    result.diagnostics = matrix.diagnostics;
     const auto spectrum = algebra::spectrum(symmetric_part(matrix), matrix.size());
     result.smallest = spectrum.smallest;
     result.largest = spectrum.largest;
@@ -303,7 +303,7 @@ namespace plumbline::study
     }
   } // namespace
 
-  Consistency check_consistency(const DiscreteOperator &matrix, const scene::Problem &problem)
+  Consistency check_consistency(const method::DiscreteOperator &matrix, const scene::Problem &problem)
   {
     Consistency result;
     const double size = physics::operator_scale(problem.kernel);
@@ -318,4 +318,4 @@ namespace plumbline::study
       result.barrier = barrier(matrix, problem, is_inner);
     return result;
   }
-} // namespace plumbline::study
+} // namespace plumbline::analysis

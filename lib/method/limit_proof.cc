@@ -1,4 +1,4 @@
-#include "study/limit_proof.h"
+#include "method/limit_proof.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <iomanip>
 #include <sstream>
 
-namespace plumbline::study
+namespace plumbline::method
 {
   namespace
   {
@@ -120,4 +120,4 @@ namespace plumbline::study
     }
     return proof;
   }
-} // namespace plumbline::study
+} // namespace plumbline::method

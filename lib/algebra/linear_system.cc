@@ -1,0 +1,72 @@
+#include "algebra/linear_system.h"
+
+#include "algebra/solve.h"
+#include "base/error.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace plumbline::algebra
+{
+  namespace
+  {
+    const Stencil &symmetric(const Stencil &stencil)
+    {
+      constexpr double rounding = 1e-12;
+      if (const double defect = stencil.symmetry_defect(); defect > rounding)
+      {
+        std::ostringstream message;
+        message << "the operator is not symmetric (defect " << defect
+                << "), so conjugate gradients would give a wrong solution";
+        throw NumericalError(message.str());
+      }
+      return stencil;
+    }
+  } // namespace
+
+  StencilSystem::StencilSystem(const Stencil &stencil, const geometry::NodeSet &nodes,
+                               const std::vector<geometry::CellRange> &rectangles,
+                               OperatorBackend backend)
+      : operator_(make_operator(symmetric(stencil), nodes, backend)),
+        preconditioner_(stencil, nodes, rectangles)
+  {
+  }
+
+  LinearSolve StencilSystem::solve(Vector &x, const Vector &b, const Stopping &stopping) const
+  {
+    const SolveResult solved = algebra::solve(*operator_, preconditioner_, x, b, stopping.tolerance,
+                                              stopping.max_iterations);
+    return {solved.n_iterations, solved.relative_residual, operator_->backend(),
+            operator_->n_bonds()};
+  }
+
+  SparseSystem::SparseSystem(std::shared_ptr<const Rows> rows, SparseOptions options,
+                             base::Team team)
+      : rows_(std::move(rows)), options_(std::move(options)), team_(team)
+  {
+  }
+
+  void SparseSystem::vmult(Vector &y, const Vector &x) const
+  {
+    for (std::size_t i = 0; i < rows_->n_rows(); ++i)
+    {
+      double sum = 0;
+      for (std::size_t k = rows_->start[i]; k < rows_->start[i + 1]; ++k)
+        sum += rows_->value[k] * x[rows_->column[k]];
+      y[i] = sum;
+    }
+  }
+
+  LinearSolve SparseSystem::solve(Vector &x, const Vector &b, const Stopping &stopping) const
+  {
+    SparseOptions options = options_;
+    options.tolerance = stopping.tolerance;
+    options.max_iterations = stopping.max_iterations;
+    const SparseSolution solved =
+        solve_sparse(*rows_, std::vector<double>(b.begin(), b.end()), options, team_);
+    std::copy(solved.values.begin(), solved.values.end(), x.begin());
+    return {solved.n_iterations, solved.relative_residual, "sparse, " + solved.solver,
+            solved.n_nonzeros};
+  }
+} // namespace plumbline::algebra

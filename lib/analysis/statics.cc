@@ -1,0 +1,182 @@
+#include "analysis/statics.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace plumbline::analysis
+{
+  namespace
+  {
+    using method::Discretisation;
+    using method::Vector;
+
+    [[noreturn]] void refuse_unsettled(const scene::Scene &scene, unsigned int refinement,
+                                       double change)
+    {
+      std::ostringstream message;
+      if (refinement == 0)
+        message << "outer quadrature is not refined, so it is not known whether the solution "
+                   "changes by";
+      else
+        message << "outer quadrature, refinement " << refinement
+                << ", still changes the solution by " << change << " relative to it,";
+      message << " more than Quadrature/tolerance = " << scene.outer_tolerance
+              << "; raise Quadrature/max refinements or the tolerance, or refine the mesh";
+      throw NumericalError(message.str());
+    }
+
+    /// One case on its way through the refinements.
+    struct Case
+    {
+      const scene::Problem *problem = nullptr;
+      Outcome outcome = {};
+      Vector u = {};
+      base::Cost cost = {};
+      method::Diagnostics solver = {}; ///< what the last solve says
+      bool is_done = false;
+    };
+
+    /// Solves all cases of one level.
+    class Statics
+    {
+    public:
+      Statics(const method::Method &method, const scene::Scene &scene,
+              const std::vector<const scene::Problem *> &cases, const base::Team &team)
+          : method_(method), scene_(scene), team_(team)
+      {
+        for (const scene::Problem *problem : cases)
+          cases_.push_back({problem});
+      }
+
+      std::vector<Outcome> run()
+      {
+        const auto is_done = [](const Case &one) { return one.is_done; };
+        for (; !std::all_of(cases_.begin(), cases_.end(), is_done); ++refinement_)
+        {
+          try
+          {
+            prepare();
+          }
+          catch (const NumericalError &)
+          {
+            for (Case &one : cases_)
+              if (!one.is_done)
+                fail(one);
+          }
+          for (Case &one : cases_)
+            if (!one.is_done)
+              try
+              {
+                solve(one);
+              }
+              catch (const NumericalError &)
+              {
+                fail(one);
+              }
+        }
+        std::vector<Outcome> outcomes;
+        for (Case &one : cases_)
+          outcomes.push_back(std::move(one.outcome));
+        return outcomes;
+      }
+
+    private:
+      /// What fails for one case, others may still do.
+      static void fail(Case &one)
+      {
+        one.outcome.failure = std::current_exception();
+        one.is_done = true;
+      }
+
+      /// The discretisation at this refinement; its cost is every case's.
+      void prepare()
+      {
+        const base::CpuTimer timer;
+        system_.reset();
+        if (refinement_ == 0)
+          discretisation_ = method_.discretise(scene_, *cases_.front().problem, team_);
+        else
+          discretisation_->refine_quadrature();
+        system_ = discretisation_->tangent();
+        const double seconds = discretisation_->team().sum(timer.seconds());
+        for (Case &one : cases_)
+          if (!one.is_done)
+            one.cost.setup_seconds += seconds;
+      }
+
+      void solve(Case &one)
+      {
+        const base::CpuTimer timer;
+        const method::CaseData data = discretisation_->data(*one.problem);
+        Vector u(data.load.size());
+        const algebra::LinearSolve solved =
+            system_->solve(u, data.load, {scene_.tolerance, scene_.max_iterations});
+        const base::Team team = discretisation_->team();
+        one.cost.solve_seconds += team.sum(timer.seconds());
+        one.cost.n_unknowns = discretisation_->n_unknowns();
+        one.cost.n_bonds = solved.n_bonds;
+        one.cost.n_iterations = solved.n_iterations;
+        one.solver.relative_residual = solved.relative_residual;
+        one.solver.operator_backend = solved.backend;
+        const bool is_first = refinement_ == 0;
+        if (!is_first)
+          one.solver.outer_change = data.relative_change(one.u, u);
+        std::swap(one.u, u);
+        const bool is_settled = !discretisation_->has_quadrature_error() ||
+                                scene_.outer_tolerance == 0 ||
+                                (!is_first && one.solver.outer_change <= scene_.outer_tolerance);
+        if (is_settled)
+          finish(one, data);
+        else if (refinement_ == scene_.max_refinements)
+          refuse_unsettled(scene_, refinement_, one.solver.outer_change);
+      }
+
+      void finish(Case &one, const method::CaseData &data)
+      {
+        const base::Team team = discretisation_->team();
+        one.cost.peak_bytes =
+            static_cast<std::size_t>(team.largest(static_cast<double>(memory_.peak_bytes())));
+        Solution solution{data.field(one.u), one.cost, discretisation_->diagnostics()};
+        method::Diagnostics &said = solution.diagnostics;
+        said.relative_residual = one.solver.relative_residual;
+        said.operator_backend = one.solver.operator_backend;
+        if (refinement_ > 0)
+          said.outer_change = one.solver.outer_change;
+        said.n_refinements = refinement_;
+        if (said.n_neighbours == 0)
+          said.n_neighbours = static_cast<unsigned int>(
+              one.cost.n_bonds / std::max<std::size_t>(1, one.cost.n_unknowns));
+        one.outcome.solution = std::move(solution);
+        one.is_done = true;
+      }
+
+      const method::Method &method_;
+      const scene::Scene &scene_;
+      base::Team team_;
+      const base::MemoryGauge memory_;
+      std::vector<Case> cases_;
+      std::unique_ptr<Discretisation> discretisation_;
+      std::unique_ptr<algebra::LinearSystem> system_;
+      unsigned int refinement_ = 0;
+    };
+  } // namespace
+
+  std::vector<Outcome> solve(const method::Method &method, const scene::Scene &scene,
+                             const std::vector<const scene::Problem *> &cases,
+                             const base::Team &team)
+  {
+    return Statics(method, scene, cases, team).run();
+  }
+
+  Solution solve(const method::Method &method, const scene::Scene &scene,
+                 const scene::Problem &problem, const base::Team &team)
+  {
+    std::vector<Outcome> outcomes = solve(method, scene, {&problem}, team);
+    if (!outcomes.front().solution)
+      std::rethrow_exception(outcomes.front().failure);
+    return std::move(*outcomes.front().solution);
+  }
+} // namespace plumbline::analysis

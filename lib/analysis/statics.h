@@ -1,0 +1,38 @@
+#pragma once
+
+#include "base/cost.h"
+#include "method/method.h"
+
+#include <exception>
+#include <optional>
+
+// F(u) = load, by any method: one solve, the force being linear.
+namespace plumbline::analysis
+{
+  struct Solution : method::Field
+  {
+    base::Cost cost;
+    method::Diagnostics diagnostics;
+  };
+
+  /// What became of one case.
+  struct Outcome
+  {
+    std::optional<Solution> solution;
+    std::exception_ptr failure; ///< why there is none
+  };
+
+  /// Solve cases that differ in load and constraint alone, by one discretisation. Quadrature of
+  /// its entries is refined until no case's solution moves by more than the scene's tolerance; a
+  /// case is done when its own does not. Each case's cost is what it would be alone.
+  /// @note Collective.
+  /// @throws InputError  data that is not finite
+  std::vector<Outcome> solve(const method::Method &method, const scene::Scene &scene,
+                             const std::vector<const scene::Problem *> &cases,
+                             const base::Team &team = base::Team::all());
+
+  /// One case.
+  /// @throws NumericalError  there is no solution
+  Solution solve(const method::Method &method, const scene::Scene &scene,
+                 const scene::Problem &problem, const base::Team &team = base::Team::all());
+} // namespace plumbline::analysis

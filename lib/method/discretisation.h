@@ -1,0 +1,84 @@
+#pragma once
+
+#include "algebra/linear_system.h"
+#include "algebra/spectrum.h"
+#include "method/diagnostics.h"
+#include "scene/problem.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace plumbline::method
+{
+  using algebra::Vector;
+
+  /// A solution, the same view for both sides, so that they can be compared.
+  struct Field
+  {
+    std::vector<dealii::Point<2>> nodes; ///< the method's own free nodes in Ω
+    std::vector<double> nodal;           ///< values there, shape (n_nodes, n_components)
+    std::vector<double> averages; ///< over the comparison cells, shape (n_cells, n_components)
+    std::function<double(const dealii::Point<2> &, unsigned int component)> value; ///< in Ω
+    std::function<void(const std::string &file)> write_vtu;
+  };
+
+  /// What one case brings to a discretisation: its load, and the constraint around the unknowns.
+  struct CaseData
+  {
+    Vector load; ///< M b less what the constraint adds to the force; the sum over the team's ranks
+    std::function<Field(const Vector &u)> field;
+    /// ‖v - u‖ / ‖v‖, L2 over Ω. Empty where quadrature is never refined.
+    std::function<double(const Vector &u, const Vector &v)> relative_change;
+  };
+
+  /// A discretisation's operator on its free unknowns, for spectra: Σ_j A_ij u_j = m_i b(x_i) and
+  /// what the collar adds.
+  struct DiscreteOperator
+  {
+    unsigned int n_components = 1;
+    std::vector<dealii::Point<2>> nodes; ///< unknowns are numbered node by node
+    std::vector<double> mass; ///< m of each node [length^2], or 1 where all are alike; > 0
+    /// Of one component on a lattice with one node a cell: -Σ_j A_ij (x_j - x_i)_1² / m_i over all
+    /// neighbours of a node, in the collar too, and how far they are along an axis; else 0.
+    double second_moment = 0, reach = 0;
+    bool is_collocated = true; ///< row i states the equation at node i: no Galerkin method
+    algebra::Rows rows;        ///< A; empty where only its action is there
+    algebra::Action action;    ///< of a symmetric A, matrix-free; empty where only rows are there
+
+    std::size_t size() const { return nodes.size() * n_components; }
+  };
+
+  /// What a method makes of a problem, for all cases that differ in load and constraint alone: the
+  /// force F(u) on its free unknowns, whose static equation is F(u) = load. Alike on both sides;
+  /// what is done with it is an analysis. A state u is a vector in the discretisation's own order.
+  class Discretisation
+  {
+  public:
+    virtual ~Discretisation() = default;
+
+    virtual std::size_t n_unknowns() const = 0;
+
+    /// @throws InputError  a load or constraint that is not finite
+    virtual CaseData data(const scene::Problem &problem) const = 0;
+
+    /// F's derivative at any state, F being linear.
+    /// @throws NumericalError  it has no solver, e.g. is not symmetric on a lattice
+    virtual std::unique_ptr<algebra::LinearSystem> tangent() const = 0;
+
+    virtual DiscreteOperator matrix() const = 0;
+
+    /// Weights, moments, geometry: what does not depend on a solution.
+    virtual Diagnostics diagnostics() const = 0;
+
+    /// The ranks that share it; each gives its part of loads and rows.
+    virtual base::Team team() const { return base::Team::alone(); }
+
+    /// Its entries are quadrature that can be refined; else exact, or a rule of their own.
+    virtual bool has_quadrature_error() const { return false; }
+
+    /// Make the entries anew by finer quadrature; a tangent made before is void.
+    virtual void refine_quadrature() {}
+  };
+} // namespace plumbline::method

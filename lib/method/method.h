@@ -1,0 +1,67 @@
+#pragma once
+
+#include "method/discretisation.h"
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace plumbline::method
+{
+  /// How large a problem is, which can be known before anything of it is made.
+  struct ProblemSize
+  {
+    scene::Level level;
+    std::array<double, 2> extents{}; ///< of Ω's bounding box on a lattice [cells]
+    double n_cells = 0, n_free = 0;  ///< of a mesh with its collar, and in Ω
+    double cell_area = 0;            ///< of a mesh, in the mean [length^2]
+
+    bool is_lattice() const { return extents[0] > 0; }
+  };
+
+  /// A way to solve scenes, on either side.
+  class Method
+  {
+  public:
+    virtual ~Method() = default;
+    virtual std::string name() const = 0;
+    virtual std::string family() const = 0; ///< "meshfree", "reference" or "local"
+    virtual std::string help() const = 0;
+
+    /// Whether Methods/names = all takes it: not where it is there to show how it fails.
+    virtual bool is_in_all() const { return true; }
+
+    /// Empty if the method can do the scene, else the reason.
+    /// @param problem  of any case and level
+    virtual std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const = 0;
+
+    /// Collective over the team.
+    /// @param scene, problem  must outlive what is made
+    /// @throws NumericalError  there is none, e.g. weights are infeasible; @throws InputError  data
+    /// that is not finite
+    virtual std::unique_ptr<Discretisation>
+    discretise(const scene::Scene &scene, const scene::Problem &problem,
+               const base::Team &team = base::Team::all()) const = 0;
+
+    /// The most memory that a static solution takes above what stood before (Cost::peak_bytes), within a
+    /// factor of 2 where it is more than some 50 MB, for one rank; 0 where it is little. Not in it:
+    /// the factors of a direct solver.
+    virtual double expected_bytes(const scene::Scene &, const ProblemSize &) const { return 0; }
+
+    /// The rate at which field and averages tend to a smooth solution at a fixed horizon, at least:
+    /// p + 1 of Galerkin methods whose kernel is integrable. For error estimates.
+    virtual unsigned int order() const { return 1; }
+
+    /// The same method one polynomial degree higher, if it has one: for its error estimate.
+    virtual std::shared_ptr<const Method> higher_degree() const { return nullptr; }
+  };
+
+  using Methods = std::vector<std::shared_ptr<const Method>>;
+
+  /// The cells that solutions are averaged over, one for each meshfree node: the lattice cells of
+  /// Ω, or squares around its inner vertices. One family of nodes with the given number of
+  /// components.
+  geometry::NodeSet comparison_nodes(const scene::Scene &scene, const geometry::Lattice &lattice,
+                                     unsigned int n_components);
+} // namespace plumbline::method

@@ -1,0 +1,177 @@
+#include "base/error.h"
+#include "meshfree/discretisations.h"
+#include "meshfree/rules/family_statistics.h"
+#include "meshfree/scattered/field.h"
+
+#include <sstream>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    VariationalBody make_body(const scene::Scene &scene, const scene::Problem &problem)
+    {
+      const auto lame = scene.material.lame();
+      return body_of_cells(*problem.body, *problem.cells,
+                           {[lame](const Point<2> &x) { return lame(x).lambda + lame(x).mu; },
+                            [lame](const Point<2> &x) { return 8 * lame(x).mu; }});
+    }
+
+    VariationalOperator make_operator(const VariationalBody &body, const Bonds &bonds,
+                                      const scene::Scene &scene, const scene::Problem &problem)
+    {
+      return {body, physics::influence_function(scene.profile, problem.horizon()), bonds,
+              algebra::operator_backend_from_name(scene.operator_backend)};
+    }
+
+    /// ∫ b over the free cells: on each quarter by a rule of degree 5, so that loads may jump at
+    /// nodes.
+    algebra::Vector cell_integrals(const VariationalBody &body, const scene::Problem &problem)
+    {
+      constexpr unsigned int degree = 5;
+      const geometry::NodeCells &cells = *problem.cells;
+      algebra::Vector result(2 * body.size());
+      for (std::size_t cell = 0; cell < cells.n_free; ++cell)
+        for (std::size_t piece = cells.first_piece[cell]; piece < cells.first_piece[cell + 1];
+             ++piece)
+          for (unsigned int quarter = 0; quarter < 4; ++quarter)
+          {
+            const Point<2> &x = cells.nodes[cell];
+            const auto square = geometry::square(
+                {x[0] - (quarter % 2) * body.h, x[1] - (quarter / 2) * body.h}, body.h);
+            const geometry::Polygon part =
+                geometry::overlap(geometry::view(cells.pieces[piece]), geometry::view(square));
+            const auto rule = geometry::polygon_rule(geometry::view(part), degree);
+            for (std::size_t q = 0; q < rule.points.size(); ++q)
+              for (unsigned int c = 0; c < 2; ++c)
+                result[c * body.size() + cells.source[cell]] +=
+                    rule.weights[q] * problem.load.value(rule.points[q], c);
+          }
+      return result;
+    }
+
+    void check_constraint(const VariationalBody &body, const scene::Problem &problem)
+    {
+      for (std::size_t i = 0; i < body.size(); ++i)
+        for (unsigned int c = 0; c < 2 && body.is_fixed[i] != 0; ++c)
+          if (const double value = problem.constraint.value(body.node(i), c); value != 0)
+          {
+            std::ostringstream message;
+            message << "Problem/constraint is " << value << " at (" << body.node(i)
+                    << "), but rules on free bodies hold the fixed part at 0; write 0, 0";
+            throw InputError(message.str());
+          }
+    }
+    class BodySystem : public algebra::LinearSystem
+    {
+    public:
+      explicit BodySystem(std::shared_ptr<const VariationalOperator> matrix)
+          : matrix_(std::move(matrix))
+      {
+      }
+      void vmult(algebra::Vector &y, const algebra::Vector &x) const override
+      {
+        matrix_->vmult(y, x);
+      }
+      algebra::LinearSolve solve(algebra::Vector &x, const algebra::Vector &b,
+                                 const algebra::Stopping &stopping) const override
+      {
+        const auto solved =
+            meshfree::solve(*matrix_, x, b, stopping.tolerance, stopping.max_iterations);
+        return {solved.n_iterations, solved.relative_residual, matrix_->backend(),
+                matrix_->n_bonds()};
+      }
+
+    private:
+      std::shared_ptr<const VariationalOperator> matrix_;
+    };
+
+    class RuleOnBody : public method::Discretisation
+    {
+    public:
+      RuleOnBody(const scene::Scene &scene, const scene::Problem &problem, const Bonds &bonds)
+          : cells_(problem.cells), loads_are_averages_(scene.loads_are_averages),
+            matrix_(std::make_shared<const VariationalOperator>(
+                make_operator(make_body(scene, problem), bonds, scene, problem)))
+      {
+        describe_weights(bonds.family, bonds.fit, diagnostics_);
+        diagnostics_.notes = bonds.notes;
+      }
+
+      std::size_t n_unknowns() const override { return 2 * cells_->n_free; }
+
+      method::CaseData data(const scene::Problem &problem) const override
+      {
+        check_constraint(matrix_->body(), problem);
+        method::CaseData result;
+        result.load = loads_are_averages_
+                          ? cell_integrals(matrix_->body(), problem)
+                          : nodal_load(matrix_->body(),
+                                       [&](const Point<2> &x)
+                                       {
+                                         return Point<2>(problem.load.value(x, 0),
+                                                         problem.load.value(x, 1));
+                                       });
+        result.field = [this](const algebra::Vector &u) { return field(u); };
+        return result;
+      }
+
+      std::unique_ptr<algebra::LinearSystem> tangent() const override
+      {
+        return std::make_unique<BodySystem>(matrix_);
+      }
+      method::DiscreteOperator matrix() const override { return show(matrix_); }
+      method::Diagnostics diagnostics() const override { return diagnostics_; }
+
+    private:
+      method::Field field(const algebra::Vector &u) const
+      {
+        method::Field result;
+        for (std::size_t i = 0; i < cells_->n_free; ++i) // numbered as the lattice
+        {
+          result.nodes.push_back(cells_->nodes[i]);
+          for (unsigned int c = 0; c < 2; ++c)
+            result.nodal.push_back(u[c * matrix_->body().size() + cells_->source[i]]);
+        }
+        result.averages = result.nodal;
+        const auto field = std::make_shared<const ScatteredField>(cells_, result.nodal, 2);
+        result.value = [field](const Point<2> &x, unsigned int c) { return field->value(x, c); };
+        result.write_vtu = [field](const std::string &file) { field->write_vtu(file); };
+        return result;
+      }
+
+      std::shared_ptr<const geometry::NodeCells> cells_;
+      bool loads_are_averages_;
+      std::shared_ptr<const VariationalOperator> matrix_;
+      method::Diagnostics diagnostics_;
+    };
+  } // namespace
+
+  std::unique_ptr<method::Discretisation>
+  discretise_on_body(const Rule &rule, const scene::Scene &scene, const scene::Problem &problem)
+  {
+    const Bonds bonds = lattice_bonds(rule.recipe(problem.kernel), problem.kernel,
+                                      problem.body->h, scene.backend);
+    return std::make_unique<RuleOnBody>(scene, problem, bonds);
+  }
+
+  method::DiscreteOperator show(std::shared_ptr<const VariationalOperator> matrix)
+  {
+    const VariationalBody &body = matrix->body();
+    method::DiscreteOperator result;
+    result.n_components = 2;
+    result.is_collocated = false;
+    std::vector<std::size_t> positions;
+    for (std::size_t i = 0; i < body.size(); ++i)
+      if (body.V[i] > 0 && body.is_fixed[i] == 0)
+      {
+        result.nodes.push_back(body.node(i));
+        result.mass.push_back(body.V[i]);
+        positions.push_back(i);
+        positions.push_back(body.size() + i);
+      }
+    const std::size_t n = 2 * body.size();
+    result.action = algebra::restrict(std::move(matrix), n, positions);
+    return result;
+  }
+} // namespace plumbline::meshfree

@@ -1,0 +1,111 @@
+#include "meshfree/discretisations.h"
+#include "meshfree/lattice/nodal_field.h"
+#include "meshfree/lattice/stencil.h"
+#include "meshfree/rules/family_statistics.h"
+#include "method/lattice_discretisation.h"
+#include "method/limit_proof.h"
+
+#include <utility>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    using algebra::Vector;
+    using geometry::NodeSet;
+
+    /// b at the nodes.
+    Vector nodal_load(const scene::Problem &problem, const NodeSet &nodes)
+    {
+      Vector load(nodes.size());
+      const geometry::Lattice &lattice = *problem.lattice;
+      std::size_t block = 0;
+      for (unsigned int c = 0; c < nodes.n_components; ++c, block += nodes.n_positions())
+      {
+        std::vector<double> smooth;
+        if (problem.load.series)
+        {
+          const auto at_nodes = [&](unsigned int axis)
+          {
+            std::vector<double> rows;
+            for (int i = 0; i < nodes.n[axis]; ++i)
+            {
+              const auto basis = problem.load.series->basis(
+                  axis, lattice.origin()[axis] + lattice.h() * (i + nodes.axis[0].offset));
+              rows.insert(rows.end(), basis.begin(), basis.end());
+            }
+            return rows;
+          };
+          smooth = problem.load.series->contract(c, at_nodes(0), at_nodes(1));
+        }
+        std::size_t position = 0;
+        for (int j = 0; j < nodes.n[1]; ++j)
+          for (int i = 0; i < nodes.n[0]; ++i, ++position)
+            if (nodes.is_free[position] != 0)
+            {
+              const auto place = nodes.place(0, i, j);
+              load[block + position] =
+                  smooth.empty() ? problem.load.value(lattice.point(place[0], place[1]), c)
+                                 : smooth[position];
+            }
+      }
+      return load;
+    }
+
+    algebra::Stencil make_stencil(const scene::Problem &problem, const Bonds &bonds)
+    {
+      return problem.dilatation ? state_based_stencil(*problem.dilatation, bonds)
+                                : lattice_operator(problem.kernel, bonds);
+    }
+    class RuleOnLattice : public method::LatticeDiscretisation
+    {
+    public:
+      RuleOnLattice(const scene::Scene &scene, const scene::Problem &problem, const Bonds &bonds)
+          : LatticeDiscretisation(
+                scene, problem,
+                method::comparison_nodes(scene, *problem.lattice, problem.n_components),
+                make_stencil(problem, bonds), {1})
+      {
+        describe_weights(bonds.family, bonds.fit, diagnostics_);
+        diagnostics_.notes = bonds.notes;
+        diagnostics_.limit = method::prove_by_moments(scene, problem, stencil(), 1);
+      }
+
+      method::Diagnostics diagnostics() const override { return diagnostics_; }
+
+    private:
+      Vector load(const scene::Problem &problem) const override
+      {
+        return nodal_load(problem, nodes());
+      }
+
+      method::Field field(std::vector<double> values) const override
+      {
+        const auto field = std::make_shared<const NodalField>(
+            NodalField{lattice(), nodes(), std::move(values)});
+        method::Field result;
+        result.nodes = method::free_points(lattice(), nodes());
+        for (int j = 0; j < nodes().n[1]; ++j)
+          for (int i = 0; i < nodes().n[0]; ++i)
+            if (nodes().free(0, i, j))
+              for (unsigned int c = 0; c < nodes().n_components; ++c)
+                result.nodal.push_back(field->at(c, i, j));
+        result.averages = result.nodal;
+        result.value = [field](const Point<2> &x, unsigned int c) { return field->value(x, c); };
+        result.write_vtu = [field](const std::string &file) { field->write_vtu(file); };
+        return result;
+      }
+
+      method::Diagnostics diagnostics_;
+    };
+  } // namespace
+
+  std::unique_ptr<method::Discretisation>
+  discretise_on_lattice(const Rule &rule, const scene::Scene &scene, const scene::Problem &problem)
+  {
+    return std::make_unique<RuleOnLattice>(scene, problem,
+                                           lattice_bonds(rule.recipe(problem.kernel),
+                                                         problem.kernel, problem.lattice->h(),
+                                                         scene.backend));
+  }
+} // namespace plumbline::meshfree

@@ -1,0 +1,170 @@
+#include "meshfree/discretisations.h"
+#include "meshfree/scattered/field.h"
+#include "meshfree/scattered/state_based_operator.h"
+#include "method/lattice_discretisation.h"
+#include "scene/damage.h"
+
+#include <cmath>
+#include <utility>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    using method::Vector;
+
+    algebra::SparseOptions solver_options(const scene::Scene &scene, const scene::Problem &problem)
+    {
+      algebra::SparseOptions options;
+      options.is_symmetric = false;
+      options.n_components = problem.n_components;
+      if (scene.keeps_dilatation)
+        options.n_first = problem.n_components * problem.cells->n_free;
+      const auto &nodes = problem.cells->nodes;
+      options.nodes.assign(nodes.begin(),
+                           nodes.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free));
+      return options;
+    }
+
+    class RuleOnNodes : public method::SparseDiscretisation
+    {
+    public:
+      RuleOnNodes(const scene::Scene &scene, const scene::Problem &problem, const base::Team &team,
+                  ScatteredOperator matrix)
+          : SparseDiscretisation(scene, solver_options(scene, problem), team),
+            cells_(problem.cells), n_components_(problem.n_components)
+      {
+        const auto n = static_cast<std::size_t>(
+            team.largest(static_cast<double>(matrix.rows.free.n_rows())));
+        for (algebra::Rows *rows : {&matrix.rows.free, &matrix.rows.held}) // ranks that gave none
+          rows->start.resize(n + 1, rows->column.size());
+        set_rows(std::move(matrix.rows));
+        diagnostics_ = matrix.statistics.diagnostics(team);
+        if (scene.regime != scene::Regime::delta || scene.is_damaged() || !scene.is_homogeneous())
+          diagnostics_.limit = {}; // the moments of whole families decide nothing there
+        if (scene.is_damaged() && problem.dilatation)
+          is_ghost_ = find_ghosts(scene, problem.horizon(), *cells_);
+      }
+
+      method::CaseData data(const scene::Problem &problem) const override
+      {
+        method::CaseData result;
+        result.load.reinit(static_cast<unsigned int>(n_unknowns()));
+        team().together([&] { add_data(problem, result.load); });
+        result.field = [this](const Vector &u) { return field(u); };
+        return result;
+      }
+
+      method::DiscreteOperator matrix() const override
+      {
+        const auto n = static_cast<std::ptrdiff_t>(cells_->n_free);
+        method::DiscreteOperator result;
+        result.n_components = n_components_;
+        result.nodes.assign(cells_->nodes.begin(), cells_->nodes.begin() + n);
+        result.mass.assign(cells_->area.begin(), cells_->area.begin() + n);
+        result.rows = free();
+        for (std::size_t i = 0; i < result.rows.n_rows(); ++i)
+          for (std::size_t k = result.rows.start[i]; k < result.rows.start[i + 1]; ++k)
+            result.rows.value[k] *= result.mass[i / n_components_];
+        return result;
+      }
+
+      method::Diagnostics diagnostics() const override { return diagnostics_; }
+
+    private:
+      /// This rank's share of the load, and what its rows take from the collar.
+      void add_data(const scene::Problem &problem, Vector &load) const
+      {
+        const auto [first, last] = team().share(cells_->n_free);
+        const scene::Field &b = problem.load;
+        for (std::size_t i = first; i < last; ++i)
+          for (unsigned int c = 0; c < n_components_; ++c)
+            load[i * n_components_ + c] =
+                b.series ? (*b.series)(cells_->nodes[i], c) : b.value(cells_->nodes[i], c);
+        std::vector<double> collar;
+        for (std::size_t i = cells_->n_free; i < cells_->size(); ++i)
+          for (unsigned int c = 0; c < n_components_; ++c)
+            collar.push_back(!is_ghost_.empty() && is_ghost_[i] != 0
+                                 ? 0
+                                 : problem.constraint.value(cells_->nodes[i], c));
+        method::subtract_held(held(), collar, load);
+      }
+
+      method::Field field(const Vector &u) const
+      {
+        const auto n = static_cast<std::ptrdiff_t>(cells_->n_free);
+        method::Field result;
+        result.nodes.assign(cells_->nodes.begin(), cells_->nodes.begin() + n);
+        result.nodal.assign(u.begin(), u.begin() + n * n_components_); // dilatations come after
+        result.averages = cell_averages(*cells_, result.nodal, n_components_);
+        const auto field =
+            std::make_shared<const ScatteredField>(cells_, result.nodal, n_components_);
+        result.value = [field](const Point<2> &x, unsigned int c) { return field->value(x, c); };
+        result.write_vtu = [field](const std::string &file) { field->write_vtu(file); };
+        return result;
+      }
+
+      std::shared_ptr<const geometry::NodeCells> cells_;
+      unsigned int n_components_;
+      std::vector<char> is_ghost_; ///< of each node, or empty
+      method::Diagnostics diagnostics_;
+    };
+
+    /// A kept dilatation's system is on the first rank alone.
+    ScatteredOperator make_operator(const Rule &rule, const scene::Scene &scene,
+                                    const scene::Problem &problem, const base::Team &team,
+                                    std::pair<std::size_t, std::size_t> share)
+    {
+      const Families families(rule.recipe(problem.kernel), problem.kernel, *problem.cells,
+                              scene.backend);
+      if (!problem.dilatation)
+        return scattered_operator(families, problem, share);
+      const auto make = [&](std::size_t node, Family &family) { families.make(node, family); };
+      const StateBasedBody body{
+          problem.cells.get(),
+          *problem.dilatation,
+          {scene.cracks, find_ghosts(scene, problem.horizon(), *problem.cells)},
+          scene.material.has_collar_dilatation};
+      if (!scene.keeps_dilatation)
+        return state_based_operator(make, body, share);
+      return team.rank() == 0 ? state_based_system(make, body) : ScatteredOperator();
+    }
+  } // namespace
+
+  std::unique_ptr<method::Discretisation> discretise_on_scattered_nodes(
+      const std::function<ScatteredOperator(std::pair<std::size_t, std::size_t> share)> &make,
+      const scene::Scene &scene, const scene::Problem &problem, const base::Team &team)
+  {
+    ScatteredOperator matrix;
+    team.together([&] { matrix = make(team.share(problem.cells->n_free)); });
+    return std::make_unique<RuleOnNodes>(scene, problem, team, std::move(matrix));
+  }
+
+  std::unique_ptr<method::Discretisation>
+  discretise_on_scattered_nodes(const Rule &rule, const scene::Scene &scene,
+                                const scene::Problem &problem, const base::Team &team)
+  {
+    return discretise_on_scattered_nodes(
+        [&](std::pair<std::size_t, std::size_t> share)
+        { return make_operator(rule, scene, problem, team, share); }, scene, problem, team);
+  }
+
+  double expected_bytes(const scene::Scene &scene, const method::ProblemSize &size)
+  {
+    const double n_components = scene.is_vector() ? 2 : 1;
+    const scene::Level &level = size.level;
+    if (size.is_lattice())
+      return method::expected_lattice_bytes(size, 1, scene.is_vector() ? 2 : 1,
+                                           scene.reach(level.horizon) / level.h + 1);
+    if (scene.is_free_body) // two sums more by transforms than on a lattice
+    {
+      method::ProblemSize box = size;
+      box.extents.fill(std::sqrt(size.n_cells * size.cell_area) / level.h);
+      return 2 * method::expected_lattice_bytes(box, 1, 2, 2 * level.horizon / level.h + 1);
+    }
+    // rows that grow as vectors do, Trilinos' copy and a preconditioner; measured
+    constexpr double of_entry = 40, of_node = 1000;
+    const double m = scene.reach(level.horizon) / std::sqrt(size.cell_area) + .75;
+    return size.n_free * (M_PI * m * m * n_components * n_components * of_entry + of_node);
+  }
+} // namespace plumbline::meshfree

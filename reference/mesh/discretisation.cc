@@ -1,0 +1,304 @@
+#include "reference/mesh/discretisation.h"
+
+#include "base/error.h"
+#include "method/limit_proof.h"
+#include "method/sparse_discretisation.h"
+#include "reference/geometry_check.h"
+#include "reference/mesh/assembly.h"
+#include "reference/mesh/dilatation.h"
+#include "reference/mesh/weighted_volume.h"
+
+#include <deal.II/base/parallel.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace plumbline::reference
+{
+  namespace
+  {
+    using method::Vector;
+
+    /// ∫ b φ over this rank's share of the cells of Ω, shape (n_free n_components).
+    Vector load_vector(const scene::Problem &problem, const MeshSpace &space,
+                       const base::Team &team)
+    {
+      const CellShapes &shapes = space.shapes();
+      const unsigned int n_points = std::min(7u, shapes.degree() + 4), nc = problem.n_components;
+      dealii::Quadrature<2> gauss = dealii::QGauss<2>(n_points);
+      if (shapes.n_vertices() == 3)
+        gauss = dealii::QWitherdenVincentSimplex<2>(n_points);
+      std::vector<double> phi(gauss.size() * shapes.size());
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+        shapes.values(gauss.point(q), &phi[q * shapes.size()]);
+
+      const auto [first, last] = team.share(space.mesh().cells.size());
+      const std::size_t n_values = shapes.size() * nc;
+      std::vector<double> of_cells((last - first) * n_values); // shape (n_cells, n_shapes, nc)
+      const auto integrate = [&, first = first](std::size_t begin, std::size_t end)
+      {
+        const scene::Field b = problem.load; // a thread's own
+        for (std::size_t cell = begin; cell < end; ++cell)
+          for (unsigned int q = 0; q < gauss.size() && space.mesh().cells[cell].is_inside; ++q)
+          {
+            const Point<2> x = space.map(cell).point(gauss.point(q));
+            const double weight = gauss.weight(q) * space.map(cell).determinant(gauss.point(q));
+            for (unsigned int c = 0; c < nc; ++c)
+            {
+              const double value = weight * (b.series ? (*b.series)(x, c) : b.value(x, c));
+              for (unsigned int a = 0; a < shapes.size(); ++a)
+                of_cells[(cell - first) * n_values + a * nc + c] +=
+                    value * phi[q * shapes.size() + a];
+            }
+          }
+      };
+      constexpr unsigned int grain = 256;
+      dealii::parallel::apply_to_subranges(first, last, integrate, grain);
+
+      Vector load(space.n_free() * nc);
+      const double *from = of_cells.data();
+      for (std::size_t cell = first; cell < last; ++cell)
+        for (unsigned int a = 0; a < shapes.size(); ++a, from += nc)
+          if (const unsigned int dof = space.dofs(cell)[a]; dof < space.n_free())
+            for (unsigned int c = 0; c < nc; ++c)
+              load[dof * nc + c] += from[c];
+      return load;
+    }
+
+    /// The volume constraint at the degrees of freedom that are not free.
+    std::vector<double> held_values(const scene::Problem &problem, const MeshSpace &space)
+    {
+      std::vector<double> values;
+      for (std::size_t dof = space.n_free(); dof < space.n_dofs(); ++dof)
+        for (unsigned int c = 0; c < problem.n_components; ++c)
+          values.push_back(problem.constraint.value(space.support(dof), c));
+      return values;
+    }
+
+    /// The coefficient of the bonds. Where families end at a free boundary, the part of the ball
+    /// that is left carries all of the shear modulus.
+    std::optional<physics::Coefficient> bond_coefficient(const scene::Problem &problem)
+    {
+      if (!problem.body)
+        return problem.coefficient;
+      const auto influence =
+          physics::influence_function(problem.kernel.profile(), problem.horizon());
+      const auto volume = std::make_shared<const WeightedVolume>(*problem.mesh, influence);
+      return physics::Coefficient([mu = *problem.coefficient, volume](const Point<2> &x)
+                                  { return mu.at(x) * 2 / (*volume)(x); },
+                                  "shear modulus", physics::Mean::arithmetic);
+    }
+
+    /// The matrix with an outer rule refined so many times.
+    MeshMatrix assemble_all(const scene::Problem &problem, const MeshSpace &space,
+                            const MeshCells &cells, const AssemblyOptions &options,
+                            const base::Team &team)
+    {
+      MeshMatrix matrix =
+          assemble(space, cells, problem.kernel, bond_coefficient(problem), options, team);
+      if (problem.dilatation)
+      {
+        const DilatationOptions dilatation{options.refinement, problem.body.has_value(),
+                                           options.backend};
+        matrix.rows = add(matrix.rows,
+                          assemble_dilatation(space, cells, *problem.dilatation, dilatation, team));
+        matrix.is_exact = false;
+      }
+      return matrix;
+    }
+
+    std::shared_ptr<const MeshSpace> make_space(const scene::Problem &problem, bool is_continuous,
+                                                unsigned int degree)
+    {
+      auto space = std::make_shared<const MeshSpace>(problem.mesh, is_continuous, degree);
+      if (space->n_free() == 0)
+        throw NumericalError("no degree of freedom is free: every cell of the domain touches the "
+                             "collar; refine the mesh");
+      return space;
+    }
+
+    algebra::SparseOptions solver_options(const scene::Problem &problem, const MeshSpace &space)
+    {
+      algebra::SparseOptions options;
+      options.is_symmetric = !problem.dilatation || problem.dilatation->is_symmetric();
+      options.n_components = problem.n_components;
+      for (std::size_t dof = 0; dof < space.n_free(); ++dof)
+        options.nodes.push_back(space.support(dof));
+      return options;
+    }
+
+    /// The diagonal of the mass matrix, scaled to the area of each cell.
+    std::vector<double> lumped_masses(const MeshSpace &space)
+    {
+      const CellShapes &shapes = space.shapes();
+      dealii::Quadrature<2> gauss = dealii::QGauss<2>(shapes.degree() + 2);
+      if (shapes.n_vertices() == 3)
+        gauss = dealii::QWitherdenVincentSimplex<2>(std::min(7u, shapes.degree() + 2));
+      std::vector<double> masses(space.n_dofs()), squares, phi(shapes.size());
+      for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
+      {
+        squares.assign(shapes.size(), 0);
+        double area = 0, sum = 0;
+        for (unsigned int q = 0; q < gauss.size(); ++q)
+        {
+          const double weight = gauss.weight(q) * space.map(cell).determinant(gauss.point(q));
+          shapes.values(gauss.point(q), phi.data());
+          area += weight;
+          for (unsigned int a = 0; a < shapes.size(); ++a)
+          {
+            squares[a] += weight * phi[a] * phi[a];
+            sum += weight * phi[a] * phi[a];
+          }
+        }
+        for (unsigned int a = 0; a < shapes.size(); ++a)
+          masses[space.dofs(cell)[a]] += area * squares[a] / sum;
+      }
+      masses.resize(space.n_free());
+      return masses;
+    }
+
+    double relative_change(const MeshField &before, const MeshField &now)
+    {
+      MeshField difference = now;
+      for (std::size_t i = 0; i < now.values.size(); ++i)
+        difference.values[i] -= before.values[i];
+      const double size = l2_norm(now);
+      return size > 0 ? l2_norm(difference) / size : l2_norm(difference);
+    }
+
+    class GalerkinOnMesh : public method::SparseDiscretisation
+    {
+    public:
+      GalerkinOnMesh(const scene::Scene &scene, const scene::Problem &problem,
+                     std::shared_ptr<const MeshSpace> space, const base::Team &team)
+          : SparseDiscretisation(scene, solver_options(problem, *space), team), scene_(scene),
+            problem_(problem), space_(std::move(space)),
+            cells_(std::make_shared<const MeshCells>(*problem.mesh)),
+            options_{0, scene.exact_rectangles, scene.backend}
+      {
+        make_rows();
+      }
+
+      method::CaseData data(const scene::Problem &problem) const override
+      {
+        method::CaseData result;
+        std::vector<double> held_data;
+        team().together(
+            [&]
+            {
+              held_data = held_values(problem, *space_);
+              result.load = load_vector(problem, *space_, team());
+            });
+        method::subtract_held(held(), held_data, result.load);
+        const auto around = std::make_shared<const std::vector<double>>(std::move(held_data));
+        result.field = [this, around](const Vector &u)
+        { return as_field(std::make_shared<const MeshField>(field(u, *around)), *problem_.cells); };
+        result.relative_change = [this, around](const Vector &u, const Vector &v)
+        { return relative_change(field(u, *around), field(v, *around)); };
+        return result;
+      }
+
+      method::DiscreteOperator matrix() const override
+      {
+        method::DiscreteOperator result;
+        result.n_components = problem_.n_components;
+        result.is_collocated = false;
+        for (std::size_t dof = 0; dof < space_->n_free(); ++dof)
+          result.nodes.push_back(space_->support(dof));
+        result.mass = lumped_masses(*space_);
+        result.rows = free();
+        return result;
+      }
+
+      method::Diagnostics diagnostics() const override
+      {
+        method::Diagnostics result;
+        result.is_outer_error_known = is_exact_ || scene_.outer_tolerance > 0;
+        if (is_exact_)
+          result.notes.push_back("entries of axis-aligned rectangles exact by correlation");
+        else if (scene_.outer_tolerance == 0)
+          result.notes.push_back("outer quadrature not refined: its error is not known");
+        if (space_->shapes().degree() > 0)
+          result.limit = method::prove_galerkin(scene_, problem_, result);
+        const auto check =
+            check_geometry(*cells_, problem_.horizon(), scene_.n_geometry_checks, scene_.seed);
+        result.n_geometry_checks = check.n_checked;
+        result.geometry_difference = check.worst_difference;
+        return result;
+      }
+
+      bool has_quadrature_error() const override { return !is_exact_; }
+
+      void refine_quadrature() override
+      {
+        ++options_.refinement;
+        set_rows({});
+        make_rows();
+      }
+
+    private:
+      void make_rows()
+      {
+        MeshMatrix matrix;
+        team().together([&]
+                        { matrix = assemble_all(problem_, *space_, *cells_, options_, team()); });
+        is_exact_ = !team().any(!matrix.is_exact);
+        set_rows(method::part(std::move(matrix.rows), space_->n_free() * problem_.n_components));
+      }
+
+      MeshField field(const Vector &u, const std::vector<double> &held) const
+      {
+        MeshField result{space_, cells_, problem_.n_components, {u.begin(), u.end()}};
+        result.values.insert(result.values.end(), held.begin(), held.end());
+        return result;
+      }
+
+      const scene::Scene &scene_;
+      const scene::Problem &problem_;
+      std::shared_ptr<const MeshSpace> space_;
+      std::shared_ptr<const MeshCells> cells_;
+      AssemblyOptions options_;
+      bool is_exact_ = false;
+    };
+  } // namespace
+
+  std::unique_ptr<method::Discretisation>
+  discretise_on_mesh(const scene::Scene &scene, const scene::Problem &problem, bool is_continuous,
+                     unsigned int degree, const base::Team &team)
+  {
+    return std::make_unique<GalerkinOnMesh>(scene, problem,
+                                            make_space(problem, is_continuous, degree), team);
+  }
+
+  double expected_mesh_bytes(const scene::Scene &scene, const method::ProblemSize &size,
+                             unsigned int n_vertices, bool is_continuous, unsigned int degree)
+  {
+    // assembled upper half, both halves, what eliminates, the solver's copy; space and geometry of
+    // a cell; all measured
+    constexpr double of_entry = 44, of_cell = 1000;
+    const double p = degree, n_components = scene.is_vector() ? 2 : 1;
+    const bool is_shared = is_continuous && degree > 0;
+    const double n_dofs = n_vertices == 4 ? (is_shared ? p * p : (p + 1) * (p + 1))
+                                          : (is_shared ? p * p / 2 : (p + 1) * (p + 2) / 2);
+    // the support of a shape function widens the ball: by one cell, or by those about its vertex
+    const double wider = !is_shared ? .85 : degree == 1 ? 1.9 : 1.4;
+    const double reach = scene.reach(size.level.horizon) / std::sqrt(size.cell_area) + wider;
+    const double n_columns = M_PI * reach * reach * n_dofs * n_components;
+    return size.n_free * n_dofs * n_components * n_columns * of_entry + size.n_cells * of_cell;
+  }
+
+  method::Field as_field(std::shared_ptr<const MeshField> field, const geometry::NodeCells &cells)
+  {
+    method::Field result;
+    const unsigned int nc = field->n_components;
+    for (std::size_t dof = 0; dof < field->space->n_free(); ++dof)
+      result.nodes.push_back(field->space->support(dof));
+    const auto n_nodal = static_cast<std::ptrdiff_t>(result.nodes.size() * nc);
+    result.nodal.assign(field->values.begin(), field->values.begin() + n_nodal);
+    result.averages = field->averages(cells);
+    result.value = [field](const Point<2> &x, unsigned int c) { return field->value(x, c); };
+    result.write_vtu = [field](const std::string &file) { write_vtu(*field, file); };
+    return result;
+  }
+} // namespace plumbline::reference

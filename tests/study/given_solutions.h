@@ -1,0 +1,99 @@
+#pragma once
+
+#include "study/sweep.h"
+
+/// Methods that solve nothing, for what is done with solutions.
+namespace plumbline::study
+{
+  /// Yields the fields it is told, in a discretisation of one unknown.
+  class GivenSolutions : public Method
+  {
+  public:
+    explicit GivenSolutions(std::string name, std::string family = "meshfree")
+        : name_(std::move(name)), family_(std::move(family))
+    {
+    }
+    std::string name() const override { return name_; }
+    std::string family() const override { return family_; }
+    std::string help() const override { return ""; }
+    std::string why_not(const scene::Scene &, const scene::Problem &) const override { return {}; }
+    std::unique_ptr<method::Discretisation>
+    discretise(const scene::Scene &scene, const scene::Problem &, const base::Team &) const override
+    {
+      return std::make_unique<Given>(*this, scene);
+    }
+
+    mutable unsigned int n_solves = 0;
+
+  private:
+    virtual method::Field field(const scene::Scene &, const scene::Problem &) const = 0;
+    virtual double outer_change() const { return 0; }
+
+    class Given : public method::Discretisation
+    {
+    public:
+      Given(const GivenSolutions &method, const scene::Scene &scene)
+          : method_(method), scene_(scene)
+      {
+      }
+      std::size_t n_unknowns() const override { return 1; }
+      method::CaseData data(const scene::Problem &problem) const override
+      {
+        ++method_.n_solves;
+        return {method::Vector(1),
+                [this, &problem](const method::Vector &) { return method_.field(scene_, problem); },
+                {}};
+      }
+      std::unique_ptr<algebra::LinearSystem> tangent() const override
+      {
+        return std::make_unique<Identity>();
+      }
+      method::DiscreteOperator matrix() const override { return {}; }
+      method::Diagnostics diagnostics() const override
+      {
+        method::Diagnostics result;
+        result.outer_change = method_.outer_change();
+        return result;
+      }
+
+    private:
+      const GivenSolutions &method_;
+      const scene::Scene &scene_;
+    };
+
+    class Identity : public algebra::LinearSystem
+    {
+    public:
+      void vmult(method::Vector &y, const method::Vector &x) const override { y = x; }
+      algebra::LinearSolve solve(method::Vector &x, const method::Vector &b,
+                                 const algebra::Stopping &) const override
+      {
+        x = b;
+        return {};
+      }
+    };
+
+    std::string name_, family_;
+  };
+
+  /// Solutions as if each had cost so many CPU seconds; 1 is enough not to be repeated for its
+  /// time.
+  inline SweepControl at_cost(const std::function<double(const scene::Problem &)> &seconds =
+                                  [](const scene::Problem &) { return 1; })
+  {
+    SweepControl control;
+    control.solve = [seconds](const Method &method, const scene::Scene &scene,
+                              const std::vector<const scene::Problem *> &cases)
+    {
+      auto outcomes = analysis::solve(method, scene, cases);
+      for (std::size_t i = 0; i < cases.size(); ++i)
+        if (outcomes[i].solution)
+        {
+          outcomes[i].solution->cost.setup_seconds = 0;
+          outcomes[i].solution->cost.solve_seconds = seconds(*cases[i]);
+        }
+      return outcomes;
+    };
+    return control;
+  }
+} // namespace plumbline::study
