@@ -88,8 +88,8 @@ namespace plumbline::study
     }
     LatticeSolve result;
     base::CpuTimer timer;
-    const auto matrix =
-        make_operator(stencil, nodes, algebra::operator_backend_from_name(scene.operator_backend));
+    const auto matrix = make_operator(
+        stencil, nodes, algebra::operator_backend_from_name(scene.solver.operator_backend));
     const algebra::SchwarzPreconditioner preconditioner(stencil, nodes,
                                                         maximal_rectangles(*problem.lattice));
     result.cost.setup_seconds = timer.seconds();
@@ -101,7 +101,7 @@ namespace plumbline::study
     right_hand_side -= collar_action(stencil, nodes, data.values);
     algebra::Vector solution(nodes.size());
     const auto solved = algebra::solve(*matrix, preconditioner, solution, right_hand_side,
-                                       scene.tolerance, scene.max_iterations);
+                                       scene.solver.tolerance, scene.solver.max_iterations);
     result.values = merge(nodes, solution, data, margin);
     result.cost.solve_seconds = timer.seconds();
     result.cost.n_unknowns = nodes.n_unknowns();

@@ -55,20 +55,20 @@ namespace plumbline::study
       {
         results_.scene_name = scene.name;
         results_.purpose = scene.purpose;
-        results_.regime = regime_name(scene.regime);
+        results_.regime = regime_name(scene.study.regime);
         results_.scene_text = scene.text;
-        results_.decisive_error = scene.decisive_error;
+        results_.decisive_error = scene.study.decisive_error;
         results_.provenance = earlier.provenance;
       }
 
       Results run()
       {
-        const auto cases = scene_.case_names();
+        const auto cases = scene_.problem.case_names();
         std::size_t n_done = 0, n_all = 0;
-        for (const auto &series : scene_.series)
+        for (const auto &series : scene_.study.series)
           n_all += cases.size() * n_levels(series) * methods_.size();
         for (unsigned int c = 0; c < cases.size() && !is_stopped_; ++c)
-          for (const auto &series : scene_.series)
+          for (const auto &series : scene_.study.series)
             for (unsigned int level = 0; level < n_levels(series) && !is_stopped_; ++level)
             {
               run_level(c, cases[c], series, level, n_done, n_all);
@@ -176,15 +176,15 @@ namespace plumbline::study
                                static_cast<double>(n_done) / static_cast<double>(n_all));
         const scene::Problem problem = make_problem(scene_, case_index, sizes);
         Targets targets;
-        if (scene_.reference != "none")
+        if (scene_.reference.method != "none")
         {
-          ReferenceAverages reference =
-              solve_reference(scene_, problem, case_index,
-                              *find_method(available_, scene_.reference, "Reference/method"));
+          ReferenceAverages reference = solve_reference(
+              scene_, problem, case_index,
+              *find_method(available_, scene_.reference.method, "Reference/method"));
           results_.references.push_back(placed(reference.estimate, name, series, level));
           targets.reference = std::move(reference.averages);
         }
-        if (scene_.local_solution == "computed")
+        if (scene_.problem.local_solution == "computed")
           targets.local = local_averages(problem);
         for (const auto &method : due)
         {
@@ -215,17 +215,18 @@ namespace plumbline::study
       /// Besides the reference.
       bool is_estimated(const Method &method, const scene::Problem &problem) const
       {
-        return method.family() == "reference" && method.name() != scene_.reference &&
-               (scene_.estimate == "every" || (scene_.estimate == "automatic" &&
-                                               scene_.reference == "none" && !problem.solution));
+        return method.family() == "reference" && method.name() != scene_.reference.method &&
+               (scene_.reference.estimate == "every" ||
+                (scene_.reference.estimate == "automatic" && scene_.reference.method == "none" &&
+                 !problem.solution));
       }
 
       /// At the first level that is run, for the first method of each side, where it is cheap.
       bool is_saving_due(const Method &method, const Run &run) const
       {
         constexpr std::uint64_t most_bonds = 100000;
-        return run.problem == scene_.case_names().front() &&
-               run.series == scene_.series.front().name && run.level == 0 &&
+        return run.problem == scene_.problem.case_names().front() &&
+               run.series == scene_.study.series.front().name && run.level == 0 &&
                run.cost.n_bonds <= most_bonds && has_fuller_model(scene_) &&
                std::none_of(results_.runs.begin(), results_.runs.end(),
                             [&](const Run &other) { return other.family == method.family(); });
@@ -312,8 +313,8 @@ namespace plumbline::study
       {
         if (control_.on_finest)
           control_.on_finest(solution, run);
-        if (run.problem != scene_.case_names().back() || run.series != scene_.series.front().name ||
-            (!problem.solution && target.empty()))
+        if (run.problem != scene_.problem.case_names().back() ||
+            run.series != scene_.study.series.front().name || (!problem.solution && target.empty()))
           return;
         ErrorMap map = error_map(scene_, problem, solution, target);
         map.method = run.method;

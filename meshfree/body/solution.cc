@@ -21,8 +21,8 @@ namespace plumbline::meshfree
     VariationalOperator make_operator(const VariationalBody &body, const Bonds &bonds,
                                       const scene::Scene &scene, const scene::Problem &problem)
     {
-      return {body, physics::influence_function(scene.profile, problem.horizon()), bonds,
-              algebra::operator_backend_from_name(scene.operator_backend)};
+      return {body, physics::influence_function(scene.kernel.profile, problem.horizon()), bonds,
+              algebra::operator_backend_from_name(scene.solver.operator_backend)};
     }
 
     /// ∫ b over the free cells: on each quarter by a rule of degree 5, so that loads may jump at
@@ -73,19 +73,19 @@ namespace plumbline::meshfree
     const VariationalBody body = make_body(scene, problem);
     check_constraint(body, problem);
     const Bonds bonds =
-        lattice_bonds(rule.recipe(problem.kernel), problem.kernel, body.h, scene.backend);
+        lattice_bonds(rule.recipe(problem.kernel), problem.kernel, body.h, scene.geometry.backend);
     const VariationalOperator matrix = make_operator(body, bonds, scene, problem);
     study::Solution solution;
     solution.cost.setup_seconds = timer.seconds();
 
     timer.restart();
     const algebra::Vector load =
-        scene.loads_are_averages
+        scene.methods.loads_are_averages
             ? cell_integrals(body, problem)
             : nodal_load(body, [&](const Point<2> &x)
                          { return Point<2>(problem.load.value(x, 0), problem.load.value(x, 1)); });
     algebra::Vector u(load.size());
-    const auto solved = solve(matrix, u, load, scene.tolerance, scene.max_iterations);
+    const auto solved = solve(matrix, u, load, scene.solver.tolerance, scene.solver.max_iterations);
     solution.cost.solve_seconds = timer.seconds();
     solution.cost.peak_bytes = memory.peak_bytes();
     solution.cost.n_unknowns = 2 * problem.cells->n_free;
@@ -115,7 +115,7 @@ namespace plumbline::meshfree
   {
     const VariationalBody body = make_body(scene, problem);
     const Bonds bonds =
-        lattice_bonds(rule.recipe(problem.kernel), problem.kernel, body.h, scene.backend);
+        lattice_bonds(rule.recipe(problem.kernel), problem.kernel, body.h, scene.geometry.backend);
     auto result = show(
         std::make_shared<const VariationalOperator>(make_operator(body, bonds, scene, problem)));
     describe_weights(bonds.family, bonds.fit, result.diagnostics);

@@ -55,7 +55,7 @@ namespace plumbline::meshfree
     Bonds make_bonds(const Rule &rule, const scene::Scene &scene, const scene::Problem &problem)
     {
       return lattice_bonds(rule.recipe(problem.kernel), problem.kernel, problem.lattice->h(),
-                           scene.backend);
+                           scene.geometry.backend);
     }
 
     algebra::Stencil make_stencil(const scene::Problem &problem, const Bonds &bonds)

@@ -19,12 +19,12 @@ namespace plumbline::meshfree
     {
       algebra::SparseOptions options;
       options.is_symmetric = false;
-      options.tolerance = scene.tolerance;
-      options.max_iterations = scene.max_iterations;
-      options.iteration = algebra::iteration_from_name(scene.iteration);
-      options.solver = algebra::sparse_solver_from_name(scene.linear_solver);
+      options.tolerance = scene.solver.tolerance;
+      options.max_iterations = scene.solver.max_iterations;
+      options.iteration = algebra::iteration_from_name(scene.solver.iteration);
+      options.solver = algebra::sparse_solver_from_name(scene.solver.linear_solver);
       options.n_components = problem.n_components;
-      if (scene.keeps_dilatation)
+      if (scene.solver.is_mixed)
         options.n_first = problem.n_components * problem.cells->n_free;
       const auto &nodes = problem.cells->nodes;
       options.nodes.assign(nodes.begin(),
@@ -49,7 +49,8 @@ namespace plumbline::meshfree
     matrix.rows.start.resize(n + 1);
     study::Solution solution;
     solution.diagnostics = matrix.statistics.diagnostics(team);
-    if (scene.regime != scene::Regime::delta || scene.is_damaged() || !scene.is_homogeneous())
+    if (scene.study.regime != scene::Regime::delta || scene.domain.is_damaged() ||
+        !scene.is_homogeneous())
       solution.diagnostics.limit = {}; // the moments of whole families decide nothing there
     solution.cost.setup_seconds = team.sum(timer.seconds());
 
@@ -96,7 +97,7 @@ namespace plumbline::meshfree
                                     bool keeps_dilatation)
     {
       const Families families(rule.recipe(problem.kernel), problem.kernel, *problem.cells,
-                              scene.backend);
+                              scene.geometry.backend);
       if (!problem.dilatation)
         return scattered_operator(families, problem, share);
       const auto make = [&](std::size_t node, Family &family) { families.make(node, family); };
@@ -104,7 +105,7 @@ namespace plumbline::meshfree
           problem.cells.get(),
           *problem.dilatation,
           problem.constraint.value,
-          {scene.cracks, find_ghosts(scene, problem.horizon(), *problem.cells)},
+          {scene.domain.cracks, find_ghosts(scene, problem.horizon(), *problem.cells)},
           scene.material.has_collar_dilatation};
       if (!keeps_dilatation)
         return state_based_operator(make, body, share);
@@ -118,7 +119,7 @@ namespace plumbline::meshfree
   {
     return scattered_solution(
         [&](std::pair<std::size_t, std::size_t> share)
-        { return make_operator(rule, scene, problem, share, scene.keeps_dilatation); },
+        { return make_operator(rule, scene, problem, share, scene.solver.is_mixed); },
         scene, problem);
   }
 
@@ -147,7 +148,7 @@ namespace plumbline::meshfree
     if (size.is_lattice())
       return study::expected_lattice_bytes(size, 1, scene.is_vector() ? 2 : 1,
                                            scene.reach(level.horizon) / level.h + 1);
-    if (scene.is_free_body) // two sums more by transforms than on a lattice
+    if (scene.domain.is_free_body) // two sums more by transforms than on a lattice
     {
       study::ProblemSize box = size;
       box.extents.fill(std::sqrt(size.n_cells * size.cell_area) / level.h);

@@ -99,7 +99,8 @@ namespace plumbline::reference
                                   const AxisShapes &shapes)
     {
       const double h = problem.lattice->h();
-      const algebra::Stencil bonds = galerkin_stencil(problem.kernel, h, shapes, scene.backend);
+      const algebra::Stencil bonds =
+          galerkin_stencil(problem.kernel, h, shapes, scene.geometry.backend);
       if (!problem.dilatation)
         return bonds;
       const physics::Lame lame = problem.dilatation->material({});
@@ -158,7 +159,7 @@ namespace plumbline::reference
     solution.cost = result->cost;
     solution.diagnostics = result->diagnostics;
     const auto check = check_geometry(problem.horizon(), problem.lattice->h(),
-                                      scene.n_geometry_checks, scene.seed);
+                                      scene.geometry.n_checks, scene.geometry.seed);
     solution.diagnostics.n_geometry_checks = check.n_checked;
     solution.diagnostics.geometry_difference = check.worst_difference;
 

@@ -143,14 +143,14 @@ namespace plumbline::reference
       const std::size_t n = space.n_free() * problem.n_components;
       eliminate(solution.field.values, n, matrix.rows, right_hand_side);
       algebra::SparseOptions solver;
-      solver.solver = algebra::sparse_solver_from_name(scene.linear_solver);
-      solver.iteration = algebra::iteration_from_name(scene.iteration);
+      solver.solver = algebra::sparse_solver_from_name(scene.solver.linear_solver);
+      solver.iteration = algebra::iteration_from_name(scene.solver.iteration);
       solver.is_symmetric = !problem.dilatation || problem.dilatation->is_symmetric();
       solver.n_components = problem.n_components;
       for (std::size_t dof = 0; dof < space.n_free(); ++dof)
         solver.nodes.push_back(space.support(dof));
-      solver.tolerance = scene.tolerance;
-      solver.max_iterations = scene.max_iterations;
+      solver.tolerance = scene.solver.tolerance;
+      solver.max_iterations = scene.solver.max_iterations;
       const auto solved = algebra::solve_sparse(matrix.rows, right_hand_side, solver, team);
       std::copy(solved.values.begin(), solved.values.end(), solution.field.values.begin());
       solution.cost.solve_seconds += timer.seconds();
@@ -222,14 +222,14 @@ namespace plumbline::reference
     MeshSolution solution{empty_field(problem, is_continuous, degree), {}, {}};
     solution.cost.setup_seconds = timer.seconds();
 
-    AssemblyOptions options{0, scene.exact_rectangles, scene.backend};
+    AssemblyOptions options{0, scene.quadrature.exact_rectangles, scene.geometry.backend};
     bool is_exact = false;
     solve_once(scene, problem, options, team, solution, is_exact);
     double &change = solution.diagnostics.outer_change;
-    bool is_settled = is_exact || scene.outer_tolerance == 0;
+    bool is_settled = is_exact || scene.quadrature.tolerance == 0;
     while (!is_settled)
     {
-      if (options.refinement == scene.max_refinements)
+      if (options.refinement == scene.quadrature.max_refinements)
       {
         std::ostringstream message;
         if (options.refinement == 0)
@@ -239,7 +239,7 @@ namespace plumbline::reference
         else
           message << "outer quadrature, refinement " << options.refinement
                   << ", still changes the solution by " << change << " relative to it,";
-        message << " more than Quadrature/tolerance = " << scene.outer_tolerance
+        message << " more than Quadrature/tolerance = " << scene.quadrature.tolerance
                 << "; raise Quadrature/max refinements or the tolerance, or refine the mesh";
         throw NumericalError(message.str());
       }
@@ -247,21 +247,21 @@ namespace plumbline::reference
       ++options.refinement;
       solve_once(scene, problem, options, team, solution, is_exact);
       change = relative_change(before, solution.field);
-      is_settled = change <= scene.outer_tolerance;
+      is_settled = change <= scene.quadrature.tolerance;
     }
     solution.diagnostics.n_refinements = options.refinement;
-    solution.diagnostics.is_outer_error_known = is_exact || scene.outer_tolerance > 0;
+    solution.diagnostics.is_outer_error_known = is_exact || scene.quadrature.tolerance > 0;
     if (is_exact)
       solution.diagnostics.notes.push_back(
           "entries of axis-aligned rectangles exact by correlation");
-    else if (scene.outer_tolerance == 0)
+    else if (scene.quadrature.tolerance == 0)
       solution.diagnostics.notes.push_back("outer quadrature not refined: its error is not known");
     solution.cost.setup_seconds = team.sum(solution.cost.setup_seconds);
     solution.cost.solve_seconds = team.sum(solution.cost.solve_seconds);
     solution.cost.peak_bytes =
         static_cast<std::size_t>(team.largest(static_cast<double>(memory.peak_bytes())));
     const auto check = check_geometry(*solution.field.cells, problem.horizon(),
-                                      scene.n_geometry_checks, scene.seed);
+                                      scene.geometry.n_checks, scene.geometry.seed);
     solution.diagnostics.n_geometry_checks = check.n_checked;
     solution.diagnostics.geometry_difference = check.worst_difference;
     return solution;
@@ -294,9 +294,10 @@ namespace plumbline::reference
     for (std::size_t dof = 0; dof < field.space->n_free(); ++dof)
       result.nodes.push_back(field.space->support(dof));
     result.mass = lumped_masses(*field.space);
-    result.rows = assemble_all(problem, field, {0, scene.exact_rectangles, scene.backend},
-                               base::Team::alone())
-                      .rows;
+    result.rows =
+        assemble_all(problem, field, {0, scene.quadrature.exact_rectangles, scene.geometry.backend},
+                     base::Team::alone())
+            .rows;
     std::vector<double> ignored(result.size());
     eliminate(field.values, result.size(), result.rows, ignored);
     return result;
