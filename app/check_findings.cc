@@ -30,13 +30,14 @@ namespace plumbline::app
     ChosenLevel choose_level(const scene::Scene &scene, const GivenNodes &nodes)
     {
       const auto inside =
-          nodes_inside(nodes, scene::make_mesh(scene, scene.series.front().levels.front()));
+          nodes_inside(nodes, scene::make_mesh(scene, scene.study.series.front().levels.front()));
       double volume = 0;
       for (const std::size_t i : inside)
         volume += nodes.volume[i];
       const double size = std::sqrt(volume / static_cast<double>(inside.size()));
-      ChosenLevel chosen{scene.series.front().levels.front(), scene.series.front().name, size};
-      for (const scene::Series &series : scene.series)
+      ChosenLevel chosen{scene.study.series.front().levels.front(), scene.study.series.front().name,
+                         size};
+      for (const scene::Series &series : scene.study.series)
         for (const scene::Level &level : series.levels)
           if (std::abs(level.h - size) < std::abs(chosen.level.h - size))
             chosen = {level, series.name, size};
@@ -47,9 +48,9 @@ namespace plumbline::app
     std::shared_ptr<const method::Method> reference_method(const scene::Scene &scene,
                                                            const scene::Problem &problem)
     {
-      const std::string name = scene.reference != "none"      ? scene.reference
-                               : problem.mesh->is_triangles() ? "P1"
-                                                              : "Q1";
+      const std::string name = scene.reference.method != "none" ? scene.reference.method
+                               : problem.mesh->is_triangles()   ? "P1"
+                                                                : "Q1";
       for (const auto &method : reference::methods())
         if (method->name() == name)
         {
@@ -128,7 +129,7 @@ namespace plumbline::app
 
     void refuse_what_is_not_checked(const scene::Scene &scene)
     {
-      if (scene.is_free_body)
+      if (scene.domain.is_free_body)
         throw InputError("Domain/boundary = free: weights are checked on domains with data in a "
                          "collar; write Domain/boundary = constrained");
       if (scene.has_dilatation())
@@ -160,7 +161,7 @@ namespace plumbline::app
         found.rule = rule->rule;
         found.rule_factor = rule->factor;
       }
-      found.causes = find_causes(given, rule, scene.methods);
+      found.causes = find_causes(given, rule, scene.methods.names);
       if (rule && rule->rule == "FA" && found.causes.empty())
         found.rule_remark = ramp_text(ramp_effects(given, families));
       const double point_scale = found.causes.empty() ? 1 : found.causes.front().point_scale;
@@ -185,11 +186,11 @@ namespace plumbline::app
     found.scene_name = scene.name;
     found.purpose = scene.purpose;
     found.nodes = read_given_nodes(options.nodes_file);
-    const bool boundary_is_data = scene.nodes_at_vertices();
-    if (scene.mesh.is_lattice())
-      scene.mesh.kind = "squares";
-    scene.nodes = {std::filesystem::absolute(options.nodes_file).string()};
-    scene.norms = {"nodal Linf", "averages L2"};
+    const bool boundary_is_data = scene.methods.nodes.are_vertices();
+    if (scene.domain.mesh.is_lattice())
+      scene.domain.mesh.kind = "squares";
+    scene.methods.nodes = {std::filesystem::absolute(options.nodes_file).string()};
+    scene.study.norms = {"nodal Linf", "averages L2"};
     found.level = choose_level(scene, found.nodes);
     const geometry::Mesh mesh = scene::make_mesh(scene, found.level.level);
     check_places(found.nodes, mesh, found.level.text());
@@ -226,14 +227,14 @@ namespace plumbline::app
     const FamilySource source = [&](std::size_t i, Family &family) { family = families[i]; };
     try
     {
-      found.matrix =
-          algebra::check_matrix(scattered_operator(source, problem, {0, found.cells->n_free}).rows.free);
+      found.matrix = algebra::check_matrix(
+          scattered_operator(source, problem, {0, found.cells->n_free}).rows.free);
     }
     catch (const NumericalError &error)
     {
       found.matrix_failure = error.what(); // weights may be wrong enough for rows to be empty
     }
-    const auto names = scene.case_names();
+    const auto names = scene.problem.case_names();
     for (unsigned int c = 0; c < names.size(); ++c)
       found.cases.push_back(
           check_case(scene, problem_of(c), names[c], names[c] + ", " + found.level.text(), source));

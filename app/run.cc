@@ -83,8 +83,8 @@ namespace plumbline::app
     /// Whether ranks do the same side by side: on lattices, and rules on free bodies.
     bool repeats_work(const scene::Scene &scene, const method::Methods &methods)
     {
-      if (!scene.is_free_body)
-        return scene.mesh.is_lattice();
+      if (!scene.domain.is_free_body)
+        return scene.domain.mesh.is_lattice();
       return std::any_of(methods.begin(), methods.end(),
                          [](const auto &method) { return method->family() == "meshfree"; });
     }
@@ -99,8 +99,8 @@ namespace plumbline::app
       {
         const study::Results earlier = report::read_results(folder);
         // files that the scene names must be as old as the results
-        const bool is_current = !is_newer(fs::path(scene.folder) / scene.mesh.kind, file) &&
-                                !is_newer(fs::path(scene.folder) / scene.nodes.kind, file);
+        const bool is_current = !is_newer(fs::path(scene.folder) / scene.domain.mesh.kind, file) &&
+                                !is_newer(fs::path(scene.folder) / scene.methods.nodes.kind, file);
         if (is_current && !earlier.is_complete && earlier.scene_text == scene.text)
           return earlier;
       }
@@ -289,7 +289,7 @@ namespace plumbline::app
       };
       control.on_result = [&](const study::Results &r) { write([&] { journal.append(r); }); };
       control.should_stop = [&] { return team.any(is_interrupted != 0); };
-      if (scene.write_fields)
+      if (scene.output.fields)
         control.on_finest = [&](const analysis::Solution &solution, const study::Run &run)
         {
           write(

@@ -69,7 +69,7 @@ namespace plumbline::app
     bool hold(const scene::Scene &scene, const std::vector<study::StabilityVerdict> &verdicts)
     {
       bool all_hold = true;
-      for (const scene::Expected &expected : scene.expected_stability)
+      for (const scene::Expected &expected : scene.expected.stability)
       {
         const auto found =
             std::find_if(verdicts.begin(), verdicts.end(),
@@ -93,8 +93,8 @@ namespace plumbline::app
     const method::Methods available = all_methods();
     const method::Methods methods = study::choose_methods(scene, available);
     scene::Scene alone = scene; // nothing is held against a reference here
-    alone.reference = alone.estimate = "none";
-    alone.keeps_dilatation = false; // the operator on displacements is measured
+    alone.reference.method = alone.reference.estimate = "none";
+    alone.solver.is_mixed = false; // the operator on displacements is measured
     study::check_memory(alone, methods, available, options.n_levels);
 
     const fs::path folder =
@@ -102,7 +102,7 @@ namespace plumbline::app
     report::write_file(folder / "stability.md", ""); // before the work: can it be written?
 
     std::vector<std::vector<StabilityRow>> rows(methods.size()); // of each method
-    for (const auto &series : scene.series)
+    for (const auto &series : scene.study.series)
     {
       const auto n_levels = options.n_levels == 0
                                 ? series.levels.size()

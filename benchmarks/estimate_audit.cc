@@ -61,8 +61,8 @@ namespace plumbline::audit
                            double estimate, const study::ErrorEstimate &details)
     {
       if (error > round_off * size || error > estimate)
-        entries.push_back({scene.case_names()[case_index] + way, method.name(), norm, problem.h,
-                           error, estimate, size, details.certified_digits, details});
+        entries.push_back({scene.problem.case_names()[case_index] + way, method.name(), norm,
+                           problem.h, error, estimate, size, details.certified_digits, details});
     };
     for (const bool is_cheap : {false, true})
       if (!is_cheap || problem.mesh)

@@ -39,9 +39,9 @@ namespace
         const scene::Scene scene = scene::read_scene(file.string());
         const std::string name =
             file.parent_path().filename().string() + "/" + file.stem().string();
-        for (unsigned int c = 0; c < scene.case_names().size(); ++c)
-          if (!is_wrong_on_purpose(name, scene.case_names()[c]))
-            for (const auto &series : scene.series)
+        for (unsigned int c = 0; c < scene.problem.case_names().size(); ++c)
+          if (!is_wrong_on_purpose(name, scene.problem.case_names()[c]))
+            for (const auto &series : scene.study.series)
               for (const auto &method : reference::methods())
                 if (method->family() == "reference")
                   add(name, scene, c, series, *method);

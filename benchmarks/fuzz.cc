@@ -60,10 +60,10 @@ namespace
   {
     const std::string nodes = scenes + "/check/nodes.csv";
     scene::Scene scene = scene::read_scene(scenes + "/check/check.prm");
-    if (scene.mesh.is_lattice())
-      scene.mesh.kind = "squares";
-    scene.nodes = {fs::absolute(nodes).string()};
-    for (const scene::Series &series : scene.series)
+    if (scene.domain.mesh.is_lattice())
+      scene.domain.mesh.kind = "squares";
+    scene.methods.nodes = {fs::absolute(nodes).string()};
+    for (const scene::Series &series : scene.study.series)
       for (const scene::Level &level : series.levels)
         try // levels of other nodes have other collars
         {

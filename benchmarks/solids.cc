@@ -140,7 +140,7 @@ namespace
     const scene::Scene scene = scene::parse_scene(
         "benchmark", scene::scene_template(model),
         {{"Methods/names", method}, {"Study/h", "0.025"}, {"Solver/model", size}});
-    const scene::Problem problem = make_problem(scene, 0, scene.series[0].levels[0]);
+    const scene::Problem problem = make_problem(scene, 0, scene.study.series[0].levels[0]);
     auto methods = meshfree::methods();
     for (const auto &one : reference::methods())
       methods.push_back(one);

@@ -21,12 +21,12 @@ namespace plumbline::meshfree
       bool is_in_all() const override { return !is_trap_; }
       std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const override
       {
-        if (scene.iteration != "cg" || problem.lattice || problem.body)
+        if (scene.solver.iteration != "cg" || problem.lattice || problem.body)
           return {};
         std::string why = "on scattered nodes a bond has two weights, one for each end";
         if (problem.dilatation && !problem.dilatation->is_symmetric())
           why = "harmonic means of constants that vary in space (LPS) make none";
-        else if (scene.is_damaged())
+        else if (scene.domain.is_damaged())
           why = "what cracks and free surfaces add to rows makes none";
         return "Solver/iteration = cg needs a symmetric operator, but " + why +
                "; write automatic, gmres or bicgstab";

@@ -39,25 +39,26 @@ namespace plumbline::reference
         if (problem.lattice
                 ? n_vertices_ == 3
                 : !(n_vertices_ == 4 ? problem.mesh->is_quads() : problem.mesh->is_triangles()))
-          return std::string("the cells of Domain/mesh = ") + scene.mesh.kind + " are not all " +
-                 (n_vertices_ == 4 ? "quadrilaterals" : "triangles") + "; take " +
+          return std::string("the cells of Domain/mesh = ") + scene.domain.mesh.kind +
+                 " are not all " + (n_vertices_ == 4 ? "quadrilaterals" : "triangles") + "; take " +
                  (is_continuous_ ? "" : "DG") + other + std::to_string(degree_);
-        if (problem.body && !scene.is_unheld &&
+        if (problem.body && !scene.domain.is_floating &&
             std::all_of(problem.mesh->cells.begin(), problem.mesh->cells.end(),
                         [](const geometry::MeshCell &cell) { return cell.is_inside; }))
-          return "no cell of Domain/mesh = " + scene.mesh.kind +
+          return "no cell of Domain/mesh = " + scene.domain.mesh.kind +
                  " has its centroid in Domain/fixed, so that nothing holds the body; give smaller "
                  "cells there, or take meshfree methods alone";
-        if (scene.is_damaged())
+        if (scene.domain.is_damaged())
           return "Galerkin methods break no bonds; take meshfree methods alone, or clear "
                  "Domain/cracks and Domain/outside";
         if (!scene.material.has_collar_dilatation)
           return "Galerkin methods take dilatations of the collar from its data; write "
                  "Material/collar dilatation = from data, or take meshfree methods alone";
-        if (scene.keeps_dilatation)
+        if (scene.solver.is_mixed)
           return "Galerkin methods eliminate the dilatation; write Solver/dilatation = eliminated, "
                  "or take meshfree methods alone";
-        if (scene.iteration == "cg" && problem.dilatation && !problem.dilatation->is_symmetric())
+        if (scene.solver.iteration == "cg" && problem.dilatation &&
+            !problem.dilatation->is_symmetric())
           return "Solver/iteration = cg needs a symmetric operator, but harmonic means of "
                  "constants "
                  "that vary in space (LPS) make none; write automatic, gmres or bicgstab";
@@ -83,7 +84,7 @@ namespace plumbline::reference
           return expected_mesh_bytes(scene, size, n_vertices_, is_continuous_, degree_);
         const unsigned int n_axis = is_continuous_ ? degree_ : degree_ + 1;
         return method::expected_lattice_bytes(size, n_axis * n_axis, scene.is_vector() ? 2 : 1,
-                                             scene.reach(size.level.horizon) / size.level.h + 1);
+                                              scene.reach(size.level.horizon) / size.level.h + 1);
       }
 
     private:
@@ -105,11 +106,11 @@ namespace plumbline::reference
       {
         if (problem.lattice)
           return "it needs a mesh; write Domain/mesh = squares or triangles";
-        if (scene.is_free_body || scene.is_damaged())
+        if (scene.domain.is_free_body || scene.domain.is_damaged())
           return "u must be given all around its domain; write Domain/boundary = constrained, and "
                  "clear Domain/cracks and Domain/outside";
-        if (scene.regime != scene::Regime::delta &&
-            scene.decisive_error.find("local") == std::string::npos)
+        if (scene.study.regime != scene::Regime::delta &&
+            scene.study.decisive_error.find("local") == std::string::npos)
           return "it solves the local limit, but the scene asks for a nonlocal solution; write "
                  "Study/regime = delta, or a decisive error against local";
         return {};

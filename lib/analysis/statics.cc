@@ -23,7 +23,7 @@ namespace plumbline::analysis
       else
         message << "outer quadrature, refinement " << refinement
                 << ", still changes the solution by " << change << " relative to it,";
-      message << " more than Quadrature/tolerance = " << scene.outer_tolerance
+      message << " more than Quadrature/tolerance = " << scene.quadrature.tolerance
               << "; raise Quadrature/max refinements or the tolerance, or refine the mesh";
       throw NumericalError(message.str());
     }
@@ -113,7 +113,7 @@ namespace plumbline::analysis
         const method::CaseData data = discretisation_->data(*one.problem);
         Vector u(data.load.size());
         const algebra::LinearSolve solved =
-            system_->solve(u, data.load, {scene_.tolerance, scene_.max_iterations});
+            system_->solve(u, data.load, {scene_.solver.tolerance, scene_.solver.max_iterations});
         const base::Team team = discretisation_->team();
         one.cost.solve_seconds += team.sum(timer.seconds());
         one.cost.n_unknowns = discretisation_->n_unknowns();
@@ -125,12 +125,12 @@ namespace plumbline::analysis
         if (!is_first)
           one.solver.outer_change = data.relative_change(one.u, u);
         std::swap(one.u, u);
-        const bool is_settled = !discretisation_->has_quadrature_error() ||
-                                scene_.outer_tolerance == 0 ||
-                                (!is_first && one.solver.outer_change <= scene_.outer_tolerance);
+        const bool is_settled =
+            !discretisation_->has_quadrature_error() || scene_.quadrature.tolerance == 0 ||
+            (!is_first && one.solver.outer_change <= scene_.quadrature.tolerance);
         if (is_settled)
           finish(one, data);
-        else if (refinement_ == scene_.max_refinements)
+        else if (refinement_ == scene_.quadrature.max_refinements)
           refuse_unsettled(scene_, refinement_, one.solver.outer_change);
       }
 

@@ -87,7 +87,7 @@ namespace plumbline::method
                               const algebra::Stencil &stencil, double mass)
   {
     LimitProof proof;
-    if (scene.regime != scene::Regime::delta)
+    if (scene.study.regime != scene::Regime::delta)
       return proof;
     proof.defect = moment_defect(problem, stencil, mass);
     proof.answer = proof.has_wrong_moments() ? Answer::incompatible : Answer::compatible;
@@ -104,10 +104,10 @@ namespace plumbline::method
                             const Diagnostics &diagnostics)
   {
     LimitProof proof;
-    if (scene.regime != scene::Regime::delta)
+    if (scene.study.regime != scene::Regime::delta)
       return proof;
     const bool has_entries = problem.lattice || diagnostics.is_outer_error_known;
-    if (!scene.is_homogeneous() || scene.is_free_body)
+    if (!scene.is_homogeneous() || scene.domain.is_free_body)
       proof.reason = "no theorem for this material or boundary";
     else if (!is_non_increasing_and_positive(problem.kernel))
       proof.reason = "no theorem for a kernel that is negative or increases with distance";

@@ -38,12 +38,11 @@ namespace plumbline::method
   }
 
   SparseDiscretisation::SparseDiscretisation(const scene::Scene &scene,
-                                             algebra::SparseOptions options,
-                                             const base::Team &team)
+                                             algebra::SparseOptions options, const base::Team &team)
       : options_(std::move(options)), team_(team)
   {
-    options_.solver = algebra::sparse_solver_from_name(scene.linear_solver);
-    options_.iteration = algebra::iteration_from_name(scene.iteration);
+    options_.solver = algebra::sparse_solver_from_name(scene.solver.linear_solver);
+    options_.iteration = algebra::iteration_from_name(scene.solver.iteration);
   }
 
   void SparseDiscretisation::set_rows(PartedRows rows)

@@ -20,9 +20,9 @@ namespace plumbline::scene
     /// Coarse to fine and nothing twice: rates and names rest on it.
     void check_order(const Scene &scene)
     {
-      const bool is_h = scene.regime != Regime::horizon;
+      const bool is_h = scene.study.regime != Regime::horizon;
       std::set<std::string> names;
-      for (const Series &series : scene.series)
+      for (const Series &series : scene.study.series)
       {
         if (!names.insert(series.name).second)
           throw InputError("Study: the series '" + series.name +
@@ -35,7 +35,7 @@ namespace plumbline::scene
                              series.name + "')");
       }
       std::set<std::string> cases;
-      for (const std::string &name : scene.case_names())
+      for (const std::string &name : scene.problem.case_names())
         if (!cases.insert(name).second)
           throw InputError("Problem: two cases are called '" + name +
                            "'; write 'name: expression; name: expression' with different names");
@@ -45,7 +45,7 @@ namespace plumbline::scene
   void check_levels(const Scene &scene)
   {
     check_order(scene);
-    for (const Series &series : scene.series)
+    for (const Series &series : scene.study.series)
       for (const Level &level : series.levels)
       {
         std::ostringstream message;
@@ -60,16 +60,17 @@ namespace plumbline::scene
                   << " (m = " << level.horizon / level.h
                   << "), so a node has no neighbours; use m = horizon / h >= 1 "
                      "(Study/m, Study/horizon, Study/h)";
-        else if (scene.collar && *scene.collar < scene.reach(level.horizon) * (1 - 1e-12))
-          message << "Domain/collar = " << *scene.collar << " is thinner than "
+        else if (scene.domain.collar &&
+                 *scene.domain.collar < scene.reach(level.horizon) * (1 - 1e-12))
+          message << "Domain/collar = " << *scene.domain.collar << " is thinner than "
                   << (scene.has_dilatation() ? "twice the horizon, which dilatations need, "
                                              : "the horizon ")
                   << scene.reach(level.horizon)
                   << ", so balls would reach points without data; widen it or write auto";
         else
         {
-          if (scene.mesh.is_of_boxes())
-            (void)geometry::Lattice(scene.domain, level.h);
+          if (scene.domain.mesh.is_of_boxes())
+            (void)geometry::Lattice(scene.domain.boxes, level.h);
           continue;
         }
         throw InputError(message.str());
@@ -80,19 +81,20 @@ namespace plumbline::scene
   {
     const bool is_tensor = scene.is_vector(), is_state_based = scene.material.is_state_based();
     if (is_state_based &&
-        (scene.structure == physics::Structure::tensor || scene.limit != "Navier" ||
-         !scene.coefficient.empty() || !scene.materials.empty()))
+        (scene.kernel.structure == physics::Structure::tensor || scene.kernel.limit != "Navier" ||
+         !scene.kernel.coefficient.empty() || !scene.kernel.materials.empty()))
       throw InputError("Material/model = " + scene.material.model +
                        " takes Kernel/type as its influence function and its constants from "
                        "Material; write a scalar Kernel/type (1/r, constant, ...), Kernel/limit = "
                        "Navier, and clear Kernel/coefficient and Kernel/materials");
-    if (scene.limit == "Navier" && !is_tensor)
+    if (scene.kernel.limit == "Navier" && !is_tensor)
       throw InputError("Kernel/limit = Navier does not fit the scalar kernel '" +
-                       scene.kernel_type +
+                       scene.kernel.type +
                        "'; choose a bond tensor (Kernel/type) or a Laplace limit");
-    if (is_tensor && scene.limit.find("Laplace") != std::string::npos)
-      throw InputError("Kernel/limit = '" + scene.limit + "' does not fit the bond tensor '" +
-                       scene.kernel_type + "'; write Kernel/limit = Navier, or none");
+    if (is_tensor && scene.kernel.limit.find("Laplace") != std::string::npos)
+      throw InputError("Kernel/limit = '" + scene.kernel.limit +
+                       "' does not fit the bond tensor '" + scene.kernel.type +
+                       "'; write Kernel/limit = Navier, or none");
     const unsigned int n_components = is_tensor ? 2 : 1;
     const auto check = [&](const std::string &key, const std::string &expression)
     {
@@ -106,26 +108,27 @@ namespace plumbline::scene
                          " needs " + std::to_string(n_components) +
                          "; give one expression a component, separated by ','");
     };
-    for (const Case &solution : scene.solutions)
+    for (const Case &solution : scene.problem.solutions)
       check("Problem/solution", solution.expression);
-    for (const Case &load : scene.loads)
+    for (const Case &load : scene.problem.loads)
       check("Problem/load", load.expression);
-    if (scene.constraint != "solution")
-      check("Problem/constraint", scene.constraint);
-    if (scene.local_solution != "solution" && scene.local_solution != "none" &&
-        scene.local_solution != "computed")
-      check("Problem/local solution", scene.local_solution);
+    if (scene.problem.constraint != "solution")
+      check("Problem/constraint", scene.problem.constraint);
+    if (scene.problem.local_solution != "solution" && scene.problem.local_solution != "none" &&
+        scene.problem.local_solution != "computed")
+      check("Problem/local solution", scene.problem.local_solution);
 
-    if (scene.solutions.empty() && scene.loads.empty())
+    if (scene.problem.solutions.empty() && scene.problem.loads.empty())
       throw InputError("Problem/load = manufactured needs Problem/solution; give the solution, or "
                        "the load itself");
-    if (scene.solutions.empty() && scene.constraint == "solution")
+    if (scene.problem.solutions.empty() && scene.problem.constraint == "solution")
       throw InputError("Problem/constraint = solution, but Problem/solution is empty; give the "
                        "constraint as an expression");
-    if (!scene.loads.empty() && !scene.solutions.empty() &&
-        scene.loads.size() != scene.solutions.size())
-      throw InputError("Problem/load has " + std::to_string(scene.loads.size()) +
-                       " cases and Problem/solution has " + std::to_string(scene.solutions.size()) +
+    if (!scene.problem.loads.empty() && !scene.problem.solutions.empty() &&
+        scene.problem.loads.size() != scene.problem.solutions.size())
+      throw InputError("Problem/load has " + std::to_string(scene.problem.loads.size()) +
+                       " cases and Problem/solution has " +
+                       std::to_string(scene.problem.solutions.size()) +
                        "; give one load a solution");
   }
 
@@ -139,25 +142,26 @@ namespace plumbline::scene
           throw InputError("Domain/boundary = free needs " + what);
       };
       needs(scene.material.model == "variational", "Material/model = variational");
-      needs(!scene.mesh.is_lattice() ||
-                (scene.domain.include.size() == 1 && scene.domain.exclude.empty()),
+      needs(!scene.domain.mesh.is_lattice() ||
+                (scene.domain.boxes.include.size() == 1 && scene.domain.boxes.exclude.empty()),
             "one box (Domain/boxes) without holes where Domain/mesh = lattice; write squares or "
             "triangles for several boxes, a .geo or .msh file for any other shape");
       needs(
-          !scene.fixed.empty() || scene.is_unheld,
+          !scene.domain.fixed.empty() || scene.domain.is_floating,
           "a part where u is given, or the body can move as a whole (3 rigid modes in the plane); "
           "give Domain/fixed");
-      needs(scene.nodes.kind == "vertices", "Methods/nodes = vertices");
-      needs(scene.solutions.empty() && !scene.loads.empty(),
+      needs(scene.methods.nodes.kind == "vertices", "Methods/nodes = vertices");
+      needs(scene.problem.solutions.empty() && !scene.problem.loads.empty(),
             "Problem/load and Problem/constraint as expressions, Problem/solution empty");
-      needs(!scene.collar, "Domain/collar = auto: there is none");
-      if (!scene.mesh.is_of_boxes() || !scene.mesh.map.empty())
+      needs(!scene.domain.collar, "Domain/collar = auto: there is none");
+      if (!scene.domain.mesh.is_of_boxes() || !scene.domain.mesh.map.empty())
         return; // fixed boxes may cut the cells
-      for (const Series &series : scene.series)
+      for (const Series &series : scene.study.series)
         for (const Level &level : series.levels)
         {
-          geometry::Domain both = scene.domain;
-          both.include.insert(both.include.end(), scene.fixed.begin(), scene.fixed.end());
+          geometry::Domain both = scene.domain.boxes;
+          both.include.insert(both.include.end(), scene.domain.fixed.begin(),
+                              scene.domain.fixed.end());
           (void)geometry::Lattice(both, level.h);
         }
     }
@@ -165,7 +169,7 @@ namespace plumbline::scene
 
   void check_mesh_and_nodes(const Scene &scene)
   {
-    const MeshSource &mesh = scene.mesh;
+    const MeshSource &mesh = scene.domain.mesh;
     const auto needs = [&](bool is_good, const std::string &what, const std::string &remedy)
     {
       if (!is_good)
@@ -180,59 +184,63 @@ namespace plumbline::scene
           "Domain/arguments or Domain/inside is given",
           "they belong to deal.II's generators; clear them");
     needs(
-        !is_generator || !mesh.inside.empty() || scene.is_free_body, "Domain/inside is empty",
+        !is_generator || !mesh.inside.empty() || scene.domain.is_free_body,
+        "Domain/inside is empty",
         "lattice, squares, triangles and files .msh or .geo do without, any other name is a "
         "generator of deal.II; tell which of its cells are in Omega, the others being the collar, "
         "by an expression that is positive there");
-    needs(!mesh.is_lattice() || scene.coefficient.empty(),
-          "Kernel/coefficient = '" + scene.coefficient + "'", mesh_remedy);
-    needs(!mesh.is_lattice() || scene.is_free_body || scene.material.is_homogeneous,
+    needs(!mesh.is_lattice() || scene.kernel.coefficient.empty(),
+          "Kernel/coefficient = '" + scene.kernel.coefficient + "'", mesh_remedy);
+    needs(!mesh.is_lattice() || scene.domain.is_free_body || scene.material.is_homogeneous,
           "Material/" + scene.material.keys[0] + " or " + scene.material.keys[1] +
               " varies in space",
           mesh_remedy);
-    needs(!mesh.is_lattice() || scene.nodes.perturbation == 0, "Methods/perturbation > 0",
+    needs(!mesh.is_lattice() || scene.methods.nodes.perturbation == 0, "Methods/perturbation > 0",
           mesh_remedy);
-    needs(!mesh.is_lattice() || scene.local_solution != "computed",
+    needs(!mesh.is_lattice() || scene.problem.local_solution != "computed",
           "Problem/local solution = computed", mesh_remedy);
-    if (scene.local_solution == "computed" && (scene.is_free_body || scene.is_damaged()))
+    if (scene.problem.local_solution == "computed" &&
+        (scene.domain.is_free_body || scene.domain.is_damaged()))
       throw InputError("Problem/local solution = computed needs u all around a domain without "
                        "cracks and free surfaces; write none, or an expression");
-    needs(mesh.is_lattice() || !scene.collar, "Domain/collar is given",
+    needs(mesh.is_lattice() || !scene.domain.collar, "Domain/collar is given",
           "a mesh has the collar it has, and is checked; write Domain/collar = auto");
-    needs(mesh.is_lattice() || scene.is_free_body || scene.operator_backend == "automatic",
-          "Solver/operator = " + scene.operator_backend,
+    needs(mesh.is_lattice() || scene.domain.is_free_body ||
+              scene.solver.operator_backend == "automatic",
+          "Solver/operator = " + scene.solver.operator_backend,
           "operators on meshes are sparse matrices; write automatic");
-    needs(mesh.is_of_boxes() || scene.domain.exclude.empty(), "Domain/holes is given",
+    needs(mesh.is_of_boxes() || scene.domain.boxes.exclude.empty(), "Domain/holes is given",
           "holes are for boxes; cut them out of the mesh itself");
-    if (scene.is_free_body)
+    if (scene.domain.is_free_body)
       check_free_body(scene);
-    else if (!scene.fixed.empty() || scene.is_unheld)
+    else if (!scene.domain.fixed.empty() || scene.domain.is_floating)
       throw InputError("Domain/fixed is given, but u is given in the collar all around; write "
                        "Domain/boundary = free, or clear it");
     if (!scene.material.has_collar_dilatation &&
-        (!scene.has_dilatation() || mesh.is_lattice() || scene.is_free_body))
+        (!scene.has_dilatation() || mesh.is_lattice() || scene.domain.is_free_body))
       throw InputError("Material/collar dilatation = zero needs a state-based solid with lambda != "
                        "mu on scattered nodes with a collar; write from data, or Material/model = "
                        "LPS with Domain/mesh = squares");
-    if (scene.is_damaged() && scene.material.model != "LPS")
+    if (scene.domain.is_damaged() && scene.material.model != "LPS")
       throw InputError("Domain/cracks and Domain/outside need Material/model = LPS, whose free "
                        "surfaces they make; choose it, or clear them");
-    needs(!mesh.is_lattice() || !scene.is_damaged(), "Domain/cracks or Domain/outside is given",
-          mesh_remedy);
-    if (scene.loads_are_averages && !scene.is_free_body)
+    needs(!mesh.is_lattice() || !scene.domain.is_damaged(),
+          "Domain/cracks or Domain/outside is given", mesh_remedy);
+    if (scene.methods.loads_are_averages && !scene.domain.is_free_body)
       throw InputError("Methods/load = cells is for free bodies; write nodes, or Domain/boundary = "
                        "free");
-    const std::string &nodes = scene.nodes.kind;
+    const std::string &nodes = scene.methods.nodes.kind;
     const bool is_csv = nodes.size() > 4 && nodes.substr(nodes.size() - 4) == ".csv";
     if (nodes != "centres" && nodes != "vertices" && nodes != "mesh" && !is_csv)
       throw InputError("Methods/nodes = '" + nodes +
                        "' is not known; write centres, vertices, mesh, or a file .csv");
     needs(!mesh.is_lattice() || nodes == "centres" || nodes == "vertices",
           "Methods/nodes = " + nodes, mesh_remedy);
-    needs((mesh.is_of_boxes() && mesh.map.empty()) || scene.is_free_body || nodes != "vertices",
+    needs((mesh.is_of_boxes() && mesh.map.empty()) || scene.domain.is_free_body ||
+              nodes != "vertices",
           "Methods/nodes = vertices",
           "vertices are those of the boxes; write centres, mesh, or a file .csv");
-    if (scene.nodes.perturbation > 0 && nodes != "centres")
+    if (scene.methods.nodes.perturbation > 0 && nodes != "centres")
       throw InputError("Methods/perturbation moves centres, but Methods/nodes = " + nodes +
                        "; write Methods/nodes = centres, or set the perturbation to 0");
     const auto expression = [&](const std::string &key, const std::string &text, unsigned int n)
@@ -242,16 +250,16 @@ namespace plumbline::scene
         throw InputError(key + " = '" + text + "' has " + std::to_string(parsed.n_components()) +
                          " component(s), not " + std::to_string(n));
     };
-    needs(scene.materials.empty() || mesh.is_file(), "Kernel/materials is given",
+    needs(scene.kernel.materials.empty() || mesh.is_file(), "Kernel/materials is given",
           "materials are the physical surfaces of a .msh or .geo file; write Kernel/coefficient");
-    if (!scene.materials.empty() && !scene.coefficient.empty())
+    if (!scene.kernel.materials.empty() && !scene.kernel.coefficient.empty())
       throw InputError("Kernel/materials and Kernel/coefficient are both given; clear one of them");
-    if (!scene.coefficient.empty())
-      expression("Kernel/coefficient", scene.coefficient, 1);
+    if (!scene.kernel.coefficient.empty())
+      expression("Kernel/coefficient", scene.kernel.coefficient, 1);
     if (!mesh.inside.empty())
       expression("Domain/inside", mesh.inside, 1);
-    if (!scene.outside.empty())
-      expression("Domain/outside", scene.outside, 1);
+    if (!scene.domain.outside.empty())
+      expression("Domain/outside", scene.domain.outside, 1);
     if (!mesh.map.empty())
       expression("Domain/map", mesh.map, 2);
   }
@@ -260,43 +268,44 @@ namespace plumbline::scene
   {
     static const std::vector<std::string> known = {"nodal Linf",  "nodal L2",   "averages Linf",
                                                    "averages L2", "field Linf", "field L2"};
-    for (const std::string &norm : scene.norms)
+    for (const std::string &norm : scene.study.norms)
       if (std::find(known.begin(), known.end(), norm) == known.end())
         throw InputError("Study/norms: '" + norm +
                          "' is not a norm; choose of nodal Linf, nodal L2, averages Linf, "
                          "averages L2, field Linf, field L2");
-    const auto parts = split_outside_brackets(scene.decisive_error, '|');
+    const auto parts = split_outside_brackets(scene.study.decisive_error, '|');
     const bool is_known_target = parts.size() == 2 && (parts[1] == "exact" || parts[1] == "local" ||
                                                        parts[1] == "reference");
-    if (!is_known_target ||
-        std::find(scene.norms.begin(), scene.norms.end(), parts[0]) == scene.norms.end())
-      throw InputError("Study/decisive error = '" + scene.decisive_error +
+    if (!is_known_target || std::find(scene.study.norms.begin(), scene.study.norms.end(),
+                                      parts[0]) == scene.study.norms.end())
+      throw InputError("Study/decisive error = '" + scene.study.decisive_error +
                        "' must be 'norm | target' with a norm of Study/norms (add it there) and a "
                        "target of exact, local, reference");
-    if (parts[1] == "exact" && scene.solutions.empty())
-      throw InputError("Study/decisive error = '" + scene.decisive_error +
+    if (parts[1] == "exact" && scene.problem.solutions.empty())
+      throw InputError("Study/decisive error = '" + scene.study.decisive_error +
                        "' needs Problem/solution, which is empty; use the target reference");
-    if (parts[1] == "local" && scene.local_solution == "computed" &&
+    if (parts[1] == "local" && scene.problem.local_solution == "computed" &&
         parts[0].compare(0, 8, "averages") != 0)
-      throw InputError("Study/decisive error = '" + scene.decisive_error +
+      throw InputError("Study/decisive error = '" + scene.study.decisive_error +
                        "': a computed local solution is compared by cell averages; use averages L2 "
                        "or averages Linf");
     if (parts[1] == "local" &&
-        (scene.local_solution == "solution" || scene.local_solution == "none"))
+        (scene.problem.local_solution == "solution" || scene.problem.local_solution == "none"))
       throw InputError(
-          "Study/decisive error = '" + scene.decisive_error +
+          "Study/decisive error = '" + scene.study.decisive_error +
           "' needs Problem/local solution as an expression; where it is the solution itself, "
           "take the target exact");
-    if (parts[1] == "reference" && scene.reference == "none")
-      throw InputError("Study/decisive error = '" + scene.decisive_error +
+    if (parts[1] == "reference" && scene.reference.method == "none")
+      throw InputError("Study/decisive error = '" + scene.study.decisive_error +
                        "' needs Reference/method, which is none");
     if (parts[1] == "reference" && parts[0].compare(0, 8, "averages") != 0)
-      throw InputError("Study/decisive error = '" + scene.decisive_error +
+      throw InputError("Study/decisive error = '" + scene.study.decisive_error +
                        "': solutions are held against a reference by cell averages; use averages "
                        "L2 or averages Linf");
-    if (scene.reference_tolerance > 0 && (scene.reference == "none" || scene.estimate == "none"))
+    if (scene.reference.tolerance > 0 &&
+        (scene.reference.method == "none" || scene.reference.estimate == "none"))
       throw InputError(
-          "Reference/tolerance = " + short_number(scene.reference_tolerance) +
+          "Reference/tolerance = " + short_number(scene.reference.tolerance) +
           " needs a reference and the estimate of its error; give Reference/method and "
           "write Reference/estimate = automatic, or set the tolerance to 0");
   }

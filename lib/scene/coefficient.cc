@@ -19,16 +19,17 @@ namespace plumbline::scene
       std::string names;
       for (const std::string &group : mesh.groups)
         names += (names.empty() ? "" : ", ") + group;
-      for (const Case &material : scene.materials)
+      for (const Case &material : scene.kernel.materials)
         if (std::find(mesh.groups.begin(), mesh.groups.end(), material.name) == mesh.groups.end())
           throw InputError("Kernel/materials: the mesh has no physical surface '" + material.name +
                            "'; it has " + names);
       std::vector<double> values;
       for (const std::string &group : mesh.groups)
       {
-        const auto material = std::find_if(scene.materials.begin(), scene.materials.end(),
-                                           [&](const Case &one) { return one.name == group; });
-        if (material == scene.materials.end())
+        const auto material =
+            std::find_if(scene.kernel.materials.begin(), scene.kernel.materials.end(),
+                         [&](const Case &one) { return one.name == group; });
+        if (material == scene.kernel.materials.end())
           throw InputError("Kernel/materials has no value for the physical surface '" + group +
                            "' of the mesh; give one for each of " + names);
         values.push_back(to_number("Kernel/materials", material->expression));
@@ -40,7 +41,7 @@ namespace plumbline::scene
   std::optional<physics::Coefficient> make_coefficient(const Scene &scene,
                                                        const geometry::Mesh &mesh)
   {
-    if (scene.is_homogeneous() && !scene.is_free_body)
+    if (scene.is_homogeneous() && !scene.domain.is_free_body)
       return {};
     std::optional<physics::Coefficient> coefficient;
     if (scene.material.is_state_based())
@@ -48,9 +49,9 @@ namespace plumbline::scene
                           "Material/" + scene.material.keys[1],
                           scene.material.model == "LPS" ? physics::Mean::harmonic
                                                         : physics::Mean::arithmetic);
-    else if (scene.materials.empty())
-      coefficient.emplace(physics::Expression("Kernel/coefficient", scene.coefficient),
-                          scene.symmetrisation);
+    else if (scene.kernel.materials.empty())
+      coefficient.emplace(physics::Expression("Kernel/coefficient", scene.kernel.coefficient),
+                          scene.kernel.symmetrisation);
     else
     {
       std::vector<double> values;
@@ -59,7 +60,7 @@ namespace plumbline::scene
         values.push_back(of_group[cell.group]);
       coefficient.emplace([values, cells = std::make_shared<const geometry::CellLocator>(mesh)](
                               const Point<2> &x) { return values[cells->at(x)]; },
-                          "Kernel/materials", scene.symmetrisation);
+                          "Kernel/materials", scene.kernel.symmetrisation);
     }
     for (const Point<2> &vertex : mesh.vertices)
       (void)coefficient->at(vertex);

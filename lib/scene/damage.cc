@@ -10,9 +10,9 @@ namespace plumbline::scene
                                 const geometry::NodeCells &cells)
   {
     std::vector<char> is_ghost;
-    if (scene.outside.empty())
+    if (scene.domain.outside.empty())
       return is_ghost;
-    const physics::Expression outside("Domain/outside", scene.outside, {{"delta", horizon}});
+    const physics::Expression outside("Domain/outside", scene.domain.outside, {{"delta", horizon}});
     for (const dealii::Point<2> &x : cells.nodes)
       is_ghost.push_back(static_cast<char>(outside(x) > 0));
     return is_ghost;
@@ -26,7 +26,7 @@ namespace plumbline::scene
     {
       geometry::check_ghosts(is_ghost, cells);
       key = "Domain/cracks";
-      geometry::check_cracks(scene.cracks, cells, is_ghost, horizon);
+      geometry::check_cracks(scene.domain.cracks, cells, is_ghost, horizon);
     }
     catch (const InputError &error)
     {

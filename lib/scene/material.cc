@@ -28,7 +28,7 @@ namespace plumbline::scene
       throw InputError(message.str());
     }
 
-    Lame convert(const Material &material, double first, double second)
+    Lame convert(const MaterialSection &material, double first, double second)
     {
       Lame lame{};
       if (material.keys[0] == "E")
@@ -49,7 +49,7 @@ namespace plumbline::scene
     }
   } // namespace
 
-  std::function<Lame(const Point<2> &)> Material::lame() const
+  std::function<Lame(const Point<2> &)> MaterialSection::lame() const
   {
     const Expression first("Material/" + keys[0], expressions[0]),
         second("Material/" + keys[1], expressions[1]);
@@ -74,9 +74,9 @@ namespace plumbline::scene
     return at;
   }
 
-  Material make_material(const std::function<std::string(const std::string &key)> &value)
+  MaterialSection make_material(const std::function<std::string(const std::string &key)> &value)
   {
-    Material material;
+    MaterialSection material;
     material.model = value("Material/model");
     material.has_collar_dilatation = value("Material/collar dilatation") == "from data";
     material.plane = value("Material/plane") == "stress" ? physics::PlaneState::stress
@@ -120,7 +120,7 @@ namespace plumbline::scene
   {
     if (!scene.has_dilatation())
       return {};
-    return physics::Dilatation{physics::influence_function(scene.profile, horizon),
+    return physics::Dilatation{physics::influence_function(scene.kernel.profile, horizon),
                                scene.material.lame(), scene.material.model == "LPS",
                                scene.material.is_homogeneous};
   }

@@ -7,7 +7,7 @@ namespace plumbline::scene
   /// The solid that the keys of section Material describe.
   /// @param value  of a key
   /// @throws InputError  constants that do not fit together, or of no solid
-  Material make_material(const std::function<std::string(const std::string &key)> &value);
+  MaterialSection make_material(const std::function<std::string(const std::string &key)> &value);
 
   /// What the dilatation adds to a scene's bonds, or nothing.
   /// @throws InputError  (its material) a constant that is not allowed, naming key and place

@@ -27,12 +27,13 @@ namespace plumbline::scene
     void check_cells(const Scene &scene, const Level &level)
     {
       constexpr double of_cell = 1000; // mesh, geometry of its cells, nodes and theirs [bytes]
-      const geometry::Lattice lattice(scene.domain, level.h);
-      const double collar = scene.is_free_body ? 0 : scene.reach(level.horizon) / level.h + 1;
+      const geometry::Lattice lattice(scene.domain.boxes, level.h);
+      const double collar =
+          scene.domain.is_free_body ? 0 : scene.reach(level.horizon) / level.h + 1;
       const double n = (lattice.n_cells()[0] + 2 * collar) * (lattice.n_cells()[1] + 2 * collar) *
-                       (scene.mesh.kind == "triangles" ? 2 : 1);
+                       (scene.domain.mesh.kind == "triangles" ? 2 : 1);
       std::ostringstream what;
-      what << "Domain/mesh = " << scene.mesh.kind << " at h = " << level.h
+      what << "Domain/mesh = " << scene.domain.mesh.kind << " at h = " << level.h
            << ", horizon = " << level.horizon << " (some " << std::round(n) << " cells)";
       base::require_memory(n * of_cell, what.str(),
                            "choose a larger h or a smaller horizon (Study), or lattice where the "
@@ -41,13 +42,13 @@ namespace plumbline::scene
 
     geometry::Mesh read_or_make(const Scene &scene, const Level &level)
     {
-      const MeshSource &source = scene.mesh;
+      const MeshSource &source = scene.domain.mesh;
       const std::map<std::string, double> constants = {{"delta", level.horizon}};
       if (source.is_file())
         try
         {
-          return scene.mesh_files->read(path(scene, source.kind), level.h, level.horizon,
-                                        !scene.is_free_body);
+          return scene.domain.mesh_files->read(path(scene, source.kind), level.h, level.horizon,
+                                               !scene.domain.is_free_body);
         }
         catch (const InputError &error)
         {
@@ -60,8 +61,8 @@ namespace plumbline::scene
           map = [expression = physics::Expression("Domain/map", source.map, constants)](
                     const Point<2> &x) { return Point<2>(expression(x, 0), expression(x, 1)); };
         check_cells(scene, level);
-        return geometry::lattice_mesh(scene.domain, level.h,
-                                      scene.is_free_body ? 0 : scene.reach(level.horizon),
+        return geometry::lattice_mesh(scene.domain.boxes, level.h,
+                                      scene.domain.is_free_body ? 0 : scene.reach(level.horizon),
                                       source.kind == "triangles", map);
       }
       const std::string everywhere = "1";
@@ -99,7 +100,7 @@ namespace plumbline::scene
     if (width < scene.reach(level.horizon) * (1 - 1e-9))
     {
       std::ostringstream message;
-      message << "Domain/mesh = " << scene.mesh.kind << ": the collar is " << width
+      message << "Domain/mesh = " << scene.domain.mesh.kind << ": the collar is " << width
               << " wide at its thinnest place, thinner than "
               << (scene.has_dilatation() ? "twice the horizon, which dilatations need, "
                                          : "the horizon ")
@@ -113,20 +114,23 @@ namespace plumbline::scene
 
   geometry::VertexCells make_body(const Scene &scene, const Level &level)
   {
-    const MeshSource &source = scene.mesh;
+    const MeshSource &source = scene.domain.mesh;
     const bool is_on_boxes = source.is_of_boxes() && source.map.empty();
     const auto lame = scene.material.lame();
     const auto on_lattice = [&]
-    { return geometry::vertex_cells(geometry::Lattice(scene.domain, level.h), scene.fixed); };
+    {
+      return geometry::vertex_cells(geometry::Lattice(scene.domain.boxes, level.h),
+                                    scene.domain.fixed);
+    };
     const auto on_mesh = [&]
     {
       geometry::Mesh mesh = read_or_make(scene, level);
       keep_inside(mesh);
-      fix_parts(scene.fixed, mesh);
+      fix_parts(scene.domain.fixed, mesh);
       const Point<2> origin =
-          is_on_boxes ? geometry::Lattice(scene.domain, level.h).origin() : Point<2>();
+          is_on_boxes ? geometry::Lattice(scene.domain.boxes, level.h).origin() : Point<2>();
       return geometry::vertex_cells(std::make_shared<const geometry::Mesh>(std::move(mesh)), origin,
-                                    level.h, scene.fixed);
+                                    level.h, scene.domain.fixed);
     };
     geometry::VertexCells body = source.is_lattice() ? on_lattice() : on_mesh();
     for (const Point<2> &node : body.cells->nodes)
@@ -150,15 +154,16 @@ namespace plumbline::scene
   geometry::NodeCells make_node_cells(const Scene &scene, const Level &level,
                                       const geometry::Mesh &mesh)
   {
-    const NodeSource &source = scene.nodes;
+    const NodeSource &source = scene.methods.nodes;
     if (source.kind == "vertices")
-      return geometry::vertex_squares(geometry::Lattice(scene.domain, level.h),
+      return geometry::vertex_squares(geometry::Lattice(scene.domain.boxes, level.h),
                                       scene.reach(level.horizon));
     const bool is_file = source.kind != "mesh" && source.kind != "centres";
     std::vector<std::size_t> lines;
     const auto nodes = source.kind == "mesh" ? centroids(mesh)
-                       : is_file             ? read_nodes(path(scene, source.kind), &lines)
-                                 : lattice_nodes(mesh, level.h, source.perturbation, scene.seed);
+                       : is_file
+                           ? read_nodes(path(scene, source.kind), &lines)
+                           : lattice_nodes(mesh, level.h, source.perturbation, scene.geometry.seed);
     try
     {
       return voronoi_cells(nodes, mesh);

@@ -113,20 +113,20 @@ namespace plumbline::scene
 
   Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level)
   {
-    const physics::Kernel<2> kernel = scene.kernel(level.horizon);
+    const physics::Kernel<2> kernel = make_kernel(scene, level.horizon);
     const unsigned int n_components = kernel.n_components();
     Problem problem{
         {},           {}, {}, {}, level.h, kernel, {}, make_dilatation(scene, level.horizon),
         n_components, {}, {}, {}, {}};
-    if (scene.is_free_body)
+    if (scene.domain.is_free_body)
     {
       const geometry::VertexCells body = make_body(scene, level);
       problem.body = body.lattice;
       problem.cells = body.cells;
       problem.mesh = body.mesh;
     }
-    else if (scene.mesh.is_lattice())
-      problem.lattice.emplace(scene.domain, level.h);
+    else if (scene.domain.mesh.is_lattice())
+      problem.lattice.emplace(scene.domain.boxes, level.h);
     else
     {
       problem.mesh = std::make_shared<const geometry::Mesh>(make_mesh(scene, level));
@@ -142,21 +142,22 @@ namespace plumbline::scene
     const auto field = [&](const std::string &key, const std::string &text)
     { return with_series(expression(key, text), n_components, omega, 0); };
 
-    if (!scene.solutions.empty())
-      problem.solution = field("Problem/solution", scene.solutions[case_index].expression);
-    problem.constraint = scene.constraint == "solution"
+    if (!scene.problem.solutions.empty())
+      problem.solution = field("Problem/solution", scene.problem.solutions[case_index].expression);
+    problem.constraint = scene.problem.constraint == "solution"
                              ? *problem.solution
-                             : field("Problem/constraint", scene.constraint);
-    if (scene.local_solution == "solution")
+                             : field("Problem/constraint", scene.problem.constraint);
+    if (scene.problem.local_solution == "solution")
       problem.local_solution = problem.solution;
-    else if (scene.local_solution != "none" && scene.local_solution != "computed")
-      problem.local_solution = field("Problem/local solution", scene.local_solution);
+    else if (scene.problem.local_solution != "none" && scene.problem.local_solution != "computed")
+      problem.local_solution = field("Problem/local solution", scene.problem.local_solution);
 
-    if (!scene.loads.empty())
-      problem.load = field("Problem/load", scene.loads[case_index].expression);
+    if (!scene.problem.loads.empty())
+      problem.load = field("Problem/load", scene.problem.loads[case_index].expression);
     else
     {
-      const Expression u = expression("Problem/solution", scene.solutions[case_index].expression);
+      const Expression u =
+          expression("Problem/solution", scene.problem.solutions[case_index].expression);
       const physics::ManufacturedLoad bonds(kernel, u, problem.coefficient);
       ChebyshevField::Function load = bonds;
       if (problem.dilatation)

@@ -91,26 +91,27 @@ namespace plumbline::scene
         if (!is_good)
           throw InputError("Solver/" + what);
       };
-      const bool is_chosen = scene.iteration != "automatic";
-      const bool is_scattered = !scene.mesh.is_lattice() && !scene.is_free_body;
-      const std::string iteration = "iteration = " + scene.iteration, kept = "dilatation = kept";
-      needs(!is_chosen || scene.linear_solver != "direct",
+      const bool is_chosen = scene.solver.iteration != "automatic";
+      const bool is_scattered = !scene.domain.mesh.is_lattice() && !scene.domain.is_free_body;
+      const std::string iteration = "iteration = " + scene.solver.iteration,
+                        kept = "dilatation = kept";
+      needs(!is_chosen || scene.solver.linear_solver != "direct",
             iteration + ", but nothing iterates with Solver/linear solver = direct; write "
                         "Solver/iteration = automatic, or another linear solver");
-      needs(!is_chosen || scene.iteration == "cg" || is_scattered,
-            iteration + " on a " + (scene.is_free_body ? "free body" : "lattice") +
+      needs(!is_chosen || scene.solver.iteration == "cg" || is_scattered,
+            iteration + " on a " + (scene.domain.is_free_body ? "free body" : "lattice") +
                 ": its operator is symmetric positive definite; write automatic or cg");
-      if (!scene.keeps_dilatation)
+      if (!scene.solver.is_mixed)
         return;
       needs(scene.has_dilatation(),
             kept + ", but the model has none, being that of state-based solids with lambda != mu; "
                    "write eliminated, or Material/model = LPS");
       needs(is_scattered, kept + " is for scattered nodes, not for lattices and free bodies; write "
                                  "eliminated, or Domain/mesh = squares with a collar");
-      needs(scene.linear_solver != "jacobi",
+      needs(scene.solver.linear_solver != "jacobi",
             kept + " makes a system that jacobi does not precondition; write Solver/linear solver "
                    "= automatic, direct or amg");
-      needs(scene.iteration != "cg",
+      needs(scene.solver.iteration != "cg",
             kept + " makes a system that is not symmetric, as cg needs it; write Solver/iteration "
                    "= automatic, gmres or bicgstab");
     }
@@ -120,113 +121,114 @@ namespace plumbline::scene
       const auto value = [&](const std::string &key) { return get(parameters, key); };
       const auto numbers = [&](const std::string &key) { return to_numbers(key, value(key), ','); };
       Scene scene;
-      scene.mesh_files = std::make_shared<MeshFiles>();
+      scene.domain.mesh_files = std::make_shared<MeshFiles>();
       scene.name = std::filesystem::path(file).stem().string();
       scene.purpose = value("Purpose");
       std::ostringstream text;
       parameters.print_parameters(text, dealii::ParameterHandler::ShortText);
       scene.text = text.str();
 
-      scene.domain.include = to_boxes("Domain/boxes", value("Domain/boxes"));
-      scene.domain.exclude = to_boxes("Domain/holes", value("Domain/holes"));
+      scene.domain.boxes.include = to_boxes("Domain/boxes", value("Domain/boxes"));
+      scene.domain.boxes.exclude = to_boxes("Domain/holes", value("Domain/holes"));
       scene.folder = std::filesystem::path(file).parent_path().string();
-      scene.mesh = {value("Domain/mesh"), value("Domain/arguments"), value("Domain/inside"),
-                    value("Domain/map")};
+      scene.domain.mesh = {value("Domain/mesh"), value("Domain/arguments"), value("Domain/inside"),
+                           value("Domain/map")};
       if (value("Domain/collar") != "auto")
-        scene.collar = to_number("Domain/collar", value("Domain/collar"));
+        scene.domain.collar = to_number("Domain/collar", value("Domain/collar"));
 
-      scene.is_free_body = value("Domain/boundary") == "free";
-      scene.is_unheld = value("Domain/fixed") == "none";
-      if (!scene.is_unheld)
-        scene.fixed = to_boxes("Domain/fixed", value("Domain/fixed"));
-      scene.cracks = to_polylines("Domain/cracks", value("Domain/cracks"));
-      scene.outside = value("Domain/outside");
+      scene.domain.is_free_body = value("Domain/boundary") == "free";
+      scene.domain.is_floating = value("Domain/fixed") == "none";
+      if (!scene.domain.is_floating)
+        scene.domain.fixed = to_boxes("Domain/fixed", value("Domain/fixed"));
+      scene.domain.cracks = to_polylines("Domain/cracks", value("Domain/cracks"));
+      scene.domain.outside = value("Domain/outside");
 
       const physics::KernelType &type = physics::kernel_type(value("Kernel/type"));
-      scene.kernel_type = type.name;
-      scene.structure = type.structure;
-      scene.limit = value("Kernel/limit");
-      scene.bulk_modulus = to_number("Kernel/bulk modulus", value("Kernel/bulk modulus"));
-      scene.kernel_constant = to_number("Kernel/constant", value("Kernel/constant"));
-      scene.profile = make_profile(type, numbers("Kernel/coefficients"),
-                                   std::stoi(value("Kernel/singularity")));
+      scene.kernel.type = type.name;
+      scene.kernel.structure = type.structure;
+      scene.kernel.limit = value("Kernel/limit");
+      scene.kernel.bulk_modulus = to_number("Kernel/bulk modulus", value("Kernel/bulk modulus"));
+      scene.kernel.constant = to_number("Kernel/constant", value("Kernel/constant"));
+      scene.kernel.profile = make_profile(type, numbers("Kernel/coefficients"),
+                                          std::stoi(value("Kernel/singularity")));
 
-      scene.coefficient = value("Kernel/coefficient");
-      scene.materials = to_cases(value("Kernel/materials"));
-      scene.symmetrisation = value("Kernel/symmetrisation") == "harmonic"
-                                 ? physics::Mean::harmonic
-                                 : physics::Mean::arithmetic;
+      scene.kernel.coefficient = value("Kernel/coefficient");
+      scene.kernel.materials = to_cases(value("Kernel/materials"));
+      scene.kernel.symmetrisation = value("Kernel/symmetrisation") == "harmonic"
+                                        ? physics::Mean::harmonic
+                                        : physics::Mean::arithmetic;
 
       scene.material = make_material(value);
       if (value("Solver/model") == "full")
         scene = full_model(std::move(scene));
 
-      scene.solutions = to_cases(value("Problem/solution"));
+      scene.problem.solutions = to_cases(value("Problem/solution"));
       if (value("Problem/load") != "manufactured")
-        scene.loads = to_cases(value("Problem/load"));
-      scene.constraint = value("Problem/constraint");
-      scene.local_solution = value("Problem/local solution");
+        scene.problem.loads = to_cases(value("Problem/load"));
+      scene.problem.constraint = value("Problem/constraint");
+      scene.problem.local_solution = value("Problem/local solution");
       check_kernel_and_problem(scene);
 
-      scene.methods = to_methods(value("Methods/names"));
-      if (scene.methods.empty())
+      scene.methods.names = to_methods(value("Methods/names"));
+      if (scene.methods.names.empty())
         throw InputError("Methods/names is empty; name methods ('plumbline list methods'), or all");
-      scene.nodes = {value("Methods/nodes"),
-                     to_number("Methods/perturbation", value("Methods/perturbation"))};
+      scene.methods.nodes = {value("Methods/nodes"),
+                             to_number("Methods/perturbation", value("Methods/perturbation"))};
 
-      scene.loads_are_averages = value("Methods/load") == "cells";
+      scene.methods.loads_are_averages = value("Methods/load") == "cells";
 
       const std::string regime = value("Study/regime");
-      scene.regime = regime == "m"         ? Regime::m
-                     : regime == "delta"   ? Regime::delta
-                     : regime == "horizon" ? Regime::horizon
-                                           : Regime::delta_m;
+      scene.study.regime = regime == "m"         ? Regime::m
+                           : regime == "delta"   ? Regime::delta
+                           : regime == "horizon" ? Regime::horizon
+                                                 : Regime::delta_m;
       const auto h = numbers("Study/h"), m = numbers("Study/m"), horizon = numbers("Study/horizon");
       if (h.empty() || m.empty() || horizon.empty())
         throw InputError("Study/h, Study/m and Study/horizon need at least one value each");
-      scene.series = make_series(scene.regime, h, m, horizon);
+      scene.study.series = make_series(scene.study.regime, h, m, horizon);
       check_levels(scene);
 
-      scene.reference = method_name(value("Reference/method"));
-      scene.estimate = value("Reference/estimate");
-      scene.reference_tolerance = to_number("Reference/tolerance", value("Reference/tolerance"));
-      scene.norms = to_names(value("Study/norms"));
-      scene.decisive_error = value("Study/decisive error");
+      scene.reference.method = method_name(value("Reference/method"));
+      scene.reference.estimate = value("Reference/estimate");
+      scene.reference.tolerance = to_number("Reference/tolerance", value("Reference/tolerance"));
+      scene.study.norms = to_names(value("Study/norms"));
+      scene.study.decisive_error = value("Study/decisive error");
       check_norms(scene);
 
-      scene.exact_rectangles = value("Quadrature/rectangles") == "correlation";
-      scene.outer_tolerance = to_number("Quadrature/tolerance", value("Quadrature/tolerance"));
-      scene.max_refinements = std::stoi(value("Quadrature/max refinements"));
-      scene.backend =
+      scene.quadrature.exact_rectangles = value("Quadrature/rectangles") == "correlation";
+      scene.quadrature.tolerance = to_number("Quadrature/tolerance", value("Quadrature/tolerance"));
+      scene.quadrature.max_refinements = std::stoi(value("Quadrature/max refinements"));
+      scene.geometry.backend =
           value("Geometry/backend") == "cgal" ? geometry::Backend::cgal : geometry::Backend::fast;
-      scene.n_geometry_checks = std::stoi(value("Geometry/checks"));
-      scene.seed = std::stoi(value("Geometry/seed"));
-      scene.operator_backend = value("Solver/operator");
+      scene.geometry.n_checks = std::stoi(value("Geometry/checks"));
+      scene.geometry.seed = std::stoi(value("Geometry/seed"));
+      scene.solver.operator_backend = value("Solver/operator");
       check_mesh_and_nodes(scene);
-      scene.linear_solver = value("Solver/linear solver");
-      scene.iteration = value("Solver/iteration");
-      scene.keeps_dilatation = value("Solver/dilatation") == "kept";
+      scene.solver.linear_solver = value("Solver/linear solver");
+      scene.solver.iteration = value("Solver/iteration");
+      scene.solver.is_mixed = value("Solver/dilatation") == "kept";
       check_solver(scene);
-      scene.tolerance = to_number("Solver/tolerance", value("Solver/tolerance"));
-      scene.max_iterations = std::stoi(value("Solver/max iterations"));
-      scene.write_fields = value("Output/fields") == "true";
+      scene.solver.tolerance = to_number("Solver/tolerance", value("Solver/tolerance"));
+      scene.solver.max_iterations = std::stoi(value("Solver/max iterations"));
+      scene.output.fields = value("Output/fields") == "true";
 
       const auto expected = [&](const std::string &key, const std::set<std::string> &words = {})
-      { return to_expected(key, value(key), scene.case_names(), words); };
-      scene.expected_verdicts =
+      { return to_expected(key, value(key), scene.problem.case_names(), words); };
+      scene.expected.verdicts =
           expected("Expected/verdicts",
                    {"AC", "not AC", "m-convergent", "not m-convergent", "delta-m-convergent",
                     "not delta-m-convergent", "AC for this field only", "undecided", "failed"});
-      scene.expected_errors = expected("Expected/errors");
-      scene.expected_rates = expected("Expected/rates");
-      scene.expected_bounds = expected("Expected/bounds");
-      scene.expected_monotone = expected("Expected/monotone", {"yes", "no"});
-      scene.expected_jitter = expected("Expected/jitter");
-      scene.expected_stability =
+      scene.expected.errors = expected("Expected/errors");
+      scene.expected.rates = expected("Expected/rates");
+      scene.expected.bounds = expected("Expected/bounds");
+      scene.expected.monotone = expected("Expected/monotone", {"yes", "no"});
+      scene.expected.jitter = expected("Expected/jitter");
+      scene.expected.stability =
           expected("Expected/stability", {"stable", "conditionally stable", "unstable"});
-      scene.error_tolerance =
+      scene.expected.error_tolerance =
           to_number("Expected/error tolerance", value("Expected/error tolerance"));
-      scene.rate_tolerance = to_number("Expected/rate tolerance", value("Expected/rate tolerance"));
+      scene.expected.rate_tolerance =
+          to_number("Expected/rate tolerance", value("Expected/rate tolerance"));
       return scene;
     }
 
@@ -277,7 +279,7 @@ namespace plumbline::scene
     return ending == ".msh" || ending == ".geo";
   }
 
-  std::vector<std::string> Scene::case_names() const
+  std::vector<std::string> ProblemSection::case_names() const
   {
     std::vector<std::string> names;
     for (const Case &one : solutions.empty() ? loads : solutions)
@@ -287,9 +289,9 @@ namespace plumbline::scene
 
   Scene full_model(Scene scene)
   {
-    scene.is_full_model = true;
-    if (scene.mesh.is_lattice() && !scene.is_free_body)
-      scene.mesh.kind = "squares";
+    scene.solver.is_full_model = true;
+    if (scene.domain.mesh.is_lattice() && !scene.domain.is_free_body)
+      scene.domain.mesh.kind = "squares";
     return scene;
   }
 
@@ -297,23 +299,26 @@ namespace plumbline::scene
   {
     if (!material.is_state_based())
       return false;
-    if (is_full_model || is_damaged() || !material.is_homogeneous)
+    if (solver.is_full_model || domain.is_damaged() || !material.is_homogeneous)
       return true;
     const physics::Lame lame = material.lame()({});
     return std::abs(lame.lambda - lame.mu) > 1e-14 * lame.mu;
   }
 
-  physics::Kernel<2> Scene::kernel(double horizon) const
+  physics::Kernel<2> make_kernel(const Scene &scene, double horizon)
   {
-    if (material.is_state_based())
-      return physics::deviatoric_kernel(
-          physics::influence_function(profile, horizon),
-          material.is_homogeneous && !is_free_body ? material.lame()({}).mu : 1);
-    if (limit == "Navier")
-      return physics::Kernel<2>::with_bulk_modulus(profile, horizon, bulk_modulus);
-    if (limit == "none")
-      return physics::Kernel<2>(structure, profile, horizon, kernel_constant);
-    return physics::Kernel<2>::with_diffusion(profile, horizon, limit == "-Laplace" ? 1 : .5);
+    const KernelSection &kernel = scene.kernel;
+    if (scene.material.is_state_based())
+      return physics::deviatoric_kernel(physics::influence_function(kernel.profile, horizon),
+                                        scene.material.is_homogeneous && !scene.domain.is_free_body
+                                            ? scene.material.lame()({}).mu
+                                            : 1);
+    if (kernel.limit == "Navier")
+      return physics::Kernel<2>::with_bulk_modulus(kernel.profile, horizon, kernel.bulk_modulus);
+    if (kernel.limit == "none")
+      return physics::Kernel<2>(kernel.structure, kernel.profile, horizon, kernel.constant);
+    return physics::Kernel<2>::with_diffusion(kernel.profile, horizon,
+                                              kernel.limit == "-Laplace" ? 1 : .5);
   }
 
   Scene read_scene(const std::string &file, const std::vector<Override> &overrides)

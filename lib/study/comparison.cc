@@ -63,7 +63,10 @@ namespace plumbline::study
                const std::string &kind, const std::string &target, const Accumulator &sum)
     {
       const auto is_wanted = [&](const std::string &norm)
-      { return std::find(scene.norms.begin(), scene.norms.end(), norm) != scene.norms.end(); };
+      {
+        return std::find(scene.study.norms.begin(), scene.study.norms.end(), norm) !=
+               scene.study.norms.end();
+      };
       if (is_wanted(kind + " Linf"))
         errors[kind + " Linf | " + target] = sum.largest;
       if (is_wanted(kind + " L2"))
@@ -72,7 +75,7 @@ namespace plumbline::study
 
     bool is_wanted(const scene::Scene &scene, const std::string &kind)
     {
-      return std::any_of(scene.norms.begin(), scene.norms.end(),
+      return std::any_of(scene.study.norms.begin(), scene.study.norms.end(),
                          [&](const std::string &norm)
                          { return norm.compare(0, kind.size() + 1, kind + " ") == 0; });
     }
@@ -319,7 +322,7 @@ namespace plumbline::study
       value = std::fmax(value, std::abs(difference)); // takes the number where it is still NaN
     };
 
-    if (problem.solution && scene.decisive_error.compare(0, 5, "nodal") == 0)
+    if (problem.solution && scene.study.decisive_error.compare(0, 5, "nodal") == 0)
     {
       map.quantity = "nodal values";
       for (std::size_t i = 0; i < solution.nodes.size(); ++i)
@@ -354,7 +357,7 @@ namespace plumbline::study
     };
     if (problem.solution)
       compare("exact", *problem.solution);
-    if (problem.local_solution && scene.local_solution != "solution")
+    if (problem.local_solution && scene.problem.local_solution != "solution")
       compare("local", *problem.local_solution);
     if (!targets.local.empty())
       enter(result, scene, "averages", "local",

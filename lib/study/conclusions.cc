@@ -113,7 +113,7 @@ namespace plumbline::study
       trend.problem = first.problem;
       trend.series = first.series;
       trend.error = error;
-      trend.parameter = scene.regime == scene::Regime::horizon ? "horizon" : "h";
+      trend.parameter = scene.study.regime == scene::Regime::horizon ? "horizon" : "h";
       for (const Run &run : results.runs)
       {
         if (run.method != first.method || run.problem != first.problem ||
@@ -138,14 +138,14 @@ namespace plumbline::study
         judge(trend);
       doubt_reference(results, trend);
       weigh_proof(trend);
-      if (scene.regime == scene::Regime::horizon && trend.outcome != Outcome::failed)
+      if (scene.study.regime == scene::Regime::horizon && trend.outcome != Outcome::failed)
       {
         // no limit is approached: the rate tells how the error depends on the horizon
         trend.outcome = Outcome::undecided;
         trend.reason =
             "error ~ horizon^" + base::to_text(trend.rate, 4) + " at the smallest horizons";
       }
-      trend.verdict = verdict(scene.regime, trend);
+      trend.verdict = verdict(scene.study.regime, trend);
       return trend;
     }
 
@@ -156,7 +156,7 @@ namespace plumbline::study
       {
         if (!seen.insert({run.method, run.problem, run.series}).second)
           continue;
-        std::set<std::string> errors{scene.decisive_error};
+        std::set<std::string> errors{scene.study.decisive_error};
         for (const Run &other : results.runs)
           if (other.method == run.method && other.problem == run.problem)
             for (const auto &entry : other.errors)
@@ -188,8 +188,8 @@ namespace plumbline::study
 
     void give_advice(const scene::Scene &scene, Results &results)
     {
-      for (const std::string &problem : scene.case_names())
-        for (const auto &series : scene.series)
+      for (const std::string &problem : scene.problem.case_names())
+        for (const auto &series : scene.study.series)
         {
           Advice advice{problem, series.name, {}, {}, {}};
           std::set<std::string> good;
@@ -226,7 +226,7 @@ namespace plumbline::study
       const std::string where =
           " (" + largest->method + ", h = " + base::to_text(largest->h, 4) + ")";
       const auto megabytes = [](double bytes) { return base::to_text(bytes / 1e6, 4) + " MB"; };
-      if (!scene.mesh.is_lattice())
+      if (!scene.domain.mesh.is_lattice())
       {
         results.omissions.push_back({"exact geometry in every cell",
                                      "circles are cut in double precision, good to round-off",
@@ -235,13 +235,13 @@ namespace plumbline::study
           results.omissions.push_back({"a coefficient at every bond", "the material is homogeneous",
                                        "one evaluation a quadrature point"});
       }
-      else if (scene.operator_backend != "sparse")
+      else if (scene.solver.operator_backend != "sparse")
         results.omissions.push_back(
             {"a matrix", "uniform lattice and homogeneous kernel: all rows are one stencil",
              "an assembled matrix would hold " + base::to_text(bonds, 4) + " entries, " +
                  megabytes(12 * bonds) + "; the stencil holds " + base::to_text(bonds / rows, 4) +
                  " a row" + where});
-      if (scene.is_full_model)
+      if (scene.solver.is_full_model)
       {
         results.omissions.clear();
         return;
@@ -254,7 +254,7 @@ namespace plumbline::study
         results.omissions.push_back(
             {"the dilatation", "lambda = mu: the bonds are all",
              "one unknown a node, a family pass, and half the width of the collar"});
-      else if (scene.mesh.is_lattice())
+      else if (scene.domain.mesh.is_lattice())
         results.omissions.push_back(
             {"the dilatation as an unknown",
              "homogeneous: eliminated, it is part of one stencil of twice the reach",
@@ -269,7 +269,7 @@ namespace plumbline::study
                 : "one solve of " + std::to_string(largest->cost.n_iterations) +
                       " iterations a level") +
                where});
-      if (!scene.is_damaged())
+      if (!scene.domain.is_damaged())
         results.omissions.push_back({"bond state", "no fracture: no bond can break",
                                      megabytes(bonds / 8) + " at one bit a bond" + where});
     }

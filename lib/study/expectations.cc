@@ -54,33 +54,34 @@ namespace plumbline::study
   void check_expectations(const scene::Scene &scene, Results &results)
   {
     results.expectations.clear();
-    check_all(scene.expected_verdicts, results, "verdict",
+    check_all(scene.expected.verdicts, results, "verdict",
               [](const scene::Expected &expected, const Trend &trend) {
                 return Expectation{"", expected.verdict, trend.verdict,
                                    expected.verdict == trend.verdict};
               });
-    check_all(scene.expected_errors, results, "errors",
+    check_all(scene.expected.errors, results, "errors",
               [&](const scene::Expected &expected, const Trend &trend)
               {
                 // a shortened sweep is checked as far as it goes
                 bool holds = !trend.values.empty() && trend.values.size() <= expected.values.size();
                 for (std::size_t i = 0; i < trend.values.size() && holds; ++i)
-                  holds =
-                      std::abs(trend.values[i] / expected.values[i] - 1) <= scene.error_tolerance;
+                  holds = std::abs(trend.values[i] / expected.values[i] - 1) <=
+                          scene.expected.error_tolerance;
                 return Expectation{"", join(expected.values), join(trend.values), holds};
               });
-    check_all(scene.expected_rates, results, "rate of the last two levels",
+    check_all(scene.expected.rates, results, "rate of the last two levels",
               [&](const scene::Expected &expected, const Trend &trend)
               {
                 const double rate = trend.rates.empty() ? 0 : trend.rates.back();
                 return Expectation{
-                    "", join(expected.values) + " ± " + base::to_text(scene.rate_tolerance, 4),
+                    "",
+                    join(expected.values) + " ± " + base::to_text(scene.expected.rate_tolerance, 4),
                     base::to_text(rate, 4),
                     !trend.rates.empty() && expected.values.size() == 1 &&
-                        std::abs(rate - expected.values[0]) <= scene.rate_tolerance};
+                        std::abs(rate - expected.values[0]) <= scene.expected.rate_tolerance};
               });
     check_all(
-        scene.expected_bounds, results, "largest error",
+        scene.expected.bounds, results, "largest error",
         [](const scene::Expected &expected, const Trend &trend)
         {
           const double largest = trend.values.empty()
@@ -91,14 +92,14 @@ namespace plumbline::study
                                  expected.values.size() == 1 && largest <= expected.values[0]};
         });
     check_all(
-        scene.expected_monotone, results, "error falls at every level",
+        scene.expected.monotone, results, "error falls at every level",
         [](const scene::Expected &expected, const Trend &trend)
         {
           const bool falls = std::is_sorted(trend.values.rbegin(), trend.values.rend());
           const std::string found = trend.values.size() < 2 ? "one level" : falls ? "yes" : "no";
           return Expectation{"", expected.verdict, found, found == expected.verdict};
         });
-    check_all(scene.expected_jitter, results, "rises of the error over its first value",
+    check_all(scene.expected.jitter, results, "rises of the error over its first value",
               [](const scene::Expected &expected, const Trend &trend)
               {
                 double rises = 0;

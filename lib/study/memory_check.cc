@@ -17,7 +17,7 @@ namespace plumbline::study
     {
       method::ProblemSize size;
       size.level = level;
-      const auto n = geometry::Lattice(scene.domain, level.h).n_cells();
+      const auto n = geometry::Lattice(scene.domain.boxes, level.h).n_cells();
       size.extents = {static_cast<double>(n[0]), static_cast<double>(n[1])};
       return size;
     }
@@ -66,10 +66,11 @@ namespace plumbline::study
     }
 
     /// With what an estimate of its error solves besides.
-    void require_estimate(const scene::Scene &scene, const Method &method, const method::ProblemSize &size)
+    void require_estimate(const scene::Scene &scene, const Method &method,
+                          const method::ProblemSize &size)
     {
       const std::string what = "the estimate of the error of ";
-      if (size.is_lattice() || method.name() == scene.reference)
+      if (size.is_lattice() || method.name() == scene.reference.method)
         require(scene, method, at_level(size, {size.level.h / 2, size.level.horizon}), what);
       if (const auto higher = method.higher_degree(); higher && size.is_lattice())
         require(scene, *higher, size, what);
@@ -77,28 +78,28 @@ namespace plumbline::study
 
     bool is_estimated(const scene::Scene &scene, const Method &method)
     {
-      if (method.family() != "reference" || scene.estimate == "none")
+      if (method.family() != "reference" || scene.reference.estimate == "none")
         return false;
-      return method.name() == scene.reference || scene.estimate == "every" ||
-             (scene.estimate == "automatic" && scene.reference == "none" &&
-              scene.solutions.empty());
+      return method.name() == scene.reference.method || scene.reference.estimate == "every" ||
+             (scene.reference.estimate == "automatic" && scene.reference.method == "none" &&
+              scene.problem.solutions.empty());
     }
 
     /// Of a level, measured: the coarsest one, from which that of finer ones follows.
     method::ProblemSize measured_size(const scene::Scene &scene, const scene::Level &level)
     {
-      if (scene.is_free_body)
+      if (scene.domain.is_free_body)
         return mesh_size(*scene::make_body(scene, level).mesh, level);
-      return scene.mesh.is_lattice() ? lattice_size(scene, level)
-                                     : mesh_size(scene::make_mesh(scene, level), level);
+      return scene.domain.mesh.is_lattice() ? lattice_size(scene, level)
+                                            : mesh_size(scene::make_mesh(scene, level), level);
     }
 
     /// Whether the cells of a mesh are fewer where h is larger.
     bool follows_h(const scene::Scene &scene, const method::ProblemSize &coarse)
     {
-      if (!scene.mesh.is_file())
+      if (!scene.domain.mesh.is_file())
         return true;
-      if (std::filesystem::path(scene.mesh.kind).extension() == ".msh")
+      if (std::filesystem::path(scene.domain.mesh.kind).extension() == ".msh")
         return false;
       return measured_size(scene, {coarse.level.h / 2, coarse.level.horizon}).n_cells >
              1.5 * coarse.n_cells;
@@ -111,7 +112,8 @@ namespace plumbline::study
     }
 
     /// The first error of a method that does not fit.
-    void require_all(const scene::Scene &scene, const Methods &methods, const method::ProblemSize &size)
+    void require_all(const scene::Scene &scene, const Methods &methods,
+                     const method::ProblemSize &size)
     {
       for (const auto &method : methods)
       {
@@ -126,10 +128,11 @@ namespace plumbline::study
                     unsigned int n_levels)
   {
     Methods all = methods;
-    if (scene.reference != "none")
-      all.push_back(find_method(available, scene.reference, "Reference/method"));
-    const method::ProblemSize coarse = measured_size(scene, scene.series.front().levels.front());
-    for (const auto &series : scene.series)
+    if (scene.reference.method != "none")
+      all.push_back(find_method(available, scene.reference.method, "Reference/method"));
+    const method::ProblemSize coarse =
+        measured_size(scene, scene.study.series.front().levels.front());
+    for (const auto &series : scene.study.series)
     {
       const std::size_t n = n_levels == 0 ? series.levels.size()
                                           : std::min<std::size_t>(n_levels, series.levels.size());

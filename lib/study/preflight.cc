@@ -25,14 +25,15 @@ namespace plumbline::study
 
   Methods choose_methods(const scene::Scene &scene, const Methods &available)
   {
-    const scene::Problem problem = make_problem(scene, 0, scene.series.front().levels.front());
+    const scene::Problem problem =
+        make_problem(scene, 0, scene.study.series.front().levels.front());
     Methods chosen;
     const auto add = [&](const std::shared_ptr<const Method> &method)
     {
       if (std::find(chosen.begin(), chosen.end(), method) == chosen.end())
         chosen.push_back(method);
     };
-    for (const std::string &name : scene.methods)
+    for (const std::string &name : scene.methods.names)
     {
       if (name == "all")
       {
@@ -48,21 +49,21 @@ namespace plumbline::study
           throw InputError("Methods/names: '" + name + "' cannot do this scene: " + reason);
       }
     }
-    if (scene.reference != "none")
+    if (scene.reference.method != "none")
     {
-      const auto reference = find_method(available, scene.reference, "Reference/method");
+      const auto reference = find_method(available, scene.reference.method, "Reference/method");
       if (reference->family() != "reference")
-        throw InputError("Reference/method: '" + scene.reference +
+        throw InputError("Reference/method: '" + scene.reference.method +
                          "' is no Galerkin method, so nothing is known of its error; choose Q2, P2 "
                          "or another ('plumbline list methods')");
       if (const std::string reason = reference->why_not(scene, problem); !reason.empty())
-        throw InputError("Reference/method: '" + scene.reference +
+        throw InputError("Reference/method: '" + scene.reference.method +
                          "' cannot do this scene: " + reason);
     }
     for (const auto *list :
-         {&scene.expected_verdicts, &scene.expected_errors, &scene.expected_rates,
-          &scene.expected_bounds, &scene.expected_monotone, &scene.expected_jitter,
-          &scene.expected_stability})
+         {&scene.expected.verdicts, &scene.expected.errors, &scene.expected.rates,
+          &scene.expected.bounds, &scene.expected.monotone, &scene.expected.jitter,
+          &scene.expected.stability})
       for (const scene::Expected &expected : *list)
         (void)find_method(available, expected.method, "Expected");
     return chosen;
@@ -111,7 +112,7 @@ namespace plumbline::study
     /// Meshes and nodes of all levels can be used, and differ where h does.
     void check_meshes(const scene::Scene &scene)
     {
-      for (const auto &series : scene.series)
+      for (const auto &series : scene.study.series)
       {
         std::size_t before = 0;
         for (std::size_t i = 0; i < series.levels.size(); ++i)
@@ -121,7 +122,7 @@ namespace plumbline::study
           where << "level h = " << level.h << ", horizon = " << level.horizon << ": ";
           try
           {
-            if (scene.is_free_body)
+            if (scene.domain.is_free_body)
             {
               (void)make_body(scene, level);
               continue;
@@ -132,7 +133,7 @@ namespace plumbline::study
                 std::count_if(mesh.cells.begin(), mesh.cells.end(),
                               [](const geometry::MeshCell &cell) { return cell.is_inside; }));
             if (n_cells == before && level.h != series.levels[i - 1].h)
-              throw InputError("Domain/mesh = " + scene.mesh.kind + " has the " +
+              throw InputError("Domain/mesh = " + scene.domain.mesh.kind + " has the " +
                                std::to_string(n_cells) +
                                " cells of the level before, so that rates would mean nothing; give "
                                "a mesh that follows h, or a single value of Study/h");
@@ -149,15 +150,15 @@ namespace plumbline::study
 
   void check_data(const scene::Scene &scene)
   {
-    if (scene.is_unheld)
+    if (scene.domain.is_floating)
       throw InputError("Domain/fixed = none: the body can move as a whole (3 rigid modes in the "
                        "plane) and there is no one solution; give Domain/fixed ('plumbline "
                        "stability' measures the body as it is)");
-    if (!scene.mesh.is_lattice() || scene.is_free_body)
+    if (!scene.domain.mesh.is_lattice() || scene.domain.is_free_body)
       check_meshes(scene);
-    const auto names = scene.case_names();
+    const auto names = scene.problem.case_names();
     for (unsigned int c = 0; c < names.size(); ++c)
-      for (const auto &series : scene.series)
+      for (const auto &series : scene.study.series)
       {
         const scene::Level &level =
             *std::max_element(series.levels.begin(), series.levels.end(),

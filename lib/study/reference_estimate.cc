@@ -84,7 +84,7 @@ namespace plumbline::study
         else
           from_fine(on_coarse);
         const Norms size = distance(problem_, solution_, zero());
-        const double solver = solver_share * scene_.tolerance;
+        const double solver = solver_share * scene_.solver.tolerance;
         estimate_.estimate = std::max(by_h_.averages, safety * estimate_.p_change) +
                              estimate_.outer_change + solver * size.averages;
         estimate_.field_estimate = std::max(by_h_.field, safety * estimate_.field_p_change) +
@@ -236,7 +236,7 @@ namespace plumbline::study
   {
     const Solution solution = analysis::solve(method, scene, problem);
     ReferenceAverages result{solution.averages, {}};
-    result.estimate = scene.estimate == "none"
+    result.estimate = scene.reference.estimate == "none"
                           ? Estimator(scene, problem, case_index, method, solution).outer()
                           : estimate_error(scene, problem, case_index, method, solution, false);
     result.estimate.n_geometry_checks = solution.diagnostics.n_geometry_checks;
@@ -244,13 +244,13 @@ namespace plumbline::study
     const double size = averages_l2(problem, solution.averages,
                                     std::vector<double>(solution.averages.size())),
                  estimate = result.estimate.estimate;
-    if (scene.reference_tolerance > 0 && !(estimate <= scene.reference_tolerance * size))
+    if (scene.reference.tolerance > 0 && !(estimate <= scene.reference.tolerance * size))
     {
       std::ostringstream message;
       message << "the reference " << method.name() << " at h = " << problem.h
               << " has an estimated error of " << estimate / size
               << " relative to the solution, more than Reference/tolerance = "
-              << scene.reference_tolerance
+              << scene.reference.tolerance
               << "; take a higher degree (Reference/method), a smaller h, or a larger tolerance";
       throw NumericalError(message.str());
     }

@@ -13,9 +13,9 @@ namespace plumbline::study
     scene::Scene centred(const scene::Scene &scene)
     {
       scene::Scene result = scene;
-      result.nodes.kind = "centres";
-      result.nodes.perturbation = 0;
-      result.n_geometry_checks = 0;
+      result.methods.nodes.kind = "centres";
+      result.methods.nodes.perturbation = 0;
+      result.geometry.n_checks = 0;
       return result;
     }
 
@@ -76,7 +76,8 @@ namespace plumbline::study
 
     geometry::NodeSet centres(const scene::Scene &scene, double h, unsigned int n_components)
     {
-      return method::comparison_nodes(centred(scene), geometry::Lattice(scene.domain, h), n_components);
+      return method::comparison_nodes(centred(scene), geometry::Lattice(scene.domain.boxes, h),
+                                      n_components);
     }
 
     /// Averages over the cells of a finer lattice, halving by halving over those of the problem.
@@ -94,9 +95,9 @@ namespace plumbline::study
 
   unsigned int geometry_order(const scene::Scene &scene)
   {
-    if (scene.mesh.is_of_boxes())
-      return scene.mesh.map.empty() ? 0 : 2;
-    return scene.mesh.inside.empty() ? 2 : 1;
+    if (scene.domain.mesh.is_of_boxes())
+      return scene.domain.mesh.map.empty() ? 0 : 2;
+    return scene.domain.mesh.inside.empty() ? 2 : 1;
   }
 
   Resized finer(const scene::Scene &scene, const scene::Problem &problem, unsigned int case_index,

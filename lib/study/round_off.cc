@@ -62,7 +62,8 @@ namespace plumbline::study
       largest = std::max(largest, std::abs(average));
     const double residual = std::max(solution.diagnostics.relative_residual, epsilon);
     const double solved_for = problem.lattice ? variation(problem, solution) : largest;
-    const double loaded_by = scene.loads.empty() ? largest : solved_for; // manufactured from u
+    const double loaded_by =
+        scene.problem.loads.empty() ? largest : solved_for; // manufactured from u
     return safety * (epsilon * (amplification * loaded_by + largest) + residual * solved_for);
   }
 } // namespace plumbline::study

@@ -47,8 +47,9 @@ namespace plumbline::study
   bool has_fuller_model(const scene::Scene &scene)
   {
     const bool drops_dilatation = scene.material.is_state_based() && !scene.has_dilatation();
-    return !scene.is_full_model && !scene.collar && scene.operator_backend == "automatic" &&
-           (scene.is_free_body ? drops_dilatation : scene.mesh.is_lattice());
+    return !scene.solver.is_full_model && !scene.domain.collar &&
+           scene.solver.operator_backend == "automatic" &&
+           (scene.domain.is_free_body ? drops_dilatation : scene.domain.mesh.is_lattice());
   }
 
   std::optional<Saving> measure_saving(const scene::Scene &scene, unsigned int case_index,

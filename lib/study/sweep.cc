@@ -52,21 +52,21 @@ namespace plumbline::study
       Sweep(const scene::Scene &scene, const Methods &methods, const Methods &available,
             const SweepControl &control, const Results &earlier)
           : scene_(scene), methods_(methods), available_(available), control_(control),
-            earlier_(earlier), cases_(scene.case_names())
+            earlier_(earlier), cases_(scene.problem.case_names())
       {
         results_.scene_name = scene.name;
         results_.purpose = scene.purpose;
-        results_.regime = regime_name(scene.regime);
+        results_.regime = regime_name(scene.study.regime);
         results_.scene_text = scene.text;
-        results_.decisive_error = scene.decisive_error;
+        results_.decisive_error = scene.study.decisive_error;
         results_.provenance = earlier.provenance;
       }
 
       Results run()
       {
-        for (const auto &series : scene_.series)
+        for (const auto &series : scene_.study.series)
           n_all_ += cases_.size() * n_levels(series) * methods_.size();
-        for (const auto &series : scene_.series)
+        for (const auto &series : scene_.study.series)
           for (unsigned int level = 0; level < n_levels(series) && !is_stopped_; ++level)
             run_level(series, level);
         results_.is_complete = !is_stopped_;
@@ -199,16 +199,16 @@ namespace plumbline::study
       {
         for (Case &one : open)
         {
-          if (scene_.reference != "none")
+          if (scene_.reference.method != "none")
           {
-            ReferenceAverages reference =
-                solve_reference(scene_, one.problem, one.index,
-                                *find_method(available_, scene_.reference, "Reference/method"));
+            ReferenceAverages reference = solve_reference(
+                scene_, one.problem, one.index,
+                *find_method(available_, scene_.reference.method, "Reference/method"));
             results_.references.push_back(
                 placed(reference.estimate, cases_[one.index], series, level));
             one.targets.reference = std::move(reference.averages);
           }
-          if (scene_.local_solution == "computed")
+          if (scene_.problem.local_solution == "computed")
             one.targets.local = local_averages(one.problem);
         }
       }
@@ -272,16 +272,17 @@ namespace plumbline::study
       /// Besides the reference.
       bool is_estimated(const Method &method, const scene::Problem &problem) const
       {
-        return method.family() == "reference" && method.name() != scene_.reference &&
-               (scene_.estimate == "every" || (scene_.estimate == "automatic" &&
-                                               scene_.reference == "none" && !problem.solution));
+        return method.family() == "reference" && method.name() != scene_.reference.method &&
+               (scene_.reference.estimate == "every" ||
+                (scene_.reference.estimate == "automatic" && scene_.reference.method == "none" &&
+                 !problem.solution));
       }
 
       /// At the first level that is run, for the first method of each side, where it is cheap.
       bool is_saving_due(const Method &method, const Run &run) const
       {
         constexpr std::uint64_t most_bonds = 100000;
-        return run.problem == cases_.front() && run.series == scene_.series.front().name &&
+        return run.problem == cases_.front() && run.series == scene_.study.series.front().name &&
                run.level == 0 && run.cost.n_bonds <= most_bonds && has_fuller_model(scene_) &&
                std::none_of(results_.runs.begin(), results_.runs.end(),
                             [&](const Run &other) { return other.family == method.family(); });
@@ -378,10 +379,10 @@ namespace plumbline::study
         {
           const auto place = [&](const auto &one)
           {
-            const auto series = std::find_if(scene_.series.begin(), scene_.series.end(),
+            const auto series = std::find_if(scene_.study.series.begin(), scene_.study.series.end(),
                                              [&](const auto &s) { return s.name == one.series; });
             return std::tuple(std::find(cases_.begin(), cases_.end(), one.problem) - cases_.begin(),
-                              series - scene_.series.begin(), one.level);
+                              series - scene_.study.series.begin(), one.level);
           };
           std::stable_sort(list.begin(), list.end(),
                            [&](const auto &a, const auto &b) { return place(a) < place(b); });
@@ -397,7 +398,7 @@ namespace plumbline::study
       {
         if (control_.on_finest)
           control_.on_finest(solution, run);
-        if (run.problem != cases_.back() || run.series != scene_.series.front().name ||
+        if (run.problem != cases_.back() || run.series != scene_.study.series.front().name ||
             (!problem.solution && target.empty()))
           return;
         ErrorMap map = error_map(scene_, problem, solution, target);

@@ -20,8 +20,8 @@ namespace plumbline::meshfree
     VariationalOperator make_operator(const VariationalBody &body, const Bonds &bonds,
                                       const scene::Scene &scene, const scene::Problem &problem)
     {
-      return {body, physics::influence_function(scene.profile, problem.horizon()), bonds,
-              algebra::operator_backend_from_name(scene.operator_backend)};
+      return {body, physics::influence_function(scene.kernel.profile, problem.horizon()), bonds,
+              algebra::operator_backend_from_name(scene.solver.operator_backend)};
     }
 
     /// ∫ b over the free cells: on each quarter by a rule of degree 5, so that loads may jump at
@@ -90,7 +90,7 @@ namespace plumbline::meshfree
     {
     public:
       RuleOnBody(const scene::Scene &scene, const scene::Problem &problem, const Bonds &bonds)
-          : cells_(problem.cells), loads_are_averages_(scene.loads_are_averages),
+          : cells_(problem.cells), loads_are_averages_(scene.methods.loads_are_averages),
             matrix_(std::make_shared<const VariationalOperator>(
                 make_operator(make_body(scene, problem), bonds, scene, problem)))
       {
@@ -104,14 +104,12 @@ namespace plumbline::meshfree
       {
         check_constraint(matrix_->body(), problem);
         method::CaseData result;
-        result.load = loads_are_averages_
-                          ? cell_integrals(matrix_->body(), problem)
-                          : nodal_load(matrix_->body(),
-                                       [&](const Point<2> &x)
-                                       {
-                                         return Point<2>(problem.load.value(x, 0),
-                                                         problem.load.value(x, 1));
-                                       });
+        result.load = loads_are_averages_ ? cell_integrals(matrix_->body(), problem)
+                                          : nodal_load(matrix_->body(),
+                                                       [&](const Point<2> &x) {
+                                                         return Point<2>(problem.load.value(x, 0),
+                                                                         problem.load.value(x, 1));
+                                                       });
         result.field = [this](const algebra::Vector &u) { return field(u); };
         return result;
       }
@@ -150,8 +148,8 @@ namespace plumbline::meshfree
   std::unique_ptr<method::Discretisation>
   discretise_on_body(const Rule &rule, const scene::Scene &scene, const scene::Problem &problem)
   {
-    const Bonds bonds = lattice_bonds(rule.recipe(problem.kernel), problem.kernel,
-                                      problem.body->h, scene.backend);
+    const Bonds bonds = lattice_bonds(rule.recipe(problem.kernel), problem.kernel, problem.body->h,
+                                      scene.geometry.backend);
     return std::make_unique<RuleOnBody>(scene, problem, bonds);
   }
 

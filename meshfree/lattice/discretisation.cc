@@ -81,8 +81,8 @@ namespace plumbline::meshfree
 
       method::Field field(std::vector<double> values) const override
       {
-        const auto field = std::make_shared<const NodalField>(
-            NodalField{lattice(), nodes(), std::move(values)});
+        const auto field =
+            std::make_shared<const NodalField>(NodalField{lattice(), nodes(), std::move(values)});
         method::Field result;
         result.nodes = method::free_points(lattice(), nodes());
         for (int j = 0; j < nodes().n[1]; ++j)
@@ -106,6 +106,6 @@ namespace plumbline::meshfree
     return std::make_unique<RuleOnLattice>(scene, problem,
                                            lattice_bonds(rule.recipe(problem.kernel),
                                                          problem.kernel, problem.lattice->h(),
-                                                         scene.backend));
+                                                         scene.geometry.backend));
   }
 } // namespace plumbline::meshfree

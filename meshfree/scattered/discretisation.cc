@@ -18,7 +18,7 @@ namespace plumbline::meshfree
       algebra::SparseOptions options;
       options.is_symmetric = false;
       options.n_components = problem.n_components;
-      if (scene.keeps_dilatation)
+      if (scene.solver.is_mixed)
         options.n_first = problem.n_components * problem.cells->n_free;
       const auto &nodes = problem.cells->nodes;
       options.nodes.assign(nodes.begin(),
@@ -34,15 +34,16 @@ namespace plumbline::meshfree
           : SparseDiscretisation(scene, solver_options(scene, problem), team),
             cells_(problem.cells), n_components_(problem.n_components)
       {
-        const auto n = static_cast<std::size_t>(
-            team.largest(static_cast<double>(matrix.rows.free.n_rows())));
+        const auto n =
+            static_cast<std::size_t>(team.largest(static_cast<double>(matrix.rows.free.n_rows())));
         for (algebra::Rows *rows : {&matrix.rows.free, &matrix.rows.held}) // ranks that gave none
           rows->start.resize(n + 1, rows->column.size());
         set_rows(std::move(matrix.rows));
         diagnostics_ = matrix.statistics.diagnostics(team);
-        if (scene.regime != scene::Regime::delta || scene.is_damaged() || !scene.is_homogeneous())
+        if (scene.study.regime != scene::Regime::delta || scene.domain.is_damaged() ||
+            !scene.is_homogeneous())
           diagnostics_.limit = {}; // the moments of whole families decide nothing there
-        if (scene.is_damaged() && problem.dilatation)
+        if (scene.domain.is_damaged() && problem.dilatation)
           is_ghost_ = find_ghosts(scene, problem.horizon(), *cells_);
       }
 
@@ -116,16 +117,16 @@ namespace plumbline::meshfree
                                     std::pair<std::size_t, std::size_t> share)
     {
       const Families families(rule.recipe(problem.kernel), problem.kernel, *problem.cells,
-                              scene.backend);
+                              scene.geometry.backend);
       if (!problem.dilatation)
         return scattered_operator(families, problem, share);
       const auto make = [&](std::size_t node, Family &family) { families.make(node, family); };
       const StateBasedBody body{
           problem.cells.get(),
           *problem.dilatation,
-          {scene.cracks, find_ghosts(scene, problem.horizon(), *problem.cells)},
+          {scene.domain.cracks, find_ghosts(scene, problem.horizon(), *problem.cells)},
           scene.material.has_collar_dilatation};
-      if (!scene.keeps_dilatation)
+      if (!scene.solver.is_mixed)
         return state_based_operator(make, body, share);
       return team.rank() == 0 ? state_based_system(make, body) : ScatteredOperator();
     }
@@ -146,7 +147,8 @@ namespace plumbline::meshfree
   {
     return discretise_on_scattered_nodes(
         [&](std::pair<std::size_t, std::size_t> share)
-        { return make_operator(rule, scene, problem, team, share); }, scene, problem, team);
+        { return make_operator(rule, scene, problem, team, share); },
+        scene, problem, team);
   }
 
   double expected_bytes(const scene::Scene &scene, const method::ProblemSize &size)
@@ -155,8 +157,8 @@ namespace plumbline::meshfree
     const scene::Level &level = size.level;
     if (size.is_lattice())
       return method::expected_lattice_bytes(size, 1, scene.is_vector() ? 2 : 1,
-                                           scene.reach(level.horizon) / level.h + 1);
-    if (scene.is_free_body) // two sums more by transforms than on a lattice
+                                            scene.reach(level.horizon) / level.h + 1);
+    if (scene.domain.is_free_body) // two sums more by transforms than on a lattice
     {
       method::ProblemSize box = size;
       box.extents.fill(std::sqrt(size.n_cells * size.cell_area) / level.h);

@@ -100,7 +100,8 @@ namespace plumbline::reference
                                   const AxisShapes &shapes)
     {
       const double h = problem.lattice->h();
-      const algebra::Stencil bonds = galerkin_stencil(problem.kernel, h, shapes, scene.backend);
+      const algebra::Stencil bonds =
+          galerkin_stencil(problem.kernel, h, shapes, scene.geometry.backend);
       if (!problem.dilatation)
         return bonds;
       const physics::Lame lame = problem.dilatation->material({});
@@ -140,7 +141,7 @@ namespace plumbline::reference
                 free_nodes(*problem.lattice, shapes.families(), problem.n_components),
                 make_stencil(scene, problem, shapes), masses(shapes, problem.lattice->h())),
             shapes_(shapes), horizon_(problem.horizon()),
-            n_geometry_checks_(scene.n_geometry_checks), seed_(scene.seed),
+            n_geometry_checks_(scene.geometry.n_checks), seed_(scene.geometry.seed),
             cells_(method::comparison_nodes(scene, lattice(), problem.n_components))
       {
         if (shapes.degree() == 0)
@@ -193,8 +194,7 @@ namespace plumbline::reference
                       field->local(c, i, j, local(s % n_axis), local(s / n_axis)));
         result.averages = field->averages(cells_);
         result.value = [field](const Point<2> &x, unsigned int c) { return field->value(x, c); };
-        result.write_vtu = [field](const std::string &file)
-        { reference::write_vtu(*field, file); };
+        result.write_vtu = [field](const std::string &file) { reference::write_vtu(*field, file); };
         return result;
       }
 

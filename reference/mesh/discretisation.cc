@@ -175,7 +175,7 @@ namespace plumbline::reference
           : SparseDiscretisation(scene, solver_options(problem, *space), team), scene_(scene),
             problem_(problem), space_(std::move(space)),
             cells_(std::make_shared<const MeshCells>(*problem.mesh)),
-            options_{0, scene.exact_rectangles, scene.backend}
+            options_{0, scene.quadrature.exact_rectangles, scene.geometry.backend}
       {
         make_rows();
       }
@@ -214,15 +214,15 @@ namespace plumbline::reference
       method::Diagnostics diagnostics() const override
       {
         method::Diagnostics result;
-        result.is_outer_error_known = is_exact_ || scene_.outer_tolerance > 0;
+        result.is_outer_error_known = is_exact_ || scene_.quadrature.tolerance > 0;
         if (is_exact_)
           result.notes.push_back("entries of axis-aligned rectangles exact by correlation");
-        else if (scene_.outer_tolerance == 0)
+        else if (scene_.quadrature.tolerance == 0)
           result.notes.push_back("outer quadrature not refined: its error is not known");
         if (space_->shapes().degree() > 0)
           result.limit = method::prove_galerkin(scene_, problem_, result);
-        const auto check =
-            check_geometry(*cells_, problem_.horizon(), scene_.n_geometry_checks, scene_.seed);
+        const auto check = check_geometry(*cells_, problem_.horizon(), scene_.geometry.n_checks,
+                                          scene_.geometry.seed);
         result.n_geometry_checks = check.n_checked;
         result.geometry_difference = check.worst_difference;
         return result;

@@ -66,9 +66,9 @@ TEST(Check, its_example_is_what_the_library_makes)
 {
   using namespace plumbline;
   auto scene = scene::read_scene(scene_file);
-  scene.mesh.kind = "squares";
-  scene.nodes.kind = nodes_file;
-  const auto problem = scene::make_problem(scene, 0, scene.series[0].levels[0]);
+  scene.domain.mesh.kind = "squares";
+  scene.methods.nodes.kind = nodes_file;
+  const auto problem = scene::make_problem(scene, 0, scene.study.series[0].levels[0]);
   const meshfree::Families families(meshfree::recalibrated(problem.kernel, 2), problem.kernel,
                                     *problem.cells, meshfree::Backend::fast);
   meshfree::Family family;

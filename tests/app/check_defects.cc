@@ -21,7 +21,8 @@ namespace
         {"Domain/mesh", "squares"}, {"Methods/perturbation", std::to_string(perturbation)}};
     overrides.insert(overrides.end(), more.begin(), more.end());
     const auto scene = plumbline::scene::read_scene(scene_file, overrides);
-    return weights_of(rule, plumbline::scene::make_problem(scene, 0, scene.series[0].levels[0]));
+    return weights_of(rule,
+                      plumbline::scene::make_problem(scene, 0, scene.study.series[0].levels[0]));
   }
 
   struct Files
@@ -321,7 +322,7 @@ TEST(Check, takes_nodes_on_the_boundary_as_data_where_the_scene_does)
                  {
                    const auto scene = plumbline::scene::read_scene(
                        scene_file, {{"Domain/mesh", "squares"}, {"Methods/nodes", "vertices"}});
-                   return plumbline::scene::make_problem(scene, 0, scene.series[0].levels[0]);
+                   return plumbline::scene::make_problem(scene, 0, scene.study.series[0].levels[0]);
                  }());
   const Files files = files_of(weights);
   // only those in the mesh: the collar is three cells wide

@@ -48,7 +48,7 @@ TEST(SceneKernel, has_the_limit_that_is_asked_for)
   for (const auto &[limit, diffusion] : {std::pair{"-Laplace", 1.}, {"-1/2 Laplace", .5}})
   {
     const Scene scene = make_scene({{"Problem/solution", "x"}, {"Kernel/limit", limit}});
-    EXPECT_NEAR(scene.kernel(.4).limit().diffusion, diffusion, 1e-14) << limit;
+    EXPECT_NEAR(make_kernel(scene, .4).limit().diffusion, diffusion, 1e-14) << limit;
   }
 }
 

@@ -54,12 +54,12 @@ TEST(Scene, defaults_make_a_delta_convergence_study)
 {
   const Scene scene = parse("");
   EXPECT_EQ(scene.name, "test");
-  ASSERT_EQ(scene.series.size(), 1u);
-  EXPECT_EQ(scene.series[0].name, "m = 3");
-  ASSERT_EQ(scene.series[0].levels.size(), 4u);
-  EXPECT_DOUBLE_EQ(scene.series[0].levels[1].horizon, .15);
-  EXPECT_EQ(scene.case_names(), std::vector<std::string>{"u"});
-  EXPECT_NEAR(scene.kernel(.3).limit().diffusion, .5, 1e-14);
+  ASSERT_EQ(scene.study.series.size(), 1u);
+  EXPECT_EQ(scene.study.series[0].name, "m = 3");
+  ASSERT_EQ(scene.study.series[0].levels.size(), 4u);
+  EXPECT_DOUBLE_EQ(scene.study.series[0].levels[1].horizon, .15);
+  EXPECT_EQ(scene.problem.case_names(), std::vector<std::string>{"u"});
+  EXPECT_NEAR(make_kernel(scene, .3).limit().diffusion, .5, 1e-14);
 }
 
 TEST(Scene, one_that_nobody_filled_has_the_defaults_of_the_keys)
@@ -70,29 +70,29 @@ TEST(Scene, one_that_nobody_filled_has_the_defaults_of_the_keys)
   const std::unique_ptr<Scene, void (*)(Scene *)> made(::new (memory.data()) Scene,
                                                        [](Scene *scene) { scene->~Scene(); });
   const Scene &scene = *made, read = parse("");
-  EXPECT_EQ(scene.is_free_body, read.is_free_body);
-  EXPECT_EQ(scene.is_unheld, read.is_unheld);
-  EXPECT_EQ(scene.structure, read.structure);
-  EXPECT_EQ(scene.bulk_modulus, read.bulk_modulus);
-  EXPECT_EQ(scene.kernel_constant, read.kernel_constant);
-  EXPECT_EQ(scene.is_full_model, read.is_full_model);
-  EXPECT_EQ(scene.symmetrisation, read.symmetrisation);
-  EXPECT_EQ(scene.nodes.perturbation, read.nodes.perturbation);
-  EXPECT_EQ(scene.loads_are_averages, read.loads_are_averages);
-  EXPECT_EQ(scene.regime, read.regime);
-  EXPECT_EQ(scene.reference_tolerance, read.reference_tolerance);
-  EXPECT_EQ(scene.exact_rectangles, read.exact_rectangles);
-  EXPECT_EQ(scene.outer_tolerance, read.outer_tolerance);
-  EXPECT_EQ(scene.max_refinements, read.max_refinements);
-  EXPECT_EQ(scene.backend, read.backend);
-  EXPECT_EQ(scene.n_geometry_checks, read.n_geometry_checks);
-  EXPECT_EQ(scene.seed, read.seed);
-  EXPECT_EQ(scene.keeps_dilatation, read.keeps_dilatation);
-  EXPECT_EQ(scene.tolerance, read.tolerance);
-  EXPECT_EQ(scene.max_iterations, read.max_iterations);
-  EXPECT_EQ(scene.write_fields, read.write_fields);
-  EXPECT_EQ(scene.error_tolerance, read.error_tolerance);
-  EXPECT_EQ(scene.rate_tolerance, read.rate_tolerance);
+  EXPECT_EQ(scene.domain.is_free_body, read.domain.is_free_body);
+  EXPECT_EQ(scene.domain.is_floating, read.domain.is_floating);
+  EXPECT_EQ(scene.kernel.structure, read.kernel.structure);
+  EXPECT_EQ(scene.kernel.bulk_modulus, read.kernel.bulk_modulus);
+  EXPECT_EQ(scene.kernel.constant, read.kernel.constant);
+  EXPECT_EQ(scene.solver.is_full_model, read.solver.is_full_model);
+  EXPECT_EQ(scene.kernel.symmetrisation, read.kernel.symmetrisation);
+  EXPECT_EQ(scene.methods.nodes.perturbation, read.methods.nodes.perturbation);
+  EXPECT_EQ(scene.methods.loads_are_averages, read.methods.loads_are_averages);
+  EXPECT_EQ(scene.study.regime, read.study.regime);
+  EXPECT_EQ(scene.reference.tolerance, read.reference.tolerance);
+  EXPECT_EQ(scene.quadrature.exact_rectangles, read.quadrature.exact_rectangles);
+  EXPECT_EQ(scene.quadrature.tolerance, read.quadrature.tolerance);
+  EXPECT_EQ(scene.quadrature.max_refinements, read.quadrature.max_refinements);
+  EXPECT_EQ(scene.geometry.backend, read.geometry.backend);
+  EXPECT_EQ(scene.geometry.n_checks, read.geometry.n_checks);
+  EXPECT_EQ(scene.geometry.seed, read.geometry.seed);
+  EXPECT_EQ(scene.solver.is_mixed, read.solver.is_mixed);
+  EXPECT_EQ(scene.solver.tolerance, read.solver.tolerance);
+  EXPECT_EQ(scene.solver.max_iterations, read.solver.max_iterations);
+  EXPECT_EQ(scene.output.fields, read.output.fields);
+  EXPECT_EQ(scene.expected.error_tolerance, read.expected.error_tolerance);
+  EXPECT_EQ(scene.expected.rate_tolerance, read.expected.rate_tolerance);
   const Level level;
   EXPECT_EQ(level.h + level.horizon, 0);
 }
@@ -104,9 +104,9 @@ TEST(Scene, printed_back_parses_to_the_same_scene)
             section("Domain", "holes = 0.5, 0.5 : 1, 1"));
   const Scene again = parse_scene("test.prm", scene.text);
   EXPECT_EQ(again.text, scene.text);
-  EXPECT_EQ(again.series.size(), 2u);
-  EXPECT_EQ(again.domain.exclude.size(), 1u);
-  EXPECT_EQ(again.expected_verdicts.at(0).verdict, "AC");
+  EXPECT_EQ(again.study.series.size(), 2u);
+  EXPECT_EQ(again.domain.boxes.exclude.size(), 1u);
+  EXPECT_EQ(again.expected.verdicts.at(0).verdict, "AC");
 }
 
 TEST(Scene, cases_have_names_and_components)
@@ -115,10 +115,10 @@ TEST(Scene, cases_have_names_and_components)
                                            "= Navier\nend\nsubsection Problem\n set "
                                            "solution = a: max(x, y), y; b: x > 0 ? 1 : 2, "
                                            "x\nend\nsubsection Methods\n set names = Q1\nend\n");
-  ASSERT_EQ(scene.solutions.size(), 2u);
-  EXPECT_EQ(scene.solutions[0].name, "a");
-  EXPECT_EQ(scene.solutions[0].expression, "max(x, y), y");
-  EXPECT_EQ(scene.solutions[1].expression, "x > 0 ? 1 : 2, x");
+  ASSERT_EQ(scene.problem.solutions.size(), 2u);
+  EXPECT_EQ(scene.problem.solutions[0].name, "a");
+  EXPECT_EQ(scene.problem.solutions[0].expression, "max(x, y), y");
+  EXPECT_EQ(scene.problem.solutions[1].expression, "x > 0 ? 1 : 2, x");
 }
 
 TEST(Scene, methods_may_be_called_by_their_other_names_wherever_they_are_named)
@@ -129,12 +129,12 @@ TEST(Scene, methods_may_be_called_by_their_other_names_wherever_they_are_named)
                             "HHB: 1 2\n set rates = HHB, m = 3: 2\n set bounds = HHB, u: 1\n "
                             "set monotone = HHB: yes\n set jitter = HHB: 0 1\n set stability = "
                             "HHB: stable\nend\n");
-  EXPECT_EQ(scene.methods, (std::vector<std::string>{"QWJ", "Q1", "HHB-2"}));
-  EXPECT_EQ(scene.reference, "QWJ");
-  EXPECT_EQ(scene.expected_verdicts.at(1).method, "Q1");
-  for (const auto *list : {&scene.expected_verdicts, &scene.expected_errors, &scene.expected_rates,
-                           &scene.expected_bounds, &scene.expected_monotone, &scene.expected_jitter,
-                           &scene.expected_stability})
+  EXPECT_EQ(scene.methods.names, (std::vector<std::string>{"QWJ", "Q1", "HHB-2"}));
+  EXPECT_EQ(scene.reference.method, "QWJ");
+  EXPECT_EQ(scene.expected.verdicts.at(1).method, "Q1");
+  for (const auto *list : {&scene.expected.verdicts, &scene.expected.errors, &scene.expected.rates,
+                           &scene.expected.bounds, &scene.expected.monotone, &scene.expected.jitter,
+                           &scene.expected.stability})
   {
     EXPECT_EQ(list->at(0).method, "QWJ") << list->at(0).text;
     EXPECT_EQ(list->at(0).text.substr(0, 3), "HHB"); // as it was given
@@ -143,11 +143,11 @@ TEST(Scene, methods_may_be_called_by_their_other_names_wherever_they_are_named)
 
 TEST(Scene, overrides_win_over_the_file_and_json_is_read_too)
 {
-  EXPECT_EQ(parse_scene("t.prm", with(""), {{"Study/m", "5"}}).series[0].name, "m = 5");
+  EXPECT_EQ(parse_scene("t.prm", with(""), {{"Study/m", "5"}}).study.series[0].name, "m = 5");
   const std::string file = ::testing::TempDir() + "scene_test.json";
   std::ofstream(file)
       << R"({"Problem": {"solution": "x"}, "Methods": {"names": "Q1"}, "Study": {"m": "4"}})";
-  EXPECT_EQ(read_scene(file).series[0].name, "m = 4");
+  EXPECT_EQ(read_scene(file).study.series[0].name, "m = 4");
 }
 
 TEST(Scene, templates_parse_and_describe_knows_every_section)
@@ -265,7 +265,7 @@ TEST(Materials, are_those_of_the_cells_and_of_nothing_outside)
       {{{0, 1, 4, 3}, 4, true, 1}, {{1, 2, 5, 4}, 4, false, 0}, {{6, 7, 8, 9}, 4, false, 1}},
       {"wood", "steel"}};
   Scene scene = parse("");
-  scene.materials = {{"steel", "200"}, {"wood", "12"}};
+  scene.kernel.materials = {{"steel", "200"}, {"wood", "12"}};
   const auto coefficient = make_coefficient(scene, mesh);
   ASSERT_TRUE(coefficient);
   EXPECT_EQ(coefficient->at({.5, .5}), 200);

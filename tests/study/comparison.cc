@@ -227,7 +227,7 @@ TEST(Sweep, unknown_methods_are_errors_that_name_the_known_ones)
 {
   const Methods methods = {std::make_shared<FakeMethod>(2)};
   auto scene = make_scene();
-  scene.methods = {"IPA"};
+  scene.methods.names = {"IPA"};
   try
   {
     (void)choose_methods(scene, methods);

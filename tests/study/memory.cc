@@ -19,7 +19,7 @@ namespace
   /// Solve the first level of a scene.
   void expect_estimate(const scene::Scene &scene, const Methods &available)
   {
-    const scene::Level level = scene.series[0].levels[0];
+    const scene::Level level = scene.study.series[0].levels[0];
     const scene::Problem problem = make_problem(scene, 0, level);
     ProblemSize size;
     size.level = level;
@@ -32,7 +32,7 @@ namespace
       size.n_free = static_cast<double>(problem.cells->n_free);
       size.cell_area = level.h * level.h;
     }
-    for (const std::string &name : scene.methods)
+    for (const std::string &name : scene.methods.names)
     {
       const auto method = find_method(available, name, "Methods/names");
       (void)analysis::solve(*method, scene, problem); // libraries make their tables

@@ -127,7 +127,7 @@ namespace
       method::Field solution;
       solution.nodes = {{.25, .25}, {.75, .25}, {.25, .75}, {.75, .75}};
       solution.nodal = {1, 2, 3, 4};
-      if (scene.is_full_model)
+      if (scene.solver.is_full_model)
       {
         solution.nodal[1] += defect_;
         std::reverse(solution.nodes.begin(), solution.nodes.end());
