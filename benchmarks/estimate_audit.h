@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/statics.h"
+#include "study/results.h"
 
 #include <string>
 #include <vector>

@@ -21,7 +21,7 @@ namespace
                         solver + "\nend\n");
   }
 
-  std::shared_ptr<const method::Method> method(const std::string &name)
+  std::shared_ptr<const method::Method> method_named(const std::string &name)
   {
     for (const auto &one : reference::methods())
       if (one->name() == name)
@@ -45,8 +45,8 @@ TEST(Ranks, FindTheSolutionThatOneOfThemFindsAlone)
         const std::string cell = mesh == "squares" ? "Q" : "P";
         for (const std::string &name : {cell + "1", "DG" + cell + "2"})
         {
-          const auto together = analysis::solve(*method(name), scene, problem, base::Team::all());
-          const auto alone = analysis::solve(*method(name), scene, problem, base::Team::alone());
+          const auto together = analysis::solve(*method_named(name), scene, problem, base::Team::all());
+          const auto alone = analysis::solve(*method_named(name), scene, problem, base::Team::alone());
           ASSERT_EQ(together.nodal.size(), alone.nodal.size());
           double difference = 0;
           for (std::size_t i = 0; i < alone.nodal.size(); ++i)

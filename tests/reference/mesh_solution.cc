@@ -35,7 +35,7 @@ namespace
       "subsection Kernel\n set type = constant\n set limit = -Laplace\nend\n";
   const std::string no_refinement = "subsection Quadrature\n set tolerance = 0\nend\n";
 
-  std::shared_ptr<const method::Method> method(const std::string &name)
+  std::shared_ptr<const method::Method> method_named(const std::string &name)
   {
     for (const auto &candidate : reference::methods())
       if (candidate->name() == name)
@@ -47,7 +47,7 @@ namespace
                const std::string &norm = "field L2")
   {
     const auto problem = make_problem(scene, 0, {h, horizon});
-    return study::errors(scene, problem, analysis::solve(*method(name), scene, problem), {})
+    return study::errors(scene, problem, analysis::solve(*method_named(name), scene, problem), {})
         .at(norm + " | exact");
   }
 } // namespace
@@ -74,8 +74,8 @@ TEST(MeshGalerkin, OnSquaresIsTheLatticeSolution)
     const auto on_mesh = make_scene("squares", wave), on_lattice = make_scene("lattice", wave);
     const auto mesh = make_problem(on_mesh, 0, {.125, .3}),
                lattice = make_problem(on_lattice, 0, {.125, .3});
-    const auto a = analysis::solve(*method(name), on_mesh, mesh),
-               b = analysis::solve(*method(name), on_lattice, lattice);
+    const auto a = analysis::solve(*method_named(name), on_mesh, mesh),
+               b = analysis::solve(*method_named(name), on_lattice, lattice);
     EXPECT_LT(study::averages_l2(lattice, a.averages, b.averages), 1e-11) << name;
   }
 }
@@ -116,13 +116,13 @@ TEST(MeshGalerkin, KnowsItsOuterError)
 {
   const auto coarse = make_scene("triangles", wave, no_refinement);
   const auto problem = make_problem(coarse, 0, {.125, .3});
-  const auto first = analysis::solve(*method("P1"), coarse, problem);
+  const auto first = analysis::solve(*method_named("P1"), coarse, problem);
   EXPECT_EQ(first.diagnostics.n_refinements, 0u);
   EXPECT_FALSE(first.diagnostics.is_outer_error_known);
 
   const auto scene =
       make_scene("triangles", wave, "subsection Quadrature\n set tolerance = 1e-6\nend\n");
-  const auto settled = analysis::solve(*method("P1"), scene, problem);
+  const auto settled = analysis::solve(*method_named("P1"), scene, problem);
   EXPECT_GT(settled.diagnostics.n_refinements, 0u);
   EXPECT_TRUE(settled.diagnostics.is_outer_error_known);
   EXPECT_LE(settled.diagnostics.outer_change, 1e-6);
@@ -133,7 +133,7 @@ TEST(MeshGalerkin, KnowsItsOuterError)
                  "subsection Quadrature\n set tolerance = 1e-14\n set max refinements = 1\nend\n");
   try
   {
-    analysis::solve(*method("P1"), impossible, problem);
+    analysis::solve(*method_named("P1"), impossible, problem);
     FAIL() << "a tolerance of 1e-14 was met";
   }
   catch (const NumericalError &failure)
@@ -152,7 +152,7 @@ TEST(MeshGalerkin, ContinuousAndDiscontinuousSolutionsAgreeWithinTheirEstimatedE
   double sum = 0;
   for (const std::string name : {"P2", "DGP2"})
   {
-    const auto found = study::solve_reference(scene, problem, 0, *method(name));
+    const auto found = study::solve_reference(scene, problem, 0, *method_named(name));
     const double error = study::averages_l2(problem, found.averages, exact);
     EXPECT_GE(found.estimate.estimate, error) << name;
     EXPECT_LT(found.estimate.estimate, 3 * error) << name;
@@ -226,7 +226,7 @@ TEST(LocalLimit, IsTheSolutionOfPoissonsAndNaviersEquation)
     const auto local_error = [&](double h)
     {
       const auto problem = make_problem(scene, 0, {h, h});
-      const auto solution = analysis::solve(*method("LOCAL"), scene, problem);
+      const auto solution = analysis::solve(*method_named("LOCAL"), scene, problem);
       return study::errors(scene, problem, solution, {}).at("field L2 | exact");
     };
     return std::log2(local_error(.125) / local_error(.0625));
@@ -262,7 +262,7 @@ TEST(LocalLimit, HasTheDilatationOfASolid)
   for (const double h : {.125, .0625})
   {
     const auto problem = make_problem(scene, 0, {h, h});
-    const auto solution = analysis::solve(*method("LOCAL"), scene, problem);
+    const auto solution = analysis::solve(*method_named("LOCAL"), scene, problem);
     errors.push_back(study::errors(scene, problem, solution, {}).at("field L2 | exact"));
   }
   EXPECT_NEAR(std::log2(errors[0] / errors[1]), 3, .2);
@@ -272,8 +272,8 @@ TEST(MeshMethods, SayWhyTheyCannotDoAMesh)
 {
   const auto scene = make_scene("triangles", wave);
   const auto problem = make_problem(scene, 0, {.25, .25});
-  EXPECT_EQ(method("P1")->why_not(scene, problem), "");
-  EXPECT_NE(method("Q1")->why_not(scene, problem).find("take P1"), std::string::npos);
+  EXPECT_EQ(method_named("P1")->why_not(scene, problem), "");
+  EXPECT_NE(method_named("Q1")->why_not(scene, problem).find("take P1"), std::string::npos);
 }
 
 TEST(MeshMethods, WriteFieldsForEveryDegree)
@@ -286,7 +286,7 @@ TEST(MeshMethods, WriteFieldsForEveryDegree)
     {
       const std::string name = (mesh == "squares" ? "Q" : "P") + degree;
       const auto file = std::filesystem::temp_directory_path() / ("plumbline_" + name + ".vtu");
-      analysis::solve(*method(name), scene, problem).write_vtu(file.string());
+      analysis::solve(*method_named(name), scene, problem).write_vtu(file.string());
       std::ifstream written(file);
       std::string first;
       std::getline(written, first);
@@ -300,7 +300,7 @@ TEST(MeshGalerkin, DoesNotDependOnTheFirstVertexOfRectangles)
 {
   const auto scene = make_scene("squares", wave);
   auto problem = make_problem(scene, 0, {.25, .3});
-  const auto expected = analysis::solve(*method("Q2"), scene, problem).averages;
+  const auto expected = analysis::solve(*method_named("Q2"), scene, problem).averages;
   for (unsigned int turn = 1; turn < 4; ++turn)
   {
     geometry::Mesh mesh = *problem.mesh;
@@ -308,7 +308,7 @@ TEST(MeshGalerkin, DoesNotDependOnTheFirstVertexOfRectangles)
       std::rotate(cell.vertex.begin(), cell.vertex.begin() + turn, cell.vertex.end());
     auto turned = problem;
     turned.mesh = std::make_shared<const geometry::Mesh>(mesh);
-    EXPECT_LT(study::averages_l2(problem, analysis::solve(*method("Q2"), scene, turned).averages,
+    EXPECT_LT(study::averages_l2(problem, analysis::solve(*method_named("Q2"), scene, turned).averages,
                                  expected),
               1e-4)
         << turn;
@@ -316,10 +316,10 @@ TEST(MeshGalerkin, DoesNotDependOnTheFirstVertexOfRectangles)
   // refined cells are rectangles like those they come from: entries stay exact
   auto fine = problem; // averaged over the same cells
   fine.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh));
-  const auto refined = analysis::solve(*method("Q2"), scene, fine);
+  const auto refined = analysis::solve(*method_named("Q2"), scene, fine);
   EXPECT_EQ(refined.diagnostics.n_refinements, 0u);
   auto half = make_problem(scene, 0, {.125, .3});
   half.cells = problem.cells;
-  const auto direct = analysis::solve(*method("Q2"), scene, half);
+  const auto direct = analysis::solve(*method_named("Q2"), scene, half);
   EXPECT_LT(study::averages_l2(problem, refined.averages, direct.averages), 1e-11);
 }

@@ -84,12 +84,12 @@ TEST(LimitProof, an_error_of_one_part_in_a_million_is_an_error)
   stencil(0, 0, 0, 0) = 4 * a;
   for (const auto &[i, j] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
     stencil(0, 0, i, j) = -a;
-  EXPECT_EQ(study::prove_by_moments(scene, problem, stencil, 1).answer, Answer::compatible);
+  EXPECT_EQ(method::prove_by_moments(scene, problem, stencil, 1).answer, Answer::compatible);
   stencil(0, 0, 0, 1) *= 1 + 1e-6;
-  EXPECT_EQ(study::prove_by_moments(scene, problem, stencil, 1).answer, Answer::incompatible);
+  EXPECT_EQ(method::prove_by_moments(scene, problem, stencil, 1).answer, Answer::incompatible);
   stencil(0, 0, 0, 1) /= 1 + 1e-6;
   stencil(0, 0, 0, 0) *= 1 + 1e-6; // a constant is no longer mapped to 0
-  EXPECT_EQ(study::prove_by_moments(scene, problem, stencil, 1).answer, Answer::incompatible);
+  EXPECT_EQ(method::prove_by_moments(scene, problem, stencil, 1).answer, Answer::incompatible);
 }
 
 TEST(LimitProof, promises_nothing_where_no_theorem_applies)

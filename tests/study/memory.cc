@@ -21,7 +21,7 @@ namespace
   {
     const scene::Level level = scene.study.series[0].levels[0];
     const scene::Problem problem = make_problem(scene, 0, level);
-    ProblemSize size;
+    method::ProblemSize size;
     size.level = level;
     if (problem.lattice)
       for (unsigned int d = 0; d < 2; ++d)
@@ -36,7 +36,7 @@ namespace
     {
       const auto method = find_method(available, name, "Methods/names");
       (void)analysis::solve(*method, scene, problem); // libraries make their tables
-      const Solution solution = analysis::solve(*method, scene, problem);
+      const analysis::Solution solution = analysis::solve(*method, scene, problem);
       const double ratio =
           method->expected_bytes(scene, size) / static_cast<double>(solution.cost.peak_bytes);
       EXPECT_GT(ratio, .5) << name << ", of " << solution.cost.peak_bytes;

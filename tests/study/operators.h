@@ -31,7 +31,7 @@ namespace plumbline::study
   inline DiscreteOperator operator_of(const std::string &name, const scene::Scene &scene,
                                       const scene::Level &level)
   {
-    Methods methods = meshfree::methods();
+    method::Methods methods = meshfree::methods();
     for (const auto &method : reference::methods())
       methods.push_back(method);
     const auto method = std::find_if(methods.begin(), methods.end(),
