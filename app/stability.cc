@@ -67,8 +67,10 @@ namespace plumbline::app
     bool hold(const scene::Scene &scene, const std::vector<study::StabilityVerdict> &verdicts)
     {
       bool all_hold = true;
-      for (const scene::Expected &expected : scene.expected.stability)
+      for (const scene::Expected &expected : scene.expected.all)
       {
+        if (expected.kind != scene::ExpectedKind::stability)
+          continue;
         const auto found =
             std::find_if(verdicts.begin(), verdicts.end(),
                          [&](const auto &verdict) { return verdict.method == expected.method; });
@@ -91,7 +93,8 @@ namespace plumbline::app
     const study::Methods available = all_methods();
     const study::Methods methods = study::choose_methods(scene, available);
     scene::Scene alone = scene; // nothing is held against a reference here
-    alone.reference.method = alone.reference.estimate = "none";
+    alone.reference.method.reset();
+    alone.reference.estimate = scene::Estimate::none;
     study::check_memory(alone, methods, available, options.n_levels);
 
     const fs::path folder =

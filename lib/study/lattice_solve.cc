@@ -88,8 +88,7 @@ namespace plumbline::study
     }
     LatticeSolve result;
     base::CpuTimer timer;
-    const auto matrix = make_operator(
-        stencil, nodes, algebra::operator_backend_from_name(scene.solver.operator_backend));
+    const auto matrix = make_operator(stencil, nodes, scene.solver.operator_backend);
     const algebra::SchwarzPreconditioner preconditioner(stencil, nodes,
                                                         maximal_rectangles(*problem.lattice));
     result.cost.setup_seconds = timer.seconds();

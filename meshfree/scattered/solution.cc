@@ -21,8 +21,8 @@ namespace plumbline::meshfree
       options.is_symmetric = false;
       options.tolerance = scene.solver.tolerance;
       options.max_iterations = scene.solver.max_iterations;
-      options.iteration = algebra::iteration_from_name(scene.solver.iteration);
-      options.solver = algebra::sparse_solver_from_name(scene.solver.linear_solver);
+      options.iteration = scene.solver.iteration;
+      options.solver = scene.solver.linear_solver;
       options.n_components = problem.n_components;
       if (scene.solver.is_mixed)
         options.n_first = problem.n_components * problem.cells->n_free;

@@ -143,8 +143,8 @@ namespace plumbline::reference
       const std::size_t n = space.n_free() * problem.n_components;
       eliminate(solution.field.values, n, matrix.rows, right_hand_side);
       algebra::SparseOptions solver;
-      solver.solver = algebra::sparse_solver_from_name(scene.solver.linear_solver);
-      solver.iteration = algebra::iteration_from_name(scene.solver.iteration);
+      solver.solver = scene.solver.linear_solver;
+      solver.iteration = scene.solver.iteration;
       solver.is_symmetric = !problem.dilatation || problem.dilatation->is_symmetric();
       solver.n_components = problem.n_components;
       for (std::size_t dof = 0; dof < space.n_free(); ++dof)
