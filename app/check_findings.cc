@@ -48,9 +48,9 @@ namespace plumbline::app
     std::shared_ptr<const method::Method> reference_method(const scene::Scene &scene,
                                                            const scene::Problem &problem)
     {
-      const std::string name = scene.reference.method != "none" ? scene.reference.method
-                               : problem.mesh->is_triangles()   ? "P1"
-                                                                : "Q1";
+      const std::string name = scene.reference.method         ? *scene.reference.method
+                               : problem.mesh->is_triangles() ? "P1"
+                                                              : "Q1";
       for (const auto &method : reference::methods())
         if (method->name() == name)
         {
@@ -133,7 +133,7 @@ namespace plumbline::app
         throw InputError("Domain/boundary = free: weights are checked on domains with data in a "
                          "collar; write Domain/boundary = constrained");
       if (scene.has_dilatation())
-        throw InputError("Material/model = " + scene.material.model +
+        throw InputError("Material/model = " + base::word(scene.material.model) +
                          ": weights of bonds alone are checked; write Material/model = bond-based");
     }
 
@@ -188,9 +188,9 @@ namespace plumbline::app
     found.nodes = read_given_nodes(options.nodes_file);
     const bool boundary_is_data = scene.methods.nodes.are_vertices();
     if (scene.domain.mesh.is_lattice())
-      scene.domain.mesh.kind = "squares";
+      scene.domain.mesh.name = "squares";
     scene.methods.nodes = {std::filesystem::absolute(options.nodes_file).string()};
-    scene.study.norms = {"nodal Linf", "averages L2"};
+    scene.study.norms = {scene::Norm::nodal_linf, scene::Norm::averages_l2};
     found.level = choose_level(scene, found.nodes);
     const geometry::Mesh mesh = scene::make_mesh(scene, found.level.level);
     check_places(found.nodes, mesh, found.level.text());

@@ -99,8 +99,8 @@ namespace plumbline::app
       {
         const study::Results earlier = report::read_results(folder);
         // files that the scene names must be as old as the results
-        const bool is_current = !is_newer(fs::path(scene.folder) / scene.domain.mesh.kind, file) &&
-                                !is_newer(fs::path(scene.folder) / scene.methods.nodes.kind, file);
+        const bool is_current = !is_newer(fs::path(scene.folder) / scene.domain.mesh.name, file) &&
+                                !is_newer(fs::path(scene.folder) / scene.methods.nodes.name, file);
         if (is_current && !earlier.is_complete && earlier.scene_text == scene.text)
           return earlier;
       }

@@ -69,8 +69,10 @@ namespace plumbline::app
     bool hold(const scene::Scene &scene, const std::vector<study::StabilityVerdict> &verdicts)
     {
       bool all_hold = true;
-      for (const scene::Expected &expected : scene.expected.stability)
+      for (const scene::Expected &expected : scene.expected.all)
       {
+        if (expected.kind != scene::ExpectedKind::stability)
+          continue;
         const auto found =
             std::find_if(verdicts.begin(), verdicts.end(),
                          [&](const auto &verdict) { return verdict.method == expected.method; });
@@ -93,7 +95,8 @@ namespace plumbline::app
     const method::Methods available = all_methods();
     const method::Methods methods = study::choose_methods(scene, available);
     scene::Scene alone = scene; // nothing is held against a reference here
-    alone.reference.method = alone.reference.estimate = "none";
+    alone.reference.method.reset();
+    alone.reference.estimate = scene::Estimate::none;
     alone.solver.is_mixed = false; // the operator on displacements is measured
     study::check_memory(alone, methods, available, options.n_levels);
 

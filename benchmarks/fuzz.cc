@@ -61,7 +61,7 @@ namespace
     const std::string nodes = scenes + "/check/nodes.csv";
     scene::Scene scene = scene::read_scene(scenes + "/check/check.prm");
     if (scene.domain.mesh.is_lattice())
-      scene.domain.mesh.kind = "squares";
+      scene.domain.mesh.name = "squares";
     scene.methods.nodes = {fs::absolute(nodes).string()};
     for (const scene::Series &series : scene.study.series)
       for (const scene::Level &level : series.levels)

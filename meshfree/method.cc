@@ -21,7 +21,7 @@ namespace plumbline::meshfree
       bool is_in_all() const override { return !is_trap_; }
       std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const override
       {
-        if (scene.solver.iteration != "cg" || problem.lattice || problem.body)
+        if (scene.solver.iteration != base::Iteration::cg || problem.lattice || problem.body)
           return {};
         std::string why = "on scattered nodes a bond has two weights, one for each end";
         if (problem.dilatation && !problem.dilatation->is_symmetric())

@@ -39,13 +39,13 @@ namespace plumbline::reference
         if (problem.lattice
                 ? n_vertices_ == 3
                 : !(n_vertices_ == 4 ? problem.mesh->is_quads() : problem.mesh->is_triangles()))
-          return std::string("the cells of Domain/mesh = ") + scene.domain.mesh.kind +
+          return std::string("the cells of Domain/mesh = ") + scene.domain.mesh.name +
                  " are not all " + (n_vertices_ == 4 ? "quadrilaterals" : "triangles") + "; take " +
                  (is_continuous_ ? "" : "DG") + other + std::to_string(degree_);
         if (problem.body && !scene.domain.is_floating &&
             std::all_of(problem.mesh->cells.begin(), problem.mesh->cells.end(),
                         [](const geometry::MeshCell &cell) { return cell.is_inside; }))
-          return "no cell of Domain/mesh = " + scene.domain.mesh.kind +
+          return "no cell of Domain/mesh = " + scene.domain.mesh.name +
                  " has its centroid in Domain/fixed, so that nothing holds the body; give smaller "
                  "cells there, or take meshfree methods alone";
         if (scene.domain.is_damaged())
@@ -57,7 +57,7 @@ namespace plumbline::reference
         if (scene.solver.is_mixed)
           return "Galerkin methods eliminate the dilatation; write Solver/dilatation = eliminated, "
                  "or take meshfree methods alone";
-        if (scene.solver.iteration == "cg" && problem.dilatation &&
+        if (scene.solver.iteration == base::Iteration::cg && problem.dilatation &&
             !problem.dilatation->is_symmetric())
           return "Solver/iteration = cg needs a symmetric operator, but harmonic means of "
                  "constants "
@@ -110,7 +110,7 @@ namespace plumbline::reference
           return "u must be given all around its domain; write Domain/boundary = constrained, and "
                  "clear Domain/cracks and Domain/outside";
         if (scene.study.regime != scene::Regime::delta &&
-            scene.study.decisive_error.find("local") == std::string::npos)
+            scene.study.decisive_error.target != scene::Target::local)
           return "it solves the local limit, but the scene asks for a nonlocal solution; write "
                  "Study/regime = delta, or a decisive error against local";
         return {};

@@ -50,20 +50,6 @@ namespace plumbline::algebra
     };
   } // namespace
 
-  OperatorBackend operator_backend_from_name(const std::string &name)
-  {
-    if (name == "automatic")
-      return OperatorBackend::automatic;
-    if (name == "fft")
-      return OperatorBackend::fft;
-    if (name == "direct")
-      return OperatorBackend::direct;
-    if (name == "sparse")
-      return OperatorBackend::sparse;
-    throw InputError("Solver/operator = '" + name +
-                     "' is not known; choose automatic, fft, direct or sparse");
-  }
-
   std::unique_ptr<Operator> make_operator(const Stencil &stencil, const geometry::NodeSet &nodes,
                                           OperatorBackend backend)
   {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "algebra/stencil.h"
+#include "base/solver_choices.h"
 
 #include <deal.II/lac/vector.h>
 
@@ -11,17 +12,7 @@ namespace plumbline::algebra
 {
   using Vector = dealii::Vector<double>;
 
-  /// How an operator is applied.
-  enum class OperatorBackend
-  {
-    automatic, ///< direct or fft, whichever is estimated to be faster
-    fft,
-    direct,
-    sparse
-  };
-
-  /// @throws InputError  not one of automatic, fft, direct, sparse
-  OperatorBackend operator_backend_from_name(const std::string &name);
+  using base::OperatorBackend;
 
   /// A linear operator on the vectors of a NodeSet; positions that are not free are zero in and
   /// out.

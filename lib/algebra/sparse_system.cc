@@ -56,40 +56,6 @@ namespace plumbline::algebra
     /// What direct solutions must fulfil, and how far round-off may excuse iterated ones.
     constexpr double largest_residual = 1e-8;
 
-    // ---- names ----------------------------------------------------------------------------------
-
-    template <class Value>
-    using Names = std::map<std::string, Value>;
-
-    const Names<SparseSolver> solver_names = {{"automatic", SparseSolver::automatic},
-                                              {"direct", SparseSolver::direct},
-                                              {"amg", SparseSolver::amg},
-                                              {"jacobi", SparseSolver::jacobi}};
-
-    const Names<Iteration> iteration_names = {{"automatic", Iteration::automatic},
-                                              {"cg", Iteration::cg},
-                                              {"gmres", Iteration::gmres},
-                                              {"bicgstab", Iteration::bicgstab}};
-
-    template <class Value>
-    std::string name_of(Value value, const Names<Value> &names)
-    {
-      return std::find_if(names.begin(), names.end(),
-                          [value](const auto &entry) { return entry.second == value; })
-          ->first;
-    }
-
-    template <class Value>
-    Value from_name(const std::string &name, const Names<Value> &names, const std::string &what)
-    {
-      if (const auto entry = names.find(name); entry != names.end())
-        return entry->second;
-      std::string all;
-      for (const auto &[known, value] : names)
-        all += (all.empty() ? "" : ", ") + known;
-      throw InputError(what + " '" + name + "' is not known; allowed are " + all);
-    }
-
     // ---- what all ranks agree on ----------------------------------------------------------------
 
     constexpr int none = std::numeric_limits<int>::max();
@@ -338,16 +304,6 @@ namespace plumbline::algebra
     }
   } // namespace
 
-  SparseSolver sparse_solver_from_name(const std::string &name)
-  {
-    return from_name(name, solver_names, "sparse solver");
-  }
-
-  Iteration iteration_from_name(const std::string &name)
-  {
-    return from_name(name, iteration_names, "iteration");
-  }
-
   SparseSolution solve_sparse(const Rows &rows, const std::vector<double> &right_hand_side,
                               const SparseOptions &given, const base::Team &team)
   {
@@ -391,9 +347,9 @@ namespace plumbline::algebra
       options.solver = choose(n, solution.n_nonzeros, options);
     if (options.iteration == Iteration::automatic)
       options.iteration = options.is_symmetric ? Iteration::cg : Iteration::gmres;
-    solution.solver = name_of(options.solver, solver_names);
+    solution.solver = base::word(options.solver);
     if (options.solver != SparseSolver::direct)
-      solution.solver = name_of(options.iteration, iteration_names) + " + " + solution.solver;
+      solution.solver = base::word(options.iteration) + " + " + solution.solver;
     const std::string who = "the sparse solver '" + solution.solver +
                             "' (Solver/linear solver, Solver/iteration) of " + std::to_string(n) +
                             " unknowns";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "algebra/rows.h"
+#include "base/solver_choices.h"
 
 #include <deal.II/base/point.h>
 
@@ -8,30 +9,8 @@
 
 namespace plumbline::algebra
 {
-  /// How a sparse system is solved.
-  enum class SparseSolver
-  {
-    automatic, ///< direct up to 1000 unknowns; above, amg if unknowns × n_components² outnumber the
-               ///< entries of a row by more than 100, or n_first > 0, else jacobi
-    direct, ///< MUMPS
-    amg,    ///< iterations preconditioned by ML's algebraic multigrid
-    jacobi  ///< iterations preconditioned by the diagonal
-  };
-
-  /// What amg and jacobi iterate with.
-  enum class Iteration
-  {
-    automatic, ///< cg if is_symmetric, else gmres
-    cg,        ///< conjugate gradients
-    gmres,
-    bicgstab ///< two products an iteration, and a few vectors where GMRES keeps a hundred
-  };
-
-  /// @throws InputError  not one of automatic, direct, amg, jacobi
-  SparseSolver sparse_solver_from_name(const std::string &name);
-
-  /// @throws InputError  not one of automatic, cg, gmres, bicgstab
-  Iteration iteration_from_name(const std::string &name);
+  using base::Iteration;
+  using base::SparseSolver;
 
   struct SparseOptions
   {

@@ -79,7 +79,7 @@ namespace plumbline::method
                                                std::vector<double> mass)
       : lattice_(*problem.lattice), nodes_(std::move(nodes)), stencil_(std::move(stencil)),
         mass_(std::move(mass)),
-        backend_(algebra::operator_backend_from_name(scene.solver.operator_backend))
+        backend_(scene.solver.operator_backend)
   {
   }
 

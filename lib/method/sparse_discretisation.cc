@@ -41,8 +41,8 @@ namespace plumbline::method
                                              algebra::SparseOptions options, const base::Team &team)
       : options_(std::move(options)), team_(team)
   {
-    options_.solver = algebra::sparse_solver_from_name(scene.solver.linear_solver);
-    options_.iteration = algebra::iteration_from_name(scene.solver.iteration);
+    options_.solver = scene.solver.linear_solver;
+    options_.iteration = scene.solver.iteration;
   }
 
   void SparseDiscretisation::set_rows(PartedRows rows)

@@ -3,6 +3,7 @@
 #include "report/formats.h"
 #include "report/page_parts.h"
 #include "report/tables.h"
+#include "scene/choices.h"
 
 #include <algorithm>
 #include <array>
@@ -19,16 +20,14 @@ namespace plumbline::report
     {
       std::string regime_words(const std::string &regime)
       {
-        if (regime == "m")
-          return "m-convergence: the horizon δ is fixed and h → 0, against the nonlocal solution";
-        if (regime == "delta")
-          return "δ-convergence: m = δ/h is fixed and δ → 0, against the local limit; this decides "
-                 "asymptotic compatibility (AC)";
-        if (regime == "delta-m")
-          return "δm-convergence: δ → 0 and m = δ/h → ∞ together";
-        if (regime == "horizon")
-          return "h is fixed and the horizon δ varies: how errors depend on the horizon";
-        return regime;
+        static const std::array<const char *, 4> texts = {
+            "m-convergence: the horizon δ is fixed and h → 0, against the nonlocal solution",
+            "δ-convergence: m = δ/h is fixed and δ → 0, against the local limit; this decides "
+            "asymptotic compatibility (AC)",
+            "δm-convergence: δ → 0 and m = δ/h → ∞ together",
+            "h is fixed and the horizon δ varies: how errors depend on the horizon"};
+        const auto known = base::from_word<scene::Regime>(regime);
+        return known ? texts[static_cast<std::size_t>(*known)] : regime;
       }
 
       std::string outcome_class(study::Outcome outcome)

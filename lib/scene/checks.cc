@@ -10,10 +10,14 @@
 
 namespace plumbline::scene
 {
-  using physics::split_outside_brackets;
-
   namespace
   {
+    void require(bool is_good, const std::string &otherwise)
+    {
+      if (!is_good)
+        throw InputError(otherwise);
+    }
+
     /// Beyond this ratio a stencil alone takes gigabytes.
     constexpr double most_ratio = 2000;
 
@@ -77,59 +81,75 @@ namespace plumbline::scene
       }
   }
 
+  namespace
+  {
+    void check_kernel(const Scene &scene)
+    {
+      const KernelSection &kernel = scene.kernel;
+      const bool is_navier = kernel.limit == Limit::navier;
+      require(!scene.material.is_state_based() ||
+                  (kernel.structure == physics::Structure::scalar && is_navier &&
+                   kernel.coefficient.empty() && kernel.materials.empty()),
+              "Material/model = " + base::word(scene.material.model) +
+                  " takes Kernel/type as its influence function and its constants from Material; "
+                  "write a scalar Kernel/type (1/r, constant, ...), Kernel/limit = Navier, and "
+                  "clear Kernel/coefficient and Kernel/materials");
+      require(!is_navier || scene.is_vector(),
+              "Kernel/limit = Navier does not fit the scalar kernel '" + kernel.type +
+                  "'; choose a bond tensor (Kernel/type) or a Laplace limit");
+      require(!scene.is_vector() || is_navier || kernel.limit == Limit::none,
+              "Kernel/limit = '" + base::word(kernel.limit) + "' does not fit the bond tensor '" +
+                  kernel.type + "'; write Kernel/limit = Navier, or none");
+    }
+
+    void check_components(const std::string &key, const std::string &text, unsigned int n,
+                          const std::string &needed_by)
+    {
+      const physics::Expression parsed(key, text, {{"delta", 1.}});
+      const std::string given = key + " = '" + text + "' has " +
+                                std::to_string(parsed.n_components()) + " component(s), ";
+      require(parsed.n_components() == n,
+              given + (needed_by.empty() ? "not " + std::to_string(n)
+                                         : "but the " + needed_by + " needs " + std::to_string(n) +
+                                               "; give one expression a component, separated by "
+                                               "','"));
+    }
+
+    void check_problem(const Scene &scene)
+    {
+      const ProblemSection &problem = scene.problem;
+      const std::string needed_by = scene.material.is_state_based() ? "solid"
+                                    : scene.is_vector()             ? "bond tensor"
+                                                                    : "scalar kernel";
+      const auto check = [&](const std::string &key, const std::string &text)
+      { check_components("Problem/" + key, text, scene.is_vector() ? 2 : 1, needed_by); };
+      for (const Case &solution : problem.solutions)
+        check("solution", solution.expression);
+      for (const Case &load : problem.loads)
+        check("load", load.expression);
+      if (problem.constraint)
+        check("constraint", *problem.constraint);
+      if (problem.local_solution == LocalSolution::expression)
+        check("local solution", problem.local_expression);
+
+      const std::size_t n_solutions = problem.solutions.size(), n_loads = problem.loads.size();
+      require(n_solutions + n_loads > 0,
+              "Problem/load = manufactured needs Problem/solution; give the solution, or the load "
+              "itself");
+      require(
+          n_solutions > 0 || problem.constraint,
+          "Problem/constraint = solution, but Problem/solution is empty; give the constraint as "
+          "an expression");
+      require(n_loads == 0 || n_solutions == 0 || n_loads == n_solutions,
+              "Problem/load has " + std::to_string(n_loads) + " cases and Problem/solution has " +
+                  std::to_string(n_solutions) + "; give one load a solution");
+    }
+  } // namespace
+
   void check_kernel_and_problem(const Scene &scene)
   {
-    const bool is_tensor = scene.is_vector(), is_state_based = scene.material.is_state_based();
-    if (is_state_based &&
-        (scene.kernel.structure == physics::Structure::tensor || scene.kernel.limit != "Navier" ||
-         !scene.kernel.coefficient.empty() || !scene.kernel.materials.empty()))
-      throw InputError("Material/model = " + scene.material.model +
-                       " takes Kernel/type as its influence function and its constants from "
-                       "Material; write a scalar Kernel/type (1/r, constant, ...), Kernel/limit = "
-                       "Navier, and clear Kernel/coefficient and Kernel/materials");
-    if (scene.kernel.limit == "Navier" && !is_tensor)
-      throw InputError("Kernel/limit = Navier does not fit the scalar kernel '" +
-                       scene.kernel.type +
-                       "'; choose a bond tensor (Kernel/type) or a Laplace limit");
-    if (is_tensor && scene.kernel.limit.find("Laplace") != std::string::npos)
-      throw InputError("Kernel/limit = '" + scene.kernel.limit +
-                       "' does not fit the bond tensor '" + scene.kernel.type +
-                       "'; write Kernel/limit = Navier, or none");
-    const unsigned int n_components = is_tensor ? 2 : 1;
-    const auto check = [&](const std::string &key, const std::string &expression)
-    {
-      const physics::Expression parsed(key, expression, {{"delta", 1.}});
-      if (parsed.n_components() != n_components)
-        throw InputError(key + " = '" + expression + "' has " +
-                         std::to_string(parsed.n_components()) + " component(s), but the " +
-                         (is_state_based ? "solid"
-                          : is_tensor    ? "bond tensor"
-                                         : "scalar kernel") +
-                         " needs " + std::to_string(n_components) +
-                         "; give one expression a component, separated by ','");
-    };
-    for (const Case &solution : scene.problem.solutions)
-      check("Problem/solution", solution.expression);
-    for (const Case &load : scene.problem.loads)
-      check("Problem/load", load.expression);
-    if (scene.problem.constraint != "solution")
-      check("Problem/constraint", scene.problem.constraint);
-    if (scene.problem.local_solution != "solution" && scene.problem.local_solution != "none" &&
-        scene.problem.local_solution != "computed")
-      check("Problem/local solution", scene.problem.local_solution);
-
-    if (scene.problem.solutions.empty() && scene.problem.loads.empty())
-      throw InputError("Problem/load = manufactured needs Problem/solution; give the solution, or "
-                       "the load itself");
-    if (scene.problem.solutions.empty() && scene.problem.constraint == "solution")
-      throw InputError("Problem/constraint = solution, but Problem/solution is empty; give the "
-                       "constraint as an expression");
-    if (!scene.problem.loads.empty() && !scene.problem.solutions.empty() &&
-        scene.problem.loads.size() != scene.problem.solutions.size())
-      throw InputError("Problem/load has " + std::to_string(scene.problem.loads.size()) +
-                       " cases and Problem/solution has " +
-                       std::to_string(scene.problem.solutions.size()) +
-                       "; give one load a solution");
+    check_kernel(scene);
+    check_problem(scene);
   }
 
   namespace
@@ -137,11 +157,8 @@ namespace plumbline::scene
     void check_free_body(const Scene &scene)
     {
       const auto needs = [](bool is_good, const std::string &what)
-      {
-        if (!is_good)
-          throw InputError("Domain/boundary = free needs " + what);
-      };
-      needs(scene.material.model == "variational", "Material/model = variational");
+      { require(is_good, "Domain/boundary = free needs " + what); };
+      needs(scene.material.model == Model::variational, "Material/model = variational");
       needs(!scene.domain.mesh.is_lattice() ||
                 (scene.domain.boxes.include.size() == 1 && scene.domain.boxes.exclude.empty()),
             "one box (Domain/boxes) without holes where Domain/mesh = lattice; write squares or "
@@ -150,7 +167,7 @@ namespace plumbline::scene
           !scene.domain.fixed.empty() || scene.domain.is_floating,
           "a part where u is given, or the body can move as a whole (3 rigid modes in the plane); "
           "give Domain/fixed");
-      needs(scene.methods.nodes.kind == "vertices", "Methods/nodes = vertices");
+      needs(scene.methods.nodes.are_vertices(), "Methods/nodes = vertices");
       needs(scene.problem.solutions.empty() && !scene.problem.loads.empty(),
             "Problem/load and Problem/constraint as expressions, Problem/solution empty");
       needs(!scene.domain.collar, "Domain/collar = auto: there is none");
@@ -165,148 +182,185 @@ namespace plumbline::scene
           (void)geometry::Lattice(both, level.h);
         }
     }
+
+    const std::string mesh_remedy = "a lattice is uniform; write Domain/mesh = squares, triangles, "
+                                    "a .msh or .geo file, or a generator";
+
+    void check_mesh(const Scene &scene)
+    {
+      const MeshSource &mesh = scene.domain.mesh;
+      const MeshKind kind = mesh.kind();
+      const bool is_generator = kind == MeshKind::generator, is_free = scene.domain.is_free_body;
+      const auto needs = [&](bool is_good, const std::string &what, const std::string &remedy)
+      { require(is_good, what + " with Domain/mesh = " + mesh.name + ": " + remedy); };
+      needs(mesh.map.empty() || kind == MeshKind::squares || kind == MeshKind::triangles,
+            "Domain/map is given",
+            "maps move squares and triangles; clear it or choose one of them");
+      needs(is_generator || (mesh.arguments.empty() && mesh.inside.empty()),
+            "Domain/arguments or Domain/inside is given",
+            "they belong to deal.II's generators; clear them");
+      needs(!is_generator || !mesh.inside.empty() || is_free, "Domain/inside is empty",
+            "lattice, squares, triangles and files .msh or .geo do without, any other name is a "
+            "generator of deal.II; tell which of its cells are in Omega, the others being the "
+            "collar, by an expression that is positive there");
+      needs(mesh.is_of_boxes() || scene.domain.boxes.exclude.empty(), "Domain/holes is given",
+            "holes are for boxes; cut them out of the mesh itself");
+      if (mesh.is_lattice())
+      {
+        needs(scene.kernel.coefficient.empty(),
+              "Kernel/coefficient = '" + scene.kernel.coefficient + "'", mesh_remedy);
+        needs(is_free || scene.material.is_homogeneous,
+              "Material/" + scene.material.keys[0] + " or " + scene.material.keys[1] +
+                  " varies in space",
+              mesh_remedy);
+        needs(scene.methods.nodes.perturbation == 0, "Methods/perturbation > 0", mesh_remedy);
+        needs(scene.problem.local_solution != LocalSolution::computed,
+              "Problem/local solution = computed", mesh_remedy);
+        needs(!scene.domain.is_damaged(), "Domain/cracks or Domain/outside is given", mesh_remedy);
+        return;
+      }
+      needs(!scene.domain.collar, "Domain/collar is given",
+            "a mesh has the collar it has, and is checked; write Domain/collar = auto");
+      needs(is_free || scene.solver.operator_backend == base::OperatorBackend::automatic,
+            "Solver/operator = " + base::word(scene.solver.operator_backend),
+            "operators on meshes are sparse matrices; write automatic");
+    }
+
+    /// Where u is given, and what is free.
+    void check_boundary(const Scene &scene)
+    {
+      const DomainSection &domain = scene.domain;
+      if (domain.is_free_body)
+        check_free_body(scene);
+      require(domain.is_free_body || (domain.fixed.empty() && !domain.is_floating),
+              "Domain/fixed is given, but u is given in the collar all around; write "
+              "Domain/boundary = free, or clear it");
+      require(scene.problem.local_solution != LocalSolution::computed ||
+                  !(domain.is_free_body || domain.is_damaged()),
+              "Problem/local solution = computed needs u all around a domain without cracks and "
+              "free surfaces; write none, or an expression");
+      require(scene.material.has_collar_dilatation ||
+                  (scene.has_dilatation() && !domain.mesh.is_lattice() && !domain.is_free_body),
+              "Material/collar dilatation = zero needs a state-based solid with lambda != mu on "
+              "scattered nodes with a collar; write from data, or Material/model = LPS with "
+              "Domain/mesh = squares");
+      require(
+          !domain.is_damaged() || scene.material.model == Model::lps,
+          "Domain/cracks and Domain/outside need Material/model = LPS, whose free surfaces they "
+          "make; choose it, or clear them");
+      require(!scene.methods.loads_are_averages || domain.is_free_body,
+              "Methods/load = cells is for free bodies; write nodes, or Domain/boundary = free");
+    }
+
+    void check_nodes(const Scene &scene)
+    {
+      const MeshSource &mesh = scene.domain.mesh;
+      const std::string &nodes = scene.methods.nodes.name;
+      const NodeKind kind = scene.methods.nodes.kind();
+      const bool is_csv = nodes.size() > 4 && nodes.substr(nodes.size() - 4) == ".csv";
+      const std::string on_mesh =
+          "Methods/nodes = " + nodes + " with Domain/mesh = " + mesh.name + ": ";
+      require(kind != NodeKind::file || is_csv,
+              "Methods/nodes = '" + nodes +
+                  "' is not known; write centres, vertices, mesh, or a file .csv");
+      require(!mesh.is_lattice() || kind == NodeKind::centres || kind == NodeKind::vertices,
+              on_mesh + mesh_remedy);
+      require((mesh.is_of_boxes() && mesh.map.empty()) || scene.domain.is_free_body ||
+                  kind != NodeKind::vertices,
+              on_mesh + "vertices are those of the boxes; write centres, mesh, or a file .csv");
+      require(scene.methods.nodes.perturbation == 0 || kind == NodeKind::centres,
+              "Methods/perturbation moves centres, but Methods/nodes = " + nodes +
+                  "; write Methods/nodes = centres, or set the perturbation to 0");
+    }
+
+    void check_coefficient(const Scene &scene)
+    {
+      const KernelSection &kernel = scene.kernel;
+      require(kernel.materials.empty() || scene.domain.mesh.is_file(),
+              "Kernel/materials is given with Domain/mesh = " + scene.domain.mesh.name +
+                  ": materials are the physical surfaces of a .msh or .geo file; write "
+                  "Kernel/coefficient");
+      require(kernel.materials.empty() || kernel.coefficient.empty(),
+              "Kernel/materials and Kernel/coefficient are both given; clear one of them");
+      const auto check = [](const std::string &key, const std::string &text, unsigned int n)
+      {
+        if (!text.empty())
+          check_components(key, text, n, "");
+      };
+      check("Kernel/coefficient", kernel.coefficient, 1);
+      check("Domain/inside", scene.domain.mesh.inside, 1);
+      check("Domain/outside", scene.domain.outside, 1);
+      check("Domain/map", scene.domain.mesh.map, 2);
+    }
   } // namespace
 
   void check_mesh_and_nodes(const Scene &scene)
   {
-    const MeshSource &mesh = scene.domain.mesh;
-    const auto needs = [&](bool is_good, const std::string &what, const std::string &remedy)
-    {
-      if (!is_good)
-        throw InputError(what + " with Domain/mesh = " + mesh.kind + ": " + remedy);
-    };
-    const std::string mesh_remedy = "a lattice is uniform; write Domain/mesh = squares, triangles, "
-                                    "a .msh or .geo file, or a generator";
-    const bool is_generator = !mesh.is_of_boxes() && !mesh.is_file();
-    needs(mesh.map.empty() || mesh.kind == "squares" || mesh.kind == "triangles",
-          "Domain/map is given", "maps move squares and triangles; clear it or choose one of them");
-    needs(is_generator || (mesh.arguments.empty() && mesh.inside.empty()),
-          "Domain/arguments or Domain/inside is given",
-          "they belong to deal.II's generators; clear them");
-    needs(
-        !is_generator || !mesh.inside.empty() || scene.domain.is_free_body,
-        "Domain/inside is empty",
-        "lattice, squares, triangles and files .msh or .geo do without, any other name is a "
-        "generator of deal.II; tell which of its cells are in Omega, the others being the collar, "
-        "by an expression that is positive there");
-    needs(!mesh.is_lattice() || scene.kernel.coefficient.empty(),
-          "Kernel/coefficient = '" + scene.kernel.coefficient + "'", mesh_remedy);
-    needs(!mesh.is_lattice() || scene.domain.is_free_body || scene.material.is_homogeneous,
-          "Material/" + scene.material.keys[0] + " or " + scene.material.keys[1] +
-              " varies in space",
-          mesh_remedy);
-    needs(!mesh.is_lattice() || scene.methods.nodes.perturbation == 0, "Methods/perturbation > 0",
-          mesh_remedy);
-    needs(!mesh.is_lattice() || scene.problem.local_solution != "computed",
-          "Problem/local solution = computed", mesh_remedy);
-    if (scene.problem.local_solution == "computed" &&
-        (scene.domain.is_free_body || scene.domain.is_damaged()))
-      throw InputError("Problem/local solution = computed needs u all around a domain without "
-                       "cracks and free surfaces; write none, or an expression");
-    needs(mesh.is_lattice() || !scene.domain.collar, "Domain/collar is given",
-          "a mesh has the collar it has, and is checked; write Domain/collar = auto");
-    needs(mesh.is_lattice() || scene.domain.is_free_body ||
-              scene.solver.operator_backend == "automatic",
-          "Solver/operator = " + scene.solver.operator_backend,
-          "operators on meshes are sparse matrices; write automatic");
-    needs(mesh.is_of_boxes() || scene.domain.boxes.exclude.empty(), "Domain/holes is given",
-          "holes are for boxes; cut them out of the mesh itself");
-    if (scene.domain.is_free_body)
-      check_free_body(scene);
-    else if (!scene.domain.fixed.empty() || scene.domain.is_floating)
-      throw InputError("Domain/fixed is given, but u is given in the collar all around; write "
-                       "Domain/boundary = free, or clear it");
-    if (!scene.material.has_collar_dilatation &&
-        (!scene.has_dilatation() || mesh.is_lattice() || scene.domain.is_free_body))
-      throw InputError("Material/collar dilatation = zero needs a state-based solid with lambda != "
-                       "mu on scattered nodes with a collar; write from data, or Material/model = "
-                       "LPS with Domain/mesh = squares");
-    if (scene.domain.is_damaged() && scene.material.model != "LPS")
-      throw InputError("Domain/cracks and Domain/outside need Material/model = LPS, whose free "
-                       "surfaces they make; choose it, or clear them");
-    needs(!mesh.is_lattice() || !scene.domain.is_damaged(),
-          "Domain/cracks or Domain/outside is given", mesh_remedy);
-    if (scene.methods.loads_are_averages && !scene.domain.is_free_body)
-      throw InputError("Methods/load = cells is for free bodies; write nodes, or Domain/boundary = "
-                       "free");
-    const std::string &nodes = scene.methods.nodes.kind;
-    const bool is_csv = nodes.size() > 4 && nodes.substr(nodes.size() - 4) == ".csv";
-    if (nodes != "centres" && nodes != "vertices" && nodes != "mesh" && !is_csv)
-      throw InputError("Methods/nodes = '" + nodes +
-                       "' is not known; write centres, vertices, mesh, or a file .csv");
-    needs(!mesh.is_lattice() || nodes == "centres" || nodes == "vertices",
-          "Methods/nodes = " + nodes, mesh_remedy);
-    needs((mesh.is_of_boxes() && mesh.map.empty()) || scene.domain.is_free_body ||
-              nodes != "vertices",
-          "Methods/nodes = vertices",
-          "vertices are those of the boxes; write centres, mesh, or a file .csv");
-    if (scene.methods.nodes.perturbation > 0 && nodes != "centres")
-      throw InputError("Methods/perturbation moves centres, but Methods/nodes = " + nodes +
-                       "; write Methods/nodes = centres, or set the perturbation to 0");
-    const auto expression = [&](const std::string &key, const std::string &text, unsigned int n)
-    {
-      const physics::Expression parsed(key, text, {{"delta", 1.}});
-      if (!text.empty() && parsed.n_components() != n)
-        throw InputError(key + " = '" + text + "' has " + std::to_string(parsed.n_components()) +
-                         " component(s), not " + std::to_string(n));
-    };
-    needs(scene.kernel.materials.empty() || mesh.is_file(), "Kernel/materials is given",
-          "materials are the physical surfaces of a .msh or .geo file; write Kernel/coefficient");
-    if (!scene.kernel.materials.empty() && !scene.kernel.coefficient.empty())
-      throw InputError("Kernel/materials and Kernel/coefficient are both given; clear one of them");
-    if (!scene.kernel.coefficient.empty())
-      expression("Kernel/coefficient", scene.kernel.coefficient, 1);
-    if (!mesh.inside.empty())
-      expression("Domain/inside", mesh.inside, 1);
-    if (!scene.domain.outside.empty())
-      expression("Domain/outside", scene.domain.outside, 1);
-    if (!mesh.map.empty())
-      expression("Domain/map", mesh.map, 2);
+    check_mesh(scene);
+    check_boundary(scene);
+    check_nodes(scene);
+    check_coefficient(scene);
   }
 
   void check_norms(const Scene &scene)
   {
-    static const std::vector<std::string> known = {"nodal Linf",  "nodal L2",   "averages Linf",
-                                                   "averages L2", "field Linf", "field L2"};
-    for (const std::string &norm : scene.study.norms)
-      if (std::find(known.begin(), known.end(), norm) == known.end())
-        throw InputError("Study/norms: '" + norm +
-                         "' is not a norm; choose of nodal Linf, nodal L2, averages Linf, "
-                         "averages L2, field Linf, field L2");
-    const auto parts = split_outside_brackets(scene.study.decisive_error, '|');
-    const bool is_known_target = parts.size() == 2 && (parts[1] == "exact" || parts[1] == "local" ||
-                                                       parts[1] == "reference");
-    if (!is_known_target || std::find(scene.study.norms.begin(), scene.study.norms.end(),
-                                      parts[0]) == scene.study.norms.end())
-      throw InputError("Study/decisive error = '" + scene.study.decisive_error +
-                       "' must be 'norm | target' with a norm of Study/norms (add it there) and a "
+    const StudySection &study = scene.study;
+    const ReferenceSection &reference = scene.reference;
+    const auto [norm, target] = study.decisive_error;
+    const bool is_of_averages = quantity(norm) == Quantity::averages;
+    const LocalSolution local = scene.problem.local_solution;
+    const std::string decisive = "Study/decisive error = '" + study.decisive_error.text() + "'";
+    require(std::find(study.norms.begin(), study.norms.end(), norm) != study.norms.end(),
+            decisive + " must be 'norm | target' with a norm of Study/norms (add it there) and a "
                        "target of exact, local, reference");
-    if (parts[1] == "exact" && scene.problem.solutions.empty())
-      throw InputError("Study/decisive error = '" + scene.study.decisive_error +
-                       "' needs Problem/solution, which is empty; use the target reference");
-    if (parts[1] == "local" && scene.problem.local_solution == "computed" &&
-        parts[0].compare(0, 8, "averages") != 0)
-      throw InputError("Study/decisive error = '" + scene.study.decisive_error +
-                       "': a computed local solution is compared by cell averages; use averages L2 "
+    require(target != Target::exact || !scene.problem.solutions.empty(),
+            decisive + " needs Problem/solution, which is empty; use the target reference");
+    require(target != Target::local || local != LocalSolution::computed || is_of_averages,
+            decisive + ": a computed local solution is compared by cell averages; use averages L2 "
                        "or averages Linf");
-    if (parts[1] == "local" &&
-        (scene.problem.local_solution == "solution" || scene.problem.local_solution == "none"))
-      throw InputError(
-          "Study/decisive error = '" + scene.study.decisive_error +
-          "' needs Problem/local solution as an expression; where it is the solution itself, "
-          "take the target exact");
-    if (parts[1] == "reference" && scene.reference.method == "none")
-      throw InputError("Study/decisive error = '" + scene.study.decisive_error +
-                       "' needs Reference/method, which is none");
-    if (parts[1] == "reference" && parts[0].compare(0, 8, "averages") != 0)
-      throw InputError("Study/decisive error = '" + scene.study.decisive_error +
-                       "': solutions are held against a reference by cell averages; use averages "
+    require(target != Target::local ||
+                (local != LocalSolution::solution && local != LocalSolution::none),
+            decisive + " needs Problem/local solution as an expression; where it is the solution "
+                       "itself, take the target exact");
+    require(target != Target::reference || reference.method,
+            decisive + " needs Reference/method, which is none");
+    require(target != Target::reference || is_of_averages,
+            decisive + ": solutions are held against a reference by cell averages; use averages "
                        "L2 or averages Linf");
-    if (scene.reference.tolerance > 0 &&
-        (scene.reference.method == "none" || scene.reference.estimate == "none"))
-      throw InputError(
-          "Reference/tolerance = " + short_number(scene.reference.tolerance) +
-          " needs a reference and the estimate of its error; give Reference/method and "
-          "write Reference/estimate = automatic, or set the tolerance to 0");
+    require(reference.tolerance == 0 || (reference.method && reference.estimate != Estimate::none),
+            "Reference/tolerance = " + short_number(reference.tolerance) +
+                " needs a reference and the estimate of its error; give Reference/method and write "
+                "Reference/estimate = automatic, or set the tolerance to 0");
+  }
+
+  void check_solver(const Scene &scene)
+  {
+    using base::Iteration;
+    using base::SparseSolver;
+    const SolverSection &solver = scene.solver;
+    const bool is_free = scene.domain.is_free_body;
+    const bool is_chosen = solver.iteration != Iteration::automatic;
+    const bool is_scattered = !scene.domain.mesh.is_lattice() && !is_free;
+    const std::string iteration = "Solver/iteration = " + base::word(solver.iteration),
+                      kept = "Solver/dilatation = kept";
+    require(!is_chosen || solver.linear_solver != SparseSolver::direct,
+            iteration + ", but nothing iterates with Solver/linear solver = direct; write "
+                        "Solver/iteration = automatic, or another linear solver");
+    require(!is_chosen || solver.iteration == Iteration::cg || is_scattered,
+            iteration + " on a " + (is_free ? "free body" : "lattice") +
+                ": its operator is symmetric positive definite; write automatic or cg");
+    if (!solver.is_mixed)
+      return;
+    require(scene.has_dilatation(),
+            kept + ", but the model has none, being that of state-based solids with lambda != mu; "
+                   "write eliminated, or Material/model = LPS");
+    require(is_scattered, kept + " is for scattered nodes, not for lattices and free bodies; write "
+                                 "eliminated, or Domain/mesh = squares with a collar");
+    require(solver.linear_solver != SparseSolver::jacobi,
+            kept + " makes a system that jacobi does not precondition; write Solver/linear solver "
+                   "= automatic, direct or amg");
+    require(solver.iteration != Iteration::cg,
+            kept + " makes a system that is not symmetric, as cg needs it; write Solver/iteration "
+                   "= automatic, gmres or bicgstab");
   }
 } // namespace plumbline::scene

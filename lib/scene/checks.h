@@ -16,6 +16,9 @@ namespace plumbline::scene
   /// Keys of Domain/mesh, Kernel/coefficient and Methods/nodes fit together.
   void check_mesh_and_nodes(const Scene &scene);
 
-  /// Norms and targets are known, and what they need is given.
+  /// The norm that decides is among the others, and what its target needs is given.
   void check_norms(const Scene &scene);
+
+  /// Solver/iteration and Solver/dilatation fit the rest.
+  void check_solver(const Scene &scene);
 } // namespace plumbline::scene

@@ -2,7 +2,6 @@
 #include "geometry/cell_locator.h"
 #include "physics/expression.h"
 #include "scene/mesh.h"
-#include "scene/values.h"
 
 #include <algorithm>
 #include <memory>
@@ -19,20 +18,20 @@ namespace plumbline::scene
       std::string names;
       for (const std::string &group : mesh.groups)
         names += (names.empty() ? "" : ", ") + group;
-      for (const Case &material : scene.kernel.materials)
-        if (std::find(mesh.groups.begin(), mesh.groups.end(), material.name) == mesh.groups.end())
-          throw InputError("Kernel/materials: the mesh has no physical surface '" + material.name +
+      for (const GroupCoefficient &material : scene.kernel.materials)
+        if (std::find(mesh.groups.begin(), mesh.groups.end(), material.group) == mesh.groups.end())
+          throw InputError("Kernel/materials: the mesh has no physical surface '" + material.group +
                            "'; it has " + names);
       std::vector<double> values;
       for (const std::string &group : mesh.groups)
       {
         const auto material =
             std::find_if(scene.kernel.materials.begin(), scene.kernel.materials.end(),
-                         [&](const Case &one) { return one.name == group; });
+                         [&](const GroupCoefficient &one) { return one.group == group; });
         if (material == scene.kernel.materials.end())
           throw InputError("Kernel/materials has no value for the physical surface '" + group +
                            "' of the mesh; give one for each of " + names);
-        values.push_back(to_number("Kernel/materials", material->expression));
+        values.push_back(material->value);
       }
       return values;
     }
@@ -47,8 +46,8 @@ namespace plumbline::scene
     if (scene.material.is_state_based())
       coefficient.emplace([lame = scene.material.lame()](const Point<2> &x) { return lame(x).mu; },
                           "Material/" + scene.material.keys[1],
-                          scene.material.model == "LPS" ? physics::Mean::harmonic
-                                                        : physics::Mean::arithmetic);
+                          scene.material.model == Model::lps ? physics::Mean::harmonic
+                                                             : physics::Mean::arithmetic);
     else if (scene.kernel.materials.empty())
       coefficient.emplace(physics::Expression("Kernel/coefficient", scene.kernel.coefficient),
                           scene.kernel.symmetrisation);

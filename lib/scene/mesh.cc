@@ -31,9 +31,9 @@ namespace plumbline::scene
       const double collar =
           scene.domain.is_free_body ? 0 : scene.reach(level.horizon) / level.h + 1;
       const double n = (lattice.n_cells()[0] + 2 * collar) * (lattice.n_cells()[1] + 2 * collar) *
-                       (scene.domain.mesh.kind == "triangles" ? 2 : 1);
+                       (scene.domain.mesh.kind() == MeshKind::triangles ? 2 : 1);
       std::ostringstream what;
-      what << "Domain/mesh = " << scene.domain.mesh.kind << " at h = " << level.h
+      what << "Domain/mesh = " << scene.domain.mesh.name << " at h = " << level.h
            << ", horizon = " << level.horizon << " (some " << std::round(n) << " cells)";
       base::require_memory(n * of_cell, what.str(),
                            "choose a larger h or a smaller horizon (Study), or lattice where the "
@@ -47,7 +47,7 @@ namespace plumbline::scene
       if (source.is_file())
         try
         {
-          return scene.domain.mesh_files->read(path(scene, source.kind), level.h, level.horizon,
+          return scene.domain.mesh_files->read(path(scene, source.name), level.h, level.horizon,
                                                !scene.domain.is_free_body);
         }
         catch (const InputError &error)
@@ -63,12 +63,12 @@ namespace plumbline::scene
         check_cells(scene, level);
         return geometry::lattice_mesh(scene.domain.boxes, level.h,
                                       scene.domain.is_free_body ? 0 : scene.reach(level.horizon),
-                                      source.kind == "triangles", map);
+                                      source.kind() == MeshKind::triangles, map);
       }
       const std::string everywhere = "1";
       const physics::Expression inside(
           "Domain/inside", source.inside.empty() ? everywhere : source.inside, constants);
-      return geometry::generate_mesh(source.kind, source.arguments, level.h,
+      return geometry::generate_mesh(source.name, source.arguments, level.h,
                                      [&](const Point<2> &x) { return inside(x) > 0; });
     }
 
@@ -100,7 +100,7 @@ namespace plumbline::scene
     if (width < scene.reach(level.horizon) * (1 - 1e-9))
     {
       std::ostringstream message;
-      message << "Domain/mesh = " << scene.domain.mesh.kind << ": the collar is " << width
+      message << "Domain/mesh = " << scene.domain.mesh.name << ": the collar is " << width
               << " wide at its thinnest place, thinner than "
               << (scene.has_dilatation() ? "twice the horizon, which dilatations need, "
                                          : "the horizon ")
@@ -155,14 +155,14 @@ namespace plumbline::scene
                                       const geometry::Mesh &mesh)
   {
     const NodeSource &source = scene.methods.nodes;
-    if (source.kind == "vertices")
+    if (source.are_vertices())
       return geometry::vertex_squares(geometry::Lattice(scene.domain.boxes, level.h),
                                       scene.reach(level.horizon));
-    const bool is_file = source.kind != "mesh" && source.kind != "centres";
+    const bool is_file = source.kind() == NodeKind::file;
     std::vector<std::size_t> lines;
-    const auto nodes = source.kind == "mesh" ? centroids(mesh)
+    const auto nodes = source.kind() == NodeKind::mesh ? centroids(mesh)
                        : is_file
-                           ? read_nodes(path(scene, source.kind), &lines)
+                           ? read_nodes(path(scene, source.name), &lines)
                            : lattice_nodes(mesh, level.h, source.perturbation, scene.geometry.seed);
     try
     {
@@ -171,12 +171,12 @@ namespace plumbline::scene
     catch (const InputError &error)
     {
       if (const auto twins = is_file ? geometry::find_twins(nodes, mesh) : std::nullopt)
-        throw InputError("node file '" + path(scene, source.kind) + "', line " +
+        throw InputError("node file '" + path(scene, source.name) + "', line " +
                          std::to_string(lines[twins->second]) + ": the node there " +
                          twins->place("that of line " + std::to_string(lines[twins->first])) +
                          "; take one of them out");
-      throw InputError((is_file ? "node file '" + path(scene, source.kind) + "', counted from 0: "
-                                : "Methods/nodes = " + source.kind + ": ") +
+      throw InputError((is_file ? "node file '" + path(scene, source.name) + "', counted from 0: "
+                                : "Methods/nodes = " + source.name + ": ") +
                        error.what());
     }
   }

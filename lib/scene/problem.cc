@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "physics/load.h"
-#include "scene/material.h"
 #include "scene/mesh.h"
 
 #include <algorithm>
@@ -144,13 +143,13 @@ namespace plumbline::scene
 
     if (!scene.problem.solutions.empty())
       problem.solution = field("Problem/solution", scene.problem.solutions[case_index].expression);
-    problem.constraint = scene.problem.constraint == "solution"
-                             ? *problem.solution
-                             : field("Problem/constraint", scene.problem.constraint);
-    if (scene.problem.local_solution == "solution")
+    problem.constraint = scene.problem.constraint
+                             ? field("Problem/constraint", *scene.problem.constraint)
+                             : *problem.solution;
+    if (scene.problem.local_solution == LocalSolution::solution)
       problem.local_solution = problem.solution;
-    else if (scene.problem.local_solution != "none" && scene.problem.local_solution != "computed")
-      problem.local_solution = field("Problem/local solution", scene.problem.local_solution);
+    else if (scene.problem.local_solution == LocalSolution::expression)
+      problem.local_solution = field("Problem/local solution", scene.problem.local_expression);
 
     if (!scene.problem.loads.empty())
       problem.load = field("Problem/load", scene.problem.loads[case_index].expression);

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "scene/sections.h"
+#include "scene/problem_sections.h"
+#include "scene/study_sections.h"
 
 namespace plumbline::scene
 {
@@ -43,6 +44,10 @@ namespace plumbline::scene
 
   /// The kernel of its bonds.
   physics::Kernel<2> make_kernel(const Scene &scene, double horizon);
+
+  /// What the dilatation adds to its bonds, or nothing.
+  /// @throws InputError  (its material) a constant that is not allowed, naming key and place
+  std::optional<physics::Dilatation> make_dilatation(const Scene &scene, double horizon);
 
   /// The same scene with nothing left out, to show that what is left out is not missed.
   Scene full_model(Scene scene);

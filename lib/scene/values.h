@@ -1,19 +1,18 @@
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/problem_sections.h"
 
-#include <set>
 #include <string>
 #include <vector>
 
 namespace plumbline::scene
 {
-
-  // From the text of a key to its value. Each throws InputError naming the key and what is allowed.
+  // From the text of a key to its value. Each throws InputError saying what is wrong and what is
+  // allowed; Keys names the key.
 
   std::string trim(const std::string &text);
-  double to_number(const std::string &key, const std::string &text);
-  std::vector<double> to_numbers(const std::string &key, const std::string &text, char separator);
+  double to_number(const std::string &text);
+  std::vector<double> to_numbers(const std::string &text);    ///< separated by blanks
   std::vector<std::string> to_names(const std::string &text); ///< separated by commas
 
   /// The name that a method has here; some rules have several in the literature: HHB is QWJ.
@@ -22,22 +21,11 @@ namespace plumbline::scene
   /// Names of methods separated by commas, those that they have here.
   std::vector<std::string> to_methods(const std::string &text);
 
-  /// "x0, y0 : x1, y1; ..."
-  std::vector<geometry::Box> to_boxes(const std::string &key, const std::string &text);
-
-  /// "x0, y0 : x1, y1 : x2, y2; ..."
-  std::vector<std::vector<dealii::Point<2>>> to_polylines(const std::string &key,
-                                                          const std::string &text);
-
   /// "name: expression; ..." or a single expression, whose case is called "u".
   std::vector<Case> to_cases(const std::string &text);
 
-  /// "method[, case][, series]: value; ..."; the series is the part with '='. Values are
-  /// numbers, or one of the given words.
-  std::vector<Expected> to_expected(const std::string &key, const std::string &text,
-                                    const std::vector<std::string> &cases,
-                                    const std::set<std::string> &words = {});
-
   /// A short decimal text, as in series names: 3, 0.4, 2.5.
   std::string short_number(double value);
+
+  std::string join(const std::vector<std::string> &words, const std::string &separator);
 } // namespace plumbline::scene

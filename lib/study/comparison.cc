@@ -13,6 +13,8 @@ namespace plumbline::study
   {
     using geometry::NodeSet;
     using scene::Field;
+    using scene::Quantity;
+    using scene::Target;
 
     /// Means of T_k over [x - h/2, x + h/2] around all nodes of an axis, shape (n, n_terms).
     std::vector<double> basis_means(const physics::ChebyshevField &series, unsigned int axis,
@@ -59,25 +61,20 @@ namespace plumbline::study
       }
     };
 
-    void enter(std::map<std::string, double> &errors, const scene::Scene &scene,
-               const std::string &kind, const std::string &target, const Accumulator &sum)
+    void enter(std::map<std::string, double> &errors, const scene::Scene &scene, Quantity quantity,
+               Target target, const Accumulator &sum)
     {
-      const auto is_wanted = [&](const std::string &norm)
-      {
-        return std::find(scene.study.norms.begin(), scene.study.norms.end(), norm) !=
-               scene.study.norms.end();
-      };
-      if (is_wanted(kind + " Linf"))
-        errors[kind + " Linf | " + target] = sum.largest;
-      if (is_wanted(kind + " L2"))
-        errors[kind + " L2 | " + target] = std::sqrt(sum.squares);
+      for (const scene::Norm norm : scene.study.norms)
+        if (scene::quantity(norm) == quantity)
+          errors[scene::DecisiveError{norm, target}.text()] =
+              scene::is_largest(norm) ? sum.largest : std::sqrt(sum.squares);
     }
 
-    bool is_wanted(const scene::Scene &scene, const std::string &kind)
+    bool is_wanted(const scene::Scene &scene, Quantity quantity)
     {
       return std::any_of(scene.study.norms.begin(), scene.study.norms.end(),
-                         [&](const std::string &norm)
-                         { return norm.compare(0, kind.size() + 1, kind + " ") == 0; });
+                         [quantity](scene::Norm norm)
+                         { return scene::quantity(norm) == quantity; });
     }
 
     /// Area of a comparison cell.
@@ -322,7 +319,7 @@ namespace plumbline::study
       value = std::fmax(value, std::abs(difference)); // takes the number where it is still NaN
     };
 
-    if (problem.solution && scene.study.decisive_error.compare(0, 5, "nodal") == 0)
+    if (problem.solution && quantity(scene.study.decisive_error.norm) == scene::Quantity::nodal)
     {
       map.quantity = "nodal values";
       for (std::size_t i = 0; i < solution.nodes.size(); ++i)
@@ -344,26 +341,26 @@ namespace plumbline::study
                                        const Solution &solution, const Targets &targets)
   {
     std::map<std::string, double> result;
-    const auto compare = [&](const std::string &target, const Field &field)
+    const auto compare = [&](Target target, const Field &field)
     {
-      if (is_wanted(scene, "nodal"))
-        enter(result, scene, "nodal", target, nodal_difference(problem, solution, field));
-      if (is_wanted(scene, "averages"))
+      if (is_wanted(scene, Quantity::nodal))
+        enter(result, scene, Quantity::nodal, target, nodal_difference(problem, solution, field));
+      if (is_wanted(scene, Quantity::averages))
         enter(
-            result, scene, "averages", target,
+            result, scene, Quantity::averages, target,
             averages_difference(problem, solution.averages, cell_averages(field, scene, problem)));
-      if (is_wanted(scene, "field"))
-        enter(result, scene, "field", target, field_difference(problem, solution, field));
+      if (is_wanted(scene, Quantity::field))
+        enter(result, scene, Quantity::field, target, field_difference(problem, solution, field));
     };
     if (problem.solution)
-      compare("exact", *problem.solution);
-    if (problem.local_solution && scene.problem.local_solution != "solution")
-      compare("local", *problem.local_solution);
+      compare(Target::exact, *problem.solution);
+    if (problem.local_solution && scene.problem.local_solution != scene::LocalSolution::solution)
+      compare(Target::local, *problem.local_solution);
     if (!targets.local.empty())
-      enter(result, scene, "averages", "local",
+      enter(result, scene, Quantity::averages, Target::local,
             averages_difference(problem, solution.averages, targets.local));
     if (!targets.reference.empty())
-      enter(result, scene, "averages", "reference",
+      enter(result, scene, Quantity::averages, Target::reference,
             averages_difference(problem, solution.averages, targets.reference));
     return result;
   }

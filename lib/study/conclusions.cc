@@ -156,7 +156,7 @@ namespace plumbline::study
       {
         if (!seen.insert({run.method, run.problem, run.series}).second)
           continue;
-        std::set<std::string> errors{scene.study.decisive_error};
+        std::set<std::string> errors{scene.study.decisive_error.text()};
         for (const Run &other : results.runs)
           if (other.method == run.method && other.problem == run.problem)
             for (const auto &entry : other.errors)
@@ -235,7 +235,7 @@ namespace plumbline::study
           results.omissions.push_back({"a coefficient at every bond", "the material is homogeneous",
                                        "one evaluation a quadrature point"});
       }
-      else if (scene.solver.operator_backend != "sparse")
+      else if (scene.solver.operator_backend != base::OperatorBackend::sparse)
         results.omissions.push_back(
             {"a matrix", "uniform lattice and homogeneous kernel: all rows are one stencil",
              "an assembled matrix would hold " + base::to_text(bonds, 4) + " entries, " +

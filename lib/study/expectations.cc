@@ -26,11 +26,13 @@ namespace plumbline::study
 
     using Check = std::function<Expectation(const scene::Expected &, const Trend &)>;
 
-    void check_all(const std::vector<scene::Expected> &list, Results &results,
+    void check_all(const scene::Scene &scene, scene::ExpectedKind kind, Results &results,
                    const std::string &what, const Check &check)
     {
-      for (const scene::Expected &expected : list)
+      for (const scene::Expected &expected : scene.expected.all)
       {
+        if (expected.kind != kind)
+          continue;
         bool is_found = false;
         for (const Trend &trend : results.trends)
         {
@@ -54,12 +56,12 @@ namespace plumbline::study
   void check_expectations(const scene::Scene &scene, Results &results)
   {
     results.expectations.clear();
-    check_all(scene.expected.verdicts, results, "verdict",
+    check_all(scene, scene::ExpectedKind::verdicts, results, "verdict",
               [](const scene::Expected &expected, const Trend &trend) {
                 return Expectation{"", expected.verdict, trend.verdict,
                                    expected.verdict == trend.verdict};
               });
-    check_all(scene.expected.errors, results, "errors",
+    check_all(scene, scene::ExpectedKind::errors, results, "errors",
               [&](const scene::Expected &expected, const Trend &trend)
               {
                 // a shortened sweep is checked as far as it goes
@@ -69,7 +71,7 @@ namespace plumbline::study
                           scene.expected.error_tolerance;
                 return Expectation{"", join(expected.values), join(trend.values), holds};
               });
-    check_all(scene.expected.rates, results, "rate of the last two levels",
+    check_all(scene, scene::ExpectedKind::rates, results, "rate of the last two levels",
               [&](const scene::Expected &expected, const Trend &trend)
               {
                 const double rate = trend.rates.empty() ? 0 : trend.rates.back();
@@ -81,7 +83,7 @@ namespace plumbline::study
                         std::abs(rate - expected.values[0]) <= scene.expected.rate_tolerance};
               });
     check_all(
-        scene.expected.bounds, results, "largest error",
+        scene, scene::ExpectedKind::bounds, results, "largest error",
         [](const scene::Expected &expected, const Trend &trend)
         {
           const double largest = trend.values.empty()
@@ -92,14 +94,15 @@ namespace plumbline::study
                                  expected.values.size() == 1 && largest <= expected.values[0]};
         });
     check_all(
-        scene.expected.monotone, results, "error falls at every level",
+        scene, scene::ExpectedKind::monotone, results, "error falls at every level",
         [](const scene::Expected &expected, const Trend &trend)
         {
           const bool falls = std::is_sorted(trend.values.rbegin(), trend.values.rend());
           const std::string found = trend.values.size() < 2 ? "one level" : falls ? "yes" : "no";
           return Expectation{"", expected.verdict, found, found == expected.verdict};
         });
-    check_all(scene.expected.jitter, results, "rises of the error over its first value",
+    check_all(scene, scene::ExpectedKind::jitter, results,
+              "rises of the error over its first value",
               [](const scene::Expected &expected, const Trend &trend)
               {
                 double rises = 0;

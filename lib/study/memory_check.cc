@@ -78,10 +78,11 @@ namespace plumbline::study
 
     bool is_estimated(const scene::Scene &scene, const Method &method)
     {
-      if (method.family() != "reference" || scene.reference.estimate == "none")
+      if (method.family() != "reference" || scene.reference.estimate == scene::Estimate::none)
         return false;
-      return method.name() == scene.reference.method || scene.reference.estimate == "every" ||
-             (scene.reference.estimate == "automatic" && scene.reference.method == "none" &&
+      return method.name() == scene.reference.method ||
+             scene.reference.estimate == scene::Estimate::every ||
+             (scene.reference.estimate == scene::Estimate::automatic && !scene.reference.method &&
               scene.problem.solutions.empty());
     }
 
@@ -99,7 +100,7 @@ namespace plumbline::study
     {
       if (!scene.domain.mesh.is_file())
         return true;
-      if (std::filesystem::path(scene.domain.mesh.kind).extension() == ".msh")
+      if (std::filesystem::path(scene.domain.mesh.name).extension() == ".msh")
         return false;
       return measured_size(scene, {coarse.level.h / 2, coarse.level.horizon}).n_cells >
              1.5 * coarse.n_cells;
@@ -128,8 +129,8 @@ namespace plumbline::study
                     unsigned int n_levels)
   {
     Methods all = methods;
-    if (scene.reference.method != "none")
-      all.push_back(find_method(available, scene.reference.method, "Reference/method"));
+    if (scene.reference.method)
+      all.push_back(find_method(available, *scene.reference.method, "Reference/method"));
     const method::ProblemSize coarse =
         measured_size(scene, scene.study.series.front().levels.front());
     for (const auto &series : scene.study.series)

@@ -49,23 +49,19 @@ namespace plumbline::study
           throw InputError("Methods/names: '" + name + "' cannot do this scene: " + reason);
       }
     }
-    if (scene.reference.method != "none")
+    if (scene.reference.method)
     {
-      const auto reference = find_method(available, scene.reference.method, "Reference/method");
+      const auto reference = find_method(available, *scene.reference.method, "Reference/method");
       if (reference->family() != "reference")
-        throw InputError("Reference/method: '" + scene.reference.method +
+        throw InputError("Reference/method: '" + *scene.reference.method +
                          "' is no Galerkin method, so nothing is known of its error; choose Q2, P2 "
                          "or another ('plumbline list methods')");
       if (const std::string reason = reference->why_not(scene, problem); !reason.empty())
-        throw InputError("Reference/method: '" + scene.reference.method +
+        throw InputError("Reference/method: '" + *scene.reference.method +
                          "' cannot do this scene: " + reason);
     }
-    for (const auto *list :
-         {&scene.expected.verdicts, &scene.expected.errors, &scene.expected.rates,
-          &scene.expected.bounds, &scene.expected.monotone, &scene.expected.jitter,
-          &scene.expected.stability})
-      for (const scene::Expected &expected : *list)
-        (void)find_method(available, expected.method, "Expected");
+    for (const scene::Expected &expected : scene.expected.all)
+      (void)find_method(available, expected.method, "Expected");
     return chosen;
   }
 
@@ -133,7 +129,7 @@ namespace plumbline::study
                 std::count_if(mesh.cells.begin(), mesh.cells.end(),
                               [](const geometry::MeshCell &cell) { return cell.is_inside; }));
             if (n_cells == before && level.h != series.levels[i - 1].h)
-              throw InputError("Domain/mesh = " + scene.domain.mesh.kind + " has the " +
+              throw InputError("Domain/mesh = " + scene.domain.mesh.name + " has the " +
                                std::to_string(n_cells) +
                                " cells of the level before, so that rates would mean nothing; give "
                                "a mesh that follows h, or a single value of Study/h");

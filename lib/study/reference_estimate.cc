@@ -236,7 +236,7 @@ namespace plumbline::study
   {
     const Solution solution = analysis::solve(method, scene, problem);
     ReferenceAverages result{solution.averages, {}};
-    result.estimate = scene.reference.estimate == "none"
+    result.estimate = scene.reference.estimate == scene::Estimate::none
                           ? Estimator(scene, problem, case_index, method, solution).outer()
                           : estimate_error(scene, problem, case_index, method, solution, false);
     result.estimate.n_geometry_checks = solution.diagnostics.n_geometry_checks;

@@ -13,7 +13,7 @@ namespace plumbline::study
     scene::Scene centred(const scene::Scene &scene)
     {
       scene::Scene result = scene;
-      result.methods.nodes.kind = "centres";
+      result.methods.nodes.name = "centres";
       result.methods.nodes.perturbation = 0;
       result.geometry.n_checks = 0;
       return result;

@@ -48,7 +48,7 @@ namespace plumbline::study
   {
     const bool drops_dilatation = scene.material.is_state_based() && !scene.has_dilatation();
     return !scene.solver.is_full_model && !scene.domain.collar &&
-           scene.solver.operator_backend == "automatic" &&
+           scene.solver.operator_backend == base::OperatorBackend::automatic &&
            (scene.domain.is_free_body ? drops_dilatation : scene.domain.mesh.is_lattice());
   }
 

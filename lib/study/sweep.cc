@@ -19,22 +19,6 @@ namespace plumbline::study
 {
   namespace
   {
-    const char *regime_name(scene::Regime regime)
-    {
-      switch (regime)
-      {
-      case scene::Regime::m:
-        return "m";
-      case scene::Regime::delta:
-        return "delta";
-      case scene::Regime::delta_m:
-        return "delta-m";
-      case scene::Regime::horizon:
-        break;
-      }
-      return "horizon";
-    }
-
     bool is_same_run(const Run &run, const std::string &method, const std::string &problem,
                      const std::string &series, unsigned int level)
     {
@@ -56,9 +40,9 @@ namespace plumbline::study
       {
         results_.scene_name = scene.name;
         results_.purpose = scene.purpose;
-        results_.regime = regime_name(scene.study.regime);
+        results_.regime = base::word(scene.study.regime);
         results_.scene_text = scene.text;
-        results_.decisive_error = scene.study.decisive_error;
+        results_.decisive_error = scene.study.decisive_error.text();
         results_.provenance = earlier.provenance;
       }
 
@@ -199,16 +183,16 @@ namespace plumbline::study
       {
         for (Case &one : open)
         {
-          if (scene_.reference.method != "none")
+          if (scene_.reference.method)
           {
             ReferenceAverages reference = solve_reference(
                 scene_, one.problem, one.index,
-                *find_method(available_, scene_.reference.method, "Reference/method"));
+                *find_method(available_, *scene_.reference.method, "Reference/method"));
             results_.references.push_back(
                 placed(reference.estimate, cases_[one.index], series, level));
             one.targets.reference = std::move(reference.averages);
           }
-          if (scene_.problem.local_solution == "computed")
+          if (scene_.problem.local_solution == scene::LocalSolution::computed)
             one.targets.local = local_averages(one.problem);
         }
       }
@@ -273,9 +257,9 @@ namespace plumbline::study
       bool is_estimated(const Method &method, const scene::Problem &problem) const
       {
         return method.family() == "reference" && method.name() != scene_.reference.method &&
-               (scene_.reference.estimate == "every" ||
-                (scene_.reference.estimate == "automatic" && scene_.reference.method == "none" &&
-                 !problem.solution));
+               (scene_.reference.estimate == scene::Estimate::every ||
+                (scene_.reference.estimate == scene::Estimate::automatic &&
+                 !scene_.reference.method && !problem.solution));
       }
 
       /// At the first level that is run, for the first method of each side, where it is cheap.

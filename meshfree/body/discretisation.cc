@@ -21,7 +21,7 @@ namespace plumbline::meshfree
                                       const scene::Scene &scene, const scene::Problem &problem)
     {
       return {body, physics::influence_function(scene.kernel.profile, problem.horizon()), bonds,
-              algebra::operator_backend_from_name(scene.solver.operator_backend)};
+              scene.solver.operator_backend};
     }
 
     /// ∫ b over the free cells: on each quarter by a rule of degree 5, so that loads may jump at

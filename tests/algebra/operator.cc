@@ -118,7 +118,6 @@ TEST(Operator, direct_road_is_refused_where_it_does_not_fit)
   const NodeSet nodes = free_nodes(Lattice(square, .25), two_families, 1);
   EXPECT_THROW(make_operator(random_stencil(4, 1, false), nodes, OperatorBackend::direct),
                InputError);
-  EXPECT_THROW(operator_backend_from_name("quantum"), InputError);
 }
 
 TEST(Operator, automatic_takes_the_direct_road_for_short_reach_and_transforms_for_long_reach)

@@ -118,10 +118,11 @@ TEST(SparseSystem, EveryIterationFindsTheSolution)
   const System system = known({40, 3.2, 1, false, true});
   const auto exact = wave(system.right_hand_side.size());
   for (const auto solver : {SparseSolver::amg, SparseSolver::jacobi})
-    for (const std::string name : {"gmres", "bicgstab"})
+    for (const auto iteration : {Iteration::gmres, Iteration::bicgstab})
     {
+      const std::string name = base::word(iteration);
       SparseOptions options = with(solver);
-      options.iteration = iteration_from_name(name);
+      options.iteration = iteration;
       const SparseSolution solution = solve(system, options);
       EXPECT_LE(distance(solution.values, exact), 1e-10 * norm(exact)) << solution.solver;
       EXPECT_GT(solution.n_iterations, 0u);
@@ -269,21 +270,3 @@ TEST(SparseSystem, FactorsThatDoNotFitAreRefusedBeforeTheyAreMade)
                {"90000 unknowns", "for its factors: needs some ", "Solver/linear solver = amg"});
 }
 #endif
-
-TEST(SparseSystem, UnknownSolverNamesAreInputErrorsThatListTheKnown)
-{
-  EXPECT_EQ(sparse_solver_from_name("amg"), SparseSolver::amg);
-  EXPECT_EQ(sparse_solver_from_name("automatic"), SparseSolver::automatic);
-  try
-  {
-    sparse_solver_from_name("multigrid");
-    FAIL();
-  }
-  catch (const InputError &error)
-  {
-    EXPECT_NE(std::string(error.what()).find("'multigrid'"), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("jacobi"), std::string::npos);
-  }
-  EXPECT_EQ(iteration_from_name("bicgstab"), Iteration::bicgstab);
-  EXPECT_THROW(iteration_from_name("minres"), InputError);
-}

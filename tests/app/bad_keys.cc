@@ -43,7 +43,7 @@ TEST_F(BadKeys, are_refused_by_key_value_what_is_allowed_and_the_remedy)
        refused("Geometry/seed", "-1", whole + "2147483647", "1"),
        refused("Solver/max iterations", "0", "a whole number from 1 to 2147483647", "1000"),
        refused("Kernel/constant", "x", real, "1"), refused("Kernel/bulk modulus", "-1", rest, "1"),
-       refused("Expected/error tolerance", "0", rest, "5e-4"),
+       refused("Expected/error tolerance", "0", rest, "0.0005"),
        refused("Solver/tolerance", "nan", "a number from 1e-15 to 0.001", "1e-12"),
        refused("Methods/perturbation", "0.5", "a number from 0 to 0.49", "0"),
        refused("Study/regime", "x", "one of m, delta, delta-m, horizon", "delta"),
@@ -53,16 +53,19 @@ TEST_F(BadKeys, are_refused_by_key_value_what_is_allowed_and_the_remedy)
 
 TEST_F(BadKeys, in_lists_are_named_with_how_a_list_is_written)
 {
-  const std::string write = "' is not a number; write numbers such as 0.05 or 1e-3, separated by ";
+  const std::string write = "; write numbers such as 0.05 or 1e-3, separated by ";
+  const std::string no = " is not allowed", in = " in it" + write;
   expect_refusals(
-      {{set("Study/h", "0.1, fine"), {"Study/h: 'fine" + write + "','"}},
-       {set("Study/h", "0.1; 0.05"), {"Study/h: '0.1; 0.05" + write + "','"}},
-       {set("Study/m", "1e999"), {"Study/m: '1e999" + write}},
-       {set("Study/m", "3,,4"), {"Study/m: '3,,4' has nothing between two commas", "; take the"}},
-       {set("Study/m", "3, 4,"), {"Study/m: '3, 4,' has nothing between", "behind the last one"}},
-       {set("Expected/errors", "FA: 1 one"), {"Expected/errors: 'one" + write + "blanks"}},
+      {{set("Study/h", "0.1, fine"), {"Study/h = '0.1, fine'" + no + ", for 'fine'" + in + "','"}},
+       {set("Study/h", "0.1; 0.05"), {"Study/h = '0.1; 0.05'" + no + write, "its default is '0.1"}},
+       {set("Study/m", "1e999"), {"Study/m = '1e999'" + no + write}},
+       {set("Study/m", "3,,4"), {"Study/m = '3,,4'" + no + ", for ''" + in}},
+       {set("Study/m", "3, 4,"), {"Study/m = '3, 4,'" + no + write}},
+       {set("Expected/errors", "FA: 1 one"),
+        {"Expected/errors: 'one' is not a number" + write + "blanks"}},
        {set("Domain/collar", "wide"), {"Domain/collar: 'wide' is not a number; write one such as"}},
-       {set("Domain/boxes", "0, 0 : a, 1"), {"Domain/boxes: 'a' is not a number; write numbers"}}});
+       {set("Domain/boxes", "0, 0 : a, 1"),
+        {no + ", for 'a' in it; write boxes 'x0, y0 : x1, y1'"}}});
 }
 
 TEST(Descriptions, say_what_is_allowed_in_our_words)
@@ -78,7 +81,8 @@ TEST(Descriptions, say_what_is_allowed_in_our_words)
       EXPECT_EQ(outcome.out.find(raw), std::string::npos) << section << ": " << raw;
   }
   expect_found(run("describe Solver/tolerance").out, "allowed: a number from 1e-15 to 0.001\n");
-  expect_found(run("describe Study/h").out, "allowed: any text\n");
+  expect_found(run("describe Study/h").out, "allowed: numbers such as 0.05 or 1e-3, separated");
+  expect_found(run("describe Problem/load").out, "allowed: any text\n");
 }
 
 TEST(Unexpected, errors_say_what_can_be_done_and_end_with_their_own_words_on_one_line)

@@ -66,8 +66,8 @@ TEST(Check, its_example_is_what_the_library_makes)
 {
   using namespace plumbline;
   auto scene = scene::read_scene(scene_file);
-  scene.domain.mesh.kind = "squares";
-  scene.methods.nodes.kind = nodes_file;
+  scene.domain.mesh.name = "squares";
+  scene.methods.nodes.name = nodes_file;
   const auto problem = scene::make_problem(scene, 0, scene.study.series[0].levels[0]);
   const meshfree::Families families(meshfree::recalibrated(problem.kernel, 2), problem.kernel,
                                     *problem.cells, meshfree::Backend::fast);

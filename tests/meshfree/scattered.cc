@@ -237,7 +237,7 @@ TEST(ScatteredMethods, solve_what_the_lattice_solves_where_nodes_are_not_moved)
   {
     const auto scene = make_scene(0, is_tensor, is_tensor ? "x^4, x*y" : "x^4*y");
     scene::Scene lattice_scene = scene;
-    lattice_scene.domain.mesh.kind = "lattice";
+    lattice_scene.domain.mesh.name = "lattice";
     const auto problem = scene::make_problem(scene, 0, {.125, .375});
     const auto lattice_problem = scene::make_problem(lattice_scene, 0, {.125, .375});
     for (const Rule &rule : rules())

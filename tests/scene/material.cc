@@ -1,4 +1,4 @@
-#include "scene/material.h"
+#include "scene/scene.h"
 
 #include "base/error.h"
 #include "scene/problem.h"
@@ -79,7 +79,7 @@ TEST(Material, EqualLameConstantsNeedNoDilatationAndHalfTheCollar)
   EXPECT_FALSE(make_problem(bonds, 0, {.1, .3}).dilatation);
   const Scene full = solid({{"Material/nu", "1/4"}, {"Solver/model", "full"}});
   EXPECT_TRUE(full.has_dilatation());
-  EXPECT_EQ(full.domain.mesh.kind, "squares");
+  EXPECT_EQ(full.domain.mesh.name, "squares");
 }
 
 TEST(Material, BondsOfAHomogeneousSolidCarryMuAndThoseOfOthersACoefficient)

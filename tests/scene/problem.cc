@@ -118,7 +118,7 @@ TEST(SceneErrors, a_collar_must_be_as_wide_as_the_operator_reaches)
 TEST(SceneErrors, a_number_has_no_tail)
 {
   const std::string message = refusal({{"Problem/solution", "x"}, {"Study/h", "0.1, 0.05m"}});
-  EXPECT_NE(message.find("Study/h: '0.05m' is not a number"), std::string::npos) << message;
+  EXPECT_NE(message.find("is not allowed, for '0.05m' in it"), std::string::npos) << message;
 }
 
 TEST(SceneErrors, a_reference_is_compared_by_cell_averages)

@@ -106,7 +106,7 @@ TEST(Scene, printed_back_parses_to_the_same_scene)
   EXPECT_EQ(again.text, scene.text);
   EXPECT_EQ(again.study.series.size(), 2u);
   EXPECT_EQ(again.domain.boxes.exclude.size(), 1u);
-  EXPECT_EQ(again.expected.verdicts.at(0).verdict, "AC");
+  EXPECT_EQ(again.expected.all.at(0).verdict, "AC");
 }
 
 TEST(Scene, cases_have_names_and_components)
@@ -131,14 +131,14 @@ TEST(Scene, methods_may_be_called_by_their_other_names_wherever_they_are_named)
                             "HHB: stable\nend\n");
   EXPECT_EQ(scene.methods.names, (std::vector<std::string>{"QWJ", "Q1", "HHB-2"}));
   EXPECT_EQ(scene.reference.method, "QWJ");
-  EXPECT_EQ(scene.expected.verdicts.at(1).method, "Q1");
-  for (const auto *list : {&scene.expected.verdicts, &scene.expected.errors, &scene.expected.rates,
-                           &scene.expected.bounds, &scene.expected.monotone, &scene.expected.jitter,
-                           &scene.expected.stability})
-  {
-    EXPECT_EQ(list->at(0).method, "QWJ") << list->at(0).text;
-    EXPECT_EQ(list->at(0).text.substr(0, 3), "HHB"); // as it was given
-  }
+  EXPECT_EQ(scene.expected.all.at(1).method, "Q1");
+  EXPECT_EQ(scene.expected.all.size(), 8u);
+  for (const Expected &one : scene.expected.all)
+    if (one.method != "Q1")
+    {
+      EXPECT_EQ(one.method, "QWJ") << one.text;
+      EXPECT_EQ(one.text.substr(0, 3), "HHB"); // as it was given
+    }
 }
 
 TEST(Scene, overrides_win_over_the_file_and_json_is_read_too)
@@ -174,9 +174,9 @@ TEST(SceneErrors, unknown_keys_and_wrong_types)
   expect_error("subsection Sudy\n set h = 1\nend\n", "Sudy");
   expect_error(section("Geometry", "checks = many"), "checks");
   expect_error(section("Kernel", "type = gauss"), "linear-decay");
-  expect_error(
-      section("Study", "h = 0.1, fine"),
-      "Study/h: 'fine' is not a number; write numbers such as 0.05 or 1e-3, separated by ','");
+  expect_error(section("Study", "h = 0.1, fine"),
+               "Study/h = '0.1, fine' is not allowed, for 'fine' in it; write numbers such as 0.05 "
+               "or 1e-3, separated by ','");
   expect_error("", "key 'Study/hh' is not known; write one of: Study/regime, Study/h",
                {{"Study/hh", "1"}});
   expect_error("", "Solver/tolerance = 'small' is not allowed", {{"Solver/tolerance", "small"}});
@@ -190,7 +190,8 @@ TEST(SceneErrors, levels_that_do_not_fit)
   expect_error(section("Domain", "collar = 0.1"),
                "Domain/collar = 0.1 is thinner than the horizon 0.3");
   expect_error(section("Study", "regime = delta-m"), "Study/m has 1 values and Study/h has 4");
-  expect_error(section("Domain", "boxes = 0, 0 : 1"), "'0, 0 : 1' is not a box");
+  expect_error(section("Domain", "boxes = 0, 0 : 1"),
+               "'0, 0 : 1' is not allowed, for '1' in it; write boxes");
   expect_error(section("Domain", "boxes = 1, 1 : 0, 2"), "is empty; its second corner");
 }
 
@@ -265,7 +266,7 @@ TEST(Materials, are_those_of_the_cells_and_of_nothing_outside)
       {{{0, 1, 4, 3}, 4, true, 1}, {{1, 2, 5, 4}, 4, false, 0}, {{6, 7, 8, 9}, 4, false, 1}},
       {"wood", "steel"}};
   Scene scene = parse("");
-  scene.kernel.materials = {{"steel", "200"}, {"wood", "12"}};
+  scene.kernel.materials = {{"steel", 200}, {"wood", 12}};
   const auto coefficient = make_coefficient(scene, mesh);
   ASSERT_TRUE(coefficient);
   EXPECT_EQ(coefficient->at({.5, .5}), 200);

@@ -34,7 +34,7 @@ namespace
   {
     Results results;
     results.regime = "delta";
-    results.decisive_error = scene.study.decisive_error;
+    results.decisive_error = scene.study.decisive_error.text();
     results.is_complete = true;
     return results;
   }

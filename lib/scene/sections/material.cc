@@ -1,9 +1,15 @@
-#include "scene/material.h"
-
 #include "base/error.h"
 #include "physics/expression.h"
+#include "scene/keys.h"
+#include "scene/problem_sections.h"
 
 #include <sstream>
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<physics::PlaneState> = std::array{"strain", "stress"};
+} // namespace plumbline::base
 
 namespace plumbline::scene
 {
@@ -37,7 +43,7 @@ namespace plumbline::scene
         lame = physics::lame_from_bulk(first, second);
       else
         lame = lame_from_lame(first, second);
-      if (material.model == "LPS" && !material.is_homogeneous && !(lame.lambda > 0))
+      if (material.model == Model::lps && !material.is_homogeneous && !(lame.lambda > 0))
       {
         std::ostringstream message;
         message << "lambda = " << lame.lambda
@@ -74,54 +80,61 @@ namespace plumbline::scene
     return at;
   }
 
-  MaterialSection make_material(const std::function<std::string(const std::string &key)> &value)
+  void MaterialSection::declare(Keys &by_name)
   {
-    MaterialSection material;
-    material.model = value("Material/model");
-    material.has_collar_dilatation = value("Material/collar dilatation") == "from data";
-    material.plane = value("Material/plane") == "stress" ? physics::PlaneState::stress
-                                                         : physics::PlaneState::strain;
+    by_name.add(
+        "model", model,
+        "bond-based: the kernel is all. LPS: the linear peridynamic solid, with harmonic means of "
+        "lambda and of mu at both ends of a bond. variational: constants at one point. Both take "
+        "Kernel/type as their influence function, with Kernel/limit = Navier.");
+    by_name.add("plane", plane, "Plane strain or plane stress, for E and nu.");
+    by_name.add("E", given[0][0],
+                "Young's modulus > 0, an expression in x and y. [force/length^2]");
+    by_name.add("nu", given[0][1], "Poisson's ratio, -1 < nu < 1/2, given with E.");
+    by_name.add("lambda", given[1][0],
+                "Lame's first constant in the plane, instead of E and nu. [force/length^2]");
+    by_name.add("mu", given[1][1],
+                "The shear modulus > 0, given with lambda, which is > -mu. [force/length^2]");
+    by_name.add("collar dilatation", has_collar_dilatation, "zero", "from data",
+                "theta in the collar, of state-based solids on scattered nodes: from data, or "
+                "zero, which is wrong and there to show by how much.");
+    by_name.add("k", given[2][0],
+                "lambda + mu > 0 of the variational model, instead. [force/length^2]");
+    by_name.add("l", given[2][1], "8 mu > 0, given with k. [force/length^2]");
+  }
+
+  void MaterialSection::complete()
+  {
     unsigned int n_pairs = 0;
-    for (const auto &keys : pairs)
+    for (unsigned int i = 0; i < pairs.size(); ++i)
     {
-      const std::array<std::string, 2> expressions = {value("Material/" + keys[0]),
-                                                      value("Material/" + keys[1])};
-      if (expressions[0].empty() != expressions[1].empty())
-        throw InputError("Material/" + keys[expressions[0].empty() ? 1 : 0] + " needs Material/" +
-                         keys[expressions[0].empty() ? 0 : 1] + ", which is empty");
-      if (expressions[0].empty())
+      const bool is_first_empty = given[i][0].empty();
+      if (is_first_empty != given[i][1].empty())
+        throw InputError("Material/" + pairs[i][is_first_empty ? 1 : 0] + " needs Material/" +
+                         pairs[i][is_first_empty ? 0 : 1] + ", which is empty");
+      if (is_first_empty)
         continue;
       ++n_pairs;
-      material.keys = keys;
-      material.expressions = expressions;
+      keys = pairs[i];
+      expressions = given[i];
     }
-    if (n_pairs != (material.is_state_based() ? 1 : 0))
-      throw InputError("Material/model = " + material.model +
-                       (material.is_state_based()
+    if (n_pairs != (is_state_based() ? 1 : 0))
+      throw InputError("Material/model = " + base::word(model) +
+                       (is_state_based()
                             ? " needs its constants once: E and nu, lambda and mu, or k and l"
                             : " takes its constants from the kernel; clear Material/E, nu, lambda, "
                               "mu, k and l, or choose LPS or variational"));
-    if (!material.is_state_based())
-      return material;
+    if (!is_state_based())
+      return;
     for (unsigned int i = 0; i < 2; ++i)
     {
-      const Expression expression("Material/" + material.keys[i], material.expressions[i]);
+      const Expression expression("Material/" + keys[i], expressions[i]);
       if (expression.n_components() != 1)
-        throw InputError("Material/" + material.keys[i] + " = '" + material.expressions[i] +
+        throw InputError("Material/" + keys[i] + " = '" + expressions[i] +
                          "' must be one expression");
-      material.is_homogeneous = material.is_homogeneous && expression.is_constant();
+      is_homogeneous = is_homogeneous && expression.is_constant();
     }
-    if (material.is_homogeneous)
-      (void)material.lame();
-    return material;
-  }
-
-  std::optional<physics::Dilatation> make_dilatation(const Scene &scene, double horizon)
-  {
-    if (!scene.has_dilatation())
-      return {};
-    return physics::Dilatation{physics::influence_function(scene.kernel.profile, horizon),
-                               scene.material.lame(), scene.material.model == "LPS",
-                               scene.material.is_homogeneous};
+    if (is_homogeneous)
+      (void)lame();
   }
 } // namespace plumbline::scene

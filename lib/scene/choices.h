@@ -1,0 +1,144 @@
+#pragma once
+
+#include "base/choice.h"
+
+namespace plumbline::scene
+{
+  // What a scene chooses by words, see base/choice.h.
+
+  enum class MeshKind
+  {
+    lattice,
+    squares,
+    triangles,
+    file,     ///< .msh or .geo, by its name
+    generator ///< of deal.II, by its name
+  };
+
+  /// The local operator that a kernel is scaled to.
+  enum class Limit
+  {
+    half_laplace,
+    laplace,
+    navier,
+    none
+  };
+
+  enum class Model
+  {
+    bond_based,
+    lps,        ///< linear peridynamic solid
+    variational ///< state-based, its constants at one point
+  };
+
+  enum class LocalSolution
+  {
+    solution, ///< where it does not depend on the horizon
+    none,
+    computed,
+    expression
+  };
+
+  enum class NodeKind
+  {
+    centres,
+    vertices,
+    mesh, ///< centroids of its cells
+    file  ///< .csv, by its name
+  };
+
+  /// How a sweep refines.
+  enum class Regime
+  {
+    m,       ///< horizon fixed, h → 0: towards the nonlocal solution
+    delta,   ///< m = horizon / h fixed, h → 0: towards the local limit; decides asymptotic
+             ///< compatibility
+    delta_m, ///< horizon → 0 and m → ∞ together
+    horizon  ///< h fixed, horizon varies: how errors depend on the horizon
+  };
+
+  /// What of a solution is compared.
+  enum class Quantity
+  {
+    nodal,
+    averages,
+    field
+  };
+
+  enum class Norm
+  {
+    nodal_linf,
+    nodal_l2,
+    averages_linf,
+    averages_l2,
+    field_linf,
+    field_l2
+  };
+  constexpr Quantity quantity(Norm norm)
+  {
+    return static_cast<Quantity>(static_cast<int>(norm) / 2);
+  }
+
+  constexpr bool is_largest(Norm norm) ///< Linf
+  {
+    return static_cast<int>(norm) % 2 == 0;
+  }
+
+  /// What a solution is compared with.
+  enum class Target
+  {
+    exact,
+    local,
+    reference
+  };
+
+  /// Whose error is estimated.
+  enum class Estimate
+  {
+    automatic, ///< the reference's; every Galerkin solution's where nothing else is known
+    every,     ///< every Galerkin solution's
+    reference,
+    none
+  };
+
+  enum class ExpectedKind
+  {
+    verdicts,
+    errors,
+    rates,
+    bounds,
+    monotone,
+    jitter,
+    stability
+  };
+} // namespace plumbline::scene
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<scene::MeshKind> = std::array{"lattice", "squares", "triangles"};
+  template <>
+  inline constexpr auto words<scene::Limit> =
+      std::array{"-1/2 Laplace", "-Laplace", "Navier", "none"};
+  template <>
+  inline constexpr auto words<scene::Model> = std::array{"bond-based", "LPS", "variational"};
+  template <>
+  inline constexpr auto words<scene::LocalSolution> = std::array{"solution", "none", "computed"};
+  template <>
+  inline constexpr auto words<scene::NodeKind> = std::array{"centres", "vertices", "mesh"};
+  template <>
+  inline constexpr auto words<scene::Regime> = std::array{"m", "delta", "delta-m", "horizon"};
+  template <>
+  inline constexpr auto words<scene::Quantity> = std::array{"nodal", "averages", "field"};
+  template <>
+  inline constexpr auto words<scene::Norm> = std::array{
+      "nodal Linf", "nodal L2", "averages Linf", "averages L2", "field Linf", "field L2"};
+  template <>
+  inline constexpr auto words<scene::Target> = std::array{"exact", "local", "reference"};
+  template <>
+  inline constexpr auto words<scene::Estimate> =
+      std::array{"automatic", "every", "reference", "none"};
+  template <>
+  inline constexpr auto words<scene::ExpectedKind> =
+      std::array{"verdicts", "errors", "rates", "bounds", "monotone", "jitter", "stability"};
+} // namespace plumbline::base

@@ -1,0 +1,246 @@
+#include "scene/keys.h"
+
+#include "base/error.h"
+#include "base/text_file.h"
+#include "scene/values.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace plumbline::scene
+{
+  namespace Patterns = dealii::Patterns;
+
+  namespace
+  {
+    /// A pattern that says in our words what it allows.
+    template <class Pattern>
+    class InWords : public Pattern
+    {
+    public:
+      template <class... Arguments>
+      explicit InWords(std::string words, const Arguments &...arguments)
+          : Pattern(arguments...), words_(std::move(words))
+      {
+      }
+
+      std::string description(Patterns::PatternBase::OutputStyle) const override { return words_; }
+      std::unique_ptr<Patterns::PatternBase> clone() const override
+      {
+        return std::make_unique<InWords>(*this);
+      }
+
+    private:
+      std::string words_;
+    };
+
+    /// Numbers separated by ','. deal.II takes a ',' behind the last one; nobody means it.
+    class Numbers : public InWords<Patterns::List>
+    {
+    public:
+      using InWords<Patterns::List>::InWords;
+
+      bool match(const std::string &text) const override
+      {
+        const auto last = text.find_last_not_of(' ');
+        return List::match(text) && (last == std::string::npos || text[last] != ',');
+      }
+      std::unique_ptr<PatternBase> clone() const override
+      {
+        return std::make_unique<Numbers>(*this);
+      }
+    };
+
+    constexpr unsigned int any_length = std::numeric_limits<unsigned int>::max();
+
+    Allowed polylines(const std::string &words, unsigned int most_points)
+    {
+      const Numbers point("'x, y'", Patterns::Double(), 2, 2, ",");
+      const Patterns::List line(point, 2, most_points, ":");
+      return std::make_shared<InWords<Patterns::List>>(words, line, 0, any_length, ";");
+    }
+
+    /// The part of a text that is not allowed, where it is a list.
+    std::string culprit(const std::string &text, const Patterns::PatternBase &allowed)
+    {
+      if (const auto *list = dynamic_cast<const Patterns::List *>(&allowed))
+        for (const std::string &part :
+             dealii::Utilities::split_string_list(text, list->get_separator()))
+          if (!list->get_base_pattern().match(part))
+            return culprit(part, list->get_base_pattern());
+      return text;
+    }
+  } // namespace
+
+  Allowed any_text()
+  {
+    return std::make_shared<InWords<Patterns::Anything>>("any text");
+  }
+
+  Allowed yes_or_no()
+  {
+    return std::make_shared<InWords<Patterns::Bool>>("true or false");
+  }
+
+  Allowed one_of(const std::vector<std::string> &words)
+  {
+    return std::make_shared<InWords<Patterns::Selection>>("one of " + join(words, ", "),
+                                                          join(words, "|"));
+  }
+
+  Allowed count(int lowest, int highest)
+  {
+    return std::make_shared<InWords<Patterns::Integer>>(
+        "a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest), lowest,
+        highest);
+  }
+
+  Allowed any_number()
+  {
+    return std::make_shared<InWords<Patterns::Double>>("a number such as 0.5 or 1e-3");
+  }
+
+  Allowed positive()
+  {
+    return std::make_shared<InWords<Patterns::Double>>("a number above 0 such as 0.5 or 1e-3",
+                                                       1e-300);
+  }
+
+  Allowed between(double lowest, double highest)
+  {
+    return std::make_shared<InWords<Patterns::Double>>(
+        "a number from " + short_number(lowest) + " to " + short_number(highest), lowest, highest);
+  }
+
+  Allowed numbers()
+  {
+    return std::make_shared<Numbers>("numbers such as 0.05 or 1e-3, separated by ','",
+                                     Patterns::Double(), 0, any_length, ",");
+  }
+
+  Allowed boxes()
+  {
+    return polylines("boxes 'x0, y0 : x1, y1' separated by ';'", 2);
+  }
+
+  Allowed lines()
+  {
+    return polylines("lines 'x0, y0 : x1, y1', with more points if they bend, separated by ';'",
+                     any_length);
+  }
+
+  std::vector<std::vector<dealii::Point<2>>> to_lines(const std::string &text,
+                                                      const Allowed &allowed)
+  {
+    if (!allowed->match(text))
+      throw InputError("'" + base::shown(text) + "' is not allowed; write " +
+                       allowed->description());
+    return Patterns::Tools::Convert<std::vector<std::vector<dealii::Point<2>>>>::to_value(text,
+                                                                                          *allowed);
+  }
+
+  void Keys::enter(const std::string &section)
+  {
+    if (!section_.empty())
+      parameters_.leave_subsection();
+    if (!section.empty())
+      parameters_.enter_subsection(section);
+    section_ = section;
+  }
+
+  void Keys::remember(const std::string &name, const Allowed &allowed, const std::string &help)
+  {
+    keys_.push_back({section_, name, parameters_.get(name), allowed, help});
+  }
+
+  void Keys::add(const std::string &name, std::string &member, const std::string &help)
+  {
+    add(name, member, any_text(), help);
+  }
+
+  void Keys::add(const std::string &name, bool &member, const std::string &if_false,
+                 const std::string &if_true, const std::string &help)
+  {
+    const std::string by_default = member ? if_true : if_false;
+    add(
+        name, by_default, one_of({by_default, member ? if_false : if_true}),
+        [&member, if_true](const std::string &text) { member = text == if_true; }, help);
+  }
+
+  void Keys::add(const std::string &name, const std::string &by_default, const Allowed &allowed,
+                 const Read &read, const std::string &help)
+  {
+    parameters_.declare_entry(name, by_default, *allowed, help);
+    parameters_.add_action(name, read);
+    remember(name, allowed, help);
+  }
+
+  const Keys::Key &Keys::find(const std::string &path) const
+  {
+    const std::string section = path.substr(0, path.find('/'));
+    std::vector<std::string> similar, every;
+    for (const Key &key : keys_)
+    {
+      if (key.path() == path)
+        return key;
+      every.push_back(key.path());
+      if (key.section == section || key.name == path)
+        similar.push_back(key.path());
+    }
+    throw InputError("key '" + path + "' is not known; write one of: " +
+                     join(similar.empty() ? every : similar, ", "));
+  }
+
+  void Keys::set(const std::string &path, const std::string &value)
+  {
+    const Key &key = find(path);
+    const std::string given = path + " = '" + base::shown(value) + "' ";
+    const bool is_text =
+        std::none_of(value.begin(), value.end(),
+                     [](unsigned char c) { return c == '#' || c == 127 || (c < 32 && c != '\t'); });
+    if (!is_text || (!value.empty() && value.back() == '\\'))
+      throw InputError(
+          given + "cannot be written in a scene: '#' begins a comment, a '\\' at the end "
+                  "continues the line; take them, line breaks and other control characters out");
+    const std::string bad = culprit(value, *key.allowed);
+    if (!key.allowed->match(value))
+      throw InputError(given + "is not allowed" +
+                       (bad == value ? "" : ", for '" + base::shown(bad) + "' in it") + "; write " +
+                       key.allowed->description() + ", or take the key out: its default is '" +
+                       key.by_default + "'");
+    enter(key.section);
+    try
+    {
+      parameters_.set(key.name, value);
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(path + ": " + error.what());
+    }
+  }
+
+  std::string Keys::Key::description() const
+  {
+    return path() + "\n  " + help +
+           "\n  default: " + (by_default.empty() ? "(empty)" : by_default) +
+           "\n  allowed: " + allowed->description() + "\n";
+  }
+
+  std::string Keys::describe(const std::string &path) const
+  {
+    std::string result;
+    for (const Key &key : keys_)
+      if (key.section == path)
+        result += key.description();
+    return result.empty() ? find(path).description() : result;
+  }
+
+  std::string Keys::text(bool has_help)
+  {
+    enter("");
+    std::ostringstream text;
+    parameters_.print_parameters(text, has_help ? dealii::ParameterHandler::PRM
+                                                : dealii::ParameterHandler::ShortText);
+    return text.str();
+  }
+} // namespace plumbline::scene

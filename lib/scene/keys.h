@@ -1,0 +1,108 @@
+#pragma once
+
+#include "base/choice.h"
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/point.h>
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace plumbline::scene
+{
+  // What keys may be: deal.II's patterns, which say in our words what they allow.
+  using Allowed = std::shared_ptr<const dealii::Patterns::PatternBase>;
+
+  Allowed any_text();
+  Allowed yes_or_no();
+  Allowed one_of(const std::vector<std::string> &words);
+  Allowed count(int lowest, int highest = std::numeric_limits<int>::max());
+  Allowed any_number();
+  Allowed positive();
+  Allowed between(double lowest, double highest);
+  Allowed numbers(); ///< separated by ','
+  Allowed boxes();   ///< "x0, y0 : x1, y1; ..."
+  Allowed lines();   ///< the same, of two points or more
+
+  /// @param allowed  boxes() or lines()
+  /// @throws InputError  anything else
+  std::vector<std::vector<dealii::Point<2>>> to_lines(const std::string &text,
+                                                      const Allowed &allowed);
+
+  /// The keys of a scene file, each beside the member that takes its value.
+  class Keys
+  {
+  public:
+    /// Keys that are added now belong to this section; "": to none.
+    void enter(const std::string &section);
+
+    /// A key that a member takes; its default is what the member holds.
+    template <class T>
+    void add(const std::string &name, T &member, const Allowed &allowed, const std::string &help);
+    void add(const std::string &name, std::string &member, const std::string &help);
+
+    /// The same of a choice, from its words.
+    template <class Enum>
+    std::enable_if_t<std::is_enum_v<Enum>> add(const std::string &name, Enum &member,
+                                               const std::string &help);
+
+    /// The same of a truth value, from a word for false and one for true.
+    void add(const std::string &name, bool &member, const std::string &if_false,
+             const std::string &if_true, const std::string &help);
+
+    /// A key that is read by a function, its default, too.
+    using Read = std::function<void(const std::string &text)>;
+    void add(const std::string &name, const std::string &by_default, const Allowed &allowed,
+             const Read &read, const std::string &help);
+
+    /// Give "Section/key", or a key outside sections, a value.
+    /// @throws InputError  unknown key, or a value that is not allowed
+    void set(const std::string &path, const std::string &value);
+
+    /// What a key means, its default and what it allows; for "Section" all its keys.
+    /// @throws InputError  unknown key; the message names similar ones
+    std::string describe(const std::string &path) const;
+
+    /// All keys with their values, and with their meanings if wanted.
+    std::string text(bool has_help);
+
+  private:
+    struct Key
+    {
+      std::string section, name, by_default;
+      Allowed allowed;
+      std::string help;
+
+      std::string path() const { return section.empty() ? name : section + "/" + name; }
+      std::string description() const;
+    };
+    void remember(const std::string &name, const Allowed &allowed, const std::string &help);
+    const Key &find(const std::string &path) const;
+
+    std::string section_; ///< that parameters_ is in
+    std::vector<Key> keys_;
+    dealii::ParameterHandler parameters_;
+  };
+
+  template <class T>
+  void Keys::add(const std::string &name, T &member, const Allowed &allowed,
+                 const std::string &help)
+  {
+    parameters_.add_parameter(name, member, help, *allowed);
+    remember(name, allowed, help);
+  }
+
+  template <class Enum>
+  std::enable_if_t<std::is_enum_v<Enum>> Keys::add(const std::string &name, Enum &member,
+                                                   const std::string &help)
+  {
+    const auto &all = base::words<Enum>;
+    add(
+        name, base::word(member), one_of({all.begin(), all.end()}),
+        [&member](const std::string &text) { member = *base::from_word<Enum>(text); }, help);
+  }
+} // namespace plumbline::scene

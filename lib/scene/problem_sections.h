@@ -1,0 +1,124 @@
+#pragma once
+
+#include "geometry/lattice.h"
+#include "physics/coefficient.h"
+#include "physics/kernel.h"
+#include "physics/state_based.h"
+#include "scene/choices.h"
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plumbline::scene
+{
+  class Keys;
+  class MeshFiles;
+
+  // What the sections of a scene file say that pose its problem, named as there. Lengths in the
+  // scene's unit of length. `declare` binds members to keys, whose defaults they begin with;
+  // `complete` follows when all keys are read: it finds what follows from them, and throws
+  // InputError if they do not fit together.
+
+  /// How Ω and its collar are cut into cells.
+  struct MeshSource
+  {
+    std::string name = "lattice"; ///< lattice, squares, triangles, a .msh or .geo file, or a
+                                  ///< deal.II generator
+    std::string arguments;        ///< of a generator
+    std::string inside;           ///< of a generator: an expression, positive in Ω
+    std::string map; ///< of squares and triangles: where their vertices go; empty: they stay
+
+    MeshKind kind() const;
+    bool is_lattice() const { return kind() == MeshKind::lattice; }
+    bool is_of_boxes() const { return base::from_word<MeshKind>(name).has_value(); }
+    bool is_file() const { return kind() == MeshKind::file; }
+  };
+
+  struct DomainSection
+  {
+    geometry::Domain boxes;
+    MeshSource mesh;
+    std::shared_ptr<MeshFiles> mesh_files; ///< those read so far; copies share them
+    std::optional<double> collar;          ///< width; empty: as wide as the ball needs
+    /// The boundary is free of traction and families end there; u is given in `fixed` parts of Ω.
+    bool is_free_body = false;
+    std::vector<geometry::Box> fixed;
+    bool is_floating = false; ///< nothing of it is fixed: it can be measured, not solved for
+    /// Lines that break the bonds across them, and an expression that is positive beyond free
+    /// surfaces; empty: none.
+    std::vector<std::vector<dealii::Point<2>>> cracks;
+    std::string outside;
+
+    bool is_damaged() const { return !cracks.empty() || !outside.empty(); }
+
+    void declare(Keys &keys);
+  };
+
+  /// A named field to solve for, or a named load.
+  struct Case
+  {
+    std::string name, expression;
+  };
+
+  struct GroupCoefficient
+  {
+    std::string group; ///< of the mesh
+    double value = 0;
+  };
+
+  struct KernelSection
+  {
+    std::string type = "linear-decay";
+    Limit limit = Limit::half_laplace;
+    double bulk_modulus = 1, constant = 1;
+    std::vector<double> coefficients;                          ///< of a polynomial
+    unsigned int singularity = 0;                              ///< of a polynomial
+    std::vector<physics::PowerTerm> profile;                   ///< of the type
+    physics::Structure structure = physics::Structure::scalar; ///< of the type
+    std::string coefficient;                 ///< an expression; empty: homogeneous, or by materials
+    std::vector<GroupCoefficient> materials; ///< a coefficient for each group of the mesh, or empty
+    physics::Mean symmetrisation = physics::Mean::arithmetic;
+
+    void declare(Keys &keys);
+    void complete();
+  };
+
+  /// The solid of a state-based model.
+  struct MaterialSection
+  {
+    Model model = Model::bond_based; ///< which has none of its own
+    physics::PlaneState plane = physics::PlaneState::strain;
+    std::array<std::array<std::string, 2>, 3> given; ///< E and nu, lambda and mu, k and l
+    std::array<std::string, 2> keys;                 ///< of the pair that is not empty
+    std::array<std::string, 2> expressions;          ///< in x and y
+    bool is_homogeneous = true;                      ///< neither x nor y is in them
+    bool has_collar_dilatation = true; ///< else θ counts as 0 there: wrong, to be shown
+
+    bool is_state_based() const { return model != Model::bond_based; }
+
+    /// λ and μ as a function of the place. Copies share nothing: give each thread its own.
+    /// @throws InputError  (the function) constants of no solid, naming keys and place
+    std::function<physics::Lame(const dealii::Point<2> &)> lame() const;
+
+    void declare(Keys &keys);
+    void complete();
+  };
+
+  struct ProblemSection
+  {
+    std::vector<Case> solutions;           ///< exact nonlocal solutions, empty if not known
+    std::vector<Case> loads;               ///< empty: manufactured from the solutions
+    std::optional<std::string> constraint; ///< an expression; empty: the solution
+    LocalSolution local_solution = LocalSolution::solution;
+    std::string local_expression;
+
+    /// The names of its cases: of the solutions, or of the loads.
+    std::vector<std::string> case_names() const;
+
+    void declare(Keys &keys);
+  };
+} // namespace plumbline::scene

@@ -1,0 +1,110 @@
+#include "base/error.h"
+#include "physics/expression.h"
+#include "scene/keys.h"
+#include "scene/study_sections.h"
+#include "scene/values.h"
+
+#include <algorithm>
+
+namespace plumbline::scene
+{
+  using physics::split_outside_brackets;
+
+  namespace
+  {
+    using Words = std::vector<std::string>;
+
+    /// The verdicts that there are; none: numbers are expected.
+    Words verdicts(ExpectedKind kind)
+    {
+      switch (kind)
+      {
+      case ExpectedKind::verdicts:
+        return {
+            "AC",     "AC for this field only", "delta-m-convergent", "failed",   "m-convergent",
+            "not AC", "not delta-m-convergent", "not m-convergent",   "undecided"};
+      case ExpectedKind::monotone:
+        return {"no", "yes"};
+      case ExpectedKind::stability:
+        return {"conditionally stable", "stable", "unstable"};
+      default:
+        return {};
+      }
+    }
+
+    /// "method[, case][, series]: value"; the series is the part with '='.
+    Expected to_expected(ExpectedKind kind, const std::string &text)
+    {
+      const Words allowed = verdicts(kind);
+      const auto colon = text.rfind(':');
+      if (colon == std::string::npos)
+        throw InputError("'" + text + "' has no ':'; write 'method[, case][, series]: " +
+                         (allowed.empty() ? "numbers'" : "verdict'"));
+      Expected expected;
+      expected.kind = kind;
+      expected.text = text;
+      const auto subject = to_names(text.substr(0, colon));
+      for (std::size_t i = 0; i < subject.size(); ++i)
+        if (i == 0)
+          expected.method = method_name(subject[i]);
+        else if (subject[i].find('=') != std::string::npos)
+          expected.series = subject[i];
+        else
+          expected.problem = subject[i];
+      if (allowed.empty())
+      {
+        expected.values = to_numbers(text.substr(colon + 1));
+        if (expected.values.empty())
+          throw InputError("'" + text + "' has no numbers after the ':'");
+        return expected;
+      }
+      expected.verdict = trim(text.substr(colon + 1));
+      if (std::find(allowed.begin(), allowed.end(), expected.verdict) == allowed.end())
+        throw InputError("'" + expected.verdict + "' is not a verdict; write one of " +
+                         join(allowed, ", "));
+      return expected;
+    }
+  } // namespace
+
+  void ExpectedSection::declare(Keys &keys)
+  {
+    const auto add = [&](ExpectedKind kind, const std::string &help)
+    {
+      const auto read = [this, kind](const std::string &text)
+      {
+        all.erase(std::remove_if(all.begin(), all.end(),
+                                 [kind](const Expected &one) { return one.kind == kind; }),
+                  all.end());
+        for (const std::string &part : split_outside_brackets(text, ';'))
+          if (!part.empty())
+            all.push_back(to_expected(kind, part));
+      };
+      keys.add(base::word(kind), "", any_text(), read, help);
+    };
+    add(ExpectedKind::verdicts,
+        "'method[, case][, series]: verdict' separated by ';', e.g. 'IPA-AC: not AC; Q1: AC'.");
+    add(ExpectedKind::errors,
+        "'method[, case][, series]: e0 e1 ...', the decisive error at each level.");
+    keys.add("error tolerance", error_tolerance, positive(), "Relative, of Expected/errors.");
+    add(ExpectedKind::rates,
+        "'method[, case][, series]: p', the observed rate between the two finest levels.");
+    keys.add("rate tolerance", rate_tolerance, positive(), "Absolute, of Expected/rates.");
+    add(ExpectedKind::bounds,
+        "'method[, case][, series]: e', the decisive error stays below e at every level.");
+    add(ExpectedKind::monotone, "'method[, case][, series]: yes' or 'no', whether the decisive "
+                                "error falls from every level to the next.");
+    add(ExpectedKind::jitter,
+        "'method[, case][, series]: least most', bounds of the sum of all rises of the decisive "
+        "error from a level to the next, over its first value; 0 where it falls throughout.");
+    add(ExpectedKind::stability,
+        "'method: stable', 'conditionally stable' or 'unstable', of 'plumbline stability'.");
+  }
+
+  void ExpectedSection::complete(const std::vector<std::string> &cases) const
+  {
+    for (const Expected &one : all)
+      if (!one.problem.empty() && std::find(cases.begin(), cases.end(), one.problem) == cases.end())
+        throw InputError("Expected/" + base::word(one.kind) + ": '" + one.problem + "' in '" +
+                         one.text + "' is neither a case of Problem nor a series like 'm = 3'");
+  }
+} // namespace plumbline::scene

@@ -1,0 +1,49 @@
+#include "scene/keys.h"
+#include "scene/problem_sections.h"
+#include "scene/values.h"
+
+namespace plumbline::scene
+{
+  void ProblemSection::declare(Keys &keys)
+  {
+    const std::string manufactured = "manufactured", solution = "solution";
+    keys.add(
+        "solution", "", any_text(), [this](const std::string &text) { solutions = to_cases(text); },
+        "The exact nonlocal solution: a muParser expression in x, y and delta (the horizon), "
+        "components separated by ','; several cases as 'name: expression; name: expression'. "
+        "Empty: not known.");
+    keys.add(
+        "load", manufactured, any_text(),
+        [this, manufactured](const std::string &text)
+        { loads = text == manufactured ? std::vector<Case>() : to_cases(text); },
+        "The body load b: manufactured (the nonlocal operator applied to the solution), or "
+        "expressions written like the solution.");
+    keys.add(
+        "constraint", solution, any_text(),
+        [this, solution](const std::string &text)
+        {
+          constraint.reset();
+          if (text != solution)
+            constraint = text;
+        },
+        "u in the collar: solution, or an expression. Taken at nodes: DGQ0 and DGP0 hold its value "
+        "at the centre of each cell, as one-point rules do, not its average.");
+    keys.add(
+        "local solution", solution, any_text(),
+        [this](const std::string &text)
+        {
+          local_solution = base::from_word<LocalSolution>(text).value_or(LocalSolution::expression);
+          local_expression = local_solution == LocalSolution::expression ? text : "";
+        },
+        "The solution of the local limit: solution (where it does not depend on the horizon), "
+        "none, computed (by classical finite elements; needs a mesh), or an expression.");
+  }
+
+  std::vector<std::string> ProblemSection::case_names() const
+  {
+    std::vector<std::string> names;
+    for (const Case &one : solutions.empty() ? loads : solutions)
+      names.push_back(one.name);
+    return names;
+  }
+} // namespace plumbline::scene

@@ -1,0 +1,117 @@
+#include "base/error.h"
+#include "physics/expression.h"
+#include "scene/keys.h"
+#include "scene/study_sections.h"
+#include "scene/values.h"
+
+namespace plumbline::scene
+{
+  using physics::split_outside_brackets;
+
+  namespace
+  {
+    std::vector<Norm> to_norms(const std::string &text)
+    {
+      std::vector<Norm> norms;
+      for (const std::string &name : to_names(text))
+      {
+        const auto norm = base::from_word<Norm>(name);
+        if (!norm)
+          throw InputError("'" + name +
+                           "' is not a norm; choose of nodal Linf, nodal L2, averages Linf, "
+                           "averages L2, field Linf, field L2");
+        norms.push_back(*norm);
+      }
+      return norms;
+    }
+
+    DecisiveError to_decisive_error(const std::string &text)
+    {
+      const auto parts = split_outside_brackets(text, '|');
+      const auto norm = base::from_word<Norm>(parts[0]);
+      const auto target = base::from_word<Target>(parts.back());
+      if (parts.size() != 2 || !norm || !target)
+        throw InputError("'" + text +
+                         "' must be 'norm | target' with a norm of Study/norms (add it there) and "
+                         "a target of exact, local, reference");
+      return {*norm, *target};
+    }
+
+    /// One series for each value held fixed.
+    template <class MakeLevel>
+    std::vector<Series> make_series(const std::string &fixed, const std::vector<double> &values,
+                                    const std::vector<double> &refined, const MakeLevel &level)
+    {
+      std::vector<Series> series;
+      for (const double value : values)
+      {
+        series.push_back({fixed + " = " + short_number(value), {}});
+        for (const double one : refined)
+          series.back().levels.push_back(level(value, one));
+      }
+      return series;
+    }
+
+    Series h_and_m(const std::vector<double> &h, const std::vector<double> &m)
+    {
+      if (h.size() != m.size())
+        throw InputError("Study/m has " + std::to_string(m.size()) + " values and Study/h has " +
+                         std::to_string(h.size()) +
+                         "; with regime = delta-m give one m for each h");
+      Series series{"h and m = " + short_number(m.front()) + " to " + short_number(m.back()), {}};
+      for (std::size_t i = 0; i < h.size(); ++i)
+        series.levels.push_back({h[i], m[i] * h[i]});
+      return series;
+    }
+  } // namespace
+
+  void StudySection::declare(Keys &keys)
+  {
+    keys.add("regime", regime,
+             "m: horizon fixed, h to 0. delta: m = horizon / h fixed, h to 0 (decides asymptotic "
+             "compatibility). delta-m: pairs of h and m. horizon: h fixed, horizon varies.");
+    keys.add("h", h, numbers(), "Mesh sizes, separated by ',', coarse to fine. [length]");
+    keys.add("m", m, numbers(), "Ratios horizon / h, real numbers >= 1 (delta, delta-m).");
+    keys.add("horizon", horizon, numbers(), "Horizons (m, horizon). [length]");
+    keys.add(
+        "norms", "nodal Linf, averages L2, field L2", any_text(),
+        [this](const std::string &text) { norms = to_norms(text); },
+        "Of nodal Linf, nodal L2 (at the method's own nodes, which all count alike: sqrt(area * "
+        "mean e^2)), averages Linf, averages L2 (cell averages of the solution; each counts by its "
+        "area), field Linf, field L2 (of the function), separated by ','.");
+    keys.add(
+        "decisive error", decisive_error.text(), any_text(),
+        [this](const std::string &text) { decisive_error = to_decisive_error(text); },
+        "The 'norm | target' that verdicts rest on; targets: exact, local, reference.");
+  }
+
+  void StudySection::complete()
+  {
+    if (h.empty() || m.empty() || horizon.empty())
+      throw InputError("Study/h, Study/m and Study/horizon need at least one value each");
+    switch (regime)
+    {
+    case Regime::m:
+      series = make_series("delta", horizon, h,
+                           [](double delta, double size) {
+                             return Level{size, delta};
+                           });
+      break;
+    case Regime::delta:
+      series = make_series("m", m, h,
+                           [](double ratio, double size) {
+                             return Level{size, ratio * size};
+                           });
+      break;
+    case Regime::delta_m:
+      series = {h_and_m(h, m)};
+      break;
+    case Regime::horizon:
+      series = make_series("h", h, horizon,
+                           [](double size, double delta) {
+                             return Level{size, delta};
+                           });
+      break;
+    }
+  }
+} // namespace plumbline::scene

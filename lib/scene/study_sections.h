@@ -1,0 +1,135 @@
+#pragma once
+
+#include "base/solver_choices.h"
+#include "geometry/ball_cell.h"
+#include "scene/choices.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plumbline::scene
+{
+  class Keys;
+
+  // What the sections of a scene file say about how its problem is solved, see problem_sections.h.
+
+  /// Where meshfree nodes are.
+  struct NodeSource
+  {
+    std::string name = "centres"; ///< centres, vertices, mesh, or a .csv file
+    double perturbation = 0;      ///< of centres, by up to so many h in x and in y
+
+    NodeKind kind() const { return base::from_word<NodeKind>(name).value_or(NodeKind::file); }
+    bool are_vertices() const { return kind() == NodeKind::vertices; }
+  };
+
+  struct MethodsSection
+  {
+    std::vector<std::string> names;
+    NodeSource nodes;
+    bool loads_are_averages = false; ///< meshfree: over the cells, not at the nodes
+
+    void declare(Keys &keys);
+    void complete() const;
+  };
+
+  struct Level
+  {
+    double h = 0, horizon = 0; ///< [length]
+  };
+
+  /// Levels from coarse to fine with what is held fixed as name, e.g. "m = 3".
+  struct Series
+  {
+    std::string name;
+    std::vector<Level> levels;
+  };
+
+  /// The error that verdicts rest on.
+  struct DecisiveError
+  {
+    Norm norm = Norm::nodal_linf;
+    Target target = Target::exact;
+
+    std::string text() const { return base::word(norm) + " | " + base::word(target); }
+  };
+
+  struct StudySection
+  {
+    Regime regime = Regime::delta;
+    std::vector<double> h = {.1, .05, .025, .0125}, m = {3}, horizon = {.4};
+    std::vector<Series> series; ///< of these
+    std::vector<Norm> norms;
+    DecisiveError decisive_error;
+
+    void declare(Keys &keys);
+    void complete();
+  };
+
+  struct ReferenceSection
+  {
+    std::optional<std::string> method; ///< its name
+    Estimate estimate = Estimate::automatic;
+    double tolerance = 0; ///< relative; 0: only reported
+
+    void declare(Keys &keys);
+  };
+
+  struct QuadratureSection
+  {
+    bool exact_rectangles = true; ///< axis-aligned rectangles by correlation, not by quadrature
+    double tolerance = 1e-4;      ///< relative, of the solution
+    unsigned int max_refinements = 4;
+
+    void declare(Keys &keys);
+  };
+
+  struct GeometrySection
+  {
+    geometry::Backend backend = geometry::Backend::fast;
+    unsigned int n_checks = 24, seed = 1;
+
+    void declare(Keys &keys);
+  };
+
+  struct SolverSection
+  {
+    base::OperatorBackend operator_backend = base::OperatorBackend::automatic;
+    base::SparseSolver linear_solver = base::SparseSolver::automatic;
+    base::Iteration iteration = base::Iteration::automatic;
+    bool is_full_model = false; ///< see full_model()
+    bool is_mixed = false;      ///< dilatations are unknowns of the scattered nodes besides u
+    double tolerance = 1e-12;
+    unsigned int max_iterations = 1000;
+
+    void declare(Keys &keys);
+  };
+
+  struct OutputSection
+  {
+    bool fields = false;
+
+    void declare(Keys &keys);
+  };
+
+  /// One expectation: which method (and case, and series, if given), and what is expected of it.
+  struct Expected
+  {
+    ExpectedKind kind = ExpectedKind::verdicts;
+    std::string method, problem, series; ///< empty: all
+    std::string text;                    ///< as in the scene, for reports
+    std::vector<double> values;          ///< of jitter: least, most
+    std::string verdict;                 ///< of verdicts and stability; of monotone: yes or no
+  };
+
+  struct ExpectedSection
+  {
+    std::vector<Expected> all; ///< kind by kind
+    double error_tolerance = 5e-4, rate_tolerance = .1;
+
+    void declare(Keys &keys);
+    /// @param cases  that there are
+    void complete(const std::vector<std::string> &cases) const;
+  };
+} // namespace plumbline::scene
