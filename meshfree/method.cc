@@ -55,6 +55,12 @@ namespace plumbline::meshfree
                                : scattered_discrete(rule_, scene, problem);
       }
 
+      std::optional<study::SymbolData> symbol(const scene::Scene &scene,
+                                              const scene::Problem &problem) const override
+      {
+        return lattice_symbol(rule_, scene, problem);
+      }
+
     private:
       Rule rule_;
       bool is_trap_;

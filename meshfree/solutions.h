@@ -32,6 +32,10 @@ namespace plumbline::meshfree
   study::DiscreteOperator body_discrete(const Rule &rule, const scene::Scene &scene,
                                         const scene::Problem &problem);
 
+  /// Of a lattice's nodes, with the mass 1.
+  study::SymbolData lattice_symbol(const Rule &rule, const scene::Scene &scene,
+                                   const scene::Problem &problem);
+
   /// A body's operator at its free nodes, without notes on its weights.
   study::DiscreteOperator show(std::shared_ptr<const VariationalOperator> matrix);
 } // namespace plumbline::meshfree

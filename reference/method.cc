@@ -1,6 +1,7 @@
 #include "reference/method.h"
 
 #include "reference/lattice/solution.h"
+#include "reference/lattice/symbol.h"
 #include "reference/local/local_limit.h"
 #include "reference/mesh/solution.h"
 #include "study/lattice_solve.h"
@@ -93,6 +94,12 @@ namespace plumbline::reference
         if (problem.lattice)
           return lattice_discrete(scene, problem, AxisShapes(is_continuous_, degree_));
         return mesh_discrete(scene, problem, is_continuous_, degree_);
+      }
+
+      std::optional<study::SymbolData> symbol(const scene::Scene &scene,
+                                              const scene::Problem &problem) const override
+      {
+        return lattice_symbol(scene, problem, AxisShapes(is_continuous_, degree_));
       }
 
     private:

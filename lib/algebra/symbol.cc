@@ -9,6 +9,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <limits>
 #include <utility>
 
 namespace plumbline::algebra
@@ -209,47 +210,79 @@ namespace plumbline::algebra
       }
     };
 
-    /// Climb from a point to a local maximum, in steps that are halved.
-    double climb(const std::function<double(double, double)> &f, double x, double y, double value,
-                 double step)
+    using Function = std::function<double(double, double)>;
+
+    /// Climb from a point of a grid to the local maximum near it, in steps that are halved.
+    double climb(const Function &f, double x, double y, double value, double spacing)
     {
-      constexpr double least_step = 1e-7; // the value is then within 1e-14 of its curvature
-      while (step > least_step)
-      {
-        bool moved = false;
-        for (const auto &[dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-          if (const double next = f(x + dx * step, y + dy * step); next > value)
-          {
-            value = next;
-            x += dx * step;
-            y += dy * step;
-            moved = true;
+      // the last step is 1e-6 of an oscillation, the value then within 1e-12
+      constexpr unsigned int n_halvings = 20;
+      constexpr unsigned int most_moves = 4; // along a ridge, before steps are halved anyway
+      constexpr double rounding = 1e-13;     // of a value: less is no way up
+      double step = spacing / 2;
+      for (unsigned int halving = 0; halving < n_halvings; ++halving, step /= 2)
+        for (unsigned int move = 0; move < most_moves; ++move)
+        {
+          bool has_moved = false;
+          for (const auto &[dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+            if (const double next = f(x + dx * step, y + dy * step);
+                next > value + rounding * std::abs(value))
+            {
+              value = next;
+              x += dx * step;
+              y += dy * step;
+              has_moved = true;
+              break;
+            }
+          if (!has_moved)
             break;
-          }
-        if (!moved)
-          step /= 2;
-      }
+        }
       return value;
     }
 
-    /// The largest value, from the grid's local maxima of at least some part of its largest.
-    double maximum(const Grid &grid, const std::function<double(double, double)> &f)
+    /// A value of a grid and where it is.
+    struct GridPoint
     {
-      constexpr double worth = .9; // four points on an oscillation hide 1 - cos(π/8) of it: .08
-      const double best = *std::max_element(grid.values.begin(), grid.values.end());
-      double largest = best;
+      double value;
+      int i1, i2;
+    };
+
+    /// The local maxima of a grid, largest first, of equal ones one.
+    std::vector<GridPoint> tops(const Grid &grid)
+    {
+      constexpr double equal = 1e-12; // symmetry makes up to eight of each, rounding parts them
+      std::vector<GridPoint> all, distinct;
       for (int i2 = 0; i2 <= 2 * grid.n; ++i2)
         for (int i1 = 0; i1 <= grid.n; ++i1)
         {
           const double value = grid.at(i1, i2);
-          bool is_top = value > 0 && value >= worth * best;
+          bool is_top = true;
           for (int j2 = std::max(0, i2 - 1); is_top && j2 <= std::min(2 * grid.n, i2 + 1); ++j2)
             for (int j1 = std::max(0, i1 - 1); j1 <= std::min(grid.n, i1 + 1); ++j1)
               is_top = is_top && grid.at(j1, j2) <= value;
           if (is_top)
-            largest = std::max(largest, climb(f, i1 * grid.spacing(), i2 * grid.spacing() - M_PI,
-                                              value, grid.spacing() / 2));
+            all.push_back({value, i1, i2});
         }
+      std::sort(all.begin(), all.end(),
+                [](const GridPoint &a, const GridPoint &b) { return a.value > b.value; });
+      for (const GridPoint &one : all)
+        if (distinct.empty() ||
+            distinct.back().value - one.value > equal * std::abs(distinct.front().value))
+          distinct.push_back(one);
+      return distinct;
+    }
+
+    /// The largest value, from the grid's highest local maxima.
+    double maximum(const Grid &grid, const Function &f)
+    {
+      constexpr std::size_t most = 3; // a symbol may be flat but for rounding
+      double largest = *std::max_element(grid.values.begin(), grid.values.end());
+      auto starts = tops(grid);
+      starts.resize(std::min(most, starts.size()));
+      for (const GridPoint &one : starts)
+        largest =
+            std::max(largest, climb(f, one.i1 * grid.spacing(), one.i2 * grid.spacing() - M_PI,
+                                    one.value, grid.spacing()));
       return largest;
     }
   } // namespace
@@ -259,7 +292,8 @@ namespace plumbline::algebra
     const int n = std::max(24, 4 * waves_.stiffness.reach());
     const auto eigenvalues = [](const Matrix &stiffness, const Matrix &mass) -> Eigen::VectorXd
     { return solve<Matrix>(stiffness, mass, false).eigenvalues(); };
-    Grid largest{n, {}}, least{n, {}};
+    Grid largest{n, {}};
+    double least = std::numeric_limits<double>::infinity();
     for (int i2 = 0; i2 <= 2 * n; ++i2)
     {
       const double kappa2 = i2 * largest.spacing() - M_PI;
@@ -269,21 +303,16 @@ namespace plumbline::algebra
         const double kappa1 = i1 * largest.spacing();
         const auto values = eigenvalues(stiffness.at(kappa1), mass.at(kappa1));
         largest.values.push_back(values[values.size() - 1]);
-        least.values.push_back(-values[0]);
+        least = std::min(least, values[0]);
       }
     }
-    const auto at = [&](double kappa1, double kappa2)
+    const auto largest_at = [&](double kappa1, double kappa2)
     {
-      return eigenvalues(Slice(waves_.stiffness, kappa2).at(kappa1),
-                         Slice(waves_.mass, kappa2).at(kappa1));
+      const auto values = eigenvalues(Slice(waves_.stiffness, kappa2).at(kappa1),
+                                      Slice(waves_.mass, kappa2).at(kappa1));
+      return values[values.size() - 1];
     };
-    return {-maximum(least, [&](double x, double y) { return -at(x, y)[0]; }),
-            maximum(largest,
-                    [&](double x, double y)
-                    {
-                      const auto values = at(x, y);
-                      return values[values.size() - 1];
-                    })};
+    return {least, maximum(largest, largest_at)};
   }
 
   Stencil lump(const Stencil &mass, unsigned int n_families)

@@ -28,7 +28,8 @@ namespace plumbline::algebra
   /// The ends of ω² over all waves that a lattice can carry.
   struct SymbolRange
   {
-    double least = 0, largest = 0;
+    double least = 0;   ///< of a grid: 0 to round-off, or negative where some wave grows
+    double largest = 0; ///< to 1e-12
   };
 
   /// The symbol of a wave operator: the Hermitian matrices Σ_j A_st(j) e^{ik·(j + x_t - x_s)h}, x
@@ -53,9 +54,9 @@ namespace plumbline::algebra
     /// Accuracy: 1e-13 of the largest.
     std::vector<double> long_waves(double angle) const;
 
-    /// Over the Brillouin zone |k_1|, |k_2| <= π/h, by a grid of at least four points on each
-    /// oscillation of the symbol, and a search from its outermost local extrema. Accuracy: 1e-12 of
-    /// the largest; the largest is never larger than the true one.
+    /// Over the Brillouin zone |k_1|, |k_2| <= π/h, by a grid of at least eight points on each
+    /// oscillation of the symbol, and a search from its highest local maxima; never larger than
+    /// the true one.
     SymbolRange range() const;
 
   private:

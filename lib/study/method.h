@@ -1,6 +1,7 @@
 #pragma once
 
 #include "algebra/spectrum.h"
+#include "algebra/symbol.h"
 #include "scene/problem.h"
 #include "study/results.h"
 
@@ -44,6 +45,13 @@ namespace plumbline::study
     std::size_t size() const { return nodes.size() * n_components; }
   };
 
+  /// What waves see of a method on an unbounded lattice.
+  struct SymbolData
+  {
+    algebra::WaveOperator waves; ///< of unit density
+    LimitProof limit;            ///< as of a solution
+  };
+
   /// How large a problem is, which can be known before anything of it is made.
   struct ProblemSize
   {
@@ -79,6 +87,15 @@ namespace plumbline::study
     /// @throws NumericalError  there is none, e.g. weights are infeasible
     virtual std::optional<DiscreteOperator> discrete_operator(const scene::Scene &,
                                                               const scene::Problem &) const
+    {
+      return {};
+    }
+
+    /// The operator and the mass of a lattice's nodes, all alike, for its waves; empty: the method
+    /// does not show them.
+    /// @pre  problem.lattice, and nothing varies in space
+    /// @throws NumericalError  there is none, e.g. weights are infeasible
+    virtual std::optional<SymbolData> symbol(const scene::Scene &, const scene::Problem &) const
     {
       return {};
     }

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace plumbline;
@@ -85,6 +86,17 @@ TEST(ExactWaves, of_double_well_bonds_are_as_measured_by_others)
   EXPECT_NEAR(exact_wave(double_well(false, .2), {}, longitudinal, k).squared, 18.4823169,
               half_digit);
   EXPECT_NEAR(exact_wave(double_well(false, .2), {}, transverse, k).squared, 6.3259900, half_digit);
+}
+
+TEST(ExactWaves, of_double_well_bonds_have_the_sharp_lipschitz_constant_as_largest)
+{
+  // in units of p / ε²: 4.529 for J = 1, between waves; for J = 1 - t the largest is the limit of
+  // short waves, ∫ C_11 = 4 ∫ J dt = 2
+  double constant = 0;
+  for (double z = 4; z < 7; z += .02) // its highest wave is between these
+    constant = std::max(constant, exact_wave(double_well(false, 1), {}, longitudinal, z).squared);
+  EXPECT_NEAR(constant, 4.529, 5.1e-4);
+  EXPECT_NEAR(exact_wave(double_well(true, 1), {}, longitudinal, 1000).squared, 2, 1e-3);
 }
 
 TEST(ExactWaves, slopes_are_derivatives)

@@ -25,14 +25,19 @@ namespace plumbline::study
 
   inline const std::string squares = "subsection Domain\n set mesh = squares\nend\n";
 
-  inline DiscreteOperator operator_of(const std::string &name, const scene::Scene &scene,
-                                      const scene::Level &level)
+  /// Of either side.
+  inline std::shared_ptr<const Method> method_of(const std::string &name)
   {
     Methods methods = meshfree::methods();
     for (const auto &method : reference::methods())
       methods.push_back(method);
-    const auto method = std::find_if(methods.begin(), methods.end(),
-                                     [&](const auto &one) { return one->name() == name; });
-    return *(*method)->discrete_operator(scene, scene::make_problem(scene, 0, level));
+    return *std::find_if(methods.begin(), methods.end(),
+                         [&](const auto &one) { return one->name() == name; });
+  }
+
+  inline DiscreteOperator operator_of(const std::string &name, const scene::Scene &scene,
+                                      const scene::Level &level)
+  {
+    return *method_of(name)->discrete_operator(scene, scene::make_problem(scene, 0, level));
   }
 } // namespace plumbline::study
