@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/team.h"
 #include "check.h"
+#include "dispersion.h"
 #include "requirements.h"
 #include "run.h"
 #include "stability.h"
@@ -112,6 +113,19 @@ int main(int argc, char **argv)
   stability->add_flag("--quiet", measures.quiet, "Print nothing but errors");
   stability->add_flag("--json", measures.json, "Print stability.json instead of the table");
 
+  plumbline::app::DispersionOptions waves;
+  auto *dispersion = app.add_subcommand("dispersion", "How waves move by each method");
+  dispersion->add_option("SCENE", waves.scene_file, "Scene file (.prm or .json)")->required();
+  dispersion->add_option("-o,--output", waves.output, "Output folder (default: results/<scene>)");
+  dispersion->add_option("--set", settings, "Section/key=value, instead of what the file says");
+  dispersion->add_option("--methods", waves.methods, "Methods, instead of the scene's");
+  dispersion->add_option("--levels", waves.n_levels, "The first so many levels of each sweep");
+  dispersion->add_option("--angles", waves.angles, "Directions in degrees (default: 0,22.5,45)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  dispersion->add_flag("--quiet", waves.quiet, "Print nothing but errors");
+  dispersion->add_flag("--json", waves.json, "Print dispersion.json instead of the table");
+
   std::string folder, subject, model, key;
   auto *report = app.add_subcommand(
       "report",
@@ -148,7 +162,8 @@ int main(int argc, char **argv)
   int exit_code = 0;
   const auto command = [&]
   {
-    options.overrides = weights.overrides = measures.overrides = to_overrides(settings);
+    options.overrides = weights.overrides = measures.overrides = waves.overrides =
+        to_overrides(settings);
     if (*run)
       exit_code = plumbline::app::run(options);
     else if (*check)
@@ -157,6 +172,8 @@ int main(int argc, char **argv)
       return; // the first rank does it
     else if (*stability)
       exit_code = plumbline::app::stability(measures);
+    else if (*dispersion)
+      plumbline::app::dispersion(waves);
     else if (*report)
       exit_code = plumbline::app::rebuild_report(folder);
     else if (*list)

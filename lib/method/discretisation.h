@@ -2,11 +2,13 @@
 
 #include "algebra/linear_system.h"
 #include "algebra/spectrum.h"
+#include "algebra/symbol.h"
 #include "method/diagnostics.h"
 #include "scene/problem.h"
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,6 +70,10 @@ namespace plumbline::method
     virtual std::unique_ptr<algebra::LinearSystem> tangent() const = 0;
 
     virtual DiscreteOperator matrix() const = 0;
+
+    /// What waves see of it, of unit density on an unbounded lattice; empty where nodes are not all
+    /// alike.
+    virtual std::optional<algebra::WaveOperator> waves() const { return {}; }
 
     /// Weights, moments, geometry: what does not depend on a solution.
     virtual Diagnostics diagnostics() const = 0;

@@ -101,6 +101,24 @@ namespace plumbline::method
                                                     backend_);
   }
 
+  algebra::Stencil LatticeDiscretisation::mass_stencil() const
+  {
+    algebra::Stencil mass(stencil_.n_blocks(), 0);
+    for (unsigned int s = 0; s < mass.n_blocks(); ++s)
+      mass(s, s, 0, 0) = mass_[s % nodes_.n_families()];
+    return mass;
+  }
+
+  std::optional<algebra::WaveOperator> LatticeDiscretisation::waves() const
+  {
+    std::vector<dealii::Point<2>> places;
+    for (const geometry::AxisSpecies &along_y : nodes_.axis)
+      for (const geometry::AxisSpecies &along_x : nodes_.axis)
+        places.emplace_back(along_x.offset, along_y.offset);
+    return algebra::WaveOperator{lattice_.h(), stencil_, mass_stencil(), nodes_.n_components,
+                                 places};
+  }
+
   DiscreteOperator show(const geometry::Lattice &lattice, const geometry::NodeSet &nodes,
                         const algebra::Stencil &stencil, const std::vector<double> &mass)
   {

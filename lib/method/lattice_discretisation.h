@@ -30,6 +30,8 @@ namespace plumbline::method
     /// Rows are there up to 2e7 entries.
     DiscreteOperator matrix() const override { return show(lattice_, nodes_, stencil_, mass_); }
 
+    std::optional<algebra::WaveOperator> waves() const override;
+
   protected:
     const geometry::Lattice &lattice() const { return lattice_; }
     const geometry::NodeSet &nodes() const { return nodes_; }
@@ -37,6 +39,9 @@ namespace plumbline::method
 
   private:
     virtual Vector load(const scene::Problem &problem) const = 0; ///< over the nodes, 0 if not free
+
+    /// The mass matrix; the masses of the families unless a method has a consistent one.
+    virtual algebra::Stencil mass_stencil() const;
 
     /// @param values  solution and, around it, the constraint at positions -1 ... n of each axis:
     /// shape (n_blocks, n[1] + 2, n[0] + 2)

@@ -41,18 +41,6 @@ namespace plumbline::report
       return text + "</ul>\n";
     }
 
-    std::string header(const CheckPage &page)
-    {
-      std::string text = "<header>\n<div class=\"brand\">Plumbline check</div>\n<h1>" +
-                         escape_html(page.scene_name) + "</h1>\n";
-      if (!page.purpose.empty())
-        text += "<p class=\"purpose\">" + escape_html(page.purpose) + "</p>\n";
-      text += "<ul class=\"facts\">\n";
-      for (const std::string &fact : page.facts)
-        text += "<li>" + escape_html(fact) + "</li>";
-      return text + "\n</ul>\n</header>\n";
-    }
-
     std::string html(const CheckPage &page, const std::filesystem::path &dir)
     {
       const std::string answer =
@@ -60,12 +48,7 @@ namespace plumbline::report
               ? "<p class=\"answer yes\">✓ The weights are as required.</p>\n"
               : "<div class=\"warning\"><b>✗ The weights are not as required.</b>\n" +
                     list_of(page.complaints) + "</div>\n";
-      std::string text =
-          "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
-          "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-          escape_html(page.scene_name) + " – Plumbline check</title>\n<style>" + page::style_sheet +
-          "</style>\n</head>\n<body>\n" + header(page) + "<main>\n" +
-          page::section("verdicts", "Verdicts", answer + list_of(page.verdicts));
+      std::string text = page::section("verdicts", "Verdicts", answer + list_of(page.verdicts));
       if (!page.defects.empty())
         text += page::section(
             "maps", "Where the moments are off",
@@ -81,7 +64,9 @@ namespace plumbline::report
               to_html(part.table) +
                   (part.words.empty() ? ""
                                       : "<p class=\"soft\">" + escape_html(part.words) + "</p>\n"));
-      return text + "</main>\n</body>\n</html>\n";
+      return page::document(page.scene_name, "check",
+                            page::plain_header(page.scene_name, "check", page.purpose, page.facts),
+                            text);
     }
 
     /// Whole decades around all positive defects.

@@ -394,15 +394,11 @@ namespace plumbline::report
 
   void write_page(const study::Results &results, const std::filesystem::path &dir)
   {
-    const std::string html =
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
-        "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-        escape_html(results.scene_name) + " – Plumbline report</title>\n<style>" +
-        page::style_sheet + "</style>\n</head>\n<body>\n" + page::header(results) + "<main>\n" +
+    const std::string html = page::document(
+        results.scene_name, "report", page::header(results),
         page::advice(results) + page::verdicts(results) + page::expectations(results) +
-        page::charts(results, dir) + page::numbers(results) + page::reference(results) +
-        page::model(results) + page::diagnostics(results) + page::provenance(results) +
-        "</main>\n</body>\n</html>\n";
+            page::charts(results, dir) + page::numbers(results) + page::reference(results) +
+            page::model(results) + page::diagnostics(results) + page::provenance(results));
     write_file(dir / "report.html", html);
   }
 } // namespace plumbline::report

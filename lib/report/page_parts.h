@@ -19,6 +19,21 @@ namespace plumbline::report::page
   std::string inline_svg(const std::string &svg, const std::string &prefix,
                          const std::string &label);
 
+  /// A whole page.
+  /// @param name     of the scene, @param what  the page is, e.g. "report"
+  /// @param content  of <main>
+  std::string document(const std::string &name, const std::string &what, const std::string &head,
+                       const std::string &content);
+
+  /// Name, purpose if there is one, and a line of facts.
+  std::string plain_header(const std::string &name, const std::string &what,
+                           const std::string &purpose, const std::vector<std::string> &facts);
+
+  /// A picture from its file, or a word in its place where there is none.
+  /// @param prefix   as of inline_svg, @param caption  HTML
+  std::string figure(const std::filesystem::path &picture, const std::string &prefix,
+                     const std::string &title, const std::string &caption, bool is_large);
+
   /// Title, purpose, what kind of study, how many verdicts, whether the run was finished.
   std::string header(const study::Results &results);
 

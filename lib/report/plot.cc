@@ -103,7 +103,7 @@ namespace plumbline::report
     {
       // In pixels; a line of the legend is this high.
       constexpr double width = 820, line = 23.5;
-      double longest = width_of("best of all");
+      double longest = width_of(plot.frontier_label);
       std::size_t n = 1;
       for (const Line &one : plot.lines)
         if (!one.label.empty())
@@ -202,7 +202,9 @@ namespace plumbline::report
       if (has_strip)
         ys.erase(std::remove_if(ys.begin(), ys.end(), [](double y) { return y < round_off; }),
                  ys.end());
-      const Range y = plot.is_y_log ? log_range(ys) : Range{0, 1.12 * std::max(1., span(ys).high)};
+      const Range y = plot.is_y_log  ? log_range(ys)
+                      : plot.y_range ? *plot.y_range
+                                     : Range{0, 1.12 * std::max(1., span(ys).high)};
       const Strip strip = has_strip ? make_strip(plot.lines, y) : Strip{{}, {y.low, y.low}};
 
       std::ostringstream out;
@@ -251,7 +253,7 @@ namespace plumbline::report
       if (plot.frontier.size() > 1)
       {
         block(has_strip ? strip.cut(plot.frontier) : plot.frontier, false);
-        commands << "lines lc rgb '#dcdcdc' lw 9 title 'best of all'";
+        commands << "lines lc rgb '#dcdcdc' lw 9 title " << quote_gnuplot(plot.frontier_label);
       }
       for (const Line &line : plot.lines)
       {
@@ -267,6 +269,7 @@ namespace plumbline::report
         commands << "linespoints lc rgb '" << style.colour << "' lw " << line.width << " pt "
                  << point_types[style.symbol][style.is_dashed ? 0 : 1] << " ps " << .85
                  << (style.is_dashed ? " dt (6,4)" : "")
+                 << (line.symbol_interval > 1 ? " pi " + std::to_string(line.symbol_interval) : "")
                  << (line.label.empty() ? " notitle" : " title " + quote_gnuplot(line.label));
       }
       return data.str() + out.str() + commands.str() + "\n";

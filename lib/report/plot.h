@@ -26,12 +26,18 @@ namespace plumbline::report
     double x = 0, y = 0;
   };
 
+  struct Range
+  {
+    double low = 0, high = 0;
+  };
+
   struct Line
   {
     std::string label; ///< empty: not in the legend
     Style style;
     double width = 1.8;
-    std::vector<Vertex> points; ///< positive on logarithmic axes
+    std::vector<Vertex> points;       ///< positive on logarithmic axes
+    unsigned int symbol_interval = 1; ///< every so many points one has a symbol
   };
 
   struct Plot
@@ -42,18 +48,15 @@ namespace plumbline::report
     bool has_slopes = false;
     bool shows_round_off = false; ///< what is smaller than that goes into a strip, see Strip
     std::vector<double> x_ticks;  ///< empty: powers of ten
+    std::optional<Range> y_range; ///< of a linear axis; empty: from 0
     std::vector<Vertex> frontier; ///< drawn broad and grey behind the lines
-    std::vector<Line> lines;      ///< at least one point in all
+    std::string frontier_label = "best of all";
+    std::vector<Line> lines; ///< at least one point in all
   };
 
   /// Errors of fields of size one below this are of the size of rounding; the value by which
   /// lib/study/trend.cc judges, so that pictures and verdicts agree.
   constexpr double round_off = 1e-10;
-
-  struct Range
-  {
-    double low = 0, high = 0;
-  };
 
   /// A strip below a logarithmic axis for errors of the size of rounding, beside others that are
   /// not. How small they are says nothing, and over the decades between the others would lie flat.

@@ -4,12 +4,11 @@
 #include "report/page_parts.h"
 #include "report/stability_pictures.h"
 #include "report/stability_tables.h"
+#include "report/text_table.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 namespace plumbline::report
 {
@@ -56,22 +55,18 @@ namespace plumbline::report
 
     std::string header(const StabilityResults &results)
     {
-      std::string text = "<header>\n<div class=\"brand\">Plumbline stability</div>\n<h1>" +
-                         escape_html(results.scene_name) + "</h1>\n";
-      if (!results.purpose.empty())
-        text += "<p class=\"purpose\">" + escape_html(results.purpose) + "</p>\n";
-      text += "<ul class=\"facts\">\n<li>" + std::to_string(results.verdicts.size()) +
-              " methods</li><li>" + std::to_string(results.rows.size()) + " operators</li>";
+      std::vector<std::string> facts{std::to_string(results.verdicts.size()) + " methods",
+                                     std::to_string(results.rows.size()) + " operators"};
       for (const auto &[verdict, sign] :
            {std::pair{"stable", "✓"}, std::pair{"conditionally stable", "?"},
             std::pair{"unstable", "✗"}})
-        text += std::string("<li>") + sign + " " +
-                std::to_string(std::count_if(
-                    results.verdicts.begin(), results.verdicts.end(),
-                    [&, verdict = std::string(verdict)](const study::StabilityVerdict &v)
-                    { return v.verdict == verdict; })) +
-                " " + verdict + "</li>";
-      return text + "\n</ul>\n</header>\n";
+        facts.push_back(std::string(sign) + " " +
+                        std::to_string(std::count_if(
+                            results.verdicts.begin(), results.verdicts.end(),
+                            [&, verdict = std::string(verdict)](const study::StabilityVerdict &v)
+                            { return v.verdict == verdict; })) +
+                        " " + verdict);
+      return page::plain_header(results.scene_name, "stability", results.purpose, facts);
     }
 
     std::string verdicts(const StabilityResults &results)
@@ -101,15 +96,11 @@ namespace plumbline::report
       {
         if (all[i].is_mode != are_modes)
           continue;
-        std::ifstream in(dir / "stability" / (all[i].name + ".svg"), std::ios::binary);
-        const std::string svg((std::istreambuf_iterator<char>(in)), {});
-        text += are_modes ? "<figure class=\"large\">\n" : "<figure>\n";
-        text += svg.empty() ? "<p class=\"warning\">" + escape_html(all[i].title) +
-                                  ": not drawn; install gnuplot-nox and run again.</p>\n"
-                            : page::inline_svg(svg, "s" + std::to_string(i) + "-", all[i].title);
-        text += "<figcaption>" + std::string(are_modes ? "Picture" : "Data") +
-                ": <code>stability/" + escape_html(all[i].name) + (are_modes ? ".svg" : ".csv") +
-                "</code></figcaption>\n</figure>\n";
+        text += page::figure(
+            dir / "stability" / (all[i].name + ".svg"), "s" + std::to_string(i) + "-", all[i].title,
+            std::string(are_modes ? "Picture" : "Data") + ": <code>stability/" +
+                escape_html(all[i].name) + (are_modes ? ".svg" : ".csv") + "</code>",
+            are_modes);
       }
       return text;
     }
@@ -117,12 +108,7 @@ namespace plumbline::report
     std::string page_of(const StabilityResults &results, const std::filesystem::path &dir)
     {
       const std::vector<StabilityPicture> all = list_pictures(results);
-      std::string text =
-          "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
-          "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-          escape_html(results.scene_name) + " – Plumbline stability</title>\n<style>" +
-          page::style_sheet + "</style>\n</head>\n<body>\n" + header(results) + "<main>\n" +
-          verdicts(results);
+      std::string text = verdicts(results);
       for (const Part &part : parts(results))
         text += page::section(part.id, part.head,
                               to_html(part.table) + "<p class=\"soft\">" + escape_html(part.words) +
@@ -140,7 +126,7 @@ namespace plumbline::report
                             "and spread over the domain is as it should be; what changes from "
                             "node to node, or sits at a few nodes, is the method's own.") +
                 modes + "<p class=\"soft\">The finest level: <code>stability/*.vtu</code></p>\n");
-      return text + "</main>\n</body>\n</html>\n";
+      return page::document(results.scene_name, "stability", header(results), text);
     }
 
     Json level_json(const study::StabilityRow &row)

@@ -24,10 +24,4 @@ namespace plumbline::report
 
   /// What the columns of each table mean.
   extern const char *const measures_words, *const eigenvalues_words, *const powers_words;
-
-  /// Words in lines of at most so many characters, all but the first behind blanks.
-  std::string wrapped(const std::string &words, std::size_t width, std::size_t indent = 0);
-
-  /// In columns that line up, for a terminal of 160 columns.
-  std::string to_text(const Table &table);
 } // namespace plumbline::report

@@ -14,28 +14,6 @@ namespace plumbline::study
 {
   namespace
   {
-    std::string verdict(scene::Regime regime, const Trend &trend)
-    {
-      if (trend.outcome == Outcome::failed)
-        return "failed";
-      if (regime == scene::Regime::horizon)
-        return "rate " + base::to_text(trend.rate, 4);
-      const std::string name = regime == scene::Regime::delta ? "AC"
-                               : regime == scene::Regime::m   ? "m-convergent"
-                                                              : "delta-m-convergent";
-      switch (trend.outcome)
-      {
-      case Outcome::converges:
-        return name;
-      case Outcome::field_only:
-        return name + " for this field only";
-      case Outcome::stalls:
-        return "not " + name;
-      default:
-        return "undecided";
-      }
-    }
-
     bool is_against_reference(const std::string &error)
     {
       const std::string target = "| reference";
@@ -145,7 +123,7 @@ namespace plumbline::study
         trend.reason =
             "error ~ horizon^" + base::to_text(trend.rate, 4) + " at the smallest horizons";
       }
-      trend.verdict = verdict(scene.study.regime, trend);
+      trend.verdict = verdict_of(scene.study.regime, trend);
       return trend;
     }
 

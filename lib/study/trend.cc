@@ -184,4 +184,26 @@ namespace plumbline::study
                              : "neither nil nor significant, run a finer level: ") +
                      numbers;
   }
+
+  std::string verdict_of(scene::Regime regime, const Trend &trend)
+  {
+    if (trend.outcome == Outcome::failed)
+      return "failed";
+    if (regime == scene::Regime::horizon)
+      return "rate " + base::to_text(trend.rate, 4);
+    const std::string name = regime == scene::Regime::delta ? "AC"
+                             : regime == scene::Regime::m   ? "m-convergent"
+                                                            : "delta-m-convergent";
+    switch (trend.outcome)
+    {
+    case Outcome::converges:
+      return name;
+    case Outcome::field_only:
+      return name + " for this field only";
+    case Outcome::stalls:
+      return "not " + name;
+    default:
+      return "undecided";
+    }
+  }
 } // namespace plumbline::study

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/scene.h"
 #include "study/results.h"
 
 namespace plumbline::study
@@ -36,4 +37,8 @@ namespace plumbline::study
   /// - undecided: neither, or fewer than four levels, or round-off hides the answer.
   /// The answer is about the given solution: a method may do better for one than for another.
   void judge(Trend &trend);
+
+  /// The outcome in words: "AC", "not AC", "m-convergent", ..., "undecided", "failed"; "rate 1.98"
+  /// where the horizon alone varies.
+  std::string verdict_of(scene::Regime regime, const Trend &trend);
 } // namespace plumbline::study

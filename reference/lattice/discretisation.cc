@@ -5,6 +5,7 @@
 #include "reference/geometry_check.h"
 #include "reference/lattice/dilatation.h"
 #include "reference/lattice/field.h"
+#include "reference/lattice/mass.h"
 #include "reference/lattice/stencil.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -173,6 +174,11 @@ namespace plumbline::reference
       Vector load(const scene::Problem &problem) const override
       {
         return load_vector(problem, shapes_, nodes());
+      }
+
+      algebra::Stencil mass_stencil() const override
+      {
+        return reference::mass_stencil(shapes_, nodes().n_components, lattice().h());
       }
 
       method::Field field(std::vector<double> values) const override

@@ -28,15 +28,20 @@ namespace plumbline::study
 
   inline const std::string squares = "subsection Domain\n set mesh = squares\nend\n";
 
-  inline DiscreteOperator operator_of(const std::string &name, const scene::Scene &scene,
-                                      const scene::Level &level)
+  /// Of either side.
+  inline std::shared_ptr<const method::Method> method_of(const std::string &name)
   {
     method::Methods methods = meshfree::methods();
     for (const auto &method : reference::methods())
       methods.push_back(method);
-    const auto method = std::find_if(methods.begin(), methods.end(),
-                                     [&](const auto &one) { return one->name() == name; });
+    return *std::find_if(methods.begin(), methods.end(),
+                         [&](const auto &one) { return one->name() == name; });
+  }
+
+  inline DiscreteOperator operator_of(const std::string &name, const scene::Scene &scene,
+                                      const scene::Level &level)
+  {
     const scene::Problem problem = scene::make_problem(scene, 0, level);
-    return (*method)->discretise(scene, problem)->matrix();
+    return method_of(name)->discretise(scene, problem)->matrix();
   }
 } // namespace plumbline::study

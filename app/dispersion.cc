@@ -1,0 +1,81 @@
+#include "dispersion.h"
+
+#include "base/error.h"
+#include "base/number_text.h"
+#include "methods.h"
+#include "report/dispersion_page.h"
+#include "report/formats.h"
+#include "study/preflight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+
+namespace plumbline::app
+{
+  namespace fs = std::filesystem;
+  using study::DispersionRow;
+
+  namespace
+  {
+    void check_angles(const std::vector<double> &angles)
+    {
+      constexpr std::size_t most = 16;
+      if (angles.empty() || angles.size() > most)
+        throw InputError("--angles has " + std::to_string(angles.size()) +
+                         " directions; give 1 to " + std::to_string(most));
+      for (const double angle : angles)
+        if (!std::isfinite(angle) || std::abs(angle) > 360)
+          throw InputError("--angles: " + base::to_text(angle, 4) +
+                           " is no direction; give degrees from -360 to 360");
+    }
+  } // namespace
+
+  void dispersion(const DispersionOptions &options)
+  {
+    auto overrides = options.overrides;
+    if (!options.methods.empty())
+      overrides.push_back({"Methods/names", options.methods});
+    check_angles(options.angles);
+    scene::Scene scene = scene::read_scene(options.scene_file, overrides);
+    scene.reference.method.reset();
+    scene.reference.estimate = scene::Estimate::none; // nothing is held against a reference here
+    study::DispersionResults results{
+        scene.name, scene.purpose, study::plan_waves(scene, options.angles), {}, {}};
+    const method::Methods methods = study::choose_methods(scene, all_methods());
+
+    const fs::path folder =
+        options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
+    report::write_file(folder / "dispersion.md", ""); // before the work: can it be written?
+
+    std::vector<std::vector<DispersionRow>> rows(methods.size()); // of each method
+    for (const auto &series : scene.study.series)
+    {
+      const auto n_levels = options.n_levels == 0
+                                ? series.levels.size()
+                                : std::min<std::size_t>(options.n_levels, series.levels.size());
+      for (std::size_t level = 0; level < n_levels; ++level)
+      {
+        const scene::Problem problem = scene::make_problem(scene, 0, series.levels[level]);
+        for (std::size_t i = 0; i < methods.size(); ++i)
+        {
+          auto own = study::measure_waves(*methods[i], scene, problem, results.study, series.name,
+                                          level + 1 == n_levels);
+          std::move(own.begin(), own.end(), std::back_inserter(rows[i]));
+        }
+      }
+    }
+    for (auto &own : rows)
+      std::move(own.begin(), own.end(), std::back_inserter(results.rows));
+    results.trends = study::wave_trends(scene, results.rows);
+
+    report::write_dispersion(results, folder);
+    if (options.json)
+      std::cout << report::dispersion_json(results);
+    else if (!options.quiet)
+      std::cout << report::dispersion_text(results)
+                << "\nwritten: " << (folder / "dispersion.html").string() << '\n';
+  }
+} // namespace plumbline::app

@@ -1,0 +1,160 @@
+#include "physics/waves.h"
+
+#include "base/error.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+
+namespace plumbline::physics
+{
+  namespace
+  {
+    /// 1 - J0(z) and J1, J2, J3 at z >= 0, each to 1e-15 relative where z is small.
+    struct Bessel
+    {
+      double one_minus_j0, j1, j2, j3;
+    };
+
+    Bessel bessel(double z)
+    {
+      constexpr double small = 1; // below it, 1 - J0 loses digits and its series has few terms
+      const double j0 = std::cyl_bessel_j(0, z);
+      Bessel result{1 - j0, std::cyl_bessel_j(1, z), std::cyl_bessel_j(2, z),
+                    std::cyl_bessel_j(3, z)};
+      if (z < small)
+      {
+        result.one_minus_j0 = 0;
+        double term = 1;
+        for (int n = 1; n <= 10; ++n)
+        {
+          term *= -z * z / (4. * n * n);
+          result.one_minus_j0 -= term;
+        }
+      }
+      return result;
+    }
+
+    /// Value and derivative by k of an integrand.
+    using Pair = std::array<double, 2>;
+
+    /// ∫_0^δ f(r) dr with more and more Gauss points until it settles.
+    Pair integrate(double horizon, double k, const std::function<Pair(double r)> &f)
+    {
+      constexpr double settled = 1e-14, acceptable = 1e-12;
+      Pair scale{};
+      const auto by = [&](unsigned int n)
+      {
+        const dealii::QGauss<1> gauss(n);
+        Pair sum{};
+        scale = {};
+        for (unsigned int q = 0; q < n; ++q)
+        {
+          const Pair value = f(horizon * gauss.point(q)[0]);
+          for (unsigned int i = 0; i < 2; ++i)
+          {
+            sum[i] += horizon * gauss.weight(q) * value[i];
+            scale[i] += horizon * gauss.weight(q) * std::abs(value[i]);
+          }
+        }
+        return sum;
+      };
+      const double most_points = 64 + k * horizon;
+      auto n = static_cast<unsigned int>(16 + k * horizon / 2); // three for each wave, and more
+      Pair coarse = by(n);
+      double change = 0;
+      while (n < most_points)
+      {
+        n += n / 2;
+        const Pair fine = by(n);
+        change = 0;
+        for (unsigned int i = 0; i < 2; ++i)
+          if (scale[i] > 0)
+            change = std::max(change, std::abs(fine[i] - coarse[i]) / scale[i]);
+        coarse = fine;
+        if (change <= settled)
+          break;
+      }
+      if (!(change <= acceptable))
+        throw NumericalError("the exact wave at k = " + std::to_string(k) +
+                             " does not settle: still moving by " + std::to_string(change) +
+                             " of itself with " + std::to_string(n) + " radii");
+      return coarse;
+    }
+
+    /// Of the bonds.
+    Pair bonds(const Kernel<2> &kernel, Polarisation polarisation, double k, double r)
+    {
+      const Bessel b = bessel(k * r);
+      const double weight = kernel.radial(r) * r;
+      switch (polarisation)
+      {
+      case Polarisation::scalar:
+        return {2 * M_PI * weight * b.one_minus_j0, 2 * M_PI * weight * r * b.j1};
+      case Polarisation::longitudinal: // J2' = (J1 - J3) / 2
+        return {M_PI * weight * (b.one_minus_j0 + b.j2),
+                M_PI * weight * r * (1.5 * b.j1 - .5 * b.j3)};
+      default:
+        return {M_PI * weight * (b.one_minus_j0 - b.j2),
+                M_PI * weight * r * (.5 * b.j1 + .5 * b.j3)};
+      }
+    }
+  } // namespace
+
+  std::vector<Polarisation> polarisations(Structure structure)
+  {
+    if (structure == Structure::scalar)
+      return {Polarisation::scalar};
+    return {Polarisation::longitudinal, Polarisation::transverse};
+  }
+
+  std::string name(Polarisation polarisation)
+  {
+    return polarisation == Polarisation::scalar         ? ""
+           : polarisation == Polarisation::longitudinal ? "L"
+                                                        : "T";
+  }
+
+  Frequency exact_wave(const Kernel<2> &kernel, const std::optional<Dilatation> &dilatation,
+                       Polarisation polarisation, double k)
+  {
+    const Pair of_bonds =
+        integrate(kernel.horizon(), k, [&](double r) { return bonds(kernel, polarisation, k, r); });
+    Frequency result{of_bonds[0], of_bonds[1]};
+    if (dilatation && polarisation == Polarisation::longitudinal)
+    {
+      const Kernel<2> &influence = dilatation->influence;
+      const Pair g =
+          integrate(influence.horizon(), k,
+                    [&](double r) -> Pair
+                    {
+                      const Bessel b = bessel(k * r);
+                      const double weight = 2 * M_PI * influence.radial(r) * r * r;
+                      return {weight * b.j1, weight * r * .5 * (1 - b.one_minus_j0 - b.j2)};
+                    });
+      const Lame lame = dilatation->material({});
+      result.squared += (lame.lambda - lame.mu) * g[0] * g[0];
+      result.slope += (lame.lambda - lame.mu) * 2 * g[0] * g[1];
+    }
+    return result;
+  }
+
+  double squared_local_speed(const Kernel<2> &kernel, const std::optional<Dilatation> &dilatation,
+                             Polarisation polarisation)
+  {
+    const LocalLimit limit = kernel.limit();
+    if (polarisation == Polarisation::scalar)
+      return limit.diffusion;
+    if (polarisation == Polarisation::transverse)
+      return limit.mu;
+    double lambda = limit.lambda;
+    if (dilatation)
+    {
+      const Lame lame = dilatation->material({});
+      lambda += lame.lambda - lame.mu;
+    }
+    return lambda + 2 * limit.mu;
+  }
+} // namespace plumbline::physics

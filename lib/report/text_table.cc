@@ -1,0 +1,84 @@
+#include "report/text_table.h"
+
+#include <algorithm>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    constexpr std::size_t terminal = 160; // columns
+
+    /// Characters of a text in UTF-8.
+    std::size_t length(const std::string &text)
+    {
+      return static_cast<std::size_t>(
+          std::count_if(text.begin(), text.end(),
+                        [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+    }
+  } // namespace
+
+  Table without_empty_columns(const Table &table)
+  {
+    Table result;
+    result.rows.resize(table.rows.size());
+    const std::string empty = empty_cell().text;
+    for (std::size_t j = 0; j < table.columns.size(); ++j)
+    {
+      if (std::all_of(table.rows.begin(), table.rows.end(),
+                      [&](const auto &row) { return row[j].text == empty; }))
+        continue;
+      result.columns.push_back(table.columns[j]);
+      for (std::size_t i = 0; i < table.rows.size(); ++i)
+        result.rows[i].push_back(table.rows[i][j]);
+    }
+    return result;
+  }
+
+  Cell known(bool is, const Cell &cell)
+  {
+    return is ? cell : empty_cell();
+  }
+
+  std::string wrapped(const std::string &words, std::size_t width, std::size_t indent)
+  {
+    std::string text = words;
+    for (std::size_t start = 0; text.size() - start > width;)
+    {
+      const std::size_t blank = text.rfind(' ', start + width);
+      if (blank == std::string::npos || blank <= start)
+        break;
+      text.replace(blank, 1, "\n" + std::string(indent, ' '));
+      start = blank + 1 + indent;
+    }
+    return text;
+  }
+
+  std::string to_text(const Table &table)
+  {
+    std::vector<std::size_t> width;
+    for (std::size_t j = 0; j < table.columns.size(); ++j)
+    {
+      width.push_back(length(table.columns[j].head));
+      for (const auto &row : table.rows)
+        width[j] = std::max(width[j], length(row[j].text));
+    }
+    // the last column is wrapped, in lines as wide as is left of the terminal
+    std::size_t indent = 0;
+    for (std::size_t j = 0; j + 1 < width.size(); ++j)
+      indent += width[j] + 2;
+    const std::size_t room = std::max<std::size_t>(40, terminal - std::min(terminal, indent));
+    std::string text;
+    const auto add = [&](const std::string &cell, std::size_t j)
+    {
+      const bool is_last = j + 1 == width.size();
+      text += is_last ? wrapped(cell, room, indent) + "\n"
+                      : cell + std::string(width[j] + 2 - length(cell), ' ');
+    };
+    for (std::size_t j = 0; j < width.size(); ++j)
+      add(table.columns[j].head, j);
+    for (const auto &row : table.rows)
+      for (std::size_t j = 0; j < width.size(); ++j)
+        add(row[j].text, j);
+    return text;
+  }
+} // namespace plumbline::report

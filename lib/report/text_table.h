@@ -1,0 +1,18 @@
+#pragma once
+
+#include "report/formats.h"
+
+namespace plumbline::report
+{
+  /// The same without columns whose cells are all empty.
+  Table without_empty_columns(const Table &table);
+
+  /// The cell, or an empty one for what is not known.
+  Cell known(bool is, const Cell &cell);
+
+  /// Words in lines of at most so many characters, all but the first behind blanks.
+  std::string wrapped(const std::string &words, std::size_t width, std::size_t indent = 0);
+
+  /// In columns that line up, for a terminal of 160 columns.
+  std::string to_text(const Table &table);
+} // namespace plumbline::report

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "algebra/stencil.h"
+#include "reference/shapes.h"
+
+namespace plumbline::reference
+{
+  /// The mass matrix ∫ φ_s φ_t of a lattice's shape functions as a stencil, exact. Blocks as in
+  /// geometry::NodeSet, entries [length^2].
+  algebra::Stencil mass_stencil(const AxisShapes &shapes, unsigned int n_components, double h);
+} // namespace plumbline::reference

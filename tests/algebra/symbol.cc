@@ -1,0 +1,209 @@
+// Symbols of stencils whose waves have closed forms.
+#include "algebra/symbol.h"
+
+#include "base/error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace plumbline;
+using namespace plumbline::algebra;
+
+namespace
+{
+  constexpr double h = .1;
+
+  /// The mass matrix 1 of nodes at the cells' centres.
+  Stencil unit_mass(unsigned int n_blocks)
+  {
+    Stencil mass(n_blocks, 0);
+    for (unsigned int s = 0; s < n_blocks; ++s)
+      mass(s, s, 0, 0) = 1;
+    return mass;
+  }
+
+  /// The five-point Laplacian on a lattice of size h.
+  WaveOperator five_points()
+  {
+    Stencil a(1, 1);
+    a(0, 0, 0, 0) = 4 / (h * h);
+    a(0, 0, 1, 0) = a(0, 0, -1, 0) = a(0, 0, 0, 1) = a(0, 0, 0, -1) = -1 / (h * h);
+    return {h, a, unit_mass(1), 1, {{.5, .5}}};
+  }
+
+  double five_point_symbol(double k, double angle)
+  {
+    return 4 / (h * h) *
+           (std::pow(std::sin(.5 * k * h * std::cos(angle)), 2) +
+            std::pow(std::sin(.5 * k * h * std::sin(angle)), 2));
+  }
+
+  /// The same with four nodes on each cell of size 2 h.
+  WaveOperator five_points_on_double_cells()
+  {
+    Stencil a(4, 1);
+    for (int s2 = 0; s2 < 2; ++s2)
+      for (int s1 = 0; s1 < 2; ++s1)
+        for (const auto &[d1, d2, value] :
+             {std::tuple{0, 0, 4.}, {1, 0, -1.}, {-1, 0, -1.}, {0, 1, -1.}, {0, -1, -1.}})
+        {
+          const int t1 = s1 + d1, t2 = s2 + d2;
+          const auto cell = [](int t) { return t < 0 ? -1 : t / 2; };
+          a(s1 + 2 * s2, (t1 + 2) % 2 + 2 * ((t2 + 2) % 2), cell(t1), cell(t2)) = value / (h * h);
+        }
+    return {2 * h, a, unit_mass(4), 1, {{.25, .25}, {.75, .25}, {.25, .75}, {.75, .75}}};
+  }
+
+  /// Continuous bilinear elements of the Laplacian on squares: K⊗M + M⊗K.
+  WaveOperator bilinear()
+  {
+    const double stiffness[] = {-1, 2, -1}, mass[] = {1. / 6, 4. / 6, 1. / 6};
+    Stencil a(1, 1), m(1, 1);
+    for (int j2 = -1; j2 <= 1; ++j2)
+      for (int j1 = -1; j1 <= 1; ++j1)
+      {
+        a(0, 0, j1, j2) = stiffness[j1 + 1] * mass[j2 + 1] + mass[j1 + 1] * stiffness[j2 + 1];
+        m(0, 0, j1, j2) = h * h * mass[j1 + 1] * mass[j2 + 1];
+      }
+    return {h, a, m, 1, {{0, 0}}};
+  }
+
+  /// Springs of two components to the eight neighbours, along each bond.
+  WaveOperator springs()
+  {
+    Stencil a(2, 1);
+    for (int j2 = -1; j2 <= 1; ++j2)
+      for (int j1 = -1; j1 <= 1; ++j1)
+        for (int s = 0; s < 2 && (j1 != 0 || j2 != 0); ++s)
+          for (int t = 0; t < 2; ++t)
+          {
+            const double e[] = {double(j1), double(j2)};
+            const double entry = e[s] * e[t] / (j1 * j1 + j2 * j2);
+            a(s, t, j1, j2) -= entry;
+            a(s, t, 0, 0) += entry;
+          }
+    return {h, a, unit_mass(2), 2, {{.5, .5}}};
+  }
+
+  const double angles[] = {0, .3, M_PI / 4, 1.4};
+} // namespace
+
+TEST(Symbol, of_the_five_point_laplacian)
+{
+  const Symbol symbol(five_points());
+  for (const double angle : angles)
+  {
+    for (const double k : {.1, 3., 20., 31.})
+    {
+      const auto waves = symbol.waves(k, angle);
+      ASSERT_EQ(waves.size(), 1u);
+      EXPECT_NEAR(waves[0].squared, five_point_symbol(k, angle), 1e-13 * 8 / (h * h)) << k;
+      const double c = std::cos(angle), s = std::sin(angle);
+      EXPECT_NEAR(waves[0].slope, 2 / h * (c * std::sin(k * h * c) + s * std::sin(k * h * s)),
+                  1e-12 / h);
+    }
+    EXPECT_NEAR(symbol.long_waves(angle).front(), 1, 1e-13);
+  }
+  EXPECT_NEAR(symbol.range().largest, 8 / (h * h), 1e-12 * 8 / (h * h));
+  EXPECT_NEAR(symbol.range().least, 0, 1e-12 * 8 / (h * h));
+}
+
+TEST(Symbol, acoustic_waves_do_not_depend_on_how_many_nodes_a_cell_has)
+{
+  const Symbol one(five_points()), four(five_points_on_double_cells());
+  for (const double angle : angles)
+  {
+    for (const double k : {.5, 5., 14.})
+    {
+      const auto a = one.waves(k, angle), b = four.waves(k, angle);
+      ASSERT_EQ(b.size(), 1u);
+      EXPECT_NEAR(a[0].squared, b[0].squared, 1e-12 * 8 / (h * h)) << k << ' ' << angle;
+      EXPECT_NEAR(a[0].slope, b[0].slope, 1e-11 / h) << k << ' ' << angle;
+    }
+    EXPECT_NEAR(four.long_waves(angle).front(), 1, 1e-12);
+  }
+  EXPECT_NEAR(four.range().largest, 8 / (h * h), 1e-12 * 8 / (h * h));
+}
+
+TEST(Symbol, with_a_consistent_and_a_lumped_mass)
+{
+  // along an axis the other one's factor is 1: ω² = (6/h²) (1 - cos kh) / (2 + cos kh) · 2
+  const Symbol consistent(bilinear());
+  WaveOperator other = bilinear();
+  EXPECT_TRUE(couples_cells(other.mass));
+  other.mass = lump(other.mass, 1);
+  EXPECT_FALSE(couples_cells(other.mass));
+  EXPECT_NEAR(other.mass(0, 0, 0, 0), h * h, 1e-16);
+  const Symbol lumped(other);
+  for (const double k : {1., 10., 30.})
+  {
+    const double c = std::cos(k * h), wave = 6 * (1 - c) / (2 + c) / (h * h);
+    EXPECT_NEAR(consistent.waves(k, 0)[0].squared, wave, 1e-13 * 24 / (h * h)) << k;
+    EXPECT_NEAR(consistent.waves(k, 0)[0].slope, 18 * std::sin(k * h) / std::pow(2 + c, 2) / h,
+                1e-11 / h)
+        << k;
+    EXPECT_NEAR(lumped.waves(k, 0)[0].squared, 2 * (1 - c) / (h * h), 1e-12 / (h * h)) << k;
+  }
+  EXPECT_NEAR(consistent.long_waves(.3)[0], 1, 1e-13);
+  // both factors at the corner of the zone: 2 · 12/h²; lumped (1 - c1)(2 + c2)/3 + ... has its
+  // maximum 4/h² along an axis
+  EXPECT_NEAR(consistent.range().largest, 24 / (h * h), 1e-11 / (h * h));
+  EXPECT_NEAR(lumped.range().largest, 4 / (h * h), 1e-11 / (h * h));
+}
+
+TEST(Symbol, tells_waves_along_from_waves_across)
+{
+  const Symbol symbol(springs());
+  for (const double k : {.2, 4., 25.})
+  {
+    const double c = 1 - std::cos(k * h);
+    const auto axis = symbol.waves(k, 0);
+    ASSERT_EQ(axis.size(), 2u);
+    EXPECT_NEAR(axis[0].squared, 4 * c, 1e-12); // 2 along, 4 diagonal bonds with one half
+    EXPECT_NEAR(axis[1].squared, 2 * c, 1e-12);
+    // across the diagonal: two axes with one half each, the other diagonal's bonds do not move
+    const double a = 1 - std::cos(k * h * M_SQRT1_2), b = 1 - std::cos(k * h * M_SQRT2);
+    const auto diagonal = symbol.waves(k, M_PI / 4);
+    EXPECT_NEAR(diagonal[0].squared, 2 * a + 2 * b, 1e-12);
+    EXPECT_NEAR(diagonal[1].squared, 2 * a, 1e-12);
+  }
+  EXPECT_NEAR(symbol.long_waves(0)[0], 2 * h * h, 1e-14);
+  EXPECT_NEAR(symbol.long_waves(M_PI / 4)[0], 2.5 * h * h, 1e-14);
+  EXPECT_NEAR(symbol.long_waves(M_PI / 4)[1], .5 * h * h, 1e-14);
+}
+
+TEST(Symbol, finds_extrema_that_lie_between_points_of_a_grid)
+{
+  // cos(3 κ_1) pulls the maximum of 1 - cos κ_1 away from π
+  WaveOperator waves{1, Stencil(1, 3), unit_mass(1), 1, {{.5, .5}}};
+  const auto symbol = [](double x) { return 1 - std::cos(x) + .8 * (1 - std::cos(3 * x)); };
+  for (const auto &[j, a] : {std::pair{1, 1.}, {3, .8}})
+  {
+    waves.stiffness(0, 0, 0, 0) += a;
+    waves.stiffness(0, 0, j, 0) -= a / 2;
+    waves.stiffness(0, 0, -j, 0) -= a / 2;
+  }
+  double largest = 0;
+  for (int i = 0; i <= 4000000; ++i)
+    largest = std::max(largest, symbol(M_PI * i / 4000000));
+  EXPECT_NEAR(Symbol(waves).range().largest, largest, 1e-11);
+}
+
+TEST(Symbol, sees_waves_that_grow)
+{
+  WaveOperator waves = five_points();
+  waves.stiffness(0, 0, 0, 0) -= 1 / (h * h);
+  EXPECT_NEAR(Symbol(waves).range().least, -1 / (h * h), 1e-9);
+  EXPECT_LT(Symbol(waves).waves(1, 0)[0].squared, 0);
+}
+
+TEST(Symbol, refuses_what_has_no_waves)
+{
+  WaveOperator one_sided = five_points();
+  one_sided.stiffness(0, 0, 1, 0) = 0;
+  EXPECT_THROW(Symbol{one_sided}, NumericalError);
+  WaveOperator massless = five_points();
+  massless.mass(0, 0, 0, 0) = 0;
+  EXPECT_THROW(Symbol(massless).waves(1, 0), NumericalError);
+}

@@ -1,0 +1,93 @@
+// `plumbline dispersion`: what it says of shipped scenes, and what it refuses.
+
+#include "command.h"
+
+#include <nlohmann/json.hpp>
+
+namespace
+{
+  using namespace plumbline::app;
+
+  std::string scene(const std::string &name)
+  {
+    return std::string(PLUMBLINE_SCENES) + "/waves/" + name + ".prm";
+  }
+
+  /// Exit code 2, the message, nothing printed and nothing written.
+  void expect_refused(const std::string &arguments, const std::string &message)
+  {
+    const fs::path folder = temporary("dispersion");
+    const Outcome outcome = run("dispersion " + arguments + " -o " + folder.string());
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << '\n' << outcome.err;
+    expect_found(outcome.err, message);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_FALSE(fs::exists(folder)) << arguments;
+  }
+} // namespace
+
+TEST(DispersionCommand, says_by_waves_what_is_proven_by_moments)
+{
+  for (const std::string name : {"double_well_constant", "double_well_decaying"})
+  {
+    const fs::path folder = temporary("dispersion");
+    const Outcome outcome =
+        run("dispersion " + scene(name) + " --json --set Study/m=3 -o " + folder.string());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto json = nlohmann::json::parse(outcome.out);
+    std::size_t n = 0;
+    for (const auto &verdict : json["verdicts"])
+    {
+      const std::string method = verdict["method"], found = verdict["verdict"];
+      const bool is_compatible = method.find("-R") != std::string::npos || method[0] == 'Q';
+      const bool is_qwj = method == "QWJ";
+      EXPECT_EQ(found, is_compatible && !is_qwj ? "AC" : "not AC")
+          << name << ", " << method << ": " << verdict["reason"];
+      EXPECT_EQ(found, verdict["proven"]) << name << ", " << method;
+      ++n;
+    }
+    EXPECT_EQ(n, 12u); // ten methods, Q1 and Q2 with a lumped mass, too
+  }
+}
+
+TEST(DispersionCommand, writes_a_page_with_tables_and_charts)
+{
+  const fs::path folder = temporary("dispersion");
+  const Outcome outcome = run("dispersion " + scene("diffusion") +
+                              " --methods FA,Q1 --levels 2 --angles 0,30 -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "critical step");
+  expect_found(outcome.out, "Q1 lumped");
+  expect_found(outcome.out, "2 of the 4 levels that a verdict needs");
+  expect_found(fs::exists(folder / "dispersion.html") ? read(folder / "dispersion.html") : "",
+               "<svg");
+  expect_found(read(folder / "dispersion.md"), "30°");
+  EXPECT_TRUE(fs::exists(folder / "dispersion/phase_delta-0.2_30.svg"));
+  EXPECT_TRUE(fs::exists(folder / "dispersion/errors_delta-0.2.csv"));
+  EXPECT_EQ(nlohmann::json::parse(read(folder / "dispersion.json"))["levels"].size(), 6u);
+}
+
+TEST(DispersionCommand, takes_rules_that_are_infeasible_as_findings)
+{
+  const fs::path folder = temporary("dispersion");
+  const Outcome outcome =
+      run("dispersion " + scene("double_well_decaying") +
+          " --methods IPA-AC-R4 --set Study/m=2 --levels 1 -o " + folder.string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "no waves, because");
+}
+
+TEST(DispersionCommand, refuses_what_has_no_waves)
+{
+  const std::string diffusion = scene("diffusion");
+  expect_refused(diffusion + " --set Domain/mesh=squares", "Domain/mesh = squares");
+  expect_refused(diffusion + " --set Solver/model=full", "Solver/model = full");
+  expect_refused(diffusion + " --angles x", "--angles");
+  expect_refused(std::string(PLUMBLINE_SCENES) + "/state_based/bar.prm", "Domain/boundary = free");
+  expect_refused(std::string(PLUMBLINE_SCENES) + "/lps/interface_crack.prm", "Domain/mesh");
+  expect_refused(diffusion + " --methods LOCAL", "it needs a mesh");
+  expect_refused(diffusion + " --methods QWERTY", "QWERTY");
+  expect_refused(diffusion + " --angles 1e9", "--angles");
+  expect_refused(diffusion + " --set 'Domain/boxes=0, 0 : 0.1, 0.1' --set Study/h=0.1",
+                 "Study/h = 0.1 carries no wave as long as the domain");
+  expect_refused(diffusion + " --set Kernel/limit=none --set Kernel/constant=-1", "positive");
+}
