@@ -14,5 +14,6 @@ namespace plumbline::benchmarks
 
   void register_operators(); ///< applications, by every backend
   void register_families();  ///< ball ∩ cell, rules on lattices and on scattered nodes
+  void register_forces();    ///< of bonds with two wells
   void register_assembly();  ///< Galerkin entries: lattices, pairs of cells, whole meshes
 } // namespace plumbline::benchmarks

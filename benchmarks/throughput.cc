@@ -1,5 +1,5 @@
-// How fast are the parts: operator applications per bond by every backend, ball ∩ cell, rules,
-// entries, and how far each is from what one core of this machine can do. Run:
+// How fast are the parts: operator applications per bond by every backend, forces, ball ∩ cell,
+// rules, entries, and how far each is from what one core of this machine can do. Run:
 // build/release/benchmarks/throughput [--benchmark_filter=...] All figures are CPU time on one
 // core; compare them within one run.
 
@@ -14,6 +14,7 @@ int main(int argc, char **argv)
   namespace ours = plumbline::benchmarks;
   ours::register_operators();
   ours::register_families();
+  ours::register_forces();
   ours::register_assembly();
   benchmark::Initialize(&argc, argv);
   ours::Summary summary;

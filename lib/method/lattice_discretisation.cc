@@ -78,8 +78,7 @@ namespace plumbline::method
                                                geometry::NodeSet nodes, algebra::Stencil stencil,
                                                std::vector<double> mass)
       : lattice_(*problem.lattice), nodes_(std::move(nodes)), stencil_(std::move(stencil)),
-        mass_(std::move(mass)),
-        backend_(scene.solver.operator_backend)
+        mass_(std::move(mass)), backend_(scene.solver.operator_backend)
   {
   }
 

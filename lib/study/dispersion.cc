@@ -197,8 +197,8 @@ namespace plumbline::study
     needs(scene.domain.mesh.is_lattice(),
           "Domain/mesh = " + scene.domain.mesh.name + alike + "write Domain/mesh = lattice");
     needs(scene.domain.cracks.empty(), "Domain/cracks break bonds" + alike + "clear them");
-    needs(scene.domain.outside.empty(),
-          "Domain/outside = '" + scene.domain.outside + "' makes a free surface" + alike + "clear it");
+    needs(scene.domain.outside.empty(), "Domain/outside = '" + scene.domain.outside +
+                                            "' makes a free surface" + alike + "clear it");
     needs(scene.kernel.coefficient.empty() && scene.kernel.materials.empty(),
           "Kernel/coefficient or Kernel/materials vary in space" + alike + "clear them");
     needs(scene.material.is_homogeneous, "Material/" + scene.material.keys[0] + " or " +

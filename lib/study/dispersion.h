@@ -1,7 +1,7 @@
 #pragma once
 
-#include "physics/waves.h"
 #include "method/method.h"
+#include "physics/waves.h"
 #include "study/results.h"
 
 namespace plumbline::study

@@ -308,8 +308,8 @@ TEST(MeshGalerkin, DoesNotDependOnTheFirstVertexOfRectangles)
       std::rotate(cell.vertex.begin(), cell.vertex.begin() + turn, cell.vertex.end());
     auto turned = problem;
     turned.mesh = std::make_shared<const geometry::Mesh>(mesh);
-    EXPECT_LT(study::averages_l2(problem, analysis::solve(*method_named("Q2"), scene, turned).averages,
-                                 expected),
+    EXPECT_LT(study::averages_l2(
+                  problem, analysis::solve(*method_named("Q2"), scene, turned).averages, expected),
               1e-4)
         << turn;
   }

@@ -1,0 +1,170 @@
+#include "physics/double_well.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace plumbline::physics
+{
+  namespace
+  {
+    void require_positive(const char *key, double value, const char *remedy)
+    {
+      if (value > 0 && std::isfinite(value))
+        return;
+      std::ostringstream message;
+      message << "double well: " << key << " = " << value << " must be positive and finite; "
+              << remedy;
+      throw InputError(message.str());
+    }
+
+    double sum(const std::vector<PowerTerm> &terms, double t)
+    {
+      double result = 0;
+      for (const PowerTerm &term : terms)
+        result += term.coefficient * std::pow(t, term.exponent);
+      return result;
+    }
+
+    /// J >= 0 is what makes small strains stable.
+    void check_influence(const std::vector<PowerTerm> &influence)
+    {
+      constexpr int n_samples = 1000;
+      constexpr double rounding = 1e-14; // of the coefficients
+      double size = 0, largest = 0;
+      for (const PowerTerm &term : influence)
+      {
+        if (term.exponent < 0 || !std::isfinite(term.coefficient))
+          throw InputError("double well: the influence function has the term " +
+                           std::to_string(term.coefficient) + " r^" +
+                           std::to_string(term.exponent) +
+                           "; it must be bounded: use finite coefficients and powers from 0");
+        size += std::abs(term.coefficient);
+      }
+      for (int i = 0; i <= n_samples; ++i)
+      {
+        const double t = static_cast<double>(i) / n_samples, value = sum(influence, t);
+        largest = std::max(largest, value);
+        if (value < -rounding * size)
+          throw InputError("double well: the influence function is " + std::to_string(value) +
+                           " at r = " + std::to_string(t) +
+                           " horizons; it must not be negative in [0, 1], change its coefficients");
+      }
+      if (!(largest > 0))
+        throw InputError("double well: the influence function vanishes, so there are no forces; "
+                         "give coefficients such as 1, -1 for 1 - r");
+    }
+
+    double ball_volume(int dim)
+    {
+      return dim == 1 ? 2 : dim == 2 ? M_PI : 4 * M_PI / 3;
+    }
+  } // namespace
+
+  DoubleWell::DoubleWell(int dim, std::vector<PowerTerm> influence, double c, double beta,
+                         double horizon)
+      : dim_(dim), influence_(std::move(influence)), c_(c), beta_(beta), horizon_(horizon)
+  {
+    if (dim < 1 || dim > 3)
+      throw InputError("double well: dimension = " + std::to_string(dim) +
+                       " is not supported; choose 1, 2 or 3");
+    require_positive("c", c, "it is the energy of a broken bond, take for example c = 1");
+    require_positive("beta", beta,
+                     "bonds soften at strains 1/sqrt(2 beta r), take for example beta = 1");
+    require_positive("horizon", horizon, "give a length > 0");
+    check_influence(influence_);
+  }
+
+  double DoubleWell::influence(double r) const
+  {
+    return std::max(0., sum(influence_, r / horizon_));
+  }
+
+  double DoubleWell::moment(int n) const
+  {
+    double result = 0;
+    for (const PowerTerm &term : influence_)
+      if (term.coefficient != 0)
+      {
+        if (term.exponent + n + 1 <= 0)
+          return std::numeric_limits<double>::infinity();
+        result += term.coefficient / (term.exponent + n + 1);
+      }
+    return result;
+  }
+
+  double DoubleWell::potential(double s) const
+  {
+    return -c_ * std::expm1(-beta_ * s);
+  }
+
+  double DoubleWell::derivative(double s) const
+  {
+    return c_ * beta_ * std::exp(-beta_ * s);
+  }
+
+  double DoubleWell::force_factor() const
+  {
+    return 4 / (std::pow(horizon_, dim_ + 1) * ball_volume(dim_));
+  }
+
+  double DoubleWell::softening_strain(double r) const
+  {
+    return 1 / std::sqrt(2 * beta_ * r);
+  }
+
+  // with x = √β r, F₁' = 2cβ^½ x e^(-x²) is largest at x² = ½, F₁'' = 2cβ (1 - 2x²) e^(-x²) at 0
+  // and F₁''' = cβ^(3/2) (8x³ - 12x) e^(-x²) at x² = (3 - √6)/2
+  double DoubleWell::c1() const
+  {
+    return c_ * std::sqrt(2 * beta_) * std::exp(-.5);
+  }
+
+  double DoubleWell::c2() const
+  {
+    return 2 * c_ * beta_;
+  }
+
+  double DoubleWell::c3() const
+  {
+    const double square = .5 * (3 - std::sqrt(6.)), x = std::sqrt(square);
+    return c_ * beta_ * std::sqrt(beta_) * (12 - 8 * square) * x * std::exp(-square);
+  }
+
+  double DoubleWell::c_bar() const
+  {
+    // the unit sphere has the area dim ω_dim
+    return c2() * dim_ * moment(dim_ - 2);
+  }
+
+  double DoubleWell::modulus() const
+  {
+    const double factor = dim_ == 1 ? 2 : dim_ == 2 ? .5 : .4;
+    return factor * stiffness() * moment(dim_);
+  }
+
+  double DoubleWell::toughness() const
+  {
+    const double factor = dim_ == 1 ? 1 : dim_ == 2 ? 4 / M_PI : 1.5;
+    return factor * c_ * moment(dim_);
+  }
+
+  DoubleWell::WaveSpeeds DoubleWell::wave_speeds(double density) const
+  {
+    require_positive("density", density, "give the mass of a unit of volume");
+    const double speed = std::sqrt(modulus() / density);
+    return dim_ == 1 ? WaveSpeeds{speed, 0} : WaveSpeeds{std::sqrt(3.) * speed, speed};
+  }
+
+  Kernel<2> DoubleWell::linear_kernel() const
+  {
+    std::vector<PowerTerm> profile = influence_;
+    for (PowerTerm &term : profile)
+      --term.exponent;
+    return {Structure::tensor, profile, horizon_, force_factor() * stiffness() / horizon_};
+  }
+} // namespace plumbline::physics

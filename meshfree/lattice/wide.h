@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstring>
+
+// Clones for machines with and without wide vectors, picked by the loader; also in algebra/lane.h,
+// whose vectors are shorter. Sanitizers do not work with that choice.
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
+#define PLUMBLINE_WIDE_CLONES                                                                      \
+  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define PLUMBLINE_WIDE_CLONES
+#endif
+
+namespace plumbline::meshfree
+{
+  /// Values of neighbouring nodes, as many as the widest registers hold; where these are shorter
+  /// the compiler takes several.
+  constexpr int wide = 8;
+  using Wide = double __attribute__((vector_size(wide * sizeof(double))));
+
+  [[gnu::always_inline]] inline Wide load_wide(const double *from)
+  {
+    Wide values;
+    std::memcpy(&values, from, sizeof(Wide));
+    return values;
+  }
+
+  /// 2^y = scale (1 + tail) for y <= 0; scale = 2^n is exact, |tail| < .42.
+  struct PowerOfTwo
+  {
+    Wide scale, tail;
+  };
+
+  /// Accuracy: 1e-15 relative; 0 at y < -1022 means 2^-1022, below any sum's rounding. The scale is
+  /// found by adding a number so large that only integers are left: -ffast-math would drop that.
+  /// Coefficients: interpolation of 2^f at the 12 Chebyshev points of [-1/2, 1/2], 2e-17.
+  [[gnu::always_inline]] inline PowerOfTwo power_of_two(Wide y)
+  {
+    using Bits = long long __attribute__((vector_size(wide * sizeof(long long))));
+    constexpr double magic = 6755399441055744. + 1023; // 1.5 2^52, and the exponent's bias
+    const Wide lowest = Wide{} - 1022;
+    constexpr int mantissa_bits = 52;
+    constexpr double coefficients[] = {
+        4.4558179083360645e-10, 7.074194297288521e-09,  1.0178057087733941e-07,
+        1.3215432535912375e-06, 1.5252733841556773e-05, 1.5403530463724353e-04,
+        1.333355814640647e-03,  9.618129107587256e-03,  5.5504108664821625e-02,
+        2.4022650695910158e-01, 6.931471805599453e-01};
+    y = y < lowest ? lowest : y;
+    const Wide shifted = y + magic, f = y - (shifted - magic);
+    Wide sum = Wide{} + coefficients[0];
+    for (unsigned int i = 1; i < sizeof(coefficients) / sizeof(double); ++i)
+      sum = sum * f + coefficients[i];
+    return {(Wide)((Bits)shifted << mantissa_bits), sum * f};
+  }
+} // namespace plumbline::meshfree
