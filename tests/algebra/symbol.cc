@@ -152,6 +152,23 @@ TEST(Symbol, with_a_consistent_and_a_lumped_mass)
   EXPECT_NEAR(lumped.range().largest, 4 / (h * h), 1e-11 / (h * h));
 }
 
+TEST(Symbol, of_a_chain_of_two_springs)
+{
+  // springs a and b in turn between unit masses d = h/2 apart: not even long waves are linear
+  // from node to node, ω² = a + b - √(a² + b² + 2 a b cos kh), ω²/k² → 2 a b d² / (a + b)
+  constexpr double a = 1, b = 3, d = h / 2;
+  WaveOperator chain{h, Stencil(2, 1), unit_mass(2), 1, {{.25, .5}, {.75, .5}}};
+  chain.stiffness(0, 0, 0, 0) = chain.stiffness(1, 1, 0, 0) = a + b;
+  chain.stiffness(0, 1, 0, 0) = chain.stiffness(1, 0, 0, 0) = -a;
+  chain.stiffness(0, 1, -1, 0) = chain.stiffness(1, 0, 1, 0) = -b;
+  const Symbol symbol(chain);
+  for (const double k : {1., 10., 25.})
+    EXPECT_NEAR(symbol.waves(k, 0)[0].squared,
+                a + b - std::sqrt(a * a + b * b + 2 * a * b * std::cos(k * h)), 1e-13);
+  EXPECT_NEAR(symbol.long_waves(0)[0], 2 * a * b * d * d / (a + b), 1e-15);
+  EXPECT_NEAR(symbol.range().largest, 2 * (a + b), 1e-12);
+}
+
 TEST(Symbol, tells_waves_along_from_waves_across)
 {
   const Symbol symbol(springs());
@@ -175,19 +192,17 @@ TEST(Symbol, tells_waves_along_from_waves_across)
 
 TEST(Symbol, finds_extrema_that_lie_between_points_of_a_grid)
 {
-  // cos(3 κ_1) pulls the maximum of 1 - cos κ_1 away from π
-  WaveOperator waves{1, Stencil(1, 3), unit_mass(1), 1, {{.5, .5}}};
-  const auto symbol = [](double x) { return 1 - std::cos(x) + .8 * (1 - std::cos(3 * x)); };
-  for (const auto &[j, a] : {std::pair{1, 1.}, {3, .8}})
+  // 1 - cos κ_1 + a (1 - cos 2 κ_1) is largest where cos κ_1 = -1 / (4 a)
+  constexpr double a = .8;
+  WaveOperator waves{1, Stencil(1, 2), unit_mass(1), 1, {{.5, .5}}};
+  for (const auto &[j, factor] : {std::pair{1, 1.}, {2, a}})
   {
-    waves.stiffness(0, 0, 0, 0) += a;
-    waves.stiffness(0, 0, j, 0) -= a / 2;
-    waves.stiffness(0, 0, -j, 0) -= a / 2;
+    waves.stiffness(0, 0, 0, 0) += factor;
+    waves.stiffness(0, 0, j, 0) -= factor / 2;
+    waves.stiffness(0, 0, -j, 0) -= factor / 2;
   }
-  double largest = 0;
-  for (int i = 0; i <= 4000000; ++i)
-    largest = std::max(largest, symbol(M_PI * i / 4000000));
-  EXPECT_NEAR(Symbol(waves).range().largest, largest, 1e-11);
+  const double c = -1 / (4 * a);
+  EXPECT_NEAR(Symbol(waves).range().largest, 1 - c + a * (2 - 2 * c * c), 1e-12);
 }
 
 TEST(Symbol, sees_waves_that_grow)
