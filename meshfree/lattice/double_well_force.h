@@ -19,8 +19,8 @@ namespace plumbline::meshfree
   /// mirror images share, so fields that are symmetric about either axis of the box stay so to the
   /// last bit.
   /// Accuracy: 1e-14 of Σ |bond forces|, the exponential's included.
-  /// Cost: about 1e9 bonds (to one neighbour of one node) a second and core where registers hold
-  /// eight numbers; a padded copy of the vectors.
+  /// Cost: 1.3e9 to 2e9 bonds (to one neighbour of one node) a second and core where registers
+  /// hold eight numbers; a padded copy of the vectors.
   /// Not for: calling one object from several threads at a time.
   template <int dim>
   class DoubleWellForce

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "algebra/spectrum.h"
+#include "analysis/motion.h"
+#include "analysis/schemes.h"
+
+namespace plumbline::analysis
+{
+  /// The largest eigenvalue of a symmetric operator by Lanczos' method with three vectors: without
+  /// reorthogonalisation copies of eigenvalues appear, and none that is larger. Where both ends are
+  /// asked for and there is memory for all vectors: algebra::spectrum.
+  /// @param tolerance  of the residual relative to the eigenvalue, which bounds its error; the
+  /// error of an eigenvalue with a gap to the next is quadratic in it
+  /// @throws NumericalError  no convergence in 5000 steps
+  /// Source: Parlett 1998, "The Symmetric Eigenvalue Problem", ch. 13,
+  /// doi:10.1137/1.9781611971163.
+  double largest_eigenvalue(const algebra::Action &symmetric, std::size_t n,
+                            double tolerance = 1e-4);
+
+  /// The longest step at which small motions about u stay bounded, z / √λ with λ the largest
+  /// eigenvalue of -∂a/∂u and z the scheme's limit: 2/√λ for symplectic Euler and Verlet. About
+  /// u = 0 it holds for all states of bonds that only soften. Damping is left out: it does not
+  /// shorten the step of these schemes.
+  /// @pre motion.tangent
+  double critical_step(const Motion &motion, const Scheme &scheme, const Vector &u,
+                       double tolerance = 1e-4);
+} // namespace plumbline::analysis

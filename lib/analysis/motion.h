@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace plumbline::analysis
+{
+  using Vector = std::vector<double>;
+
+  /// ü = a(u, t) - η u̇ for n unknowns. Lumped masses and densities are divided out; the tangent is
+  /// symmetric then only if they are all the same.
+  struct Motion
+  {
+    std::size_t n = 0;
+    /// a(u, t); 0 where u is held. Overwrites the last argument, of size n.
+    std::function<void(const Vector &u, double t, Vector &a)> acceleration;
+    /// ∂a/∂u v, symmetric; implicit schemes and critical steps need it.
+    std::function<void(const Vector &u, const Vector &v, Vector &out)> tangent = {};
+    double damping = 0; ///< η >= 0 [1/time]
+  };
+
+  struct State
+  {
+    Vector u, v; ///< of size n
+    double t = 0;
+  };
+
+  double norm(const Vector &x);
+  double dot(const Vector &x, const Vector &y);
+
+  /// x += factor y
+  void add(Vector &x, double factor, const Vector &y);
+} // namespace plumbline::analysis

@@ -1,0 +1,251 @@
+// Motions of lattices of bonds with two wells.
+
+#include "analysis/critical_step.h"
+#include "analysis/integrate.h"
+#include "base/error.h"
+#include "meshfree/lattice/double_well_force.h"
+#include "meshfree/rules/rules.h"
+#include "reference/lattice/torus_force.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+using namespace plumbline;
+using namespace plumbline::meshfree;
+using analysis::Motion;
+using analysis::scheme;
+using analysis::State;
+using physics::DoubleWell;
+using physics::PowerTerm;
+
+namespace
+{
+  using Vector = std::vector<double>;
+  const std::vector<PowerTerm> constant = {{1, 0}}, decaying = {{1, 0}, {-1, 1}};
+
+  DoubleWell well(int dim, double horizon, const std::vector<PowerTerm> &influence)
+  {
+    return {dim, influence, 1, 1, horizon};
+  }
+
+  template <int dim>
+  Motion motion_of(const DoubleWellForce<dim> &force)
+  {
+    return {force.size(), [&](const Vector &u, double, Vector &a) { force.force(u, a); },
+            [&](const Vector &u, const Vector &v, Vector &out) { force.tangent(u, v, out); }};
+  }
+
+  DoubleWellForce<1> ring(const DoubleWell &law, int n, const std::string &rule)
+  {
+    return {axis_bonds(law, 1. / n, rule), 1. / n, {n, 1}, Exterior::periodic};
+  }
+
+  DoubleWellForce<2> torus(const DoubleWell &law, int n, const std::string &name)
+  {
+    const auto kernel = law.linear_kernel();
+    for (const Rule &rule : rules())
+      if (rule.name == name)
+        return {well_bonds(law, lattice_bonds(rule.recipe(kernel), kernel, 1. / n, Backend::fast)),
+                1. / n,
+                {n, n},
+                Exterior::periodic};
+    throw std::logic_error(name);
+  }
+
+  /// a sin 2πx at rest
+  State sine(int n, double a)
+  {
+    State state{Vector(n), Vector(n), 0};
+    for (int i = 0; i < n; ++i)
+      state.u[i] = a * std::sin(2 * M_PI * i / n);
+    return state;
+  }
+
+  double root_mean_square(const Vector &a, const Vector &b)
+  {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return std::sqrt(sum / static_cast<double>(a.size()));
+  }
+} // namespace
+
+TEST(DoubleWellDynamics, small_waves_move_as_powers_of_two_by_two_matrices_do)
+{
+  constexpr int n = 100;
+  constexpr double amplitude = 1e-6; // what is left of nonlinearity is its square
+  const DoubleWell law = well(1, .1, decaying);
+  const auto force = ring(law, n, "FA");
+  Vector f;
+  force.force(sine(n, amplitude).u, f);
+  const double omega = std::sqrt(-f[n / 4] / amplitude);
+  EXPECT_NEAR(omega, 3.591787513, 5e-10);
+  EXPECT_NEAR(std::cos(omega), -.900362328, 5e-9);
+  const std::map<std::string, std::array<double, 2>> expected = {
+      {"symplectic Euler", {-.8586191, -.8954443}}, {"velocity Verlet", {-.8982438, -.9003295}},
+      {"trapezoidal", {-.9045012, -.9004279}},      {"implicit Euler", {-.6670067, -.8650465}},
+      {"explicit Euler", {-1.2584842, -.9376660}},
+  };
+  for (const auto &[name, values] : expected)
+    for (const bool is_fine : {false, true})
+    {
+      State state = sine(n, amplitude);
+      analysis::integrate(motion_of(force), scheme(name), {is_fine ? 1. / 160 : 1. / 20}, 1, state);
+      EXPECT_NEAR(state.u[n / 4] / amplitude, values[is_fine ? 1 : 0], 6e-8) << name;
+    }
+}
+
+TEST(DoubleWellDynamics, critical_steps_are_those_of_the_symbol)
+{
+  const auto &verlet = scheme("velocity Verlet");
+  const auto line = ring(well(1, .1, decaying), 100, "FA");
+  EXPECT_NEAR(critical_step(motion_of(line), verlet, Vector(line.size()), 1e-8), .0623225, 5e-8);
+  // Δt √p / ε
+  const double of_decaying[] = {1.4905, 1.4558, 1.4285, 1.4252},
+               of_constant[] = {.9451, .9321, .9467, .9264};
+  for (int m = 2; m <= 5; ++m)
+    for (const bool decays : {false, true})
+    {
+      const int n = 48;
+      const double horizon = static_cast<double>(m) / n;
+      const auto force = torus(well(2, horizon, decays ? decaying : constant), n, "FA");
+      const double step =
+          critical_step(motion_of(force), verlet, Vector(force.size()), 1e-7) / horizon;
+      EXPECT_NEAR(step, decays ? of_decaying[m - 2] : of_constant[m - 2], 5e-4) << m << decays;
+    }
+}
+
+TEST(DoubleWellDynamics, one_percent_beyond_the_critical_step_waves_grow_without_bound)
+{
+  constexpr int n = 100, n_steps = 400;
+  const auto force = ring(well(1, .1, decaying), n, "FA");
+  const Motion motion = motion_of(force);
+  const double critical =
+      critical_step(motion, scheme("velocity Verlet"), Vector(force.size()), 1e-10);
+  const auto growth = [&](double fraction, double amplitude)
+  {
+    const double step = fraction * critical;
+    State state{Vector(n), Vector(n), 0};
+    for (int i = 0; i < n; ++i)
+      state.u[i] = amplitude * std::sin(1. + i * i);
+    const double before = analysis::norm(state.u);
+    double largest = 0;
+    analysis::integrate(motion, scheme("symplectic Euler"), {step, {}, true}, n_steps * step, state,
+                        [&](const State &now)
+                        { largest = std::max(largest, analysis::norm(now.u)); });
+    return largest / before;
+  };
+  EXPECT_LT(growth(.99, 1e-8), 20);
+  EXPECT_LT(growth(1, 1e-8), 500); // at most linear in the steps
+  EXPECT_GT(growth(1.01, 1e-8), 1e5);
+}
+
+TEST(DoubleWellDynamics, energy_swings_with_the_order_of_the_scheme_and_does_not_drift)
+{
+  constexpr int n = 40;
+  const auto force = ring(well(1, .1, decaying), n, "FA");
+  const Motion motion = motion_of(force);
+  const double step =
+      .56 * critical_step(motion, scheme("velocity Verlet"), Vector(force.size()), 1e-8);
+  const double period = 2 * M_PI / 3.59, start = force.energy(sine(n, .2).u);
+  struct Swing
+  {
+    double early = 0, whole = 0; // max |ΔE| / E0 in the first half, and in all
+    analysis::Counts counts = {};
+  };
+  const auto swing = [&](const std::string &name, double time_step)
+  {
+    Swing result;
+    State state = sine(n, .2);
+    result.counts =
+        analysis::integrate(motion, scheme(name), {time_step}, 100 * period, state,
+                            [&](const State &now)
+                            {
+                              const double energy =
+                                  force.energy(now.u) + .5 / n * analysis::dot(now.v, now.v);
+                              result.whole = std::max(result.whole, std::abs(energy / start - 1));
+                              if (now.t < 50 * period)
+                                result.early = result.whole;
+                            });
+    return result;
+  };
+  for (const auto &[name, largest] :
+       {std::pair{"symplectic Euler", 8.0e-2}, std::pair{"velocity Verlet", 6.1e-3},
+        std::pair{"trapezoidal", 4.6e-4}})
+  {
+    const Swing coarse = swing(name, step), fine = swing(name, step / 2);
+    EXPECT_NEAR(coarse.whole, largest, .02 * largest) << name;
+    EXPECT_LT(coarse.whole, 1.05 * coarse.early) << name;
+    if (!scheme(name).is_implicit())
+    {
+      EXPECT_NEAR(std::log2(coarse.whole / fine.whole), scheme(name).order, .1) << name;
+    }
+    else
+    {
+      EXPECT_LT(fine.whole, coarse.whole / 3);
+      EXPECT_LT(static_cast<double>(coarse.counts.n_newton),
+                3.5 * static_cast<double>(coarse.counts.n_steps));
+    }
+  }
+  State state = sine(n, .2); // implicit Euler loses everything
+  analysis::integrate(motion, scheme("implicit Euler"), {step}, 100 * period, state);
+  EXPECT_LT(force.energy(state.u), 1e-3 * start);
+}
+
+TEST(DoubleWellDynamics, uniform_strain_is_in_equilibrium_on_a_torus)
+{
+  const DoubleWell law = well(2, .3, constant);
+  const auto kernel = law.linear_kernel();
+  const auto bonds =
+      well_bonds(law, lattice_bonds(partial_area(kernel), kernel, .1, Backend::fast));
+  const DoubleWellForce<2> force(bonds, .1, {10, 7}, Exterior::periodic, {},
+                                 {{{1.5, .4}, {-.3, .7}}});
+  Vector u(force.size()), f;
+  for (int j = 0; j < 7; ++j)
+    for (int i = 0; i < 10; ++i)
+    {
+      u[j * 10 + i] = .1 * (1.5 * i + .4 * j);
+      u[70 + j * 10 + i] = .1 * (-.3 * i + .7 * j);
+    }
+  force.force(u, f);
+  EXPECT_LT(analysis::norm(f), 1e-11);
+  EXPECT_GT(force.energy(u), .1);
+}
+
+TEST(DoubleWellDynamics, rules_on_one_axis_converge_at_their_rates)
+{
+  // a = .3, ε = .1, T = .5, against the torus without a mesh: ‖u - u_h‖ + ‖v - v_h‖ as in
+  // Jha & Lipton 2018, doi:10.1137/17M1112236, theorem 3
+  const auto error = [](const std::vector<PowerTerm> &influence, const std::string &rule, int n)
+  {
+    const DoubleWell law = well(1, .1, influence);
+    const reference::TorusForce<1> exact_force(law, 160, 1, 20);
+    State exact = sine(160, .3), state = sine(n, .3);
+    const Motion exact_motion{160,
+                              [&](const Vector &u, double, Vector &a) { exact_force.force(u, a); }};
+    analysis::integrate(exact_motion, scheme("Blanes-Moan"), {.5 / 200}, .5, exact);
+    const auto force = ring(law, n, rule);
+    analysis::integrate(motion_of(force), scheme("Blanes-Moan"), {.5 / 200}, .5, state);
+    Vector at_nodes(n), velocity_at_nodes(n);
+    for (int i = 0; i < n; ++i)
+    {
+      at_nodes[i] = exact_force.interpolate(exact.u.data(), {static_cast<double>(i) / n});
+      velocity_at_nodes[i] = exact_force.interpolate(exact.v.data(), {static_cast<double>(i) / n});
+    }
+    return root_mean_square(state.u, at_nodes) + root_mean_square(state.v, velocity_at_nodes);
+  };
+  for (const auto &[rule, coarse, fine] :
+       {std::tuple{"FA", 1.43e-1, 4.46e-4}, std::tuple{"IPA-AC", 4.36e-2, 1.58e-4},
+        std::tuple{"IPA-AC-R2", 1.39e-3, 5.6e-6}})
+  {
+    const double first = error(decaying, rule, 20), last = error(decaying, rule, 320);
+    EXPECT_NEAR(std::log2(error(decaying, rule, 160) / last), 2, .1) << rule;
+    EXPECT_NEAR(first, coarse, .005 * coarse) << rule;
+    EXPECT_NEAR(last, fine, .01 * fine) << rule;
+  }
+  const double first = error(constant, "FA", 80), last = error(constant, "FA", 320);
+  EXPECT_NEAR(std::log2(first / last) / 2, 1, .1);
+  EXPECT_NEAR(std::log2(error(constant, "PA-AC", 80) / error(constant, "PA-AC", 320)) / 2, 2, .1);
+}

@@ -1,0 +1,164 @@
+#include "reference/lattice/double_well_galerkin.h"
+
+#include "analysis/integrate.h"
+#include "base/error.h"
+#include "reference/lattice/torus_force.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace plumbline;
+using physics::DoubleWell;
+using reference::DoubleWellGalerkin;
+using reference::TorusForce;
+
+namespace
+{
+  using Vector = std::vector<double>;
+  const std::vector<physics::PowerTerm> constant = {{1, 0}}, decaying = {{1, 0}, {-1, 1}};
+
+  Vector field(std::size_t n, double amplitude)
+  {
+    Vector u(n);
+    for (std::size_t i = 0; i < n; ++i)
+      u[i] = amplitude * std::sin(1. + static_cast<double>(i * i % 37));
+    return u;
+  }
+
+  template <int dim>
+  void expect_gradient(const DoubleWellGalerkin<dim> &space)
+  {
+    const double step = 1e-5;
+    const Vector u = field(space.size(), .15);
+    Vector r;
+    space.residual(u, r);
+    for (std::size_t i = 0; i < u.size(); i += 7)
+    {
+      Vector plus = u, minus = u;
+      plus[i] += step;
+      minus[i] -= step;
+      EXPECT_NEAR(r[i], -(space.energy(plus) - space.energy(minus)) / (2 * step), 1e-8);
+    }
+  }
+
+  /// .3 sin 2πx at rest moves until .5; the errors in L2 of u and v on n intervals, added.
+  double line_error(int n)
+  {
+    const unsigned int n_exact = 128;
+    const DoubleWell law(1, decaying, 1, 1, .1);
+    const auto &scheme = analysis::scheme("Blanes-Moan");
+    const auto start = [](std::size_t size)
+    {
+      analysis::State state{Vector(size), Vector(size), 0};
+      for (std::size_t i = 0; i < size; ++i)
+        state.u[i] = .3 * std::sin(2 * M_PI * static_cast<double>(i) / static_cast<double>(size));
+      return state;
+    };
+    const TorusForce<1> torus(law, n_exact, 1, 20);
+    auto exact = start(n_exact), state = start(n);
+    analysis::integrate({n_exact, [&](const Vector &u, double, Vector &a) { torus.force(u, a); }},
+                        scheme, {.0025}, .5, exact);
+    const DoubleWellGalerkin<1> space(law, 1. / n, {n, 1}, 3);
+    analysis::integrate(
+        {space.size(), [&](const Vector &u, double, Vector &a) { space.acceleration(u, a); }},
+        scheme, {.0025}, .5, state);
+    const dealii::QGauss<1> gauss(4);
+    double of_u = 0, of_v = 0;
+    for (int i = 0; i < n; ++i)
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+      {
+        const double s = gauss.point(q)[0];
+        const auto square = [&](const Vector &nodal, const Vector &wanted)
+        {
+          const double difference = (1 - s) * nodal[i] + s * nodal[(i + 1) % n] -
+                                    torus.interpolate(wanted.data(), {(i + s) / n});
+          return gauss.weight(q) / n * difference * difference;
+        };
+        of_u += square(state.u, exact.u);
+        of_v += square(state.v, exact.v);
+      }
+    return std::sqrt(of_u) + std::sqrt(of_v);
+  }
+} // namespace
+
+TEST(DoubleWellGalerkin, residual_is_the_gradient_of_the_energy)
+{
+  expect_gradient(DoubleWellGalerkin<1>({1, constant, 1.3, 2.1, .23}, .1, {10, 1}));
+  expect_gradient(DoubleWellGalerkin<2>({2, decaying, 1.3, 2.1, .23}, .1, {5, 7}, 2));
+}
+
+TEST(DoubleWellGalerkin, inverse_mass_undoes_the_mass)
+{
+  const DoubleWellGalerkin<2> space({2, constant, 1, 1, .2}, .2, {5, 4}, 1);
+  const Vector x = field(space.size(), 1);
+  Vector y = x;
+  space.apply_mass(y);
+  EXPECT_NEAR(y[27],
+              .04 * (4. / 9 * x[27] + 1. / 9 * (x[26] + x[28] + x[22] + x[32]) +
+                     1. / 36 * (x[21] + x[23] + x[31] + x[33])),
+              1e-15);
+  space.apply_inverse_mass(y);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    EXPECT_NEAR(y[i], x[i], 1e-13);
+}
+
+TEST(DoubleWellGalerkin, load_converges_fast_in_the_number_of_points)
+{
+  const DoubleWell law(1, decaying, 1, 1, .1);
+  const int n = 20;
+  Vector u(n), exact, r;
+  for (int i = 0; i < n; ++i)
+    u[i] = .3 * std::sin(2 * M_PI * i / n);
+  DoubleWellGalerkin<1>(law, 1. / n, {n, 1}, 12).residual(u, exact);
+  const auto error = [&](unsigned int n_points)
+  {
+    DoubleWellGalerkin<1>(law, 1. / n, {n, 1}, n_points).residual(u, r);
+    analysis::add(r, -1, exact);
+    return analysis::norm(r) / analysis::norm(exact);
+  };
+  EXPECT_NEAR(error(2), 2.7e-4, .2e-4);
+  EXPECT_NEAR(error(3), 1.3e-6, .2e-6);
+  EXPECT_LT(error(4), 5e-8);
+}
+
+TEST(DoubleWellGalerkin, converges_at_rate_two_to_the_torus_without_a_mesh)
+{
+  double before = line_error(10);
+  for (const int n : {20, 40, 80})
+  {
+    const double error = line_error(n);
+    EXPECT_NEAR(std::log2(before / error), 2, .1) << n;
+    before = error;
+  }
+  EXPECT_LT(before, 5e-4);
+}
+
+TEST(DoubleWellGalerkin, small_waves_see_the_consistent_mass_and_stiffness_of_the_ball)
+{
+  const DoubleWell law(2, constant, 1, 1, .2);
+  const int n = 20;
+  const DoubleWellGalerkin<2> space(law, 1. / n, {n, n}, 2);
+  Vector u(space.size()), a;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i)
+    {
+      u[j * n + i] = 1e-6 * std::cos(2 * M_PI * i / n);
+      u[n * n + j * n + i] = 1e-6 * std::cos(2 * M_PI * i / n);
+    }
+  space.acceleration(u, a);
+  // 18.4823169 and 6.3259900 are those of ε = .2, k = 2π; Q1 is above by O(h²)
+  EXPECT_NEAR(-a[0] / 1e-6, 18.4823169, .02 * 18.48);
+  EXPECT_NEAR(-a[n * n] / 1e-6, 6.3259900, .02 * 6.326);
+  EXPECT_GT(space.n_evaluations(), 1000u);
+}
+
+TEST(DoubleWellGalerkin, refuses_what_is_no_mesh)
+{
+  const DoubleWell law(2, constant, 1, 1, .2);
+  EXPECT_THROW(DoubleWellGalerkin<2>(law, 0, {5, 5}), InputError);
+  EXPECT_THROW(DoubleWellGalerkin<2>(law, .1, {1, 5}), InputError);
+  EXPECT_THROW(DoubleWellGalerkin<2>(law, .1, {5, 5}, 0), InputError);
+}
