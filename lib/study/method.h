@@ -2,6 +2,7 @@
 
 #include "algebra/spectrum.h"
 #include "scene/problem.h"
+#include "study/capabilities.h"
 #include "study/results.h"
 
 #include <array>
@@ -67,7 +68,10 @@ namespace plumbline::study
     /// Whether Methods/names = all takes it: not where it is there to show how it fails.
     virtual bool is_in_all() const { return true; }
 
-    /// Empty if the method can do the scene, else the reason.
+    /// What a scene may need of it; see refusal.h.
+    virtual Capabilities can() const { return all_capabilities(); }
+
+    /// Empty if the method can do the scene, else the reason that is none of its capabilities.
     /// @param problem  of any case and level
     virtual std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const = 0;
 
