@@ -7,6 +7,7 @@
 #include "reference/method.h"
 #include "scene/mesh.h"
 #include "study/comparison.h"
+#include "study/refusal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +55,9 @@ namespace plumbline::app
       for (const auto &method : reference::methods())
         if (method->name() == name)
         {
-          if (const std::string reason = method->why_not(scene, problem); !reason.empty())
+          if (const std::string reason =
+                  study::refusal(*method, scene, problem, reference::methods());
+              !reason.empty())
             throw InputError("Reference/method: '" + name + "' cannot do this scene: " + reason);
           return method;
         }

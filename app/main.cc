@@ -133,6 +133,8 @@ int main(int argc, char **argv)
   report->add_option("DIR", folder, "Output folder of a run")->required();
   auto *list = app.add_subcommand("list", "List methods, kernels or scenes");
   list->add_option("WHAT", subject, "methods, kernels or scenes")->required();
+  bool as_matrix = false;
+  list->add_flag("--matrix", as_matrix, "Methods by what they can do, as a table");
   auto *make_template =
       app.add_subcommand("template", "Print a scene with all keys and their help");
   make_template->add_option("MODEL", model, "scalar, tensor, LPS or variational")->required();
@@ -177,7 +179,7 @@ int main(int argc, char **argv)
     else if (*report)
       exit_code = plumbline::app::rebuild_report(folder);
     else if (*list)
-      plumbline::app::list(subject);
+      plumbline::app::list(subject, as_matrix);
     else if (*make_template)
       std::cout << plumbline::scene::scene_template(model);
     else if (*describe)

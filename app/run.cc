@@ -7,6 +7,7 @@
 #include "report/report.h"
 #include "study/conclusions.h"
 #include "study/preflight.h"
+#include "study/refusal.h"
 #include "study/sweep.h"
 
 #include <deal.II/base/config.h>
@@ -343,9 +344,13 @@ namespace plumbline::app
     return 0;
   }
 
-  void list(const std::string &subject)
+  void list(const std::string &subject, bool as_matrix)
   {
-    if (subject == "methods")
+    if (as_matrix && subject != "methods")
+      throw InputError("list --matrix is of methods, not of " + subject + "; leave it out");
+    if (as_matrix)
+      std::cout << study::capability_table(all_methods());
+    else if (subject == "methods")
       for (const auto &method : all_methods())
         std::cout << std::left << std::setw(11) << method->name() << std::setw(11)
                   << method->family() << method->help() << '\n';

@@ -29,5 +29,5 @@ namespace plumbline::app
 
   /// Names and help of methods, kernels or scenes.
   /// @throws InputError  another subject
-  void list(const std::string &subject);
+  void list(const std::string &subject, bool as_matrix);
 } // namespace plumbline::app

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "estimate_audit.h"
 #include "reference/method.h"
+#include "study/refusal.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -87,7 +88,7 @@ namespace
           if (seconds * growth > seconds_)
             return;
           const scene::Problem problem = make_problem(scene, c, level);
-          if (!method.why_not(scene, problem).empty())
+          if (!study::refusal(method, scene, problem, {}).empty())
             return;
           for (const auto &entry : audit::audit(scene, problem, c, method, much_finer, seconds))
             print(name + " " + series.name, entry);

@@ -33,30 +33,25 @@ namespace plumbline::reference
                                  : " on triangles") +
                (degree_ == 0 ? " (not asymptotically compatible)" : "");
       }
+      method::Capabilities can() const override
+      {
+        using method::Capability;
+        method::Capabilities can = {Capability::free_boundary, Capability::heterogeneous,
+                                    Capability::nonlocal};
+        if (n_vertices_ == 4)
+          can.insert({Capability::lattice, Capability::quadrilaterals});
+        else
+          can.insert(Capability::triangles);
+        return can;
+      }
       std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const override
       {
-        const std::string other = n_vertices_ == 4 ? "P" : "Q";
-        if (problem.lattice
-                ? n_vertices_ == 3
-                : !(n_vertices_ == 4 ? problem.mesh->is_quads() : problem.mesh->is_triangles()))
-          return std::string("the cells of Domain/mesh = ") + scene.domain.mesh.name +
-                 " are not all " + (n_vertices_ == 4 ? "quadrilaterals" : "triangles") + "; take " +
-                 (is_continuous_ ? "" : "DG") + other + std::to_string(degree_);
         if (problem.body && !scene.domain.is_floating &&
             std::all_of(problem.mesh->cells.begin(), problem.mesh->cells.end(),
                         [](const geometry::MeshCell &cell) { return cell.is_inside; }))
           return "no cell of Domain/mesh = " + scene.domain.mesh.name +
                  " has its centroid in Domain/fixed, so that nothing holds the body; give smaller "
                  "cells there, or take meshfree methods alone";
-        if (scene.domain.is_damaged())
-          return "Galerkin methods break no bonds; take meshfree methods alone, or clear "
-                 "Domain/cracks and Domain/outside";
-        if (!scene.material.has_collar_dilatation)
-          return "Galerkin methods take dilatations of the collar from its data; write "
-                 "Material/collar dilatation = from data, or take meshfree methods alone";
-        if (scene.solver.is_mixed)
-          return "Galerkin methods eliminate the dilatation; write Solver/dilatation = eliminated, "
-                 "or take meshfree methods alone";
         if (scene.solver.iteration == base::Iteration::cg && problem.dilatation &&
             !problem.dilatation->is_symmetric())
           return "Solver/iteration = cg needs a symmetric operator, but harmonic means of "
@@ -102,17 +97,14 @@ namespace plumbline::reference
       {
         return "classical finite elements of degree 2 for the local limit (Poisson, Navier)";
       }
-      std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const override
+      method::Capabilities can() const override
       {
-        if (problem.lattice)
-          return "it needs a mesh; write Domain/mesh = squares or triangles";
-        if (scene.domain.is_free_body || scene.domain.is_damaged())
-          return "u must be given all around its domain; write Domain/boundary = constrained, and "
-                 "clear Domain/cracks and Domain/outside";
-        if (scene.study.regime != scene::Regime::delta &&
-            scene.study.decisive_error.target != scene::Target::local)
-          return "it solves the local limit, but the scene asks for a nonlocal solution; write "
-                 "Study/regime = delta, or a decisive error against local";
+        using method::Capability;
+        return {Capability::quadrilaterals, Capability::triangles, Capability::heterogeneous,
+                Capability::zero_dilatation, Capability::mixed_dilatation};
+      }
+      std::string why_not(const scene::Scene &, const scene::Problem &) const override
+      {
         return {};
       }
       std::unique_ptr<method::Discretisation> discretise(const scene::Scene &,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "method/capabilities.h"
 #include "method/discretisation.h"
 
 #include <array>
@@ -32,7 +33,10 @@ namespace plumbline::method
     /// Whether Methods/names = all takes it: not where it is there to show how it fails.
     virtual bool is_in_all() const { return true; }
 
-    /// Empty if the method can do the scene, else the reason.
+    /// What a scene may need of it; see study/refusal.h.
+    virtual Capabilities can() const { return all_capabilities(); }
+
+    /// Empty if the method can do the scene, else the reason that is none of its capabilities.
     /// @param problem  of any case and level
     virtual std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const = 0;
 
@@ -44,9 +48,9 @@ namespace plumbline::method
     discretise(const scene::Scene &scene, const scene::Problem &problem,
                const base::Team &team = base::Team::all()) const = 0;
 
-    /// The most memory that a static solution takes above what stood before (Cost::peak_bytes), within a
-    /// factor of 2 where it is more than some 50 MB, for one rank; 0 where it is little. Not in it:
-    /// the factors of a direct solver.
+    /// The most memory that a static solution takes above what stood before (Cost::peak_bytes),
+    /// within a factor of 2 where it is more than some 50 MB, for one rank; 0 where it is little.
+    /// Not in it: the factors of a direct solver.
     virtual double expected_bytes(const scene::Scene &, const ProblemSize &) const { return 0; }
 
     /// The rate at which field and averages tend to a smooth solution at a fixed horizon, at least:

@@ -216,7 +216,6 @@ namespace plumbline::scene
         needs(scene.methods.nodes.perturbation == 0, "Methods/perturbation > 0", mesh_remedy);
         needs(scene.problem.local_solution != LocalSolution::computed,
               "Problem/local solution = computed", mesh_remedy);
-        needs(!scene.domain.is_damaged(), "Domain/cracks or Domain/outside is given", mesh_remedy);
         return;
       }
       needs(!scene.domain.collar, "Domain/collar is given",
@@ -248,6 +247,9 @@ namespace plumbline::scene
           !domain.is_damaged() || scene.material.model == Model::lps,
           "Domain/cracks and Domain/outside need Material/model = LPS, whose free surfaces they "
           "make; choose it, or clear them");
+      require(!domain.is_damaged() || !domain.mesh.is_lattice(),
+              "Domain/cracks or Domain/outside is given with Domain/mesh = lattice: " +
+                  mesh_remedy);
       require(!scene.methods.loads_are_averages || domain.is_free_body,
               "Methods/load = cells is for free bodies; write nodes, or Domain/boundary = free");
     }

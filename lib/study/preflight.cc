@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "scene/damage.h"
 #include "scene/mesh.h"
+#include "study/refusal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,14 +39,14 @@ namespace plumbline::study
       if (name == "all")
       {
         for (const auto &method : available)
-          if (method->is_in_all() && method->why_not(scene, problem).empty())
+          if (method->is_in_all() && refusal(*method, scene, problem, available).empty())
             add(method);
       }
       else
       {
         const auto method = find_method(available, name, "Methods/names");
         add(method);
-        if (const std::string reason = method->why_not(scene, problem); !reason.empty())
+        if (const std::string reason = refusal(*method, scene, problem, available); !reason.empty())
           throw InputError("Methods/names: '" + name + "' cannot do this scene: " + reason);
       }
     }
@@ -56,7 +57,8 @@ namespace plumbline::study
         throw InputError("Reference/method: '" + *scene.reference.method +
                          "' is no Galerkin method, so nothing is known of its error; choose Q2, P2 "
                          "or another ('plumbline list methods')");
-      if (const std::string reason = reference->why_not(scene, problem); !reason.empty())
+      if (const std::string reason = refusal(*reference, scene, problem, available);
+          !reason.empty())
         throw InputError("Reference/method: '" + *scene.reference.method +
                          "' cannot do this scene: " + reason);
     }

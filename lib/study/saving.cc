@@ -1,6 +1,7 @@
 #include "study/saving.h"
 
 #include "base/error.h"
+#include "study/refusal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +59,7 @@ namespace plumbline::study
   {
     const scene::Scene full = scene::full_model(scene);
     const scene::Problem problem = make_problem(full, case_index, level);
-    if (!method.why_not(full, problem).empty())
+    if (!refusal(method, full, problem, {}).empty())
       return {};
     try
     {

@@ -195,10 +195,11 @@ TEST_F(BadMeshes, methods_and_targets_that_do_not_fit_are_refused)
   const auto target = [](const std::string &value) { return set("Study/decisive error", value); };
   const std::string computed = set("Problem/local solution", "computed");
   expect_refusals(
-      {{triangles + "--methods Q1", {"'Q1' cannot do", "triangles are not all quad", "take P1"}},
-       {"--methods DGP1", {"'DGP1' cannot do", "squares are not all triangles; take DGQ1"}},
+      {{triangles + "--methods Q1", {"'Q1' cannot do", "triangles are triangles", "take P1"}},
+       {"--methods DGP1", {"'DGP1' cannot do", "squares are quadrilaterals", "take Q1"}},
        {lattice + "--methods P1", {"'P1' cannot do", "Domain/mesh = lattice", "take Q1"}},
-       {triangles + set("Reference/method", "Q2"), {"Reference/method: 'Q2' cannot", "take P2"}},
+       {triangles + set("Reference/method", "Q2"),
+        {"Reference/method: 'Q2' cannot", "take P1, P2"}},
        {set("Reference/method", "R2"), {"Reference/method: method 'R2' is not known; choose of"}},
        {set("Reference/tolerance", "0.01"),
         {"Reference/tolerance = 0.01 needs a reference", "give Reference/method"}},

@@ -144,9 +144,11 @@ TEST_F(BadSolids, cracks_that_cannot_be_used_are_refused)
        {good + no_E + set("Material/model", "bond-based") + set("Kernel/type", "bond-tensor"),
         {"Domain/cracks and Domain/outside need Material/model = LPS", "choose it, or clear"}},
        {above + set("Material/model", "variational"), {"need Material/model = LPS"}},
-       {good + "--methods Q1", {"'Q1' cannot do", "break no bonds; take meshfree methods alone"}},
-       {good + set("Reference/method", "Q1"), {"Reference/method: 'Q1' cannot", "break no bonds"}},
-       {good + "--methods LOCAL", {"'LOCAL' cannot do", "u must be given all around"}},
+       {good + "--methods Q1",
+        {"'Q1' cannot do", "Domain/cracks or Domain/outside is given", "; take FA",
+         "or clear both"}},
+       {good + set("Reference/method", "Q1"), {"Reference/method: 'Q1' cannot", "or clear both"}},
+       {good + "--methods LOCAL", {"'LOCAL' cannot do", "or clear both"}},
        {above + set("Problem/local solution", "computed"),
         {"Problem/local solution = computed needs u all around", "write none"}}});
 }
@@ -237,7 +239,7 @@ TEST_F(BadBodies, meshes_that_are_no_body_are_refused)
             set("Study/h", "0.25, 0.15"),
         {"level h = 0.15", "Material/k and l at (1.05",
          "the bulk constant k = -0.01, but it must be positive"}},
-       {mesh("body.geo"), {"'DGQ0' cannot do", "are not all quadrilaterals; take DGP0"}}});
+       {mesh("body.geo"), {"'DGQ0' cannot do", "are triangles", "take P1"}}});
   const auto outcomes = run({{mesh("body.geo") + no_reference, {}}});
   EXPECT_EQ(outcomes[0].exit_code, 0) << outcomes[0].err;
 }

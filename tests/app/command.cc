@@ -248,6 +248,14 @@ TEST(Command, lists_templates_and_descriptions_help_a_newcomer)
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
 }
 
+TEST(Command, the_table_of_what_methods_can_do_is_that_of_the_readme)
+{
+  const std::string table = run("list methods --matrix").out;
+  expect_found(table, "| lattice | quadrilaterals | triangles |");
+  expect_found(read(PLUMBLINE_README), table);
+  EXPECT_EQ(run("list kernels --matrix").exit_code, 2);
+}
+
 TEST(Command, json_on_standard_output_is_the_results_file)
 {
   const fs::path folder = temporary("json");

@@ -4,6 +4,7 @@
 #include "reference/method.h"
 #include "study/comparison.h"
 #include "study/reference_estimate.h"
+#include "study/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -234,11 +235,11 @@ TEST(LocalLimit, IsTheSolutionOfPoissonsAndNaviersEquation)
   for (const std::string mesh : {"triangles", "squares"})
   {
     auto scalar = make_scene(mesh, "exp(x)*sin(2*y)");
-    scalar.loads = {{"u", "1.5*exp(x)*sin(2*y)"}};
+    scalar.problem.loads = {{"u", "1.5*exp(x)*sin(2*y)"}};
     EXPECT_NEAR(rate(scalar), 3, .15);
     // u = (sin x cos y, 0), λ = μ = .6: -[μ Δu + (λ + μ) ∇ div u]
     auto tensor = make_scene(mesh, "sin(x)*cos(y), 0", "", true);
-    tensor.loads = {{"u", "1.2*sin(x)*cos(y) + 1.2*sin(x)*cos(y), 1.2*cos(x)*sin(y)"}};
+    tensor.problem.loads = {{"u", "1.2*sin(x)*cos(y) + 1.2*sin(x)*cos(y), 1.2*cos(x)*sin(y)"}};
     EXPECT_NEAR(rate(tensor), 3, .2);
   }
 }
@@ -272,8 +273,10 @@ TEST(MeshMethods, SayWhyTheyCannotDoAMesh)
 {
   const auto scene = make_scene("triangles", wave);
   const auto problem = make_problem(scene, 0, {.25, .25});
-  EXPECT_EQ(method_named("P1")->why_not(scene, problem), "");
-  EXPECT_NE(method_named("Q1")->why_not(scene, problem).find("take P1"), std::string::npos);
+  EXPECT_EQ(study::refusal(*method_named("P1"), scene, problem, reference::methods()), "");
+  EXPECT_NE(
+      study::refusal(*method_named("Q1"), scene, problem, reference::methods()).find("take P1"),
+      std::string::npos);
 }
 
 TEST(MeshMethods, WriteFieldsForEveryDegree)
