@@ -200,15 +200,13 @@ namespace plumbline::benchmarks
       const auto families = std::make_shared<const meshfree::Families>(
           meshfree::optimisation_based(kernel), kernel, *cells, Backend::fast);
       const auto material = [](const Point<2> &x) { return physics::Lame{3 + x[0], 1 + x[1]}; };
-      const meshfree::StateBasedBody body{cells.get(),
-                                          {influence, material, true, false},
-                                          [](const Point<2> &, unsigned int) { return 0.; }};
+      const meshfree::StateBasedBody body{cells.get(), {influence, material, true, false}};
       return {"LPS rows", "node", static_cast<double>(cells->n_free), 4,
               [=, owner = cells]
               {
                 const auto source = [&](std::size_t node, meshfree::Family &family)
                 { families->make(node, family); };
-                sink = state_based_operator(source, body, {0, owner->n_free}).rows.value[0];
+                sink = state_based_operator(source, body, {0, owner->n_free}).rows.free.value[0];
               }};
     }
   } // namespace

@@ -20,7 +20,7 @@ namespace
 
 TEST(DescribeWeights, takes_the_least_weight_of_an_area_over_all_bonds_of_all_families)
 {
-  study::Diagnostics diagnostics;
+  method::Diagnostics diagnostics;
   describe_weights(bonds({{.9, 1}, {.4, .5}}), {}, diagnostics);
   EXPECT_EQ(diagnostics.smallest_weight_ratio, .8);
   // -0.6 is the least weight, -0.5 the least for its area

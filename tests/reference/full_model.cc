@@ -1,4 +1,5 @@
 // What the smallest model leaves out is not missed: the full one yields the same numbers.
+#include "analysis/statics.h"
 #include "meshfree/method.h"
 #include "reference/method.h"
 #include "scene/problem.h"

@@ -1,6 +1,7 @@
 // Galerkin solutions on meshes: exactness, rates, agreement of spaces, projection, local limit.
 #include "base/error.h"
 #include "geometry/mesh_input.h"
+#include "reference/mesh/field.h"
 #include "reference/method.h"
 #include "study/comparison.h"
 #include "study/reference_estimate.h"

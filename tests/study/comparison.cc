@@ -31,6 +31,10 @@ namespace
         : GivenSolutions("fake"), rate_(rate), plateau_(plateau)
     {
     }
+    std::string why_not(const scene::Scene &, const scene::Problem &problem) const override
+    {
+      return problem.lattice ? "" : "it is for lattices";
+    }
 
   private:
     method::Field field(const scene::Scene &scene, const scene::Problem &problem) const override

@@ -44,4 +44,11 @@ namespace plumbline::study
     const scene::Problem problem = scene::make_problem(scene, 0, level);
     return method_of(name)->discretise(scene, problem)->matrix();
   }
+
+  inline method::Diagnostics diagnostics_of(const std::string &name, const scene::Scene &scene,
+                                            const scene::Level &level)
+  {
+    const scene::Problem problem = scene::make_problem(scene, 0, level);
+    return method_of(name)->discretise(scene, problem)->diagnostics();
+  }
 } // namespace plumbline::study
