@@ -1,8 +1,10 @@
 #include "analysis/statics.h"
 
 #include "base/error.h"
+#include "base/memory.h"
 
 #include <algorithm>
+#include <new>
 #include <sstream>
 #include <utility>
 
@@ -56,26 +58,13 @@ namespace plumbline::analysis
         const auto is_done = [](const Case &one) { return one.is_done; };
         for (; !std::all_of(cases_.begin(), cases_.end(), is_done); ++refinement_)
         {
-          try
-          {
-            prepare();
-          }
-          catch (const NumericalError &)
-          {
-            for (Case &one : cases_)
-              if (!one.is_done)
-                fail(one);
-          }
+          const auto unprepared = failure_of([&] { prepare(); });
           for (Case &one : cases_)
             if (!one.is_done)
-              try
-              {
-                solve(one);
-              }
-              catch (const NumericalError &)
-              {
-                fail(one);
-              }
+            {
+              one.outcome.failure = unprepared ? unprepared : failure_of([&] { solve(one); });
+              one.is_done = one.is_done || one.outcome.failure;
+            }
         }
         std::vector<Outcome> outcomes;
         for (Case &one : cases_)
@@ -85,10 +74,21 @@ namespace plumbline::analysis
 
     private:
       /// What fails for one case, others may still do.
-      static void fail(Case &one)
+      static std::exception_ptr failure_of(const std::function<void()> &action)
       {
-        one.outcome.failure = std::current_exception();
-        one.is_done = true;
+        try
+        {
+          action();
+          return nullptr;
+        }
+        catch (const NumericalError &)
+        {
+          return std::current_exception();
+        }
+        catch (const std::bad_alloc &)
+        {
+          return std::make_exception_ptr(MemoryError(base::out_of_memory()));
+        }
       }
 
       /// The discretisation at this refinement; its cost is every case's.

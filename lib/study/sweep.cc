@@ -217,7 +217,7 @@ namespace plumbline::study
         const bool is_alone = base::Team::all().n_ranks() == 1;
         std::vector<analysis::Outcome> solved;
         if (is_alone)
-          solved = solve_and_time(method, due);
+          ranks_.team().together([&] { solved = solve_and_time(method, due); });
         for (std::size_t i = 0; i < due.size(); ++i)
         {
           Run run = empty_run(method, *due[i], series, level);
