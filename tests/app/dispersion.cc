@@ -84,7 +84,7 @@ TEST(DispersionCommand, refuses_what_has_no_waves)
   expect_refused(diffusion + " --angles x", "--angles");
   expect_refused(std::string(PLUMBLINE_SCENES) + "/state_based/bar.prm", "Domain/boundary = free");
   expect_refused(std::string(PLUMBLINE_SCENES) + "/lps/interface_crack.prm", "Domain/mesh");
-  expect_refused(diffusion + " --methods LOCAL", "it needs a mesh");
+  expect_refused(diffusion + " --methods LOCAL", "Domain/mesh = lattice; take FA");
   expect_refused(diffusion + " --methods QWERTY", "QWERTY");
   expect_refused(diffusion + " --angles 1e9", "--angles");
   expect_refused(diffusion + " --set 'Domain/boxes=0, 0 : 0.1, 0.1' --set Study/h=0.1",
