@@ -303,7 +303,8 @@ namespace plumbline::analysis
     }
   } // namespace
 
-  Consistency check_consistency(const method::DiscreteOperator &matrix, const scene::Problem &problem)
+  Consistency check_consistency(const method::DiscreteOperator &matrix,
+                                const scene::Problem &problem)
   {
     Consistency result;
     const double size = physics::operator_scale(problem.kernel);

@@ -28,7 +28,7 @@ namespace plumbline::analysis
     bool has_signs = false;   ///< rows are there, so that `signs` is known
     algebra::SignCheck signs; ///< of A
     double inverse_norm = 0; ///< ‖A⁻¹M‖∞: how far u moves at most by b of size 1; 0: not known
-    bool is_norm_exact = false; ///< else it is a lower bound, near it as a rule
+    bool is_norm_exact = false;           ///< else it is a lower bound, near it as a rule
     method::Diagnostics diagnostics = {}; ///< weights, moments; not `measure`'s to know
 
     /// "3", or "12 or more".
@@ -66,5 +66,6 @@ namespace plumbline::analysis
     double barrier = 0;
   };
 
-  Consistency check_consistency(const method::DiscreteOperator &matrix, const scene::Problem &problem);
+  Consistency check_consistency(const method::DiscreteOperator &matrix,
+                                const scene::Problem &problem);
 } // namespace plumbline::analysis

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "algebra/stencil.h"
-#include "scene/problem.h"
 #include "method/diagnostics.h"
+#include "scene/problem.h"
 
 // What is known of a method's limit without solving for any field. A field may hide what is wrong:
 // a harmonic one has no second moment to miss.

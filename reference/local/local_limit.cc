@@ -206,8 +206,9 @@ namespace plumbline::reference
           {
             const auto x =
                 mesh_.mapping->transform_unit_to_real_cell(cell, element_.unit_support_point(k));
-            const auto is_nearer = [&](unsigned int a, unsigned int b)
-            { return space_->support(a).distance_square(x) < space_->support(b).distance_square(x); };
+            const auto is_nearer = [&](unsigned int a, unsigned int b) {
+              return space_->support(a).distance_square(x) < space_->support(b).distance_square(x);
+            };
             const unsigned int *const nearest =
                 std::min_element(own, own + space_->shapes().size(), is_nearer);
             field.values[*nearest * nc + element_.system_to_component_index(k).first] =
