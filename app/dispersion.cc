@@ -35,38 +35,27 @@ namespace plumbline::app
 
   void dispersion(const DispersionOptions &options)
   {
-    auto overrides = options.overrides;
-    if (!options.methods.empty())
-      overrides.push_back({"Methods/names", options.methods});
     check_angles(options.angles);
-    scene::Scene scene = scene::read_scene(options.scene_file, overrides);
-    scene.reference.method.reset();
-    scene.reference.estimate = scene::Estimate::none; // nothing is held against a reference here
+    const scene::Scene scene = read_alone(options);
     study::DispersionResults results{
         scene.name, scene.purpose, study::plan_waves(scene, options.angles), {}, {}};
     const method::Methods methods = study::choose_methods(scene, all_methods());
 
-    const fs::path folder =
-        options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
+    const fs::path folder = output_folder(options, scene);
     report::write_file(folder / "dispersion.md", ""); // before the work: can it be written?
 
     std::vector<std::vector<DispersionRow>> rows(methods.size()); // of each method
-    for (const auto &series : scene.study.series)
-    {
-      const auto n_levels = options.n_levels == 0
-                                ? series.levels.size()
-                                : std::min<std::size_t>(options.n_levels, series.levels.size());
-      for (std::size_t level = 0; level < n_levels; ++level)
-      {
-        const scene::Problem problem = scene::make_problem(scene, 0, series.levels[level]);
-        for (std::size_t i = 0; i < methods.size(); ++i)
-        {
-          auto own = study::measure_waves(*methods[i], scene, problem, results.study, series.name,
-                                          level + 1 == n_levels);
-          std::move(own.begin(), own.end(), std::back_inserter(rows[i]));
-        }
-      }
-    }
+    for_each_level(scene, options.n_levels,
+                   [&](const scene::Series &series, const scene::Level &level, bool is_finest)
+                   {
+                     const scene::Problem problem = scene::make_problem(scene, 0, level);
+                     for (std::size_t i = 0; i < methods.size(); ++i)
+                     {
+                       auto own = study::measure_waves(*methods[i], scene, problem, results.study,
+                                                       series.name, is_finest);
+                       std::move(own.begin(), own.end(), std::back_inserter(rows[i]));
+                     }
+                   });
     for (auto &own : rows)
       std::move(own.begin(), own.end(), std::back_inserter(results.rows));
     results.trends = study::wave_trends(scene, results.rows);

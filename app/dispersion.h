@@ -1,17 +1,12 @@
 #pragma once
 
-#include "scene/scene.h"
+#include "measures.h"
 
 namespace plumbline::app
 {
-  struct DispersionOptions
+  struct DispersionOptions : MeasureOptions
   {
-    std::string scene_file, output; ///< output empty: results/<scene name>
-    std::vector<scene::Override> overrides;
-    std::string methods;                     ///< comma separated, instead of the scene's
     std::vector<double> angles{0, 22.5, 45}; ///< of the waves, from the first axis [degree]
-    unsigned int n_levels = 0;
-    bool quiet = false, json = false;
   };
 
   /// Measure the waves of all methods over the sweep of a scene on lattices, beside those of the

@@ -62,6 +62,20 @@ namespace
             ", what was printed is not whole; free some space, or send it elsewhere",
         3);
   }
+
+  /// What `stability` and `dispersion` both take.
+  void add_options(CLI::App &command, plumbline::app::MeasureOptions &options,
+                   std::vector<std::string> &settings)
+  {
+    command.add_option("SCENE", options.scene_file, "Scene file (.prm or .json)")->required();
+    command.add_option("-o,--output", options.output, "Output folder (default: results/<scene>)");
+    command.add_option("--set", settings, "Section/key=value, instead of what the file says");
+    command.add_option("--methods", options.methods, "Methods, instead of the scene's");
+    command.add_option("--levels", options.n_levels, "The first so many levels of each sweep");
+    command.add_flag("--quiet", options.quiet, "Print nothing but errors");
+    command.add_flag("--json", options.json,
+                     "Print " + command.get_name() + ".json instead of the table");
+  }
 } // namespace
 
 int main(int argc, char **argv)
@@ -104,27 +118,15 @@ int main(int argc, char **argv)
 
   plumbline::app::StabilityOptions measures;
   auto *stability = app.add_subcommand("stability", "Where methods fail, and how");
-  stability->add_option("SCENE", measures.scene_file, "Scene file (.prm or .json)")->required();
-  stability->add_option("-o,--output", measures.output, "Output folder (default: results/<scene>)");
-  stability->add_option("--set", settings, "Section/key=value, instead of what the file says");
-  stability->add_option("--methods", measures.methods, "Methods, instead of the scene's");
-  stability->add_option("--levels", measures.n_levels, "The first so many levels of each sweep");
+  add_options(*stability, measures, settings);
   stability->add_flag("--check", measures.check, "Exit with 1 if Expected/stability fails");
-  stability->add_flag("--quiet", measures.quiet, "Print nothing but errors");
-  stability->add_flag("--json", measures.json, "Print stability.json instead of the table");
 
   plumbline::app::DispersionOptions waves;
   auto *dispersion = app.add_subcommand("dispersion", "How waves move by each method");
-  dispersion->add_option("SCENE", waves.scene_file, "Scene file (.prm or .json)")->required();
-  dispersion->add_option("-o,--output", waves.output, "Output folder (default: results/<scene>)");
-  dispersion->add_option("--set", settings, "Section/key=value, instead of what the file says");
-  dispersion->add_option("--methods", waves.methods, "Methods, instead of the scene's");
-  dispersion->add_option("--levels", waves.n_levels, "The first so many levels of each sweep");
+  add_options(*dispersion, waves, settings);
   dispersion->add_option("--angles", waves.angles, "Directions in degrees (default: 0,22.5,45)")
       ->delimiter(',')
       ->allow_extra_args(false);
-  dispersion->add_flag("--quiet", waves.quiet, "Print nothing but errors");
-  dispersion->add_flag("--json", waves.json, "Print dispersion.json instead of the table");
 
   std::string folder, subject, model, key;
   auto *report = app.add_subcommand(

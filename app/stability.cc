@@ -88,38 +88,28 @@ namespace plumbline::app
 
   int stability(const StabilityOptions &options)
   {
-    auto overrides = options.overrides;
-    if (!options.methods.empty())
-      overrides.push_back({"Methods/names", options.methods});
-    const scene::Scene scene = scene::read_scene(options.scene_file, overrides);
+    scene::Scene scene = read_alone(options);
     const method::Methods available = all_methods();
     const method::Methods methods = study::choose_methods(scene, available);
-    scene::Scene alone = scene; // nothing is held against a reference here
-    alone.reference.method.reset();
-    alone.reference.estimate = scene::Estimate::none;
-    alone.solver.is_mixed = false; // the operator on displacements is measured
-    study::check_memory(alone, methods, available, options.n_levels);
+    scene.solver.is_mixed = false; // the operator on displacements is measured
+    study::check_memory(scene, methods, available, options.n_levels);
 
-    const fs::path folder =
-        options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
+    const fs::path folder = output_folder(options, scene);
     report::write_file(folder / "stability.md", ""); // before the work: can it be written?
 
     std::vector<std::vector<StabilityRow>> rows(methods.size()); // of each method
-    for (const auto &series : scene.study.series)
-    {
-      const auto n_levels = options.n_levels == 0
-                                ? series.levels.size()
-                                : std::min<std::size_t>(options.n_levels, series.levels.size());
-      for (std::size_t level = 0; level < n_levels; ++level)
-      {
-        const scene::Problem problem = scene::make_problem(scene, 0, series.levels[level]);
-        for (std::size_t i = 0; i < methods.size(); ++i)
-          rows[i].push_back(
-              measure_level(*methods[i], alone, problem, series.name, series.levels[level]));
-      }
-      for (const auto &own : rows)
-        write_modes(own.back(), folder / "stability");
-    }
+    for_each_level(scene, options.n_levels,
+                   [&](const scene::Series &series, const scene::Level &level, bool is_finest)
+                   {
+                     const scene::Problem problem = scene::make_problem(scene, 0, level);
+                     for (std::size_t i = 0; i < methods.size(); ++i)
+                     {
+                       rows[i].push_back(
+                           measure_level(*methods[i], scene, problem, series.name, level));
+                       if (is_finest)
+                         write_modes(rows[i].back(), folder / "stability");
+                     }
+                   });
     study::StabilityResults results{scene.name, scene.purpose, {}, {}, {}};
     for (auto &own : rows)
     {

@@ -1,16 +1,12 @@
 #pragma once
 
-#include "scene/scene.h"
+#include "measures.h"
 
 namespace plumbline::app
 {
-  struct StabilityOptions
+  struct StabilityOptions : MeasureOptions
   {
-    std::string scene_file, output; ///< output empty: results/<scene name>
-    std::vector<scene::Override> overrides;
-    std::string methods; ///< comma separated, instead of the scene's
-    unsigned int n_levels = 0;
-    bool check = false, quiet = false, json = false;
+    bool check = false;
   };
 
   /// Measure the operators of all methods over the sweep of a scene; print tables and verdicts,

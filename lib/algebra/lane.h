@@ -6,8 +6,11 @@
 // do not work with that choice.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
 #define PLUMBLINE_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
+#define PLUMBLINE_WIDE_CLONES                                                                      \
+  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define PLUMBLINE_VECTOR_CLONES
+#define PLUMBLINE_WIDE_CLONES
 #endif
 
 namespace plumbline::algebra
@@ -16,10 +19,15 @@ namespace plumbline::algebra
   constexpr int lanes = 4;
   using Lane = double __attribute__((vector_size(lanes * sizeof(double))));
 
-  [[gnu::always_inline]] inline Lane load(const double *from)
+  /// The same for the widest registers; where these are shorter the compiler takes several.
+  constexpr int wide = 8;
+  using Wide = double __attribute__((vector_size(wide * sizeof(double))));
+
+  template <typename Values = Lane>
+  [[gnu::always_inline]] inline Values load(const double *from)
   {
-    Lane lane;
-    std::memcpy(&lane, from, sizeof(Lane));
-    return lane;
+    Values values;
+    std::memcpy(&values, from, sizeof(Values));
+    return values;
   }
 } // namespace plumbline::algebra

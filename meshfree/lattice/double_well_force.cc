@@ -1,7 +1,7 @@
 #include "meshfree/lattice/double_well_force.h"
 
 #include "base/error.h"
-#include "meshfree/lattice/wide.h"
+#include "meshfree/lattice/power_of_two.h"
 
 #include <deal.II/base/parallel.h>
 
@@ -14,7 +14,7 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    constexpr int n_registers = 2, tile = wide * n_registers; // nodes at a time
+    constexpr int n_registers = 2, tile = algebra::wide * n_registers; // nodes at a time
     constexpr int n_images = 4;
 
     /// Where a tile's values stand, fields `block` behind each other.
@@ -40,19 +40,21 @@ namespace plumbline::meshfree
         for (int i = 0; i < n; ++i)
           for (int l = 0; l < n_registers; ++l)
           {
-            const double *const from = u + l * wide, *const to = from + group.shift[i];
+            const double *const from = u + l * algebra::wide, *const to = from + group.shift[i];
             if constexpr (is_axial)
             {
               const std::size_t axis = i / 2;
               const double way = i % 2 == 0 ? group.way[0] : -group.way[0];
-              value[i][l] = way * (load_wide(to + axis * block) - load_wide(from + axis * block));
+              value[i][l] = way * (algebra::load<Wide>(to + axis * block) -
+                                   algebra::load<Wide>(from + axis * block));
             }
             else
             {
               const double way0 = i < 2 ? group.way[0] : -group.way[0];
               const double way1 = i % 2 == 0 ? group.way[1] : -group.way[1];
-              value[i][l] = way0 * (load_wide(to) - load_wide(from)) +
-                            way1 * (load_wide(to + block) - load_wide(from + block));
+              value[i][l] =
+                  way0 * (algebra::load<Wide>(to) - algebra::load<Wide>(from)) +
+                  way1 * (algebra::load<Wide>(to + block) - algebra::load<Wide>(from + block));
             }
           }
       }
@@ -63,7 +65,7 @@ namespace plumbline::meshfree
       {
         for (int i = 0; i < n; ++i)
           for (int l = 0; l < n_registers; ++l)
-            value[i][l] *= load_wide(omega + group.shift[i] + l * wide);
+            value[i][l] *= algebra::load<Wide>(omega + group.shift[i] + l * algebra::wide);
       }
 
       /// Add Σ value way. Images in a mirror are added before others, so that a mirror swaps

@@ -1,29 +1,10 @@
 #pragma once
 
-#include <cstring>
-
-// Clones for machines with and without wide vectors, picked by the loader; also in algebra/lane.h,
-// whose vectors are shorter. Sanitizers do not work with that choice.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define PLUMBLINE_WIDE_CLONES                                                                      \
-  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define PLUMBLINE_WIDE_CLONES
-#endif
+#include "algebra/lane.h"
 
 namespace plumbline::meshfree
 {
-  /// Values of neighbouring nodes, as many as the widest registers hold; where these are shorter
-  /// the compiler takes several.
-  constexpr int wide = 8;
-  using Wide = double __attribute__((vector_size(wide * sizeof(double))));
-
-  [[gnu::always_inline]] inline Wide load_wide(const double *from)
-  {
-    Wide values;
-    std::memcpy(&values, from, sizeof(Wide));
-    return values;
-  }
+  using algebra::Wide;
 
   /// 2^y = scale (1 + tail) for y <= 0; scale = 2^n is exact, |tail| < .42.
   struct PowerOfTwo

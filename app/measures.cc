@@ -1,0 +1,36 @@
+#include "measures.h"
+
+#include <algorithm>
+
+namespace plumbline::app
+{
+  scene::Scene read_alone(const MeasureOptions &options)
+  {
+    auto overrides = options.overrides;
+    if (!options.methods.empty())
+      overrides.push_back({"Methods/names", options.methods});
+    scene::Scene scene = scene::read_scene(options.scene_file, overrides);
+    scene.reference.method.reset();
+    scene.reference.estimate = scene::Estimate::none;
+    return scene;
+  }
+
+  std::filesystem::path output_folder(const MeasureOptions &options, const scene::Scene &scene)
+  {
+    return options.output.empty() ? std::filesystem::path("results") / scene.name
+                                  : std::filesystem::path(options.output);
+  }
+
+  void for_each_level(
+      const scene::Scene &scene, unsigned int n_levels,
+      const std::function<void(const scene::Series &, const scene::Level &, bool is_finest)> &visit)
+  {
+    for (const auto &series : scene.study.series)
+    {
+      const std::size_t n_all = series.levels.size(),
+                        n = n_levels == 0 ? n_all : std::min<std::size_t>(n_levels, n_all);
+      for (std::size_t level = 0; level < n; ++level)
+        visit(series, series.levels[level], level + 1 == n);
+    }
+  }
+} // namespace plumbline::app

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <functional>
+
+// What the commands that measure operators, and solve nothing, have in common.
+namespace plumbline::app
+{
+  struct MeasureOptions
+  {
+    std::string scene_file, output; ///< output empty: results/<scene name>
+    std::vector<scene::Override> overrides;
+    std::string methods; ///< comma separated, instead of the scene's
+    unsigned int n_levels = 0;
+    bool quiet = false, json = false;
+  };
+
+  /// The scene with its overrides, without a reference: nothing is held against one.
+  scene::Scene read_alone(const MeasureOptions &options);
+
+  std::filesystem::path output_folder(const MeasureOptions &options, const scene::Scene &scene);
+
+  /// The first n_levels of each series, coarse to fine; 0: all.
+  void for_each_level(const scene::Scene &scene, unsigned int n_levels,
+                      const std::function<void(const scene::Series &, const scene::Level &,
+                                               bool is_finest)> &visit);
+} // namespace plumbline::app
