@@ -4,6 +4,7 @@
 
 namespace plumbline::meshfree
 {
+  using algebra::wide;
   using algebra::Wide;
 
   /// 2^y = scale (1 + tail) for y <= 0; scale = 2^n is exact, |tail| < .42.
