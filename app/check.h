@@ -7,7 +7,7 @@ namespace plumbline::app
   struct CheckOptions
   {
     std::string nodes_file, bonds_file, scene_file;
-    std::string output;                ///< folder; empty: results/check_<scene name>
+    std::string output;                ///< folder; empty: results/check_NAME of the scene
     std::vector<std::string> required; ///< see requirements.h; empty: ac
     std::vector<scene::Override> overrides;
     bool quiet = false, json = false; ///< with either of them files are written with -o only

@@ -10,7 +10,7 @@ namespace plumbline::app
 {
   struct MeasureOptions
   {
-    std::string scene_file, output; ///< output empty: results/<scene name>
+    std::string scene_file, output; ///< output empty: results/NAME of the scene
     std::vector<scene::Override> overrides;
     std::string methods; ///< comma separated, instead of the scene's
     unsigned int n_levels = 0;

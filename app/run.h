@@ -9,7 +9,7 @@ namespace plumbline::app
 {
   struct RunOptions
   {
-    std::string scene_file, output; ///< output empty: results/<scene name>
+    std::string scene_file, output; ///< output empty: results/NAME of the scene
     std::vector<scene::Override> overrides;
     std::string methods; ///< comma separated, instead of the scene's
     std::string model;   ///< smallest or full, instead of the scene's

@@ -6,7 +6,7 @@
 namespace plumbline::base
 {
   /// The text of a file that people write: UTF-8 (a byte order mark at its begin is dropped), lines
-  /// ended by \n or \r\n.
+  /// ended by a line feed, with or without a carriage return.
   /// @param what        opens messages, e.g. "scene 'bar.prm'"
   /// @param most_bytes  more is refused
   /// @param kind        what to give, for the message about a file that cannot be read

@@ -82,5 +82,6 @@ namespace plumbline::report
   std::string to_csv(const Table &table);      ///< unrounded, heads in the first line
   std::string to_markdown(const Table &table); ///< rounded, pipe table
   std::string to_latex(const Table &table);    ///< rounded, a tabular of the booktabs package
-  std::string to_html(const Table &table); ///< rounded, <table>; the caption is left to the page
+  std::string
+  to_html(const Table &table); ///< rounded, a table element; the caption is left to the page
 } // namespace plumbline::report

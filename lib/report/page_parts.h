@@ -21,7 +21,7 @@ namespace plumbline::report::page
 
   /// A whole page.
   /// @param name     of the scene, @param what  the page is, e.g. "report"
-  /// @param content  of <main>
+  /// @param content  of its main part
   std::string document(const std::string &name, const std::string &what, const std::string &head,
                        const std::string &content);
 
@@ -64,11 +64,11 @@ namespace plumbline::report::page
   /// Where the numbers come from: versions, machine, the scene as read.
   std::string provenance(const study::Results &results);
 
-  /// <section> with a heading.
+  /// A section with a heading.
   std::string section(const std::string &id, const std::string &head, const std::string &content);
 
   std::string paragraph(const std::string &text);
 
-  /// <details> with a summary.
+  /// What opens by a click on its summary.
   std::string folded(const std::string &summary, const std::string &content, bool is_open = false);
 } // namespace plumbline::report::page

@@ -8,6 +8,7 @@
 #include "study/reference_estimate.h"
 #include "study/round_off.h"
 #include "study/saving.h"
+#include "study/timing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -217,14 +218,14 @@ namespace plumbline::study
         const bool is_alone = base::Team::all().n_ranks() == 1;
         std::vector<analysis::Outcome> solved;
         if (is_alone)
-          ranks_.team().together([&] { solved = solve_and_time(method, due); });
+          ranks_.team().together([&] { solved = solve_cases(method, due); });
         for (std::size_t i = 0; i < due.size(); ++i)
         {
           Run run = empty_run(method, *due[i], series, level);
           const auto solve = [&]
           {
             analysis::Outcome outcome =
-                is_alone ? std::move(solved[i]) : solve_and_time(method, {due[i]}).front();
+                is_alone ? std::move(solved[i]) : solve_cases(method, {due[i]}).front();
             if (!outcome.solution)
               std::rethrow_exception(outcome.failure);
             evaluate(method, *due[i], *outcome.solution, series, run);
@@ -322,38 +323,19 @@ namespace plumbline::study
             .averages;
       }
 
-      /// Short solves are repeated and the fastest counts: their times are mostly noise.
-      std::vector<analysis::Outcome> solve_and_time(const Method &method,
-                                                    const std::vector<const Case *> &cases) const
+      /// Of the cases by one discretisation, and what each costs.
+      std::vector<analysis::Outcome> solve_cases(const Method &method,
+                                                 const std::vector<const Case *> &cases) const
       {
-        constexpr double short_seconds = .02;
         std::vector<const scene::Problem *> problems;
         for (const Case *one : cases)
           problems.push_back(&one->problem);
-        const auto is_short = [](const analysis::Outcome &outcome)
-        { return outcome.solution && outcome.solution->cost.seconds() < short_seconds; };
-        const auto solve = [&]
-        {
-          return control_.solve ? control_.solve(method, scene_, problems)
-                                : analysis::solve(method, scene_, problems);
-        };
-        auto outcomes = solve();
-        const int n_repeats = base::Team::all().n_ranks() == 1 ? 2 : 0; // ranks must agree
-        for (int repeat = 0;
-             repeat < n_repeats && std::any_of(outcomes.begin(), outcomes.end(), is_short);
-             ++repeat)
-        {
-          const auto again = solve();
-          for (std::size_t i = 0; i < outcomes.size(); ++i)
-            if (is_short(outcomes[i]) && again[i].solution &&
-                again[i].solution->cost.seconds() < outcomes[i].solution->cost.seconds())
+        return solve_and_time(
+            [&]
             {
-              base::Cost &cost = outcomes[i].solution->cost;
-              cost.setup_seconds = again[i].solution->cost.setup_seconds;
-              cost.solve_seconds = again[i].solution->cost.solve_seconds;
-            }
-        }
-        return outcomes;
+              return control_.solve ? control_.solve(method, scene_, problems)
+                                    : analysis::solve(method, scene_, problems);
+            });
       }
 
       /// Levels were solved for all cases at once; results read case by case.

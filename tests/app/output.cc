@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <tuple>
+
 namespace
 {
   using namespace plumbline::app;
@@ -29,7 +31,7 @@ namespace
 TEST(Output, that_a_full_disk_swallows_is_no_success)
 {
   const fs::path folder = temporary("full");
-  for (const std::string command :
+  for (const std::string &command :
        {std::string("list methods"), std::string("template scalar"), std::string("describe Study"),
         std::string("--help"), "run " + small_scene() + " -o " + folder.string()})
   {
@@ -40,7 +42,7 @@ TEST(Output, that_a_full_disk_swallows_is_no_success)
                  "was printed is not whole; free some space, or send it elsewhere",
                  command);
   }
-  EXPECT_NO_THROW((void)nlohmann::json::parse(read(folder / "results.json")));
+  EXPECT_NO_THROW(std::ignore = nlohmann::json::parse(read(folder / "results.json")));
   expect_found(read(folder / "report.html"), "</html>");
   fs::remove_all(folder);
 }

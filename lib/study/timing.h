@@ -1,0 +1,15 @@
+#pragma once
+
+#include "analysis/statics.h"
+
+#include <functional>
+#include <vector>
+
+namespace plumbline::study
+{
+  /// Solutions with their times: solves shorter than .02 CPU s, which are mostly noise, are
+  /// repeated twice, and the fastest counts. On several ranks, which must agree, nothing is
+  /// repeated.
+  std::vector<analysis::Outcome>
+  solve_and_time(const std::function<std::vector<analysis::Outcome>()> &solve);
+} // namespace plumbline::study
