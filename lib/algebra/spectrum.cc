@@ -2,11 +2,15 @@
 
 #include "base/error.h"
 
+#include <deal.II/lac/arpack_solver.h>
+#include <deal.II/lac/identity_matrix.h>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -29,77 +33,78 @@ namespace plumbline::algebra
       return x;
     }
 
-    struct Ends
+    using DealVector = dealii::Vector<double>;
+
+    struct Eigenpair
     {
-      double smallest, largest;
-      VectorXd lowest;
+      double value = 0;
+      VectorXd vector; ///< of norm 1
     };
 
-    /// The ends of the spectrum on what is orthogonal to the locked vectors.
-    Ends lanczos(const Action &action, Index n, double largest_tolerance,
-                 const std::vector<VectorXd> &locked)
+    /// For few unknowns.
+    Eigenpair largest_of_dense(const Action &action, Index n)
     {
-      constexpr double tolerance = 1e-11; // of the residual of the smallest, as of the largest
-      constexpr double invariant = 1e-14; // what is left of a vector in an invariant subspace
-      constexpr Index first_check = 20, least_limit = 1000, memory = 50000000;
-      const Index limit =
-          std::min(n - static_cast<Index>(locked.size()), std::max(least_limit, memory / n));
-      Eigen::MatrixXd basis(n, std::min<Index>(limit, 4 * first_check));
-      std::vector<double> alpha, beta, x(n), y(n);
-      // that of the vectors before holds nothing more of the eigenspace they were found in
-      VectorXd next = start_vector(n, locked.size());
-      const auto orthogonalise = [&](Index n_basis)
+      Eigen::MatrixXd matrix(n, n);
+      std::vector<double> x(n), y(n);
+      for (Index i = 0; i < n; ++i)
       {
-        for (int sweep = 0; sweep < 2; ++sweep) // twice is enough, once is not
-        {
-          for (const VectorXd &vector : locked)
-            next -= vector.dot(next) * vector;
-          const auto known = basis.leftCols(n_basis);
-          next -= known * (known.transpose() * next).eval();
-        }
-      };
-      orthogonalise(0);
-      double norm = next.norm();
-      Index next_check = first_check;
-      for (Index k = 1; k <= limit; ++k)
-      {
-        if (k > basis.cols())
-          basis.conservativeResize(Eigen::NoChange, std::min(limit, 2 * basis.cols()));
-        basis.col(k - 1) = next / norm;
-        VectorXd::Map(x.data(), n) = basis.col(k - 1);
+        x[i] = 1;
         action(x, y);
-        next = VectorXd::Map(y.data(), n);
-        alpha.push_back(next.dot(basis.col(k - 1)));
-        orthogonalise(k);
-        norm = next.norm();
-        const double size = std::abs(alpha[0]) + (beta.empty() ? 0 : beta[0]);
-        const bool is_exhausted = k == limit || norm <= invariant * size;
-        if (is_exhausted || k == next_check)
-        {
-          next_check += std::max(first_check, k / 4);
-          Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-          ritz.computeFromTridiagonal(VectorXd::Map(alpha.data(), k),
-                                      VectorXd::Map(beta.data(), k - 1));
-          const auto &values = ritz.eigenvalues();
-          const double largest = values.cwiseAbs().maxCoeff();
-          const auto residual = [&](Index i)
-          { return norm * std::abs(ritz.eigenvectors()(k - 1, i)) / largest; };
-          const bool is_settled =
-              norm <= invariant * size ||
-              (residual(0) <= tolerance && residual(k - 1) <= largest_tolerance);
-          if (is_settled && ritz.info() == Eigen::Success)
-            return {values[0], values[k - 1], basis.leftCols(k) * ritz.eigenvectors().col(0)};
-          if (is_exhausted)
-            break;
-        }
-        beta.push_back(norm);
+        matrix.col(i) = VectorXd::Map(y.data(), n);
+        x[i] = 0;
       }
-      if (limit + static_cast<Index>(locked.size()) == n)
-        throw NumericalError("Lanczos' method does not settle: the operator is not symmetric, or "
-                             "yields values that are not finite");
-      throw NumericalError("Lanczos' method does not settle within " + std::to_string(limit) +
-                           " steps: eigenvalues lie too close for this many unknowns; take a "
-                           "coarser level (--levels)");
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
+      return {solver.eigenvalues()[n - 1], solver.eigenvectors().col(n - 1)};
+    }
+
+    struct Product
+    {
+      const Action &action;
+
+      void vmult(DealVector &y, const DealVector &x) const
+      {
+        std::vector<double> in(x.begin(), x.end()), out(in.size());
+        action(in, out);
+        std::copy(out.begin(), out.end(), y.begin());
+      }
+    };
+
+    Eigenpair largest_by_arpack(const Action &action, Index n, double tolerance, std::size_t number)
+    {
+      constexpr unsigned int n_vectors = 40, most_restarts = 1000;
+      const auto size = static_cast<unsigned int>(n);
+      dealii::SolverControl control(most_restarts, tolerance, false, false);
+      dealii::ArpackSolver solver(
+          control, dealii::ArpackSolver::AdditionalData(
+                       n_vectors, dealii::ArpackSolver::algebraically_largest, true));
+      const VectorXd start = start_vector(n, number);
+      solver.set_initial_vector(DealVector(start.begin(), start.end()));
+      solver.set_shift(0); // the solver takes the operator for an inverse and returns 1/λ
+      std::vector<std::complex<double>> values(1);
+      std::vector<DealVector> vectors(1, DealVector(size));
+      const Product product{action};
+      solver.solve(product, dealii::IdentityMatrix(size), product, values, vectors, 1);
+      return {1 / values[0].real(), VectorXd::Map(vectors[0].begin(), n).normalized()};
+    }
+
+    /// @param tolerance  of the residual, relative to the eigenvalue
+    /// @param number     that of the vectors found before holds nothing more of their eigenspace
+    Eigenpair largest_eigenpair(const Action &action, Index n, double tolerance,
+                                std::size_t number = 0)
+    {
+      constexpr Index few = 100;    // dense is faster
+      constexpr double slack = 100; // of the residual as it is against ARPACK's estimate of it
+      const Eigenpair pair =
+          n <= few ? largest_of_dense(action, n) : largest_by_arpack(action, n, tolerance, number);
+      std::vector<double> x(pair.vector.begin(), pair.vector.end()), y(x.size());
+      action(x, y);
+      const double residual = (VectorXd::Map(y.data(), n) - pair.value * pair.vector).norm();
+      if (!(residual <= slack * tolerance * std::abs(pair.value))) // not a number, too
+        throw NumericalError("the ends of the spectrum of " + std::to_string(n) +
+                             " unknowns do not settle: the operator is not symmetric, yields "
+                             "values that are not finite, or its eigenvalues lie too close; take a "
+                             "coarser level (--levels)");
+      return pair;
     }
 
     /// Triangular factors of a symmetric matrix minus a shift.
@@ -212,19 +217,36 @@ namespace plumbline::algebra
 
   Spectrum spectrum(const Action &symmetric, std::size_t n, double tolerance)
   {
-    constexpr double zero = 1e-10; // relative to the largest eigenvalue
+    constexpr double zero = 1e-10;             // relative to the largest eigenvalue
+    constexpr double lowest_tolerance = 1e-11; // the same
     const auto size = static_cast<Index>(n);
+    const double largest = largest_eigenpair(symmetric, size, tolerance).value;
     std::vector<VectorXd> locked;
-    Ends ends = lanczos(symmetric, size, tolerance, locked);
-    Spectrum result{
-        ends.smallest, ends.largest, {}, ends.smallest, {ends.lowest.begin(), ends.lowest.end()}};
-    while (std::abs(ends.smallest) <= zero * std::abs(result.largest) &&
+    // largest - A, less what is known: its largest eigenvalue is the smallest of the others
+    const Action turned = [&](const std::vector<double> &x, std::vector<double> &y)
+    {
+      symmetric(x, y);
+      auto out = VectorXd::Map(y.data(), size);
+      const auto in = VectorXd::Map(x.data(), size);
+      out = largest * in - out;
+      for (const VectorXd &mode : locked)
+        out -= largest * mode.dot(in) * mode;
+    };
+    const auto lowest = [&]
+    {
+      Eigenpair pair = largest_eigenpair(turned, size, lowest_tolerance, locked.size());
+      pair.value = largest - pair.value;
+      return pair;
+    };
+    Eigenpair pair = lowest();
+    Spectrum result{pair.value, largest, {}, pair.value, {pair.vector.begin(), pair.vector.end()}};
+    while (std::abs(pair.value) <= zero * std::abs(largest) &&
            locked.size() < std::min(most_zero_modes, n - 1))
     {
-      locked.push_back(ends.lowest.normalized());
-      result.zero_modes.emplace_back(locked.back().begin(), locked.back().end());
-      ends = lanczos(symmetric, size, tolerance, locked);
-      result.smallest_nonzero = ends.smallest;
+      locked.push_back(pair.vector);
+      result.zero_modes.emplace_back(pair.vector.begin(), pair.vector.end());
+      pair = lowest();
+      result.smallest_nonzero = pair.value;
     }
     return result;
   }

@@ -29,13 +29,13 @@ namespace plumbline::algebra
     std::vector<double> lowest_mode; ///< eigenvector of norm 1 of the smallest
   };
 
-  /// Matrix-free, by Lanczos' method with full reorthogonalisation; zero modes are deflated one by
-  /// one. Accuracy of the smallest: (1e-11 largest)² over the gap to the next eigenvalue. Memory: a
-  /// vector for each step, about √(largest / gap) times 10.
+  /// Matrix-free, by Lanczos' method with implicit restarts (ARPACK), up to 100 unknowns dense;
+  /// zero modes are deflated one by one. Accuracy of the smallest: (1e-11 largest)² over the gap to
+  /// the next eigenvalue. Memory: some 45 vectors.
   /// @param tolerance  of the largest eigenvalue's residual, relative to it; the upper end is often
-  /// a dense band, where it is dear Source: Parlett 1998, "The Symmetric Eigenvalue Problem", ch.
-  /// 13, doi:10.1137/1.9781611971163.
-  /// @throws NumericalError  no convergence in 5e7 / n steps, at least 1000
+  /// a dense band, where it is dear
+  /// @throws NumericalError  no convergence, or an operator that is not symmetric
+  /// Source: Lehoucq, Sorensen & Yang 1998, "ARPACK Users' Guide", doi:10.1137/1.9780898719628.
   Spectrum spectrum(const Action &symmetric, std::size_t n, double tolerance = 1e-3);
 
   /// What the entries of a square matrix tell of it. Comparisons are up to 1e-12 of a row's sum.

@@ -97,6 +97,52 @@ TEST(Spectrum, counts_zero_modes_of_a_graph_in_three_parts)
   EXPECT_FALSE(signs.is_m_matrix());
 }
 
+TEST(Spectrum, deflates_zero_modes_of_many_unknowns)
+{
+  // three chains of 60, 70 and 80 nodes
+  Rows rows;
+  rows.start = {0};
+  for (const unsigned int n : {60u, 70u, 80u})
+  {
+    const auto first = static_cast<unsigned int>(rows.n_rows());
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      double diagonal = 0;
+      for (const int step : {-1, 1})
+        if (const int j = static_cast<int>(i) + step; j >= 0 && j < static_cast<int>(n))
+        {
+          rows.column.push_back(first + static_cast<unsigned int>(j));
+          rows.value.push_back(-1);
+          ++diagonal;
+        }
+      rows.column.push_back(first + i);
+      rows.value.push_back(diagonal);
+      rows.start.push_back(rows.column.size());
+    }
+  }
+  const Spectrum found = spectrum(action_of(rows), rows.n_rows());
+  ASSERT_EQ(found.zero_modes.size(), 3u);
+  for (const auto &mode : found.zero_modes)
+    for (const auto &[first, last] : {std::pair{0, 59}, {60, 129}, {130, 209}})
+      EXPECT_NEAR(mode[first], mode[last], 1e-7);
+  EXPECT_NEAR(found.smallest_nonzero, 2 - 2 * std::cos(M_PI / 80), 1e-12);
+  EXPECT_NEAR(found.largest, 4, 4e-3);
+}
+
+TEST(Spectrum, refuses_an_operator_that_is_not_symmetric)
+{
+  for (const std::size_t n : {5u, 150u})
+    EXPECT_THROW(spectrum(
+                     [n](const std::vector<double> &x, std::vector<double> &y)
+                     {
+                       for (std::size_t i = 0; i < n; ++i)
+                         y[i] = 3 * x[i] - 2 * x[(i + 1) % n];
+                     },
+                     n),
+                 NumericalError)
+        << n;
+}
+
 TEST(Spectrum, of_an_indefinite_matrix_is_found_as_well)
 {
   const Rows rows = to_rows({{-1, 2, 0}, {2, 0, 0}, {0, 0, 5}});
