@@ -140,7 +140,7 @@ namespace plumbline::scene
         check("Time/initial velocity", scene.time.initial_velocity);
 
       const std::size_t n_solutions = problem.solutions.size(), n_loads = problem.loads.size();
-      if (scene.time.is_dynamic() && n_solutions == 0)
+      if ((scene.time.is_dynamic() || scene.crack.is_there()) && n_solutions == 0)
         return; // a free motion, see check_motion
       require(n_solutions + n_loads > 0,
               "Problem/load = manufactured needs Problem/solution; give the solution, or the load "
@@ -315,7 +315,7 @@ namespace plumbline::scene
 
   void check_norms(const Scene &scene)
   {
-    if (scene.time.is_dynamic())
+    if (scene.time.is_dynamic() || scene.crack.is_there())
       return; // see check_motion
     const StudySection &study = scene.study;
     const ReferenceSection &reference = scene.reference;

@@ -22,6 +22,9 @@ namespace plumbline::scene
   /// What moves, or cannot: Time, double wells and the torus fit the rest.
   void check_motion(const Scene &scene);
 
+  /// A strip with a notch, and nothing else that would move it.
+  void check_crack(const Scene &scene);
+
   /// Solver/iteration and Solver/dilatation fit the rest.
   void check_solver(const Scene &scene);
 } // namespace plumbline::scene

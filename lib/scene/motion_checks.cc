@@ -125,6 +125,8 @@ namespace plumbline::scene
     }
     if (scene.material.is_double_well())
       check_double_well(scene);
+    if (scene.crack.is_there())
+      return check_crack(scene);
     const TimeSection &time = scene.time;
     const std::string torus = "Reference/method = torus";
     require(time.is_dynamic() || !scene.reference.method || *scene.reference.method != "torus",

@@ -30,6 +30,7 @@ namespace plumbline::scene
       section("Methods", scene.methods);
       section("Study", scene.study);
       section("Time", scene.time);
+      section("Crack", scene.crack);
       section("Reference", scene.reference);
       section("Quadrature", scene.quadrature);
       section("Geometry", scene.geometry);
@@ -44,6 +45,7 @@ namespace plumbline::scene
       scene.kernel.complete();
       scene.material.complete();
       scene.time.complete();
+      scene.crack.complete();
       if (scene.solver.is_full_model)
         scene = full_model(std::move(scene));
       check_kernel_and_problem(scene);

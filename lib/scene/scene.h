@@ -1,6 +1,7 @@
 #pragma once
 
 #include "physics/double_well.h"
+#include "scene/crack_section.h"
 #include "scene/problem_sections.h"
 #include "scene/study_sections.h"
 #include "scene/time_section.h"
@@ -23,6 +24,7 @@ namespace plumbline::scene
     MethodsSection methods;
     StudySection study;
     TimeSection time;
+    CrackSection crack;
     ReferenceSection reference;
     QuadratureSection quadrature;
     GeometrySection geometry;

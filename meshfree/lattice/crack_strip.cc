@@ -108,13 +108,13 @@ namespace plumbline::meshfree
   {
     Vector free = v;
     hold(free);
-    full_tangent(u, free, f);
+    force_.tangent(u, free, f);
+    cut_tangent(u, free, f);
     hold(f);
   }
 
-  void CrackStrip::full_tangent(const Vector &u, const Vector &v, Vector &f) const
+  void CrackStrip::cut_tangent(const Vector &u, const Vector &v, Vector &f) const
   {
-    force_.tangent(u, v, f);
     visit_cuts(
         [&](std::size_t from, std::size_t to, const std::array<double, 2> &way, double strength)
         {
@@ -138,26 +138,23 @@ namespace plumbline::meshfree
     return force_.energy(u) - h_ * h_ * notch;
   }
 
-  Vector CrackStrip::uncut(double strain) const
-  {
-    const auto rest = column_.relax(strain, false);
-    Vector u(size());
-    for (int j = 0; j < n_[1]; ++j)
-      // the mean of both halves, so that they mirror each other to the last bit
-      std::fill_n(u.begin() + static_cast<std::ptrdiff_t>(n_nodes()) +
-                      static_cast<std::ptrdiff_t>(j) * n_[0],
-                  n_[0], .5 * (rest.u[j] - rest.u[n_[1] - 1 - j]));
-    return u;
-  }
-
-  Vector CrackStrip::opened(double strain) const
+  Vector CrackStrip::at_rest(double strain, bool is_open) const
   {
     constexpr double tolerance = 1e-10;
     constexpr int most_steps = 20000;
-    const Vector rest(size());
-    Vector u = uncut(strain), residual(size()), product(size());
-    full_tangent(rest, u, residual);
-    hold(residual);
+    const Vector none(size());
+    Vector u(size()), residual(size()), product(size());
+    for (std::size_t node = 0; node < n_nodes(); ++node)
+      u[n_nodes() + node] = strain * y(static_cast<int>(node / n_[0]));
+    // of the grips' displacements as well, which direction is 0 at
+    const auto apply = [&](const Vector &v, Vector &f)
+    {
+      force_.tangent(none, v, f);
+      if (is_open)
+        cut_tangent(none, v, f);
+      hold(f);
+    };
+    apply(u, residual);
     Vector direction = residual;
     double square = dot(residual, residual);
     const double start = square;
@@ -165,7 +162,7 @@ namespace plumbline::meshfree
     {
       if (square <= tolerance * tolerance * start)
         return u;
-      tangent(rest, direction, product);
+      apply(direction, product);
       const double length = -square / dot(direction, product);
       add(u, length, direction);
       add(residual, length, product);
@@ -174,7 +171,7 @@ namespace plumbline::meshfree
       for (std::size_t i = 0; i < direction.size(); ++i)
         direction[i] = residual[i] + square / before * direction[i];
     }
-    throw NumericalError("the opened notch: conjugate gradients do not settle in " +
+    throw NumericalError("a strip at rest: conjugate gradients do not settle in " +
                          std::to_string(most_steps) + " steps");
   }
 
@@ -206,9 +203,8 @@ namespace plumbline::meshfree
         shortest = bond.way[1];
     const int first = column_.n_grip(), last = n_[1] - column_.n_grip();
     const std::size_t n = n_nodes();
-    double before = std::max(1., 2 * soft);
     view.tip = notch_tip();
-    bool has_tip = false;
+    double before = 0;
     for (int i = n_notch_; i < n_[0]; ++i)
     {
       double largest = 0;
@@ -223,15 +219,14 @@ namespace plumbline::meshfree
         n_cracks += j - last_soft > column_.n_grip() ? 1 : 0;
         last_soft = j;
       }
+      if (n_cracks == 0)
+      {
+        if (i > n_notch_)
+          view.tip += h_ * (before - soft) / (before - largest);
+        return;
+      }
+      view.tip = x(i);
       view.n_branches = std::max(view.n_branches, n_cracks);
-      if (has_tip)
-        continue;
-      if (largest > soft)
-        view.tip = x(i);
-      else
-        has_tip = true;
-      if (has_tip && i > n_notch_)
-        view.tip += h_ * (before - soft) / (before - largest);
       before = largest;
     }
   }

@@ -45,13 +45,11 @@ namespace plumbline::meshfree
     void tangent(const std::vector<double> &u, const std::vector<double> &v,
                  std::vector<double> &f) const;
 
-    /// Displacements before the notch is cut: each column in equilibrium at the strain.
-    std::vector<double> uncut(double strain) const;
-
-    /// Displacements with the notch open, as far as bonds that never soften let it: equilibrium of
-    /// small strains, by conjugate gradients to 1e-10 of the first residual.
+    /// Displacements at rest under a strain of the grips, as small strains have them, with the
+    /// notch open or as if there were none; by conjugate gradients to 1e-10 of the first residual.
+    /// Bonds that they stretch too far soften once the strip is let go.
     /// @throws NumericalError  conjugate gradients do not settle
-    std::vector<double> opened(double strain) const;
+    std::vector<double> at_rest(double strain, bool is_open) const;
 
     /// PD(u) less the bonds of the notch.
     double energy(const std::vector<double> &u) const;
@@ -62,8 +60,8 @@ namespace plumbline::meshfree
       /// Where the first column right of the notch begins whose shortest bonds along y are not
       /// soft; between columns by linear interpolation of q².
       double tip = 0;
-      double soft_energy = 0;     ///< of soft bonds
-      int n_branches = 0;         ///< most cracks side by side in a column, more than a grip apart
+      double soft_energy = 0; ///< of soft bonds
+      int n_branches = 0;     ///< most cracks side by side in a column before the tip, a grip apart
       std::vector<double> damage; ///< part of a node's bonds that is soft or cut, shape (n_y, n_x)
     };
     View view(const std::vector<double> &u) const;
@@ -82,8 +80,9 @@ namespace plumbline::meshfree
     template <typename Visit>
     void visit_cuts(const Visit &visit) const;
     void hold(std::vector<double> &f) const;
-    void full_tangent(const std::vector<double> &u, const std::vector<double> &v,
-                      std::vector<double> &f) const; ///< of all nodes
+    /// Subtract the notch's bonds from F'(u) v.
+    void cut_tangent(const std::vector<double> &u, const std::vector<double> &v,
+                     std::vector<double> &f) const;
     std::size_t mirror(std::size_t node) const;
     /// Sums over the bonds of each node.
     struct Softened

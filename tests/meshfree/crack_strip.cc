@@ -157,7 +157,7 @@ TEST(CrackStrip, runs_above_its_threshold_and_arrests_below)
   for (const double load : {.97, 1.03})
   {
     const double strain = one.column().strain(load * one.column().threshold());
-    analysis::State state{one.opened(strain), Vector(motion.n), 0};
+    analysis::State state{one.at_rest(strain, true), Vector(motion.n), 0};
     const double start = one.view(state.u).tip;
     analysis::integrate(motion, verlet, {step}, 20, state);
     const double early = one.view(state.u).tip;
@@ -181,7 +181,7 @@ TEST(CrackStrip, runs_slower_than_rayleigh_waves_and_keeps_its_energy)
   const analysis::Motion motion = motion_of(one, 0);
   const auto &verlet = analysis::scheme("velocity Verlet");
   const double step = .5 * analysis::critical_step(motion, verlet, Vector(motion.n));
-  analysis::State state{one.opened(one.column().strain(2 * one.column().toughness())),
+  analysis::State state{one.at_rest(one.column().strain(2 * one.column().toughness()), true),
                         Vector(motion.n), 0};
   const double start = one.energy(state.u);
   double before = 0, tip = 0;
@@ -206,7 +206,7 @@ TEST(CrackStrip, has_the_same_bits_on_one_thread_and_on_two)
   const CrackStrip one = strip(.1);
   const analysis::Motion motion = motion_of(one, 0);
   const auto &verlet = analysis::scheme("velocity Verlet");
-  const Vector start = one.uncut(1.8);
+  const Vector start = one.at_rest(1.8, false);
   const auto run = [&](unsigned int n_threads)
   {
     dealii::MultithreadInfo::set_thread_limit(n_threads);

@@ -99,6 +99,9 @@ namespace plumbline::scene
     add(ExpectedKind::orders,
         "'method, scheme: p', the order of a scheme in time at the finest level, over Time/steps "
         "or critical fractions.");
+    keys.add("crack", crack,
+             "What becomes of the crack of 'plumbline crack': it arrests, runs or "
+             "branches; unknown: nothing is expected.");
     add(ExpectedKind::stability,
         "'method: stable', 'conditionally stable' or 'unstable', of 'plumbline stability'.");
   }
