@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/team.h"
 #include "check.h"
+#include "crack.h"
 #include "dispersion.h"
 #include "requirements.h"
 #include "run.h"
@@ -63,7 +64,7 @@ namespace
         3);
   }
 
-  /// What `stability` and `dispersion` both take.
+  /// What `stability`, `dispersion` and `crack` take.
   void add_options(CLI::App &command, plumbline::app::MeasureOptions &options,
                    std::vector<std::string> &settings)
   {
@@ -128,6 +129,11 @@ int main(int argc, char **argv)
       ->delimiter(',')
       ->allow_extra_args(false);
 
+  plumbline::app::CrackOptions strip;
+  auto *crack = app.add_subcommand("crack", "How a crack moves through a strip");
+  add_options(*crack, strip, settings);
+  crack->add_flag("--check", strip.check, "Exit with 1 if Expected/crack fails");
+
   std::string folder, subject, model, key;
   auto *report = app.add_subcommand(
       "report",
@@ -167,6 +173,7 @@ int main(int argc, char **argv)
   const auto command = [&]
   {
     options.overrides = weights.overrides = measures.overrides = waves.overrides =
+        strip.overrides =
         to_overrides(settings);
     if (*run)
       exit_code = plumbline::app::run(options);
@@ -178,6 +185,8 @@ int main(int argc, char **argv)
       exit_code = plumbline::app::stability(measures);
     else if (*dispersion)
       plumbline::app::dispersion(waves);
+    else if (*crack)
+      exit_code = plumbline::app::crack(strip);
     else if (*report)
       exit_code = plumbline::app::rebuild_report(folder);
     else if (*list)

@@ -242,6 +242,9 @@ namespace plumbline::app
     if (!options.model.empty())
       overrides.push_back({"Solver/model", options.model});
     const scene::Scene scene = scene::read_scene(options.scene_file, overrides);
+    if (scene.crack.is_there())
+      throw InputError("scene '" + scene.name + "': Crack/notch is for 'plumbline crack', which " +
+                       "follows a crack; write that, or Crack/notch = 0");
     const method::Methods available = all_methods();
     const method::Methods methods = study::choose_methods(scene, available);
     study::check_memory(scene, methods, available, options.n_levels);

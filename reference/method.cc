@@ -38,14 +38,19 @@ namespace plumbline::reference
         using method::Capability;
         method::Capabilities can = {Capability::free_boundary, Capability::heterogeneous,
                                     Capability::nonlocal};
-        if (n_vertices_ == 4)
-          can.insert({Capability::lattice, Capability::quadrilaterals});
-        else
+        if (n_vertices_ == 3)
           can.insert(Capability::triangles);
+        else
+          can.insert({Capability::lattice, Capability::quadrilaterals, Capability::dynamic});
+        if (n_vertices_ == 4 && is_continuous_ && degree_ == 1)
+          can.insert({Capability::double_well, Capability::periodic});
         return can;
       }
       std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const override
       {
+        if (scene.time.is_dynamic() && scene.material.is_double_well() && !scene.domain.is_periodic)
+          return "nonlinear Galerkin forces are those of a torus, without boundary function or "
+                 "collar; write Domain/boundary = periodic, or take meshfree methods";
         if (problem.body && !scene.domain.is_floating &&
             std::all_of(problem.mesh->cells.begin(), problem.mesh->cells.end(),
                         [](const geometry::MeshCell &cell) { return cell.is_inside; }))

@@ -38,6 +38,9 @@ namespace plumbline::method
     add(scene.study.regime != scene::Regime::delta &&
             scene.study.decisive_error.target != scene::Target::local,
         Capability::nonlocal);
+    add(scene.time.is_dynamic(), Capability::dynamic);
+    add(scene.material.is_double_well(), Capability::double_well);
+    add(scene.domain.is_periodic, Capability::periodic);
     return needed;
   }
 
@@ -67,6 +70,16 @@ namespace plumbline::method
     case Capability::nonlocal:
       return {"the scene asks for a nonlocal solution",
               "write Study/regime = delta, or a decisive error against local"};
+    case Capability::dynamic:
+      return {"the scene moves (Time/final time > 0)", "write 0"};
+    case Capability::double_well:
+      return {
+          "Material/model = double well: of Galerkin methods Q1 alone can, since jumps of u "
+          "make e^(-beta du^2/r) a layer at r = 0 that no fixed quadrature resolves, and cracks "
+          "strains of 1/h",
+          "write bond-based"};
+    case Capability::periodic:
+      return {"Domain/boundary = periodic", "write constrained"};
     }
     return {};
   }

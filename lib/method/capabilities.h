@@ -20,7 +20,10 @@ namespace plumbline::method
     damage,
     zero_dilatation,  ///< of the collar
     mixed_dilatation, ///< as an unknown besides u
-    nonlocal          ///< a solution at a horizon, not its local limit
+    nonlocal,         ///< a solution at a horizon, not its local limit
+    dynamic,          ///< motions, see scene::TimeSection
+    double_well,
+    periodic ///< a torus
   };
 
   using Capabilities = std::set<Capability>;
@@ -45,5 +48,6 @@ namespace plumbline::base
   inline constexpr auto words<method::Capability> =
       std::array{"lattice",          "quadrilaterals", "triangles", "mixed cells",
                  "free boundary",    "heterogeneous",  "damage",    "zero collar dilatation",
-                 "mixed dilatation", "nonlocal"};
+                 "mixed dilatation", "nonlocal",       "dynamic",   "double well",
+                 "periodic"};
 } // namespace plumbline::base

@@ -5,6 +5,7 @@
 #include "scene/values.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -87,7 +88,7 @@ namespace plumbline::scene
     {
       const KernelSection &kernel = scene.kernel;
       const bool is_navier = kernel.limit == Limit::navier;
-      require(!scene.material.is_state_based() ||
+      require(!scene.material.takes_influence() ||
                   (kernel.structure == physics::Structure::scalar && is_navier &&
                    kernel.coefficient.empty() && kernel.materials.empty()),
               "Material/model = " + base::word(scene.material.model) +
@@ -102,10 +103,12 @@ namespace plumbline::scene
                   kernel.type + "'; write Kernel/limit = Navier, or none");
     }
 
+    using Constants = std::map<std::string, double>;
+
     void check_components(const std::string &key, const std::string &text, unsigned int n,
-                          const std::string &needed_by)
+                          const std::string &needed_by, const Constants &constants = {{"delta", 1}})
     {
-      const physics::Expression parsed(key, text, {{"delta", 1.}});
+      const physics::Expression parsed(key, text, constants);
       const std::string given = key + " = '" + text + "' has " +
                                 std::to_string(parsed.n_components()) + " component(s), ";
       require(parsed.n_components() == n,
@@ -118,21 +121,27 @@ namespace plumbline::scene
     void check_problem(const Scene &scene)
     {
       const ProblemSection &problem = scene.problem;
-      const std::string needed_by = scene.material.is_state_based() ? "solid"
-                                    : scene.is_vector()             ? "bond tensor"
-                                                                    : "scalar kernel";
+      const std::string needed_by = scene.material.takes_influence() ? "solid"
+                                    : scene.is_vector()              ? "bond tensor"
+                                                                     : "scalar kernel";
       const auto check = [&](const std::string &key, const std::string &text)
-      { check_components("Problem/" + key, text, scene.is_vector() ? 2 : 1, needed_by); };
+      { check_components(key, text, scene.is_vector() ? 2 : 1, needed_by, scene.constants(1)); };
       for (const Case &solution : problem.solutions)
-        check("solution", solution.expression);
+        check("Problem/solution", solution.expression);
       for (const Case &load : problem.loads)
-        check("load", load.expression);
+        check("Problem/load", load.expression);
       if (problem.constraint)
-        check("constraint", *problem.constraint);
+        check("Problem/constraint", *problem.constraint);
       if (problem.local_solution == LocalSolution::expression)
-        check("local solution", problem.local_expression);
+        check("Problem/local solution", problem.local_expression);
+      if (!scene.time.initial_displacement.empty())
+        check("Time/initial displacement", scene.time.initial_displacement);
+      if (!scene.time.initial_velocity.empty())
+        check("Time/initial velocity", scene.time.initial_velocity);
 
       const std::size_t n_solutions = problem.solutions.size(), n_loads = problem.loads.size();
+      if ((scene.time.is_dynamic() || scene.crack.is_there()) && n_solutions == 0)
+        return; // a free motion, see check_motion
       require(n_solutions + n_loads > 0,
               "Problem/load = manufactured needs Problem/solution; give the solution, or the load "
               "itself");
@@ -306,6 +315,8 @@ namespace plumbline::scene
 
   void check_norms(const Scene &scene)
   {
+    if (scene.time.is_dynamic() || scene.crack.is_there())
+      return; // see check_motion
     const StudySection &study = scene.study;
     const ReferenceSection &reference = scene.reference;
     const auto [norm, target] = study.decisive_error;

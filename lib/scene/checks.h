@@ -19,6 +19,12 @@ namespace plumbline::scene
   /// The norm that decides is among the others, and what its target needs is given.
   void check_norms(const Scene &scene);
 
+  /// What moves, or cannot: Time, double wells and the torus fit the rest.
+  void check_motion(const Scene &scene);
+
+  /// A strip with a notch, and nothing else that would move it.
+  void check_crack(const Scene &scene);
+
   /// Solver/iteration and Solver/dilatation fit the rest.
   void check_solver(const Scene &scene);
 } // namespace plumbline::scene

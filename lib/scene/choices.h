@@ -27,8 +27,16 @@ namespace plumbline::scene
   enum class Model
   {
     bond_based,
-    lps,        ///< linear peridynamic solid
-    variational ///< state-based, its constants at one point
+    lps,         ///< linear peridynamic solid
+    variational, ///< state-based, its constants at one point
+    double_well  ///< bonds that soften and break, of Jha & Lipton
+  };
+
+  /// ω of double wells, which weakens bonds near the boundary.
+  enum class BoundaryFunction
+  {
+    one,
+    smoothstep ///< t²(3 - 2t), t = min(1, distance to the boundary / horizon)
   };
 
   enum class LocalSolution
@@ -109,7 +117,8 @@ namespace plumbline::scene
     bounds,
     monotone,
     jitter,
-    stability
+    stability,
+    orders ///< in time
   };
 } // namespace plumbline::scene
 
@@ -121,7 +130,10 @@ namespace plumbline::base
   inline constexpr auto words<scene::Limit> =
       std::array{"-1/2 Laplace", "-Laplace", "Navier", "none"};
   template <>
-  inline constexpr auto words<scene::Model> = std::array{"bond-based", "LPS", "variational"};
+  inline constexpr auto words<scene::Model> =
+      std::array{"bond-based", "LPS", "variational", "double well"};
+  template <>
+  inline constexpr auto words<scene::BoundaryFunction> = std::array{"one", "smoothstep"};
   template <>
   inline constexpr auto words<scene::LocalSolution> = std::array{"solution", "none", "computed"};
   template <>
@@ -139,6 +151,6 @@ namespace plumbline::base
   inline constexpr auto words<scene::Estimate> =
       std::array{"automatic", "every", "reference", "none"};
   template <>
-  inline constexpr auto words<scene::ExpectedKind> =
-      std::array{"verdicts", "errors", "rates", "bounds", "monotone", "jitter", "stability"};
+  inline constexpr auto words<scene::ExpectedKind> = std::array{
+      "verdicts", "errors", "rates", "bounds", "monotone", "jitter", "stability", "orders"};
 } // namespace plumbline::base

@@ -1,6 +1,7 @@
 #include "scene/problem.h"
 
 #include "base/error.h"
+#include "physics/double_well_load.h"
 #include "physics/load.h"
 #include "scene/mesh.h"
 
@@ -108,9 +109,35 @@ namespace plumbline::scene
       return theta;
     }
 
+    /// The static load of a solution.
+    ChebyshevField::Function manufactured_load(const Scene &scene, const Problem &problem,
+                                               const Expression &u, const Extent &extent)
+    {
+      if (scene.material.is_double_well())
+      {
+        const physics::WellForce<2> force(make_double_well(scene, problem.horizon()));
+        return [force, u](const Point<2> &x, unsigned int c)
+        {
+          const auto field = [&](const Point<2> &y) {
+            return dealii::Tensor<1, 2>({u(y, 0), u(y, 1)});
+          };
+          return -force(field, x)[c];
+        };
+      }
+      const physics::ManufacturedLoad bonds(problem.kernel, u, problem.coefficient);
+      if (!problem.dilatation)
+        return bonds;
+      const physics::Kernel<2> &influence = problem.dilatation->influence;
+      const double noise = influence.horizon() *
+                           noise_of(influence, *problem.solution, problem.n_components, extent);
+      return
+          [bonds, force = physics::DilatationForce(
+                      *problem.dilatation, dilatation_of(u, *problem.dilatation, noise, extent))](
+              const Point<2> &x, unsigned int c) { return bonds(x, c) + force(x, c); };
+    }
   } // namespace
 
-  Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level)
+  Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level, double t)
   {
     const physics::Kernel<2> kernel = make_kernel(scene, level.horizon);
     const unsigned int n_components = kernel.n_components();
@@ -135,17 +162,20 @@ namespace plumbline::scene
     if (problem.mesh)
       problem.coefficient = make_coefficient(scene, *problem.mesh);
     const Extent omega = problem.lattice ? extent(*problem.lattice) : extent(*problem.mesh);
-    const auto expression = [&](const std::string &key, const std::string &text) {
-      return Expression(key, text, {{"delta", level.horizon}});
-    };
+    const auto expression = [&](const std::string &key, const std::string &text)
+    { return Expression(key, text, scene.constants(level.horizon, t)); };
     const auto field = [&](const std::string &key, const std::string &text)
     { return with_series(expression(key, text), n_components, omega, 0); };
 
     if (!scene.problem.solutions.empty())
       problem.solution = field("Problem/solution", scene.problem.solutions[case_index].expression);
-    problem.constraint = scene.problem.constraint
-                             ? field("Problem/constraint", *scene.problem.constraint)
-                             : *problem.solution;
+    const Field nothing{[](const Point<2> &, unsigned int) { return 0.; },
+                        series_of([](const Point<2> &, unsigned int) { return 0.; }, n_components,
+                                  omega.box, 0, true)};
+    if (scene.problem.constraint)
+      problem.constraint = field("Problem/constraint", *scene.problem.constraint);
+    else
+      problem.constraint = problem.solution ? *problem.solution : nothing;
     if (scene.problem.local_solution == LocalSolution::solution)
       problem.local_solution = problem.solution;
     else if (scene.problem.local_solution == LocalSolution::expression)
@@ -153,24 +183,15 @@ namespace plumbline::scene
 
     if (!scene.problem.loads.empty())
       problem.load = field("Problem/load", scene.problem.loads[case_index].expression);
+    else if (!problem.solution)
+      problem.load = nothing;
     else
     {
       const Expression u =
           expression("Problem/solution", scene.problem.solutions[case_index].expression);
-      const physics::ManufacturedLoad bonds(kernel, u, problem.coefficient);
-      ChebyshevField::Function load = bonds;
-      if (problem.dilatation)
-      {
-        const physics::Kernel<2> &influence = problem.dilatation->influence;
-        const double noise =
-            influence.horizon() * noise_of(influence, *problem.solution, n_components, omega);
-        load = [bonds,
-                force = physics::DilatationForce(
-                    *problem.dilatation, dilatation_of(u, *problem.dilatation, noise, omega))](
-                   const Point<2> &x, unsigned int c) { return bonds(x, c) + force(x, c); };
-      }
       const double noise = noise_of(kernel, *problem.solution, n_components, omega);
-      problem.load = with_series(load, n_components, omega, noise);
+      problem.load =
+          with_series(manufactured_load(scene, problem, u, omega), n_components, omega, noise);
     }
     return problem;
   }

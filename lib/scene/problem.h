@@ -41,7 +41,10 @@ namespace plumbline::scene
   };
 
   /// @param case_index  into Scene::case_names()
+  /// @param t           of a scene that moves: its state at this time, the load being the static
+  /// one, -F(u) of a manufactured u
   /// @throws InputError  an expression that is not finite somewhere in Ω or its collar, a mesh or
   /// nodes that cannot be used
-  Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level);
+  Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level,
+                       double t = 0);
 } // namespace plumbline::scene

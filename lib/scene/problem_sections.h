@@ -46,6 +46,7 @@ namespace plumbline::scene
     std::optional<double> collar;          ///< width; empty: as wide as the ball needs
     /// The boundary is free of traction and families end there; u is given in `fixed` parts of Ω.
     bool is_free_body = false;
+    bool is_periodic = false; ///< a torus: what leaves the box on one side comes in on the other
     std::vector<geometry::Box> fixed;
     bool is_floating = false; ///< nothing of it is fixed: it can be measured, not solved for
     /// Lines that break the bonds across them, and an expression that is positive beyond free
@@ -87,7 +88,7 @@ namespace plumbline::scene
     void complete();
   };
 
-  /// The solid of a state-based model.
+  /// The solid of a state-based model, or the bonds with two wells.
   struct MaterialSection
   {
     Model model = Model::bond_based; ///< which has none of its own
@@ -97,8 +98,12 @@ namespace plumbline::scene
     std::array<std::string, 2> expressions;          ///< in x and y
     bool is_homogeneous = true;                      ///< neither x nor y is in them
     bool has_collar_dilatation = true; ///< else θ counts as 0 there: wrong, to be shown
+    double c = 1, beta = 1;            ///< of double wells, > 0, see physics::DoubleWell
+    BoundaryFunction boundary_function = BoundaryFunction::one; ///< ω of double wells
 
-    bool is_state_based() const { return model != Model::bond_based; }
+    bool is_state_based() const { return model == Model::lps || model == Model::variational; }
+    bool is_double_well() const { return model == Model::double_well; }
+    bool takes_influence() const { return model != Model::bond_based; } ///< Kernel/type is one
 
     /// λ and μ as a function of the place. Copies share nothing: give each thread its own.
     /// @throws InputError  (the function) constants of no solid, naming keys and place
@@ -116,7 +121,7 @@ namespace plumbline::scene
     LocalSolution local_solution = LocalSolution::solution;
     std::string local_expression;
 
-    /// The names of its cases: of the solutions, or of the loads.
+    /// The names of its cases: of the solutions, or of the loads; "u" of a free motion.
     std::vector<std::string> case_names() const;
 
     void declare(Keys &keys);

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/text_file.h"
+#include "physics/expression.h"
 #include "scene/checks.h"
 #include "scene/keys.h"
 #include "scene/scene_file.h"
@@ -28,6 +29,8 @@ namespace plumbline::scene
       section("Problem", scene.problem);
       section("Methods", scene.methods);
       section("Study", scene.study);
+      section("Time", scene.time);
+      section("Crack", scene.crack);
       section("Reference", scene.reference);
       section("Quadrature", scene.quadrature);
       section("Geometry", scene.geometry);
@@ -41,6 +44,8 @@ namespace plumbline::scene
     {
       scene.kernel.complete();
       scene.material.complete();
+      scene.time.complete();
+      scene.crack.complete();
       if (scene.solver.is_full_model)
         scene = full_model(std::move(scene));
       check_kernel_and_problem(scene);
@@ -50,6 +55,7 @@ namespace plumbline::scene
       check_norms(scene);
       check_mesh_and_nodes(scene);
       check_solver(scene);
+      check_motion(scene);
       scene.expected.complete(scene.problem.case_names());
     }
 
@@ -109,9 +115,44 @@ namespace plumbline::scene
     return std::abs(lame.lambda - lame.mu) > 1e-14 * lame.mu;
   }
 
+  std::map<std::string, double> Scene::constants(double horizon, double t) const
+  {
+    std::map<std::string, double> names = {{"delta", horizon}};
+    if (time.is_dynamic())
+      names["t"] = t;
+    return names;
+  }
+
+  bool Scene::is_steady() const
+  {
+    std::vector<std::string> texts;
+    for (const std::vector<Case> &cases : {problem.solutions, problem.loads})
+      for (const Case &one : cases)
+        texts.push_back(one.expression);
+    if (problem.constraint)
+      texts.push_back(*problem.constraint);
+    try // those that have t in them do not parse without it
+    {
+      for (const std::string &text : texts)
+        (void)physics::Expression("Problem", text, {{"delta", 1.}});
+      return true;
+    }
+    catch (const InputError &)
+    {
+      return false;
+    }
+  }
+
+  physics::DoubleWell make_double_well(const Scene &scene, double horizon)
+  {
+    return {2, scene.kernel.profile, scene.material.c, scene.material.beta, horizon};
+  }
+
   physics::Kernel<2> make_kernel(const Scene &scene, double horizon)
   {
     const KernelSection &kernel = scene.kernel;
+    if (scene.material.model == Model::double_well)
+      return make_double_well(scene, horizon).linear_kernel();
     if (scene.material.is_state_based())
       return physics::deviatoric_kernel(physics::influence_function(kernel.profile, horizon),
                                         scene.material.is_homogeneous && !scene.domain.is_free_body
@@ -195,10 +236,28 @@ namespace plumbline::scene
         {"Study/decisive error", "averages L2 | reference"},
         {"Reference/method", "DGQ0"},
     };
+    const Settings of_double_well = {
+        {"Purpose", "A wave of double-well bonds on a torus: how fast do rules converge?"},
+        {"Domain/boundary", "periodic"},
+        {"Kernel/type", "linear-decay"},
+        {"Kernel/limit", "Navier"},
+        {"Material/model", "double well"},
+        {"Problem/local solution", "none"},
+        {"Time/final time", "0.5"},
+        {"Time/initial displacement", "0.1*sin(2*pi*x), 0"},
+        {"Methods/names", "FA, PA-AC, IPA-AC, IPA-AC-R2"},
+        {"Study/regime", "m"},
+        {"Study/h", "0.1, 0.05, 0.025, 0.0125"},
+        {"Study/horizon", "0.2"},
+        {"Study/norms", "nodal L2"},
+        {"Study/decisive error", "nodal L2 | reference"},
+        {"Reference/method", "torus"},
+    };
     const std::map<std::string, Settings> templates = {{"scalar", of_scalar},
                                                        {"tensor", of_tensor},
                                                        {"LPS", of_lps},
-                                                       {"variational", of_variational}};
+                                                       {"variational", of_variational},
+                                                       {"double-well", of_double_well}};
   } // namespace
 
   std::string scene_template(const std::string &model)
@@ -206,7 +265,7 @@ namespace plumbline::scene
     const auto found = templates.find(model);
     if (found == templates.end())
       throw InputError("template: model '" + model +
-                       "' is not known; choose scalar, tensor, LPS or variational");
+                       "' is not known; choose scalar, tensor, LPS, variational or double-well");
     Scene scene;
     Keys keys;
     declare(keys, scene);

@@ -1,7 +1,12 @@
 #pragma once
 
+#include "physics/double_well.h"
+#include "scene/crack_section.h"
 #include "scene/problem_sections.h"
 #include "scene/study_sections.h"
+#include "scene/time_section.h"
+
+#include <map>
 
 namespace plumbline::scene
 {
@@ -18,6 +23,8 @@ namespace plumbline::scene
     ProblemSection problem;
     MethodsSection methods;
     StudySection study;
+    TimeSection time;
+    CrackSection crack;
     ReferenceSection reference;
     QuadratureSection quadrature;
     GeometrySection geometry;
@@ -31,19 +38,30 @@ namespace plumbline::scene
     }
     bool is_vector() const ///< two components
     {
-      return kernel.structure == physics::Structure::tensor || material.is_state_based();
+      return kernel.structure == physics::Structure::tensor || material.takes_influence();
     }
 
     /// λ = μ leaves a state-based solid its bonds alone.
     bool has_dilatation() const;
+
+    /// Names besides x and y in expressions of this scene: delta, and t where it moves.
+    std::map<std::string, double> constants(double horizon, double t = 0) const;
+
+    /// No expression has t in it.
+    bool is_steady() const;
 
     /// How far from Ω the constraint is needed: the horizon, or twice as far where dilatations of
     /// neighbours count.
     double reach(double horizon) const { return has_dilatation() ? 2 * horizon : horizon; }
   };
 
-  /// The kernel of its bonds.
+  /// The kernel of its bonds; of double wells those of small strains.
   physics::Kernel<2> make_kernel(const Scene &scene, double horizon);
+
+  /// The law of its bonds with two wells.
+  /// @throws InputError  a constant or an influence function (Kernel/type) that is not allowed
+  /// @pre scene.material.model == Model::double_well
+  physics::DoubleWell make_double_well(const Scene &scene, double horizon);
 
   /// What the dilatation adds to its bonds, or nothing.
   /// @throws InputError  (its material) a constant that is not allowed, naming key and place
@@ -68,7 +86,7 @@ namespace plumbline::scene
                     const std::vector<Override> &overrides = {});
 
   /// A whole scene with every key, its default and its meaning, for a model: "scalar", "tensor",
-  /// "LPS" or "variational".
+  /// "LPS", "variational" or "double-well".
   std::string scene_template(const std::string &model);
 
   /// What a key means, its default and what it allows; for "Section" all its keys.

@@ -3,6 +3,7 @@
 #include "base/solver_choices.h"
 #include "geometry/ball_cell.h"
 #include "scene/choices.h"
+#include "scene/crack_section.h"
 
 #include <optional>
 #include <string>
@@ -127,6 +128,7 @@ namespace plumbline::scene
   {
     std::vector<Expected> all; ///< kind by kind
     double error_tolerance = 5e-4, rate_tolerance = .1;
+    CrackOutcome crack = CrackOutcome::unknown; ///< of 'plumbline crack'
 
     void declare(Keys &keys);
     /// @param cases  that there are

@@ -70,11 +70,19 @@ namespace plumbline::scene
         },
         "Width of the interaction collar where the volume constraint gives u: auto, or a width of "
         "at least the largest horizon. [length]");
-    keys.add("boundary", is_free_body, "constrained", "free",
-             "constrained: u is given all around Omega, in its collar. free: no collar; families "
-             "end at the boundary, and u is given in Domain/fixed (Material/model = variational). "
-             "The body is one box (Domain/mesh = lattice), or whatever the cells of a mesh cover; "
-             "they cut the squares about the nodes, which are hZ^2 where no boxes set them.");
+    keys.add(
+        "boundary", "constrained", one_of({"constrained", "free", "periodic"}),
+        [this](const std::string &text)
+        {
+          is_free_body = text == "free";
+          is_periodic = text == "periodic";
+        },
+        "constrained: u is given all around Omega, in its collar. free: no collar; families "
+        "end at the boundary, and u is given in Domain/fixed (Material/model = variational). "
+        "The body is one box (Domain/mesh = lattice), or whatever the cells of a mesh cover; "
+        "they cut the squares about the nodes, which are hZ^2 where no boxes set them. periodic: "
+        "one box "
+        "as a torus (Material/model = double well).");
     keys.add(
         "fixed", "", any_text(),
         [this](const std::string &text)

@@ -96,6 +96,12 @@ namespace plumbline::scene
     add(ExpectedKind::jitter,
         "'method[, case][, series]: least most', bounds of the sum of all rises of the decisive "
         "error from a level to the next, over its first value; 0 where it falls throughout.");
+    add(ExpectedKind::orders,
+        "'method, scheme: p', the order of a scheme in time at the finest level, over Time/steps "
+        "or critical fractions.");
+    keys.add("crack", crack,
+             "What becomes of the crack of 'plumbline crack': it arrests, runs or "
+             "branches; unknown: nothing is expected.");
     add(ExpectedKind::stability,
         "'method: stable', 'conditionally stable' or 'unstable', of 'plumbline stability'.");
   }
@@ -103,7 +109,8 @@ namespace plumbline::scene
   void ExpectedSection::complete(const std::vector<std::string> &cases) const
   {
     for (const Expected &one : all)
-      if (!one.problem.empty() && std::find(cases.begin(), cases.end(), one.problem) == cases.end())
+      if (one.kind != ExpectedKind::orders && !one.problem.empty() &&
+          std::find(cases.begin(), cases.end(), one.problem) == cases.end())
         throw InputError("Expected/" + base::word(one.kind) + ": '" + one.problem + "' in '" +
                          one.text + "' is neither a case of Problem nor a series like 'm = 3'");
   }

@@ -85,8 +85,11 @@ namespace plumbline::scene
     by_name.add(
         "model", model,
         "bond-based: the kernel is all. LPS: the linear peridynamic solid, with harmonic means of "
-        "lambda and of mu at both ends of a bond. variational: constants at one point. Both take "
-        "Kernel/type as their influence function, with Kernel/limit = Navier.");
+        "lambda and of mu at both ends of a bond. variational: constants at one point. double "
+        "well: "
+        "bonds that soften and break (Jha & Lipton 2018), of c, beta and the boundary function, "
+        "for motions (Time/final time). All three take Kernel/type as their influence function, "
+        "with Kernel/limit = Navier.");
     by_name.add("plane", plane, "Plane strain or plane stress, for E and nu.");
     by_name.add("E", given[0][0],
                 "Young's modulus > 0, an expression in x and y. [force/length^2]");
@@ -98,6 +101,13 @@ namespace plumbline::scene
     by_name.add("collar dilatation", has_collar_dilatation, "zero", "from data",
                 "theta in the collar, of state-based solids on scattered nodes: from data, or "
                 "zero, which is wrong and there to show by how much.");
+    by_name.add("c", c, any_number(),
+                "Of double wells f(s) = c (1 - exp(-beta s)): the energy of a broken bond, > 0. "
+                "[force/length]");
+    by_name.add("beta", beta, any_number(), "Of double wells, > 0. [1/length]");
+    by_name.add("boundary function", boundary_function,
+                "omega of double wells: one, or smoothstep, t^2 (3 - 2t) with t = min(1, distance "
+                "to the boundary / horizon), which lets bonds fade out there.");
     by_name.add("k", given[2][0],
                 "lambda + mu > 0 of the variational model, instead. [force/length^2]");
     by_name.add("l", given[2][1], "8 mu > 0, given with k. [force/length^2]");
@@ -122,6 +132,9 @@ namespace plumbline::scene
       throw InputError("Material/model = " + base::word(model) +
                        (is_state_based()
                             ? " needs its constants once: E and nu, lambda and mu, or k and l"
+                        : is_double_well()
+                            ? " has the constants c and beta; clear Material/E, nu, lambda, mu, k "
+                              "and l"
                             : " takes its constants from the kernel; clear Material/E, nu, lambda, "
                               "mu, k and l, or choose LPS or variational"));
     if (!is_state_based())

@@ -10,7 +10,8 @@ namespace plumbline::scene
     keys.add(
         "solution", "", any_text(), [this](const std::string &text) { solutions = to_cases(text); },
         "The exact nonlocal solution: a muParser expression in x, y and delta (the horizon), "
-        "components separated by ','; several cases as 'name: expression; name: expression'. "
+        "and t where the scene moves (Time/final time), components separated by ','; several cases "
+        "as 'name: expression; name: expression'. "
         "Empty: not known.");
     keys.add(
         "load", manufactured, any_text(),
@@ -44,6 +45,6 @@ namespace plumbline::scene
     std::vector<std::string> names;
     for (const Case &one : solutions.empty() ? loads : solutions)
       names.push_back(one.name);
-    return names;
+    return names.empty() ? std::vector<std::string>{"u"} : names;
   }
 } // namespace plumbline::scene

@@ -1,0 +1,147 @@
+#include "base/error.h"
+#include "physics/expression.h"
+#include "scene/checks.h"
+#include "scene/values.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::scene
+{
+  namespace
+  {
+    void require(bool is_good, const std::string &otherwise)
+    {
+      if (!is_good)
+        throw InputError(otherwise);
+    }
+
+    void check_torus(const Scene &scene)
+    {
+      const DomainSection &domain = scene.domain;
+      const auto needs = [](bool is_good, const std::string &what)
+      { require(is_good, "Domain/boundary = periodic needs " + what); };
+      needs(scene.material.is_double_well(), "Material/model = double well");
+      needs(domain.boxes.include.size() == 1 && domain.boxes.exclude.empty(),
+            "one box (Domain/boxes) without holes");
+      needs(!domain.collar, "Domain/collar = auto: there is none");
+      needs(scene.material.boundary_function == BoundaryFunction::one,
+            "Material/boundary function = one: there is no boundary");
+      needs(!scene.problem.constraint, "Problem/constraint = solution: there is no collar");
+    }
+
+    /// A solution on a torus goes on as it begins: at some points, beyond either side.
+    void check_periods(const Scene &scene)
+    {
+      constexpr double tolerance = 1e-9; // of the largest value: rounding of sin(2πx) and the like
+      constexpr int n_samples = 7;
+      const geometry::Box &box = scene.domain.boxes.include.front();
+      const dealii::Tensor<1, 2> side = box.upper - box.lower;
+      for (const Case &one : scene.problem.solutions)
+      {
+        const physics::Expression u("Problem/solution", one.expression,
+                                    scene.constants(1, .3 * scene.time.final_time));
+        double size = 0, jump = 0;
+        for (int i = 0; i < n_samples; ++i)
+          for (unsigned int axis = 0; axis < 2; ++axis)
+            for (unsigned int c = 0; c < u.n_components(); ++c)
+            {
+              dealii::Point<2> x = box.lower, y;
+              x[0] += side[0] * std::fmod(.137 + .391 * i, 1);
+              x[1] += side[1] * std::fmod(.271 + .619 * i, 1);
+              y = x;
+              y[axis] += side[axis];
+              size = std::max(size, std::abs(u(x, c)));
+              jump = std::max(jump, std::abs(u(y, c) - u(x, c)));
+            }
+        require(jump <= tolerance * size,
+                "Problem/solution = '" + one.expression + "' jumps by " + short_number(jump) +
+                    " where Domain/boundary = periodic joins the sides of the box; give a field "
+                    "with the periods " +
+                    short_number(side[0]) + " and " + short_number(side[1]));
+      }
+    }
+
+    void check_double_well(const Scene &scene)
+    {
+      const MaterialSection &material = scene.material;
+      const auto positive = [](const std::string &key, double value, const std::string &remedy)
+      {
+        require(value > 0 && std::isfinite(value), "Material/" + key + " = " + short_number(value) +
+                                                       " must be positive and finite; " + remedy);
+      };
+      positive("c", material.c, "it is the energy of a broken bond, take for example 1");
+      positive("beta", material.beta,
+               "bonds soften at strains 1/sqrt(2 beta r), take for example 1");
+      (void)make_double_well(scene, 1);
+      require(scene.domain.mesh.is_lattice(),
+              "Material/model = double well with Domain/mesh = " + scene.domain.mesh.name +
+                  ": it moves on lattices; write lattice");
+      require(material.boundary_function == BoundaryFunction::one ||
+                  scene.problem.solutions.empty() || !scene.problem.loads.empty(),
+              "Problem/load = manufactured with Material/boundary function = smoothstep: its kinks "
+              "in the ball would spoil the quadrature (2.5e-5 of the load); write one, or give "
+              "Problem/load as expressions");
+    }
+
+    void check_targets(const Scene &scene)
+    {
+      const StudySection &study = scene.study;
+      const std::string decisive = "Study/decisive error = '" + study.decisive_error.text() + "'";
+      for (const Norm norm : study.norms)
+        require(quantity(norm) == Quantity::nodal,
+                "Study/norms has '" + base::word(norm) +
+                    "', but motions (Time/final time > 0) are compared at nodes; write nodal L2, "
+                    "nodal Linf, or both");
+      require(std::find(study.norms.begin(), study.norms.end(), study.decisive_error.norm) !=
+                  study.norms.end(),
+              decisive + " must be 'norm | target' with a norm of Study/norms; write 'nodal L2 | "
+                         "exact', or add the norm");
+      require(study.decisive_error.target != Target::local,
+              decisive + ": a motion's local limit is not known; take exact or reference");
+      require(study.decisive_error.target != Target::reference || scene.reference.method,
+              decisive + " needs Reference/method = torus");
+      if (!scene.reference.method)
+        return;
+      const std::string given = "Reference/method = " + *scene.reference.method;
+      require(*scene.reference.method == "torus",
+              given + " is for statics; motions take torus, or none and Problem/solution");
+      require(scene.domain.is_periodic && scene.material.is_double_well(),
+              given + " needs Domain/boundary = periodic and Material/model = double well");
+      const geometry::Box &box = scene.domain.boxes.include.front();
+      const dealii::Tensor<1, 2> side = box.upper - box.lower;
+      require(std::abs(side[0] - side[1]) <= 1e-12 * side[0],
+              given + " needs a square (Domain/boxes), and has sides of " + short_number(side[0]) +
+                  " and " + short_number(side[1]));
+    }
+  } // namespace
+
+  void check_motion(const Scene &scene)
+  {
+    if (scene.domain.is_periodic)
+    {
+      check_torus(scene);
+      check_periods(scene);
+    }
+    if (scene.material.is_double_well())
+      check_double_well(scene);
+    if (scene.crack.is_there())
+      return check_crack(scene);
+    const TimeSection &time = scene.time;
+    const std::string torus = "Reference/method = torus";
+    require(time.is_dynamic() || !scene.reference.method || *scene.reference.method != "torus",
+            torus + " is for motions; give Time/final time, or a Galerkin method");
+    if (!time.is_dynamic())
+      return;
+    const std::string moving = "Time/final time = " + short_number(time.final_time) + " needs ";
+    require(scene.domain.mesh.is_lattice() && !scene.domain.is_free_body,
+            moving +
+                "Domain/mesh = lattice and a boundary that is constrained or periodic: motions "
+                "of meshes and free bodies are not there yet");
+    require(!scene.problem.solutions.empty() || !scene.problem.loads.empty() ||
+                !time.initial_displacement.empty() || !time.initial_velocity.empty(),
+            moving + "something that moves; give Problem/solution, Problem/load, Time/initial "
+                     "displacement or Time/initial velocity");
+    check_targets(scene);
+  }
+} // namespace plumbline::scene

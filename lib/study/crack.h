@@ -1,0 +1,163 @@
+#pragma once
+
+#include "analysis/integrate.h"
+#include "base/cost.h"
+#include "scene/scene.h"
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+// How a crack moves through a strip: what is planned, run and found out.
+namespace plumbline::study
+{
+  using analysis::State;
+  using analysis::Vector;
+
+  /// The load at which a long crack in the strip of one level neither grows nor closes.
+  struct CrackThreshold
+  {
+    std::string series;
+    double h = 0, horizon = 0;
+    double toughness = 0; ///< of the lattice, G_c,h [energy/length]
+    double energy = 0;    ///< W H at the threshold; NaN where there is none
+    std::string failure;  ///< why not
+
+    double m() const { return horizon / h; }
+  };
+
+  /// What is seen of a crack in a state.
+  struct CrackView
+  {
+    double tip = 0; ///< its x
+    double soft_energy = 0;
+    int n_branches = 0;
+    Vector damage; ///< of the nodes, in [0, 1]
+  };
+
+  /// A strip as one side makes it.
+  struct CrackModel
+  {
+    analysis::Motion motion;
+    Vector start;    ///< displacements when the motion begins, at rest
+    double mass = 0; ///< of a node
+    std::function<double(const Vector &u)> energy; ///< of its bonds
+    std::function<CrackView(const Vector &u)> view;
+  };
+
+  struct CrackSample
+  {
+    double t = 0, tip = 0, kinetic = 0, bonds = 0, soft = 0;
+    double dissipated = 0; ///< by damping, since t = 0
+    double n_branches = 0;
+
+    double total() const { return kinetic + bonds + dissipated; }
+  };
+
+  /// A picture of the strip.
+  struct CrackMoment
+  {
+    double t = 0;
+    Vector damage;
+  };
+
+  /// What a motion has gathered.
+  struct CrackHistory
+  {
+    std::vector<CrackSample> samples; ///< from t = 0
+    std::vector<CrackMoment> moments;
+    State last;
+    std::uint64_t n_steps = 0; ///< that were taken
+    double resumed_at = 0;     ///< t of the checkpoint that it went on from, or 0
+  };
+
+  constexpr unsigned int n_crack_moments = 6;
+
+  struct CrackPlan
+  {
+    double final_time = 0, step = 0, density = 1;
+    std::string scheme;
+    std::optional<double> critical_step;
+    bool shows_blow_up = false;
+    unsigned int n_samples = 6, n_frames = 0;
+    unsigned int interval = 1;        ///< of checkpoints [samples]
+    std::string subject;              ///< of checkpoints: what moves
+    std::filesystem::path checkpoint; ///< its file
+
+    double time(unsigned int sample) const;
+    /// The number of the frame or moment at a sample, of n + 1 or n of them at even distances.
+    std::optional<unsigned int> frame(unsigned int sample) const;
+    std::optional<unsigned int> moment(unsigned int sample) const;
+  };
+
+  /// Called at each frame, in order, also of the start.
+  using WriteFrame =
+      std::function<void(unsigned int frame, const State &state, const CrackView &view)>;
+
+  /// Move the strip, from the plan's checkpoint if there is one of the same subject, and write
+  /// checkpoints on the way: the result has the same bits wherever it was stopped.
+  /// @throws InputError  a step that is refused, a checkpoint that cannot be read or written
+  /// @throws NumericalError  as analysis::integrate
+  CrackHistory run_crack(const CrackModel &model, const CrackPlan &plan,
+                         const WriteFrame &write_frame = {});
+
+  /// How a crack moved.
+  struct CrackMotion
+  {
+    double advance = 0; ///< from the notch's tip to the end
+    double speed = 0;   ///< of the line fitted to its tip, if it has gone a horizon; see below
+    double fastest = 0; ///< over any tenth of the time
+    scene::CrackOutcome outcome = scene::CrackOutcome::unknown;
+    double energy_drift = 0;    ///< max |kinetic + bonds + dissipated - start| / start
+    double soft_per_length = 0; ///< rise of the soft bonds' energy per length of advance
+  };
+
+  /// The line is fitted by least squares where the tip is between 1/5 and 4/5 of its advance. What
+  /// comes when the tip is within a horizon of the strip's end is left out of speeds. A crack runs
+  /// if it comes there, or advances by h or more in the last tenth of the time.
+  CrackMotion describe_crack(const std::vector<CrackSample> &samples, double notch_tip,
+                             double right_end, double h, double horizon);
+
+  /// Speed of Rayleigh waves over that of shear waves where λ = μ, .9194: the root c of
+  /// x³ - 8x² + (24 - 16k) x - 16 (1 - k) = 0, x = c², k = μ/(λ + 2μ) = 1/3.
+  double rayleigh_ratio();
+
+  struct CrackResults
+  {
+    std::string scene_name, purpose, method;
+    std::vector<CrackThreshold> thresholds;
+    scene::CrackSection crack;
+    scene::CrackOutcome expected = scene::CrackOutcome::unknown;
+    CrackThreshold own;                      ///< of the level that moves
+    double toughness = 0;                    ///< of the law, G_c
+    double transverse = 0, longitudinal = 0; ///< speeds of its long waves
+    CrackPlan plan;
+    double damping = 0;
+    std::array<int, 2> n{};
+    double strain = 0; ///< of the grips
+    dealii::Point<2> lower;
+    double notch_tip = 0;
+    CrackHistory history;
+    CrackMotion motion;
+    double asymmetry = 0;      ///< of the last state
+    std::uint64_t n_bonds = 0; ///< of one force evaluation
+    double seconds = 0;        ///< CPU time of the motion from where it was taken up
+
+    double h() const { return own.h; }
+    double rayleigh_speed() const { return rayleigh_ratio() * transverse; }
+    bool is_as_expected() const
+    {
+      return expected == scene::CrackOutcome::unknown || expected == motion.outcome;
+    }
+  };
+
+  /// Check that there is room for the frames of a scene and its checkpoint.
+  /// @throws InputError  with the bytes that are needed and those that are free
+  void check_room(const CrackPlan &plan, double n_nodes);
+
+  /// What is not in the model, for reports.
+  std::vector<std::string> left_out_of_cracks();
+} // namespace plumbline::study

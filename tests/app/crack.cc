@@ -1,0 +1,164 @@
+// `plumbline crack`: what it says of notched strips, that it goes on after a kill, and what it
+// refuses.
+
+#include "command.h"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+namespace
+{
+  using namespace plumbline::app;
+
+  std::string scene(const std::string &name)
+  {
+    return std::string(PLUMBLINE_SCENES) + "/griffith/" + name + ".prm";
+  }
+
+  /// Exit code 2, the message, nothing printed and nothing written.
+  void expect_refused(const std::string &arguments, const std::string &message)
+  {
+    const fs::path folder = temporary("crack");
+    const Outcome outcome = run(arguments + " -o " + folder.string());
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << '\n' << outcome.err;
+    expect_found(outcome.err, message);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_FALSE(fs::exists(folder)) << arguments;
+  }
+
+  nlohmann::json results(const fs::path &folder)
+  {
+    return nlohmann::json::parse(read(folder / "crack.json"));
+  }
+} // namespace
+
+TEST(CrackCommand, finds_threshold_and_speed_and_draws_them)
+{
+  const fs::path folder = temporary("crack");
+  const Outcome outcome = run("crack " + scene("speed") +
+                              " --levels 1 --check --set Time/frames=3 -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "to the last bit");
+  const auto json = results(folder);
+  EXPECT_NEAR(json["thresholds"][0]["energy"].get<double>() /
+                  json["thresholds"][0]["lattice_toughness"].get<double>(),
+              .9489, 6e-5);
+  EXPECT_LT(json["fastest"], json["rayleigh_speed"]);
+  EXPECT_GT(json["speed"], .4 * json["rayleigh_speed"].get<double>());
+  EXPECT_LT(json["energy_drift"], .01);
+  EXPECT_EQ(json["asymmetry"], 0);
+  EXPECT_EQ(json["samples"].size(), 101u);
+  const std::string page = read(folder / "crack.html");
+  expect_found(page, "<svg");
+  expect_found(page, "What was left out of the model");
+  for (const char *const name : {"moments", "tip", "speed", "energies"})
+    EXPECT_TRUE(fs::exists(folder / "crack" / (std::string(name) + ".svg"))) << name;
+  expect_found(read(folder / "frames/frames.pvd"), "frame_00003.vtu");
+  expect_found(read(folder / "frames/frame_00003.vtu"), "damage");
+  EXPECT_FALSE(fs::exists(folder / "checkpoint.h5"));
+  fs::remove_all(folder);
+}
+
+TEST(CrackCommand, says_when_a_crack_does_not_do_what_is_expected)
+{
+  const fs::path folder = temporary("crack");
+  const Outcome outcome =
+      run("crack " + scene("speed") +
+          " --levels 1 --check --quiet --set Expected/crack=arrests -o " + folder.string());
+  EXPECT_EQ(outcome.exit_code, 1);
+  expect_found(outcome.err, "Expected/crack = arrests, but it runs");
+  fs::remove_all(folder);
+}
+
+TEST(CrackCommand, goes_on_after_it_was_killed_to_the_same_bits)
+{
+  const fs::path whole = temporary("whole"), killed = temporary("killed");
+  // a second or two, a checkpoint at every sample
+  const std::string command = "crack " + scene("speed") +
+                              " --quiet --set 'Time/critical fractions=0.1' --set "
+                              "Time/damping=0.1 --set 'Crack/checkpoint interval=1' --set "
+                              "Time/frames=5 -o ";
+  std::thread first([&] { (void)run(command + whole.string()); });
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    const std::string shell =
+        "exec " + std::string(PLUMBLINE_COMMAND) + " " + command + killed.string() + " 2>/dev/null";
+    execl("/bin/sh", "sh", "-c", shell.c_str(), static_cast<char *>(nullptr));
+    _exit(127);
+  }
+  using namespace std::chrono_literals;
+  for (int i = 0; i < 3000 && !fs::exists(killed / "checkpoint.h5"); ++i)
+    std::this_thread::sleep_for(10ms);
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status)) << "the run had ended before it was killed";
+  ASSERT_TRUE(fs::exists(killed / "checkpoint.h5"));
+  EXPECT_FALSE(fs::exists(killed / "crack.json"));
+  const Outcome resumed = run(command + killed.string());
+  first.join();
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_GT(results(killed)["resumed_at"], 0);
+  EXPECT_EQ(results(whole)["resumed_at"], 0);
+  EXPECT_EQ(results(killed)["samples"], results(whole)["samples"]);
+  for (const char *const name :
+       {"frames/frame_00005.vtu", "frames/frame_00000.vtu", "crack/samples.csv", "crack/charts.gp"})
+    EXPECT_TRUE(read(killed / name) == read(whole / name)) << name;
+  fs::remove_all(whole);
+  fs::remove_all(killed);
+}
+
+TEST(CrackCommand, refuses_what_is_no_notched_strip)
+{
+  const std::string strip = "crack " + scene("speed") + " --quiet ";
+  const auto set = [&](const std::string &setting) { return strip + "--set '" + setting + "'"; };
+  expect_refused("crack " + std::string(PLUMBLINE_SCENES) + "/waves/diffusion.prm",
+                 "Crack/notch = 0, so there is no crack");
+  expect_refused(set("Crack/notch=-1"), "Crack/notch = -1 must be a length > 0");
+  expect_refused(set("Crack/notch=0.51"), "Crack/notch = 0.51 is 20.4 mesh sizes");
+  expect_refused(set("Crack/notch=3"), "parts the strip, which is 3 long");
+  expect_refused(set("Crack/load=0"), "Crack/load = 0 must be positive");
+  expect_refused(set("Crack/load=50"), "bonds soften all over the strip");
+  expect_refused(set("Crack/samples=2"), "Crack/samples = '2' is not allowed");
+  expect_refused(set("Time/final time=-1"), "Time/final time = -1");
+  expect_refused(set("Time/final time=0"), "needs Time/final time > 0");
+  expect_refused(set("Time/density=-1"), "Time/density = -1 must be positive");
+  expect_refused(set("Time/steps=0"), "Time/steps = 0 must be positive");
+  expect_refused(set("Time/steps=0.2"), "longer than the critical step 0.0473");
+  expect_refused(set("Material/beta=-1"), "Material/beta = -1 must be positive");
+  expect_refused(set("Material/c=0"), "Material/c = 0 must be positive");
+  expect_refused(set("Material/model=bond-based") + " --set Kernel/type=bond-tensor",
+                 "needs Material/model = double well");
+  expect_refused(set("Domain/boxes=0, 0 : 3, 1 : 0, 0"), "Domain/boxes");
+  expect_refused(set("Domain/boxes=0, 0 : 3, 0.975"), "even number of mesh sizes");
+  expect_refused(set("Domain/boxes=0, 0 : 3, 0.3"), "less than four horizons");
+  expect_refused(set("Problem/solution=x, y"), "Problem/solution, load and constraint");
+  expect_refused(strip + "--methods Q1", "'Q1' is no meshfree rule");
+  expect_refused(strip + "--methods FA,PA-AC", "one meshfree method");
+  expect_refused("run " + scene("speed"), "Crack/notch is for 'plumbline crack'");
+}
+
+TEST(CrackCommand, refuses_frames_that_would_fill_the_disk)
+{
+  const std::string strip =
+      "crack " + scene("speed") + " --quiet --levels 1 --set Study/m=2 --set ";
+  expect_refused(strip + "Study/h=0.001 --set Time/frames=100000 --set Crack/samples=100000",
+                 "Time/frames = 100000: 100000 frames and a checkpoint of");
+  expect_refused(strip + "Study/h=0.1 --set Time/frames=101", "is more than Crack/samples = 100");
+}
+
+TEST(CrackCommand, refuses_a_checkpoint_that_is_none)
+{
+  const fs::path folder = temporary("crack");
+  fs::create_directories(folder);
+  std::ofstream(folder / "checkpoint.h5") << "no HDF5";
+  const Outcome outcome =
+      run("crack " + scene("speed") + " --levels 1 --quiet -o " + folder.string());
+  EXPECT_EQ(outcome.exit_code, 2);
+  expect_found(outcome.err, "remove it to begin anew");
+  fs::remove_all(folder);
+}

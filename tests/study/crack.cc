@@ -1,0 +1,200 @@
+// What a run of a crack gathers, where it may be stopped, and what is said of it.
+
+#include "study/crack.h"
+
+#include "analysis/checkpoint.h"
+#include "base/error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <unistd.h>
+
+using namespace plumbline;
+using namespace plumbline::study;
+namespace fs = std::filesystem;
+
+namespace
+{
+  /// Four numbers that oscillate nonlinearly stand for a strip of two nodes.
+  CrackModel model(double damping = .3)
+  {
+    CrackModel result;
+    result.motion = {4,
+                     [](const Vector &u, double, Vector &a)
+                     {
+                       for (std::size_t i = 0; i < 4; ++i)
+                         a[i] = -std::sin((1. + static_cast<double>(i)) * u[i]);
+                     },
+                     {},
+                     damping};
+    result.start = {.1, .2, .3, .4};
+    result.mass = 1;
+    result.energy = [](const Vector &u)
+    {
+      double sum = 0;
+      for (std::size_t i = 0; i < 4; ++i)
+        sum += (1 - std::cos((1. + static_cast<double>(i)) * u[i])) / (1. + static_cast<double>(i));
+      return sum;
+    };
+    result.view = [](const Vector &u) { return CrackView{u[0], u[1], 1, {u[2], u[3]}}; };
+    return result;
+  }
+
+  CrackPlan plan(const std::string &name)
+  {
+    CrackPlan result;
+    result.final_time = 3.7;
+    result.step = .013;
+    result.scheme = "velocity Verlet";
+    result.n_samples = 23;
+    result.n_frames = 4;
+    result.interval = 3;
+    result.subject = "four numbers";
+    result.checkpoint = fs::path(testing::TempDir()) /
+                        ("plumbline_" + std::to_string(getpid()) + "_" + name + ".h5");
+    fs::remove(result.checkpoint);
+    return result;
+  }
+
+  struct Killed : std::runtime_error
+  {
+    using std::runtime_error::runtime_error;
+  };
+
+  /// A model that ends the run when the tip is looked at for the n-th time.
+  CrackModel killed_at(unsigned int n)
+  {
+    CrackModel result = model();
+    result.view = [view = result.view, n](const Vector &u) mutable
+    {
+      if (n-- == 0)
+        throw Killed("killed");
+      return view(u);
+    };
+    return result;
+  }
+
+  std::vector<double> all_numbers(const CrackHistory &history)
+  {
+    std::vector<double> numbers;
+    for (const CrackSample &s : history.samples)
+      numbers.insert(numbers.end(),
+                     {s.t, s.tip, s.kinetic, s.bonds, s.soft, s.dissipated, s.n_branches});
+    for (const CrackMoment &moment : history.moments)
+    {
+      numbers.push_back(moment.t);
+      numbers.insert(numbers.end(), moment.damage.begin(), moment.damage.end());
+    }
+    numbers.insert(numbers.end(), history.last.u.begin(), history.last.u.end());
+    numbers.insert(numbers.end(), history.last.v.begin(), history.last.v.end());
+    return numbers;
+  }
+
+  /// Samples of a tip that is at x(t), t = 0, 1, ..., 100, in a strip from 0 to 10.
+  template <typename Place>
+  CrackMotion described(const Place &x, double n_branches = 1)
+  {
+    std::vector<CrackSample> samples;
+    for (int t = 0; t <= 100; ++t)
+    {
+      CrackSample sample;
+      sample.t = t;
+      sample.tip = x(t);
+      sample.bonds = 5;
+      sample.soft = 2 * sample.tip;
+      sample.n_branches = n_branches;
+      samples.push_back(sample);
+    }
+    return describe_crack(samples, 1, 10, .1, .4);
+  }
+} // namespace
+
+TEST(Crack, goes_on_from_a_checkpoint_to_the_same_bits_wherever_it_was_killed)
+{
+  const std::vector<double> whole = all_numbers(run_crack(model(), plan("whole")));
+  for (const unsigned int n : {2u, 4u, 7u, 11u, 23u})
+  {
+    const CrackPlan stopped = plan("killed");
+    EXPECT_THROW(run_crack(killed_at(n), stopped), Killed);
+    const CrackHistory resumed = run_crack(model(), stopped);
+    EXPECT_EQ(resumed.resumed_at > 0, n > 3) << n; // the first checkpoint is behind sample 3
+    EXPECT_EQ(all_numbers(resumed), whole) << n;
+    fs::remove(stopped.checkpoint);
+  }
+}
+
+TEST(Crack, takes_its_own_checkpoint_alone)
+{
+  CrackPlan other = plan("subject");
+  EXPECT_THROW(run_crack(killed_at(10), other), Killed);
+  ASSERT_TRUE(fs::exists(other.checkpoint));
+  other.subject = "four other numbers";
+  EXPECT_EQ(run_crack(model(), other).resumed_at, 0);
+  analysis::write_checkpoint(other.checkpoint.string(),
+                             {other.subject, {{1, 2, 3, 4}, {1, 2, 3, 4}, 1}, {3, 4}});
+  EXPECT_THROW(run_crack(model(), other), InputError);
+  fs::remove(other.checkpoint);
+}
+
+TEST(Crack, frames_and_moments_are_at_even_distances_and_both_ends)
+{
+  const CrackPlan own = plan("frames");
+  std::vector<double> times;
+  const CrackHistory history =
+      run_crack(model(), own,
+                [&](unsigned int frame, const State &state, const CrackView &)
+                {
+                  EXPECT_EQ(frame, times.size());
+                  times.push_back(state.t);
+                });
+  ASSERT_EQ(times.size(), 5u);
+  EXPECT_EQ(times.front(), 0);
+  EXPECT_EQ(times.back(), own.final_time);
+  EXPECT_NEAR(times[2], .5 * own.final_time, .5 * own.final_time / own.n_samples * 1.001);
+  ASSERT_EQ(history.moments.size(), n_crack_moments);
+  EXPECT_EQ(history.moments.back().t, own.final_time);
+  EXPECT_EQ(history.samples.size(), own.n_samples + 1);
+  fs::remove(own.checkpoint);
+}
+
+TEST(Crack, what_is_dissipated_is_missing_from_the_rest)
+{
+  CrackPlan fine = plan("balance"), coarse = plan("balance");
+  fine.step /= 4;
+  const auto drift = [](const CrackPlan &own)
+  {
+    const auto samples = run_crack(model(), own).samples;
+    fs::remove(own.checkpoint);
+    EXPECT_GT(samples.back().dissipated, .1 * samples.front().bonds);
+    return std::abs(samples.back().total() - samples.front().total());
+  };
+  EXPECT_NEAR(std::log2(drift(coarse) / drift(fine)) / 2, 2, .1); // the order
+}
+
+TEST(Crack, is_described_by_where_its_tip_goes)
+{
+  using scene::CrackOutcome;
+  const CrackMotion run = described([](double t) { return 1 + .05 * t; });
+  EXPECT_EQ(run.outcome, CrackOutcome::runs);
+  EXPECT_NEAR(run.speed, .05, 1e-12);
+  EXPECT_NEAR(run.fastest, .05, 1e-12);
+  EXPECT_NEAR(run.advance, 5, 1e-12);
+  EXPECT_NEAR(run.soft_per_length, 2, 1e-12);
+  EXPECT_EQ(run.energy_drift, 0);
+  EXPECT_EQ(described([](double t) { return 1 + .05 * t; }, 2).outcome, CrackOutcome::branches);
+  const CrackMotion arrest = described([](double t) { return 1 + std::min(t, 30.) * .01; });
+  EXPECT_EQ(arrest.outcome, CrackOutcome::arrests);
+  EXPECT_NEAR(arrest.advance, .3, 1e-12);
+  // at the strip's end long before the time is over: what comes then is no speed of its own
+  const CrackMotion through = described([](double t) { return std::min(10., 1 + .3 * t); });
+  EXPECT_EQ(through.outcome, CrackOutcome::runs);
+  EXPECT_NEAR(through.speed, .3, 1e-12);
+  EXPECT_NEAR(through.fastest, .3, 1e-12);
+}
+
+TEST(Crack, rayleigh_waves_are_a_little_slower_than_shear_waves)
+{
+  EXPECT_NEAR(rayleigh_ratio(), .9194, 5e-5);
+}
