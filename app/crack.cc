@@ -195,11 +195,18 @@ namespace plumbline::app
                          const study::CrackView &view)
       {
         std::vector<double> times;
-        for (unsigned int k = 0; k <= plan.n_samples; ++k)
+        for (unsigned int k = 0; k <= plan.n_samples && times.size() <= index; ++k)
           if (plan.frame(k))
             times.push_back(plan.time(k));
-        report::write_frame(folder / "frames", index, times,
-                            {strip.n(), lower, strip.h(), &state.u, {{"damage", &view.damage}}});
+        std::vector<dealii::Point<2>> nodes;
+        for (int j = 0; j < strip.n()[1]; ++j)
+          for (int i = 0; i < strip.n()[0]; ++i)
+            nodes.push_back(lower + strip.h() * dealii::Point<2>(i, j));
+        const auto u = [&](std::size_t node, unsigned int component)
+        { return state.u[component * nodes.size() + node]; };
+        const auto damage = [&](std::size_t node, unsigned int) { return view.damage[node]; };
+        report::write_frame(folder / "frames", "frame", times, nodes,
+                            {{"u", true, u}, {"damage", false, damage}});
       };
     }
 

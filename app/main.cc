@@ -145,7 +145,8 @@ int main(int argc, char **argv)
   list->add_flag("--matrix", as_matrix, "Methods by what they can do, as a table");
   auto *make_template =
       app.add_subcommand("template", "Print a scene with all keys and their help");
-  make_template->add_option("MODEL", model, "scalar, tensor, LPS or variational")->required();
+  make_template->add_option("MODEL", model, "scalar, tensor, LPS, variational or double-well")
+      ->required();
   auto *describe = app.add_subcommand("describe", "What a key of a scene means");
   describe->add_option("KEY", key, "Section or Section/key")->required();
 

@@ -2,23 +2,18 @@
 
 #include "base/error.h"
 #include "base/team.h"
+#include "dynamics.h"
 #include "methods.h"
 #include "report/journal.h"
 #include "report/report.h"
+#include "run_parts.h"
 #include "study/conclusions.h"
 #include "study/preflight.h"
 #include "study/refusal.h"
 #include "study/sweep.h"
 
-#include <deal.II/base/config.h>
-#include <deal.II/base/multithread_info.h>
-
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -32,50 +27,6 @@ namespace plumbline::app
 
   namespace
   {
-    volatile std::sig_atomic_t is_interrupted = 0;
-    /// The first signal ends the run after the present solve; a second one ends it at once.
-    void on_interrupt(int signal)
-    {
-      is_interrupted = 1;
-      std::signal(signal, SIG_DFL);
-    }
-
-    std::string processor()
-    {
-      std::ifstream info("/proc/cpuinfo");
-      for (std::string line; std::getline(info, line);)
-        if (line.compare(0, 10, "model name") == 0)
-          return line.substr(line.find(':') + 2);
-      return "unknown";
-    }
-
-    std::map<std::string, std::string> provenance()
-    {
-      return {{"plumbline", PLUMBLINE_VERSION},
-              {"deal.II", DEAL_II_PACKAGE_VERSION},
-              {"compiler", __VERSION__},
-              {"processor", processor()},
-              {"threads", std::to_string(dealii::MultithreadInfo::n_threads())},
-              {"ranks", std::to_string(base::Team::all().n_ranks())}};
-    }
-
-    /// Make the folder and try it, so that no work is lost at the end. @note Collective.
-    void prepare_folder(const fs::path &folder)
-    {
-      bool is_writable = true;
-      if (base::Team::all().rank() == 0)
-      {
-        std::error_code error;
-        fs::create_directories(folder, error);
-        const fs::path probe = folder / ".write-test";
-        is_writable = !error && (std::ofstream(probe) << "x").flush().good();
-        fs::remove(probe, error);
-      }
-      if (base::Team::all().any(!is_writable))
-        throw InputError("output folder '" + folder.string() +
-                         "' cannot be written; give a writable one with -o");
-    }
-
     bool is_newer(const fs::path &file, const fs::path &than)
     {
       return fs::exists(file) && fs::last_write_time(file) > fs::last_write_time(than);
@@ -111,31 +62,6 @@ namespace plumbline::app
       }
       return {};
     }
-
-    /// One line that is rewritten, on a terminal, after the first two seconds.
-    class ProgressLine
-    {
-    public:
-      explicit ProgressLine(bool is_wanted) : is_on_(is_wanted && isatty(STDERR_FILENO) != 0) {}
-      ~ProgressLine()
-      {
-        if (is_shown_)
-          std::cerr << "\r\033[K" << std::flush;
-      }
-      void show(const std::string &what, double fraction)
-      {
-        using namespace std::chrono_literals;
-        if (!is_on_ || std::chrono::steady_clock::now() - start_ < 2s)
-          return;
-        is_shown_ = true;
-        std::cerr << "\r\033[K" << std::setw(3) << static_cast<int>(100 * fraction) << " %  "
-                  << what << std::flush;
-      }
-
-    private:
-      bool is_on_, is_shown_ = false;
-      std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-    };
 
     /// Beside an installed command, else those of the source tree.
     fs::path scenes_folder()
@@ -245,6 +171,8 @@ namespace plumbline::app
     if (scene.crack.is_there())
       throw InputError("scene '" + scene.name + "': Crack/notch is for 'plumbline crack', which " +
                        "follows a crack; write that, or Crack/notch = 0");
+    if (scene.time.is_dynamic())
+      return run_motions(options, scene);
     const method::Methods available = all_methods();
     const method::Methods methods = study::choose_methods(scene, available);
     study::check_memory(scene, methods, available, options.n_levels);
@@ -271,8 +199,7 @@ namespace plumbline::app
                      "one rank is as fast, and Domain/mesh = squares is shared\n";
     }
 
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
+    watch_interrupts();
     report::Journal journal(folder);
     study::Results results;
     {
@@ -292,7 +219,7 @@ namespace plumbline::app
             });
       };
       control.on_result = [&](const study::Results &r) { write([&] { journal.append(r); }); };
-      control.should_stop = [&] { return team.any(is_interrupted != 0); };
+      control.should_stop = [&] { return team.any(is_interrupted()); };
       if (scene.output.fields)
         control.on_finest = [&](const analysis::Solution &solution, const study::Run &run)
         {

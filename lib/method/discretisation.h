@@ -4,6 +4,7 @@
 #include "algebra/spectrum.h"
 #include "algebra/symbol.h"
 #include "method/diagnostics.h"
+#include "method/equation_of_motion.h"
 #include "scene/problem.h"
 
 #include <functional>
@@ -74,6 +75,14 @@ namespace plumbline::method
     /// What waves see of it, of unit density on an unbounded lattice; empty where nodes are not all
     /// alike.
     virtual std::optional<algebra::WaveOperator> waves() const { return {}; }
+
+    /// What moves, which must not outlive it; nothing where motions are not there.
+    /// @param is_lumped  Galerkin methods: masses by the scaled diagonal instead of the mass matrix
+    virtual std::unique_ptr<EquationOfMotion> motion(bool is_lumped) const
+    {
+      (void)is_lumped;
+      return nullptr;
+    }
 
     /// Weights, moments, geometry: what does not depend on a solution.
     virtual Diagnostics diagnostics() const = 0;

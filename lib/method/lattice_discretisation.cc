@@ -1,6 +1,7 @@
 #include "method/lattice_discretisation.h"
 
 #include "algebra/sparse.h"
+#include "method/lattice_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,28 +24,22 @@ namespace plumbline::method
     CollarData collar_data(const scene::Problem &problem, const geometry::NodeSet &nodes,
                            int margin)
     {
-      CollarData data;
-      data.values.reserve(static_cast<std::size_t>(nodes.n_blocks()) * (nodes.n[0] + 2 * margin) *
-                          (nodes.n[1] + 2 * margin));
+      CollarData data{collar_values(problem, nodes, margin), {}};
+      const std::size_t n_values = data.values.size() / nodes.n_components;
       for (unsigned int c = 0; c < nodes.n_components; ++c)
       {
         double low = std::numeric_limits<double>::infinity(), high = -low;
         std::vector<std::size_t> held;
+        std::size_t k = c * n_values;
         for (unsigned int s = 0; s < nodes.n_families(); ++s)
           for (int j = -margin; j < nodes.n[1] + margin; ++j)
-            for (int i = -margin; i < nodes.n[0] + margin; ++i)
-            {
-              double value = 0;
+            for (int i = -margin; i < nodes.n[0] + margin; ++i, ++k)
               if (!nodes.free(s, i, j))
               {
-                const auto place = nodes.place(s, i, j);
-                value = problem.constraint.value(problem.lattice->point(place[0], place[1]), c);
-                low = std::min(low, value);
-                high = std::max(high, value);
-                held.push_back(data.values.size());
+                low = std::min(low, data.values[k]);
+                high = std::max(high, data.values[k]);
+                held.push_back(k);
               }
-              data.values.push_back(value);
-            }
         data.middle.push_back(held.empty() ? 0 : low + (high - low) / 2);
         for (const std::size_t place : held)
           data.values[place] -= data.middle.back();
@@ -98,6 +93,17 @@ namespace plumbline::method
   {
     return std::make_unique<algebra::StencilSystem>(stencil_, nodes_, maximal_rectangles(lattice_),
                                                     backend_);
+  }
+
+  std::unique_ptr<EquationOfMotion> LatticeDiscretisation::motion(bool is_lumped) const
+  {
+    const algebra::Stencil mass = mass_stencil();
+    const auto n = static_cast<unsigned int>(nodes_.n_families());
+    const bool is_collocated = n == 1 && mass_[0] == 1; // equations at nodes
+    return move_on_lattice({lattice_, nodes_, stencil_, is_lumped ? algebra::lump(mass, n) : mass,
+                            backend_,
+                            [this](const scene::Problem &instant) { return load(instant); },
+                            is_collocated ? lattice_.h() * lattice_.h() : 1});
   }
 
   algebra::Stencil LatticeDiscretisation::mass_stencil() const

@@ -31,6 +31,7 @@ namespace plumbline::method
     DiscreteOperator matrix() const override { return show(lattice_, nodes_, stencil_, mass_); }
 
     std::optional<algebra::WaveOperator> waves() const override;
+    std::unique_ptr<EquationOfMotion> motion(bool is_lumped) const override;
 
   protected:
     const geometry::Lattice &lattice() const { return lattice_; }

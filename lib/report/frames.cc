@@ -11,50 +11,66 @@ namespace plumbline::report
 {
   namespace
   {
-    std::string file_name(unsigned int index)
+    using dealii::DataOutBase::Patch;
+
+    std::string file_name(const std::string &name, std::size_t index)
     {
-      char name[32];
-      std::snprintf(name, sizeof(name), "frame_%05u.vtu", index);
-      return name;
+      char number[16];
+      std::snprintf(number, sizeof(number), "_%05zu.vtu", index);
+      return name + number;
+    }
+
+    unsigned int n_components(const PointField &field)
+    {
+      return field.is_vector ? 2 : 1;
+    }
+
+    std::vector<Patch<0, 2>> make_patches(const std::vector<dealii::Point<2>> &points,
+                                          const std::vector<PointField> &fields)
+    {
+      unsigned int n_values = 0;
+      for (const PointField &field : fields)
+        n_values += n_components(field);
+      std::vector<Patch<0, 2>> patches(points.size());
+      for (unsigned int i = 0; i < points.size(); ++i)
+      {
+        patches[i].vertices[0] = points[i];
+        patches[i].patch_index = i;
+        patches[i].data.reinit(n_values, 1);
+        unsigned int row = 0;
+        for (const PointField &field : fields)
+          for (unsigned int c = 0; c < n_components(field); ++c)
+            patches[i].data(row++, 0) = static_cast<float>(field.value(i, c));
+      }
+      return patches;
     }
   } // namespace
 
-  void write_frame(const std::filesystem::path &dir, unsigned int index,
-                   const std::vector<double> &times, const LatticeFrame &frame)
+  void write_frame(const std::filesystem::path &dir, const std::string &name,
+                   const std::vector<double> &times, const std::vector<dealii::Point<2>> &points,
+                   const std::vector<PointField> &fields)
   {
-    using dealii::DataOutBase::Patch;
-    const std::size_t n_nodes = frame.u->size() / 2;
-    const auto n_fields = static_cast<unsigned int>(frame.fields.size());
-    std::vector<Patch<0, 2>> points(n_nodes);
-    for (unsigned int node = 0; node < n_nodes; ++node)
+    using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
+    std::vector<std::string> names;
+    std::vector<std::tuple<unsigned int, unsigned int, std::string, Interpretation>> vectors;
+    for (const PointField &field : fields)
     {
-      Patch<0, 2> &point = points[node];
-      point.vertices[0] = frame.lower + dealii::Point<2>(frame.h * (node % frame.n[0]),
-                                                         frame.h * (node / frame.n[0]));
-      point.patch_index = node;
-      point.data.reinit(2 + n_fields, 1);
-      point.data(0, 0) = static_cast<float>((*frame.u)[node]);
-      point.data(1, 0) = static_cast<float>((*frame.u)[n_nodes + node]);
-      for (unsigned int f = 0; f < n_fields; ++f)
-        point.data(2 + f, 0) = static_cast<float>((*frame.fields[f].second)[node]);
+      const auto first = static_cast<unsigned int>(names.size());
+      names.insert(names.end(), n_components(field), field.name);
+      if (field.is_vector)
+        vectors.emplace_back(first, first + 1, field.name,
+                             dealii::DataComponentInterpretation::component_is_part_of_vector);
     }
-    std::vector<std::string> names = {"u", "u"};
-    for (const auto &field : frame.fields)
-      names.push_back(field.first);
-    using dealii::DataComponentInterpretation::component_is_part_of_vector;
-    const std::vector<std::tuple<unsigned int, unsigned int, std::string,
-                                 dealii::DataComponentInterpretation::DataComponentInterpretation>>
-        vectors = {{0, 1, "u", component_is_part_of_vector}};
     dealii::DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false; // the same bytes whenever it is written
     flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
     std::ostringstream vtu, pvd;
-    dealii::DataOutBase::write_vtu(points, names, vectors, flags, vtu);
-    write_file(dir / file_name(index), vtu.str());
+    dealii::DataOutBase::write_vtu(make_patches(points, fields), names, vectors, flags, vtu);
+    write_file(dir / file_name(name, times.size() - 1), vtu.str());
     std::vector<std::pair<double, std::string>> files;
-    for (unsigned int i = 0; i <= index; ++i)
-      files.emplace_back(times[i], file_name(i));
+    for (std::size_t i = 0; i < times.size(); ++i)
+      files.emplace_back(times[i], file_name(name, i));
     dealii::DataOutBase::write_pvd_record(pvd, files);
-    write_file(dir / "frames.pvd", pvd.str());
+    write_file(dir / (name + ".pvd"), pvd.str());
   }
 } // namespace plumbline::report

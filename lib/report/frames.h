@@ -1,28 +1,27 @@
 #pragma once
 
-#include <array>
-#include <filesystem>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <deal.II/base/point.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
 
 namespace plumbline::report
 {
-  /// A state of the nodes of a lattice for ParaView: u and further fields as data of points.
-  struct LatticeFrame
+  /// Numbers at points, one each or two components.
+  struct PointField
   {
-    std::array<int, 2> n{};
-    dealii::Point<2> lower; ///< the first node [length]
-    double h = 0;
-    const std::vector<double> *u = nullptr; ///< shape (2, n[1], n[0])
-    std::vector<std::pair<std::string, const std::vector<double> *>> fields; ///< shape (n[1], n[0])
+    std::string name;
+    bool is_vector = false;
+    std::function<double(std::size_t point, unsigned int component)> value;
   };
 
-  /// Write frame number `index` as DIR/frame_00000.vtu, and DIR/frames.pvd with all frames so far.
-  /// @param times  of frames 0, 1, ..., index
+  /// One of the states of a motion at points, for ParaView: DIR/NAME_00000.vtu, and DIR/NAME.pvd
+  /// with all so far. In single precision: pictures, no results.
+  /// @param times  of the states 0, 1, ..., this one
   /// @throws InputError  a file cannot be written
-  void write_frame(const std::filesystem::path &dir, unsigned int index,
-                   const std::vector<double> &times, const LatticeFrame &frame);
+  void write_frame(const std::filesystem::path &dir, const std::string &name,
+                   const std::vector<double> &times, const std::vector<dealii::Point<2>> &points,
+                   const std::vector<PointField> &fields);
 } // namespace plumbline::report

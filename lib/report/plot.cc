@@ -162,9 +162,11 @@ namespace plumbline::report
               *std::max_element(values.begin(), values.end())};
     }
 
-    Range x_range(const std::vector<double> &xs, std::vector<double> &ticks)
+    Range x_range(const std::vector<double> &xs, std::vector<double> &ticks, bool is_log)
     {
       const Range values = span(xs);
+      if (!is_log)
+        return {values.low, values.high > values.low ? values.high : values.low + 1};
       if (!ticks.empty())
         return {values.low / 1.25, values.high * 1.25};
       if (values.high >= narrow * values.low)
@@ -196,7 +198,7 @@ namespace plumbline::report
           ys.push_back(v.y);
         }
       std::vector<double> x_ticks = plot.x_ticks;
-      const Range x = x_range(xs, x_ticks);
+      const Range x = x_range(xs, x_ticks, plot.is_x_log);
       const bool has_strip = plot.shows_round_off && plot.is_y_log && span(ys).low < round_off &&
                              span(ys).high >= round_off;
       if (has_strip)
@@ -210,7 +212,7 @@ namespace plumbline::report
       std::ostringstream out;
       out << "reset\n"
           << frame(plot) << "set output " << quote_gnuplot(plot.file) << "\n"
-          << "set logscale x" << (plot.is_y_log ? "y" : "") << "\n"
+          << (plot.is_x_log ? "set logscale x\n" : "") << (plot.is_y_log ? "set logscale y\n" : "")
           << "set border 3 lc rgb '#555555'\nset tics textcolor rgb '#222222'\n"
           << "set grid xtics ytics lt 1 lc rgb '#e4e4e4' lw .8\n"
           << "set title " << quote_gnuplot(plot.title) << " noenhanced\n"
@@ -218,7 +220,7 @@ namespace plumbline::report
           << "set ylabel " << quote_gnuplot(plot.y_label) << " noenhanced\n"
           << "set xrange [" << exact(x.low) << ":" << exact(x.high) << "]\nset yrange ["
           << exact(strip.range.low) << ":" << exact(y.high) << "]\n"
-          << axis('x', x, true, x_ticks) << axis('y', y, plot.is_y_log, {});
+          << axis('x', x, plot.is_x_log, x_ticks) << axis('y', y, plot.is_y_log, {});
 
       if (plot.has_slopes)
       {

@@ -44,7 +44,7 @@ namespace plumbline::report
   {
     std::string file; ///< name of the picture, without folder
     std::string title, x_label, y_label;
-    bool is_y_log = true; ///< x always is
+    bool is_y_log = true, is_x_log = true;
     bool has_slopes = false;
     bool shows_round_off = false; ///< what is smaller than that goes into a strip, see Strip
     std::vector<double> x_ticks;  ///< empty: powers of ten

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace plumbline::scene
 {
@@ -109,21 +111,33 @@ namespace plumbline::scene
       return theta;
     }
 
+    /// -F(u) of double wells. All components come at once: they are kept for who asks for the
+    /// others at the same points.
+    struct WellLoad
+    {
+      physics::WellForce<2> force;
+      Expression u;
+      mutable std::map<std::pair<double, double>, dealii::Tensor<1, 2>> known;
+
+      double operator()(const Point<2> &x, unsigned int component) const
+      {
+        const auto [entry, is_new] = known.try_emplace({x[0], x[1]});
+        if (is_new)
+          entry->second = -force(
+              [this](const Point<2> &y) {
+                return dealii::Tensor<1, 2>({u(y, 0), u(y, 1)});
+              },
+              x);
+        return entry->second[component];
+      }
+    };
+
     /// The static load of a solution.
     ChebyshevField::Function manufactured_load(const Scene &scene, const Problem &problem,
                                                const Expression &u, const Extent &extent)
     {
       if (scene.material.is_double_well())
-      {
-        const physics::WellForce<2> force(make_double_well(scene, problem.horizon()));
-        return [force, u](const Point<2> &x, unsigned int c)
-        {
-          const auto field = [&](const Point<2> &y) {
-            return dealii::Tensor<1, 2>({u(y, 0), u(y, 1)});
-          };
-          return -force(field, x)[c];
-        };
-      }
+        return WellLoad{physics::WellForce<2>(make_double_well(scene, problem.horizon())), u, {}};
       const physics::ManufacturedLoad bonds(problem.kernel, u, problem.coefficient);
       if (!problem.dilatation)
         return bonds;
@@ -137,7 +151,8 @@ namespace plumbline::scene
     }
   } // namespace
 
-  Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level, double t)
+  Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level, double t,
+                       const Field *known_load)
   {
     const physics::Kernel<2> kernel = make_kernel(scene, level.horizon);
     const unsigned int n_components = kernel.n_components();
@@ -181,7 +196,9 @@ namespace plumbline::scene
     else if (scene.problem.local_solution == LocalSolution::expression)
       problem.local_solution = field("Problem/local solution", scene.problem.local_expression);
 
-    if (!scene.problem.loads.empty())
+    if (known_load != nullptr)
+      problem.load = *known_load;
+    else if (!scene.problem.loads.empty())
       problem.load = field("Problem/load", scene.problem.loads[case_index].expression);
     else if (!problem.solution)
       problem.load = nothing;

@@ -43,8 +43,9 @@ namespace plumbline::scene
   /// @param case_index  into Scene::case_names()
   /// @param t           of a scene that moves: its state at this time, the load being the static
   /// one, -F(u) of a manufactured u
+  /// @param known_load  of the same case, horizon and time on another level, dear to make again
   /// @throws InputError  an expression that is not finite somewhere in Ω or its collar, a mesh or
   /// nodes that cannot be used
   Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level,
-                       double t = 0);
+                       double t = 0, const Field *known_load = nullptr);
 } // namespace plumbline::scene

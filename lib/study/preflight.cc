@@ -50,7 +50,7 @@ namespace plumbline::study
           throw InputError("Methods/names: '" + name + "' cannot do this scene: " + reason);
       }
     }
-    if (scene.reference.method)
+    if (scene.reference.method && !scene.time.is_dynamic()) // a motion's is no method
     {
       const auto reference = find_method(available, *scene.reference.method, "Reference/method");
       if (reference->family() != "reference")

@@ -1,4 +1,5 @@
 #include "meshfree/discretisations.h"
+#include "meshfree/lattice/double_well_motion.h"
 #include "meshfree/lattice/nodal_field.h"
 #include "meshfree/lattice/stencil.h"
 #include "meshfree/rules/family_statistics.h"
@@ -64,7 +65,11 @@ namespace plumbline::meshfree
           : LatticeDiscretisation(
                 scene, problem,
                 method::comparison_nodes(scene, *problem.lattice, problem.n_components),
-                make_stencil(problem, bonds), {1})
+                make_stencil(problem, bonds), {1}),
+            move_well_(scene.material.is_double_well()
+                           ? MoveWell([&scene, &problem, bonds](double largest)
+                                      { return move_double_well(scene, problem, bonds, largest); })
+                           : MoveWell())
       {
         describe_weights(bonds.family, bonds.fit, diagnostics_);
         diagnostics_.notes = bonds.notes;
@@ -72,6 +77,12 @@ namespace plumbline::meshfree
       }
 
       method::Diagnostics diagnostics() const override { return diagnostics_; }
+
+      std::unique_ptr<method::EquationOfMotion> motion(bool is_lumped) const override
+      {
+        return move_well_ ? move_well_(algebra::Symbol(*waves()).range().largest)
+                          : LatticeDiscretisation::motion(is_lumped);
+      }
 
     private:
       Vector load(const scene::Problem &problem) const override
@@ -96,6 +107,9 @@ namespace plumbline::meshfree
         return result;
       }
 
+      using MoveWell =
+          std::function<std::unique_ptr<method::EquationOfMotion>(double largest_eigenvalue)>;
+      MoveWell move_well_; ///< of double wells, whose stencil is that of small strains
       method::Diagnostics diagnostics_;
     };
   } // namespace

@@ -4,6 +4,7 @@
 #include "method/limit_proof.h"
 #include "reference/geometry_check.h"
 #include "reference/lattice/dilatation.h"
+#include "reference/lattice/double_well_motion.h"
 #include "reference/lattice/field.h"
 #include "reference/lattice/mass.h"
 #include "reference/lattice/stencil.h"
@@ -143,7 +144,12 @@ namespace plumbline::reference
                 make_stencil(scene, problem, shapes), masses(shapes, problem.lattice->h())),
             shapes_(shapes), horizon_(problem.horizon()),
             n_geometry_checks_(scene.geometry.n_checks), seed_(scene.geometry.seed),
-            cells_(method::comparison_nodes(scene, lattice(), problem.n_components))
+            cells_(method::comparison_nodes(scene, lattice(), problem.n_components)),
+            move_well_(
+                scene.material.is_double_well()
+                    ? MoveWell([&scene, &problem](bool is_lumped, double largest)
+                               { return move_q1_on_torus(scene, problem, is_lumped, largest); })
+                    : MoveWell())
       {
         if (shapes.degree() == 0)
           limit_ = method::prove_by_moments(scene, problem, stencil(), problem.h * problem.h);
@@ -156,6 +162,16 @@ namespace plumbline::reference
         method::DiscreteOperator result = LatticeDiscretisation::matrix();
         result.is_collocated = false;
         return result;
+      }
+
+      std::unique_ptr<method::EquationOfMotion> motion(bool is_lumped) const override
+      {
+        if (!move_well_)
+          return LatticeDiscretisation::motion(is_lumped);
+        algebra::WaveOperator small = *waves();
+        if (is_lumped)
+          small.mass = algebra::lump(small.mass, nodes().n_families());
+        return move_well_(is_lumped, algebra::Symbol(small).range().largest);
       }
 
       method::Diagnostics diagnostics() const override
@@ -208,6 +224,9 @@ namespace plumbline::reference
       double horizon_;
       unsigned int n_geometry_checks_, seed_;
       NodeSet cells_; ///< to compare over
+      using MoveWell =
+          std::function<std::unique_ptr<method::EquationOfMotion>(bool is_lumped, double largest)>;
+      MoveWell move_well_; ///< of double wells, whose stencil is that of small strains
       method::LimitProof limit_;
     };
   } // namespace

@@ -73,7 +73,7 @@ TEST(Descriptions, say_what_is_allowed_in_our_words)
   using namespace plumbline::app;
   for (const std::string section :
        {"Domain", "Kernel", "Material", "Problem", "Methods", "Study", "Reference", "Quadrature",
-        "Geometry", "Solver", "Output", "Expected", "Crack"})
+        "Geometry", "Solver", "Output", "Expected", "Time", "Crack"})
   {
     const Outcome outcome = run("describe " + section);
     EXPECT_EQ(outcome.exit_code, 0) << section;

@@ -56,7 +56,7 @@ TEST(CrackCommand, finds_threshold_and_speed_and_draws_them)
   expect_found(page, "What was left out of the model");
   for (const char *const name : {"moments", "tip", "speed", "energies"})
     EXPECT_TRUE(fs::exists(folder / "crack" / (std::string(name) + ".svg"))) << name;
-  expect_found(read(folder / "frames/frames.pvd"), "frame_00003.vtu");
+  expect_found(read(folder / "frames/frame.pvd"), "frame_00003.vtu");
   expect_found(read(folder / "frames/frame_00003.vtu"), "damage");
   EXPECT_FALSE(fs::exists(folder / "checkpoint.h5"));
   fs::remove_all(folder);

@@ -1,0 +1,163 @@
+#include "dynamics.h"
+
+#include "base/error.h"
+#include "base/number_text.h"
+#include "base/team.h"
+#include "methods.h"
+#include "reference/lattice/torus_motion.h"
+#include "report/dynamics_page.h"
+#include "report/formats.h"
+#include "report/frames.h"
+#include "run_parts.h"
+#include "study/dynamics.h"
+#include "study/preflight.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+
+namespace plumbline::app
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    /// Frames fill no more than half of what is free.
+    void check_frames(const scene::Scene &scene, const method::Methods &methods,
+                      const fs::path &folder)
+    {
+      if (scene.time.n_frames == 0)
+        return;
+      double n_nodes = 0;
+      for (const scene::Series &series : scene.study.series)
+      {
+        double area = 0;
+        for (const geometry::Box &box : scene.domain.boxes.include)
+          area += (box.upper[0] - box.lower[0]) * (box.upper[1] - box.lower[1]);
+        n_nodes += area / (series.levels.back().h * series.levels.back().h);
+      }
+      constexpr double of_node = 50; // its place, u, its rate and indices, compressed
+      const double needed = of_node * n_nodes * scene.time.n_frames *
+                            static_cast<double>(methods.size()) *
+                            static_cast<double>(scene.problem.case_names().size());
+      fs::path existing = fs::absolute(folder);
+      while (!fs::exists(existing))
+        existing = existing.parent_path();
+      const auto free = static_cast<double>(fs::space(existing).available);
+      if (needed > .5 * free)
+        throw InputError("Time/frames = " + std::to_string(scene.time.n_frames) +
+                         " would take some " + base::to_text(needed / 1e9, 3) + " GB in '" +
+                         folder.string() + "', where " + base::to_text(free / 1e9, 3) +
+                         " GB are free; write fewer, or give another folder with -o");
+    }
+
+    void write_frame(const fs::path &folder, const std::string &name,
+                     const std::vector<double> &times, const study::Frame &frame)
+    {
+      const unsigned int n = frame.equation.n_components();
+      const auto values = [n](const std::vector<double> &nodal)
+      {
+        return [nodal, n](std::size_t node, unsigned int component)
+        { return component < n ? nodal[node * n + component] : 0; };
+      };
+      report::write_frame(folder, name, times, frame.equation.nodes(),
+                          {{"displacement", n == 2, values(frame.equation.nodal(frame.state.u))},
+                           {"velocity", n == 2, values(frame.equation.nodal(frame.state.v))}});
+    }
+
+    int exit_code(const study::DynamicResults &results, bool check)
+    {
+      if (!results.is_complete)
+        return 130;
+      for (const study::MotionRun &run : results.runs)
+        if (!run.failure.empty() && !results.shows_blow_up)
+          return 3;
+      const bool holds = std::all_of(results.expectations.begin(), results.expectations.end(),
+                                     [](const study::Expectation &e) { return e.holds; });
+      return check && !holds ? 1 : 0;
+    }
+
+    /// A line for each motion, as it ends.
+    class MotionJournal
+    {
+    public:
+      explicit MotionJournal(const fs::path &folder) : file_(folder / "dynamics.jsonl")
+      {
+        fs::remove(file_);
+      }
+      void append(const study::DynamicResults &results) const
+      {
+        std::ofstream out(file_, std::ios::app);
+        out << report::motion_line(results.runs.back());
+        if (!out.flush())
+          throw InputError("'" + file_.string() + "' cannot be written; free some space");
+      }
+      void remove() const { fs::remove(file_); }
+
+    private:
+      fs::path file_;
+    };
+  } // namespace
+
+  int run_motions(const RunOptions &options, const scene::Scene &scene)
+  {
+    const method::Methods methods = study::choose_methods(scene, all_methods());
+    const fs::path folder =
+        options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
+    check_frames(scene, methods, folder);
+    study::check_motions(scene, methods, options.n_levels);
+    prepare_folder(folder);
+    if (base::Team::all().rank() != 0)
+      return 0; // motions are not shared among ranks: the first one does them
+
+    watch_interrupts();
+    const MotionJournal journal(folder);
+    std::map<std::string, std::vector<double>> frame_times; // of each motion
+    study::DynamicResults results;
+    {
+      ProgressLine progress(!options.quiet);
+      study::MotionControl control;
+      control.n_levels = options.n_levels;
+      control.on_progress = [&](const std::string &what, double f) { progress.show(what, f); };
+      control.on_result = [&](const study::DynamicResults &r) { journal.append(r); };
+      control.should_stop = is_interrupted;
+      control.make_torus = reference::move_on_torus;
+      control.on_frame = [&](const study::MotionRun &run, const study::Frame &frame)
+      {
+        const std::string name = report::slug(run.method + "_" + run.problem + "_" + run.series);
+        frame_times[name].push_back(frame.t);
+        write_frame(folder / "frames", name, frame_times[name], frame);
+      };
+      try
+      {
+        results = study::run_motions(scene, methods, control);
+      }
+      catch (...)
+      {
+        std::error_code not_empty; // motions that are there stay
+        fs::remove(folder, not_empty);
+        throw;
+      }
+    }
+    results.provenance = provenance();
+    study::conclude(scene, results);
+    report::write_dynamics(results, folder);
+    journal.remove();
+
+    if (options.json)
+      std::cout << report::dynamics_json(results);
+    else if (!options.quiet)
+      std::cout << report::dynamics_text(results)
+                << "\nreport: " << (folder / "dynamics.html").string() << '\n';
+    if (!results.is_complete)
+      std::cerr << "interrupted: what is finished is in '" << folder.string() << "'\n";
+    if (!results.shows_blow_up)
+      for (const study::MotionRun &run : results.runs)
+        if (!run.failure.empty())
+          std::cerr << "no motion: " << run.method << ", " << run.series << ", h = " << run.h
+                    << ", " << run.scheme << ": " << run.failure << '\n';
+    return exit_code(results, options.check);
+  }
+} // namespace plumbline::app

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <string>
+
+// What commands that solve have in common.
+namespace plumbline::app
+{
+  /// From now on the first SIGINT or SIGTERM asks to end after the present solve; a second one ends
+  /// the process.
+  void watch_interrupts();
+  bool is_interrupted();
+
+  /// Versions and machine, for results.
+  std::map<std::string, std::string> provenance();
+
+  /// Make the folder and try it, so that no work is lost at the end. @note Collective.
+  /// @throws InputError  it cannot be written
+  void prepare_folder(const std::filesystem::path &folder);
+
+  /// One line that is rewritten, on a terminal, after the first two seconds.
+  class ProgressLine
+  {
+  public:
+    explicit ProgressLine(bool is_wanted);
+    ~ProgressLine();
+    void show(const std::string &what, double fraction);
+
+  private:
+    bool is_on_, is_shown_ = false;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  };
+} // namespace plumbline::app

@@ -1,0 +1,126 @@
+#include "analysis/time_series.h"
+
+#include "analysis/motion.h"
+#include "base/error.h"
+#include "base/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace plumbline::analysis
+{
+  namespace
+  {
+    double point(std::size_t k, std::size_t n, double end)
+    {
+      return .5 * end * (1 - std::cos(M_PI * static_cast<double>(k) / static_cast<double>(n)));
+    }
+
+    /// Barycentric weights of Chebyshev's points. Source: Berrut & Trefethen 2004,
+    /// doi:10.1137/S0036144502417715, (5.4).
+    double weight(std::size_t k, std::size_t n)
+    {
+      return (k % 2 == 0 ? 1 : -1) * (k == 0 || k == n ? .5 : 1);
+    }
+  } // namespace
+
+  TimeSeries::TimeSeries(Vector value) : values_{std::move(value)} {}
+
+  TimeSeries TimeSeries::resolve(const std::function<Vector(double)> &at, double end,
+                                 double tolerance, const std::string &what)
+  {
+    constexpr std::size_t first = 8, last = 64;
+    TimeSeries series(end, {});
+    for (std::size_t k = 0; k <= first; ++k)
+      series.values_.push_back(at(point(k, first, end)));
+    for (std::size_t n = 2 * first; n <= last; n *= 2)
+    {
+      std::vector<Vector> finer;
+      double difference = 0, size = 0;
+      Vector guess;
+      for (std::size_t k = 0; k <= n; ++k)
+      {
+        if (k % 2 == 0)
+          finer.push_back(series.values_[k / 2]);
+        else
+        {
+          const double t = point(k, n, end);
+          finer.push_back(at(t));
+          series.at(t, guess);
+          analysis::add(guess, -1, finer.back());
+          difference = std::max(difference, norm(guess));
+        }
+        size = std::max(size, norm(finer.back()));
+      }
+      series.values_ = std::move(finer);
+      series.error_ = size > 0 ? difference / size : 0;
+      if (difference <= tolerance * size)
+        return series;
+    }
+    throw InputError(what +
+                     ": 65 Chebyshev points up to Time/final time do not resolve it in t, "
+                     "the last ones differ by " +
+                     base::to_text(series.error_, 2) +
+                     " of it; shorten the time, or give a field that is smoother in t");
+  }
+
+  void TimeSeries::at(double t, Vector &value) const
+  {
+    const std::size_t n = values_.size() - 1;
+    std::vector<double> weights(n + 1);
+    double sum = 0;
+    for (std::size_t k = 0; k <= n; ++k)
+    {
+      const double distance = n == 0 ? 0 : t - point(k, n, end_);
+      if (distance == 0)
+      {
+        value = values_[k];
+        return;
+      }
+      weights[k] = weight(k, n) / distance;
+      sum += weights[k];
+    }
+    value.assign(values_[0].size(), 0);
+    for (std::size_t k = 0; k <= n; ++k)
+      analysis::add(value, weights[k] / sum, values_[k]);
+  }
+
+  Vector TimeSeries::at(double t) const
+  {
+    Vector value;
+    at(t, value);
+    return value;
+  }
+
+  TimeSeries TimeSeries::derivative() const
+  {
+    const std::size_t n = values_.size() - 1;
+    const Vector zero(values_[0].size());
+    TimeSeries result(end_, std::vector<Vector>(n + 1, zero));
+    for (std::size_t i = 0; i <= n; ++i)
+    {
+      // Σ_k D_ik u_k with D_ii = -Σ_k≠i D_ik, so that constants have none
+      for (std::size_t k = 0; k <= n; ++k)
+        if (k != i)
+        {
+          const double d = weight(k, n) / weight(i, n) / (point(i, n, end_) - point(k, n, end_));
+          analysis::add(result.values_[i], d, values_[k]);
+          analysis::add(result.values_[i], -d, values_[i]);
+        }
+    }
+    return result;
+  }
+
+  void TimeSeries::add(double factor, const TimeSeries &other)
+  {
+    if (values_.size() == 1 && other.values_.size() > 1)
+    {
+      values_.resize(other.values_.size(), values_[0]);
+      end_ = other.end_;
+    }
+    for (std::size_t k = 0; k < values_.size(); ++k)
+      analysis::add(values_[k], factor,
+                    other.values_.size() == 1 ? other.values_[0] : other.values_[k]);
+  }
+} // namespace plumbline::analysis

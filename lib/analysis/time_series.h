@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace plumbline::analysis
+{
+  using Vector = std::vector<double>;
+
+  /// A vector that is smooth in time, on [0, T]: a polynomial through its values at Chebyshev's
+  /// points t_k = T/2 (1 - cos kπ/N), k = 0 ... N.
+  class TimeSeries
+  {
+  public:
+    /// One that does not change.
+    explicit TimeSeries(Vector value);
+
+    /// Interpolate at 9, 17, 33 and 65 points, each holding those before, until the new values
+    /// differ from the polynomial before by no more than the tolerance, relative to the largest
+    /// norm of all; noise of the values beyond that never settles.
+    /// @param what  for the message
+    /// @throws InputError  not at 65 points
+    static TimeSeries resolve(const std::function<Vector(double t)> &at, double end,
+                              double tolerance, const std::string &what);
+
+    std::size_t n_points() const { return values_.size(); }
+    double error() const { return error_; } ///< the difference at the last new points, relative
+
+    /// Overwrites `value`, of any size.
+    void at(double t, Vector &value) const;
+    Vector at(double t) const;
+
+    TimeSeries derivative() const;
+
+    /// this += factor other, of the same times; one that does not change fits any.
+    void add(double factor, const TimeSeries &other);
+
+  private:
+    TimeSeries(double end, std::vector<Vector> values) : end_(end), values_(std::move(values)) {}
+
+    double end_ = 0, error_ = 0;
+    std::vector<Vector> values_; ///< at t_0 ... t_N
+  };
+} // namespace plumbline::analysis

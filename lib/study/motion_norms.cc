@@ -1,0 +1,57 @@
+#include "study/motion_norms.h"
+
+#include "analysis/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::study
+{
+  double norm_of(const std::vector<double> &values, unsigned int n_components, double area,
+                 bool is_largest)
+  {
+    double sum = 0, largest = 0;
+    for (std::size_t i = 0; i < values.size(); i += n_components)
+    {
+      double square = 0;
+      for (unsigned int c = 0; c < n_components; ++c)
+        square += values[i + c] * values[i + c];
+      sum += square;
+      largest = std::max(largest, std::sqrt(square));
+    }
+    return is_largest ? largest
+                      : std::sqrt(area * sum * n_components / static_cast<double>(values.size()));
+  }
+
+  double area_of(const scene::Problem &problem)
+  {
+    const geometry::Lattice &lattice = *problem.lattice;
+    double n = 0;
+    for (int j = 0; j < lattice.n_cells()[1]; ++j)
+      for (int i = 0; i < lattice.n_cells()[0]; ++i)
+        n += lattice.is_inside(i, j) ? 1 : 0;
+    return n * lattice.h() * lattice.h();
+  }
+
+  double extent_of(const std::vector<double> &nodal, unsigned int n_components)
+  {
+    double extent = 0;
+    for (unsigned int c = 0; c < n_components; ++c)
+    {
+      double low = nodal[c], high = nodal[c];
+      for (std::size_t i = c; i < nodal.size(); i += n_components)
+      {
+        low = std::min(low, nodal[i]);
+        high = std::max(high, nodal[i]);
+      }
+      extent = std::max(extent, high - low);
+    }
+    return extent;
+  }
+
+  std::vector<double> difference(std::vector<double> a, const std::vector<double> &b)
+  {
+    analysis::add(a, -1, b);
+    return a;
+  }
+} // namespace plumbline::study

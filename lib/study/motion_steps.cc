@@ -1,0 +1,100 @@
+#include "study/motion_steps.h"
+
+#include "base/error.h"
+#include "base/number_text.h"
+#include "study/dynamics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::study
+{
+  using analysis::Scheme;
+  using analysis::Transient;
+
+  std::string StepRule::text() const
+  {
+    return is_fraction ? base::to_text(value, 4) + " of critical"
+                       : "dt = " + base::to_text(value, 4);
+  }
+
+  std::vector<StepRule> step_rules(const scene::TimeSection &time)
+  {
+    std::vector<StepRule> rules;
+    for (const double value : time.steps.empty() ? time.fractions : time.steps)
+      rules.push_back({value, time.steps.empty()});
+    return rules;
+  }
+
+  double step_of(const StepRule &rule, const Transient &transient, const Scheme &scheme)
+  {
+    if (!rule.is_fraction)
+      return rule.value;
+    const double own = transient.critical_step(scheme);
+    return rule.value * (own > 0 && std::isfinite(own)
+                             ? own
+                             : transient.critical_step(analysis::scheme("velocity Verlet")));
+  }
+
+  namespace
+  {
+    void check_steps(const scene::Scene &scene, const Method &method, const scene::Level &level)
+    {
+      const scene::Problem problem = make_problem(scene, 0, level);
+      std::unique_ptr<method::Discretisation> discretisation;
+      try
+      {
+        discretisation = method.discretise(scene, problem, base::Team::alone());
+      }
+      catch (const NumericalError &)
+      {
+        return; // a finding of the run
+      }
+      const auto equation = discretisation->motion(scene.time.is_lumped);
+      const Transient transient(*equation, analysis::TimeSeries(equation->drive(problem)),
+                                scene.time.density, scene.time.damping);
+      for (const std::string &name : scene.time.schemes)
+      {
+        const Scheme &scheme = analysis::scheme(name);
+        if (scheme.is_implicit() && !equation->has_tangent())
+          throw InputError("Time/schemes: '" + name + "' needs the tangent of forces, which " +
+                           method.name() +
+                           " does not have here; take explicit ones, or leave the method out");
+        const double critical = transient.critical_step(scheme);
+        for (const StepRule &rule : step_rules(scene.time))
+          if (const double step = step_of(rule, transient, scheme);
+              !scene.time.shows_blow_up && std::isfinite(critical) && step > critical)
+            throw InputError(
+                std::string(rule.is_fraction ? "Time/critical fractions" : "Time/steps") + ": " +
+                rule.text() + " with the scheme " + name + " is a step of " +
+                base::to_text(step, 5) + " by " + method.name() +
+                " at h = " + base::to_text(level.h, 4) + ", longer than the critical one, " +
+                base::to_text(critical, 5) +
+                (critical > 0 ? ", so that errors grow without bound; shorten it"
+                              : ": the scheme is unstable at any step; take another") +
+                ", or write Time/show blow-up = true");
+      }
+    }
+  } // namespace
+
+  void check_motions(const scene::Scene &scene, const Methods &methods, unsigned int n_levels)
+  {
+    for (const std::string &name : scene.time.schemes)
+      try
+      {
+        (void)analysis::scheme(name);
+      }
+      catch (const InputError &error)
+      {
+        throw InputError(std::string("Time/schemes: ") + error.what());
+      }
+    for (const scene::Series &series : scene.study.series)
+    {
+      const std::size_t n = series.levels.size();
+      const scene::Level &finest =
+          series.levels[n_levels == 0 ? n - 1 : std::min<std::size_t>(n_levels, n) - 1];
+      for (const auto &method : methods)
+        check_steps(scene, *method, finest);
+    }
+  }
+} // namespace plumbline::study

@@ -1,0 +1,299 @@
+#include "base/error.h"
+#include "base/number_text.h"
+#include "study/dynamics.h"
+#include "study/motion_data.h"
+#include "study/motion_norms.h"
+#include "study/motion_steps.h"
+#include "study/torus_reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+namespace plumbline::study
+{
+  using analysis::Scheme;
+  using analysis::State;
+  using analysis::Transient;
+  using analysis::Vector;
+
+  namespace
+  {
+    /// Somebody asked to end, in the middle of a motion.
+    struct Interrupted
+    {
+    };
+
+    class MotionSweep
+    {
+    public:
+      MotionSweep(const scene::Scene &scene, const Methods &methods, const MotionControl &control)
+          : scene_(scene), methods_(methods), control_(control)
+      {
+        results_.scene_name = scene.name;
+        results_.purpose = scene.purpose;
+        results_.regime = base::word(scene.study.regime);
+        results_.scene_text = scene.text;
+        const bool is_known =
+            scene.reference.method || (!scene.problem.solutions.empty() &&
+                                       scene.study.decisive_error.target == scene::Target::exact);
+        results_.decisive_error = is_known ? scene.study.decisive_error.text() : "";
+        results_.final_time = scene.time.final_time;
+        results_.density = scene.time.density;
+        results_.damping = scene.time.damping;
+        results_.shows_blow_up = scene.time.shows_blow_up;
+      }
+
+      DynamicResults run()
+      {
+        const auto names = scene_.problem.case_names();
+        n_all_ = static_cast<double>(names.size() * methods_.size() * scene_.time.schemes.size() *
+                                     step_rules(scene_.time).size());
+        double n_levels = 0;
+        for (const scene::Series &series : scene_.study.series)
+          n_levels += static_cast<double>(series.levels.size());
+        n_all_ *= n_levels;
+        results_.is_complete = true;
+        for (unsigned int c = 0; c < names.size(); ++c)
+          for (const scene::Series &series : scene_.study.series)
+          {
+            const std::size_t n_all = series.levels.size(),
+                              n = control_.n_levels == 0
+                                      ? n_all
+                                      : std::min<std::size_t>(control_.n_levels, n_all);
+            for (unsigned int level = 0; level < n; ++level)
+            {
+              is_finest_ = level + 1 == n;
+              ProblemsInTime problems(scene_, c, series.levels[level], loads_);
+              for (const auto &method : methods_)
+              {
+                MotionRun run;
+                run.method = method->name();
+                run.family = method->family();
+                run.problem = names[c];
+                run.series = series.name;
+                run.level = level;
+                run.h = series.levels[level].h;
+                run.horizon = series.levels[level].horizon;
+                if (!run_method(*method, problems, run))
+                {
+                  results_.is_complete = false;
+                  return results_;
+                }
+              }
+            }
+          }
+        return results_;
+      }
+
+    private:
+      void finish(const MotionRun &run)
+      {
+        results_.runs.push_back(run);
+        if (control_.on_result)
+          control_.on_result(results_);
+      }
+
+      /// @return whether to go on
+      bool run_method(const Method &method, ProblemsInTime &problems, MotionRun run)
+      {
+        const base::CpuTimer timer;
+        try
+        {
+          const double shared = problems.seconds();
+          const scene::Problem &first = problems.at(0);
+          area_ = area_of(first);
+          const auto discretisation = method.discretise(scene_, first, base::Team::alone());
+          const auto equation = discretisation->motion(scene_.time.is_lumped);
+          if (!equation)
+            throw NumericalError("its motion is not there");
+          const MotionData data = motion_data(scene_, *equation, problems);
+          const Transient transient(*equation, data.drive, scene_.time.density,
+                                    scene_.time.damping);
+          run.facts = equation->facts();
+          run.cost.setup_seconds = timer.seconds() - (problems.seconds() - shared);
+          const auto torus = torus_of(run, problems);
+          const auto rules = step_rules(scene_.time);
+          const auto in_time = exact_in_time(*equation, transient, data, rules.size());
+          for (const std::string &name : scene_.time.schemes)
+            for (const StepRule &rule : rules)
+            {
+              if (control_.should_stop && control_.should_stop())
+                return false;
+              const Scheme &scheme = analysis::scheme(name);
+              run.scheme = name;
+              run.steps = rule.text();
+              run.critical_step = transient.critical_step(scheme);
+              run.step = step_of(rule, transient, scheme);
+              progress(run);
+              const bool is_shown =
+                  is_finest_ && name == scene_.time.schemes.front() && &rule == &rules.back();
+              finish(move(run, scheme, *equation, transient, data, torus, in_time, is_shown));
+            }
+        }
+        catch (const Interrupted &)
+        {
+          return false;
+        }
+        catch (const NumericalError &error)
+        {
+          run.failure = error.what();
+          finish(run);
+        }
+        return true;
+      }
+
+      void progress(const MotionRun &run) const
+      {
+        if (control_.on_progress)
+          control_.on_progress(run.method + ", " + run.series + ", h = " + base::to_text(run.h, 4) +
+                                   ", " + run.scheme + ", " + run.steps,
+                               static_cast<double>(results_.runs.size()) / n_all_);
+      }
+
+      /// The state at the final time of the same equation, exact in time; empty: not needed.
+      std::optional<State> exact_in_time(const method::EquationOfMotion &,
+                                         const Transient &transient, const MotionData &data,
+                                         std::size_t n_rules) const
+      {
+        if (!is_finest_ || n_rules < 2)
+          return {};
+        State state = data.start;
+        analysis::integrate(transient.motion(), analysis::scheme("Runge-Kutta"),
+                            {scene_.time.final_time / 4}, scene_.time.final_time, state);
+        return state;
+      }
+
+      MotionRun move(MotionRun run, const Scheme &scheme, const method::EquationOfMotion &equation,
+                     const Transient &transient, const MotionData &data, const Torus *torus,
+                     const std::optional<State> &in_time, bool is_shown)
+      {
+        constexpr std::uint64_t n_samples = 100;
+        const double end = scene_.time.final_time;
+        const auto n_steps = static_cast<std::uint64_t>(std::ceil(end / run.step));
+        State state = data.start;
+        analysis::EnergyLog log(transient, state, n_steps, n_samples);
+        double watching = 0; // CPU seconds of what the scheme itself does not do
+        unsigned int n_frames = 0;
+        const base::CpuTimer timer;
+        const auto show = [&](const State &now)
+        {
+          const double due = end * n_frames / std::max(1u, scene_.time.n_frames - 1);
+          if (!is_shown || !control_.on_frame || n_frames >= scene_.time.n_frames ||
+              now.t < due - .5 * run.step)
+            return;
+          control_.on_frame(run, {now.t, equation, now});
+          ++n_frames;
+        };
+        const auto error_now = [&](const State &now)
+        {
+          run.history.push_back(error_of(
+              equation, difference(equation.nodal(now.u), equation.nodal(data.exact->at(now.t))),
+              scene_.study.decisive_error.norm));
+        };
+        if (data.exact)
+          error_now(state);
+        show(state);
+        watching = timer.seconds();
+        try
+        {
+          run.counts = analysis::integrate(transient.motion(), scheme,
+                                           {run.step, run.critical_step, scene_.time.shows_blow_up},
+                                           end, state,
+                                           [&](const State &now)
+                                           {
+                                             const double before = timer.seconds();
+                                             if (log.observe(now) && data.exact)
+                                               error_now(now);
+                                             show(now);
+                                             watching += timer.seconds() - before;
+                                           });
+        }
+        catch (const NumericalError &error)
+        {
+          run.failure = error.what();
+        }
+        run.cost.solve_seconds = timer.seconds() - watching;
+        run.energies = log.samples();
+        run.imbalance = log.imbalance();
+        if (run.failure.empty())
+          compare(run, equation, state, data, torus, in_time);
+        return run;
+      }
+
+      double error_of(const method::EquationOfMotion &equation, const Vector &nodal,
+                      scene::Norm norm) const
+      {
+        return norm_of(nodal, equation.n_components(), area_, is_largest(norm));
+      }
+
+      void compare(MotionRun &run, const method::EquationOfMotion &equation, const State &state,
+                   const MotionData &data, const Torus *torus, const std::optional<State> &in_time)
+      {
+        const Vector u = equation.nodal(state.u), v = equation.nodal(state.v);
+        run.size = extent_of(u, equation.n_components());
+        const auto against = [&](scene::Target target, const Vector &exact_u, const Vector &exact_v)
+        {
+          for (const scene::Norm norm : scene_.study.norms)
+          {
+            const std::string name = base::word(norm) + " | " + base::word(target);
+            run.errors[name] = error_of(equation, difference(u, exact_u), norm);
+            run.errors["velocity " + name] = error_of(equation, difference(v, exact_v), norm);
+          }
+        };
+        if (data.exact)
+          against(scene::Target::exact, equation.nodal(data.exact->at(state.t)),
+                  equation.nodal(data.exact->derivative().at(state.t)));
+        if (torus != nullptr)
+        {
+          if (torus_nodes_ != equation.nodes())
+          {
+            torus_nodes_ = equation.nodes();
+            torus_u_ = torus->at(torus_nodes_, torus->state.u);
+            torus_v_ = torus->at(torus_nodes_, torus->state.v);
+          }
+          against(scene::Target::reference, torus_u_, torus_v_);
+        }
+        if (in_time)
+          run.errors["nodal L2 | time"] =
+              error_of(equation, difference(u, equation.nodal(in_time->u)), scene::Norm::nodal_l2);
+      }
+
+      /// Of the run's case and horizon; the last one is kept.
+      const Torus *torus_of(const MotionRun &run, ProblemsInTime &problems)
+      {
+        if (!scene_.reference.method || !control_.make_torus)
+          return nullptr;
+        if (!torus_ || torus_key_ != std::pair(run.problem, run.horizon))
+        {
+          auto solution = solve_torus(scene_, control_, run.problem, run.horizon, problems);
+          torus_ = std::move(solution.torus);
+          torus_nodes_.clear();
+          results_.references.push_back(solution.estimate);
+        }
+        torus_key_ = {run.problem, run.horizon};
+        return &*torus_;
+      }
+
+      const scene::Scene &scene_;
+      const Methods &methods_;
+      const MotionControl &control_;
+      DynamicResults results_;
+      ProblemsInTime::Loads loads_;
+      bool is_finest_ = false;
+      double area_ = 1, n_all_ = 1; ///< motions
+      std::optional<Torus> torus_;
+      std::pair<std::string, double> torus_key_;
+      std::vector<dealii::Point<2>> torus_nodes_; ///< that it was asked for last
+      Vector torus_u_, torus_v_;
+    };
+
+  } // namespace
+
+  DynamicResults run_motions(const scene::Scene &scene, const Methods &methods,
+                             const MotionControl &control)
+  {
+    return MotionSweep(scene, methods, control).run();
+  }
+} // namespace plumbline::study

@@ -1,0 +1,258 @@
+#include "base/number_text.h"
+#include "study/dynamics.h"
+#include "study/expectations.h"
+#include "study/trend.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::study
+{
+  namespace
+  {
+    const std::string time_error = "nodal L2 | time";
+
+    /// What runs of one trend have in common.
+    bool is_alike(const MotionRun &a, const MotionRun &b)
+    {
+      return a.method == b.method && a.problem == b.problem && a.series == b.series &&
+             a.scheme == b.scheme;
+    }
+
+    /// The runs with a scheme's shortest step: the last of each level.
+    std::vector<std::vector<const MotionRun *>> over_levels(const std::vector<MotionRun> &runs)
+    {
+      std::vector<std::vector<const MotionRun *>> groups;
+      for (const MotionRun &run : runs)
+      {
+        const auto group =
+            std::find_if(groups.begin(), groups.end(),
+                         [&](const auto &one) { return is_alike(*one.front(), run); });
+        if (group == groups.end())
+          groups.push_back({&run});
+        else if (group->back()->level == run.level)
+          group->back() = &run;
+        else
+          group->push_back(&run);
+      }
+      return groups;
+    }
+
+    MotionTrend begin(const MotionRun &run, const std::string &error)
+    {
+      MotionTrend trend;
+      trend.method = run.method;
+      trend.family = run.family;
+      trend.problem = run.problem;
+      trend.series = run.series;
+      trend.scheme = run.scheme;
+      trend.error = error;
+      return trend;
+    }
+
+    MotionTrend over_levels(const scene::Scene &scene, const std::vector<const MotionRun *> &runs,
+                            const std::string &error)
+    {
+      // of the solution's size: what is left of 1e-12 in times, forces and references
+      constexpr double rounding = 1e-10;
+      MotionTrend trend = begin(*runs.back(), error);
+      trend.steps = runs.back()->steps;
+      trend.parameter = scene.study.regime == scene::Regime::horizon ? "horizon" : "h";
+      std::string failure;
+      for (const MotionRun *run : runs)
+      {
+        const auto found = run->errors.find(error);
+        if (!run->failure.empty())
+          failure = run->failure;
+        else if (found != run->errors.end())
+        {
+          trend.x.push_back(trend.parameter == "h" ? run->h : run->horizon);
+          trend.values.push_back(found->second);
+          trend.size = run->size;
+          trend.round_off = rounding * run->size;
+        }
+      }
+      judge(trend);
+      if (!failure.empty())
+      {
+        trend.outcome = Outcome::failed;
+        trend.reason = failure;
+      }
+      trend.verdict = verdict_of(scene.study.regime, trend);
+      return trend;
+    }
+
+    /// Slope of the error in time over Δt, at the finest level.
+    std::vector<MotionTrend> orders(const std::vector<MotionRun> &runs)
+    {
+      constexpr double rounding = 1e-11; // of the solution's size: that of Runge-Kutta
+      std::vector<MotionTrend> all;
+      for (const MotionRun &run : runs)
+      {
+        const auto found = run.errors.find(time_error);
+        if (found == run.errors.end() || analysis::scheme(run.scheme).is_runge_kutta)
+          continue;
+        const auto same =
+            std::find_if(all.begin(), all.end(),
+                         [&](const MotionTrend &trend)
+                         {
+                           return trend.method == run.method && trend.problem == run.problem &&
+                                  trend.series == run.series && trend.scheme == run.scheme;
+                         });
+        const auto place = static_cast<std::size_t>(same - all.begin());
+        if (place == all.size())
+        {
+          all.push_back(begin(run, time_error));
+          all.back().parameter = "dt";
+        }
+        MotionTrend &trend = all[place];
+        trend.size = run.size;
+        trend.round_off = rounding * run.size;
+        trend.x.push_back(run.step);
+        trend.values.push_back(found->second);
+      }
+      for (MotionTrend &trend : all)
+      {
+        std::vector<double> x, e;
+        for (std::size_t i = 0; i < trend.x.size(); ++i)
+        {
+          if (i > 0)
+            trend.rates.push_back(std::log(trend.values[i] / trend.values[i - 1]) /
+                                  std::log(trend.x[i] / trend.x[i - 1]));
+          if (trend.values[i] > trend.round_off)
+          {
+            x.push_back(trend.x[i]);
+            e.push_back(trend.values[i]);
+          }
+        }
+        if (x.size() < 2)
+        {
+          trend.reason = "fewer than two steps with errors above round-off";
+          continue;
+        }
+        const Slope slope = fit_slope(x, e);
+        trend.rate = slope.value;
+        trend.rate_uncertainty = slope.uncertainty;
+        trend.verdict = "order " + base::to_text(slope.value, 3);
+        trend.reason = "of the scheme: " + std::to_string(analysis::scheme(trend.scheme).order);
+      }
+      return all;
+    }
+
+    void expect_orders(const scene::Scene &scene, DynamicResults &results)
+    {
+      for (const scene::Expected &expected : scene.expected.all)
+      {
+        if (expected.kind != scene::ExpectedKind::orders)
+          continue;
+        bool is_found = false;
+        for (const MotionTrend &trend : results.orders)
+          if (trend.method == expected.method && trend.scheme == expected.problem)
+          {
+            is_found = true;
+            results.expectations.push_back(
+                {trend.method + ", " + trend.scheme + ", " + trend.series + ": order in time",
+                 base::to_text(expected.values.front(), 4) + " ± " +
+                     base::to_text(scene.expected.rate_tolerance, 4),
+                 base::to_text(trend.rate, 4),
+                 std::abs(trend.rate - expected.values.front()) <= scene.expected.rate_tolerance});
+          }
+        if (!is_found)
+          results.expectations.push_back(
+              {expected.text, "order in time", "no such method and scheme was run", false});
+      }
+    }
+
+    std::string number(double value)
+    {
+      return base::to_text(value, 6);
+    }
+
+    /// The model's constants, at the first horizon.
+    void say_facts(const scene::Scene &scene, DynamicResults &results)
+    {
+      const auto add = [&](const std::string &what, const std::string &value)
+      { results.facts.emplace_back(what, value); };
+      const double horizon = scene.study.series.front().levels.front().horizon;
+      add("final time T", number(scene.time.final_time));
+      add("density ρ, damping η", number(scene.time.density) + ", " + number(scene.time.damping));
+      if (scene.material.is_double_well())
+      {
+        const physics::DoubleWell law = make_double_well(scene, horizon);
+        const auto speeds = law.wave_speeds(scene.time.density);
+        add("f(s) = c (1 - exp(-β s)), stiffness p = cβ", "c = " + number(law.c()) +
+                                                              ", β = " + number(law.beta()) +
+                                                              ", p = " + number(law.stiffness()));
+        add("moments M_1, M_2 of J", number(law.moment(1)) + ", " + number(law.moment(2)));
+        add("λ = μ of the elastic limit", number(law.modulus()));
+        add("speeds of long waves c_L, c_T",
+            number(speeds.longitudinal) + ", " + number(speeds.transverse));
+        add("toughness G_c", number(law.toughness()));
+        add("C₁, C₂, C₃ = max |F₁'|, |F₁''|, |F₁'''|",
+            number(law.c1()) + ", " + number(law.c2()) + ", " + number(law.c3()));
+        add("C̄; Lipschitz bound 6 C̄/ε² of F in L²",
+            number(law.c_bar()) + "; " + number(6 * law.c_bar() / (horizon * horizon)));
+        add("softening strain of a bond as long as the horizon",
+            number(law.softening_strain(horizon)));
+        return;
+      }
+      const physics::LocalLimit limit = make_kernel(scene, horizon).limit();
+      if (scene.is_vector() && !scene.material.is_state_based())
+        add("speeds of long waves c_L, c_T", number(std::sqrt(3 * limit.mu / scene.time.density)) +
+                                                 ", " +
+                                                 number(std::sqrt(limit.mu / scene.time.density)));
+      else if (!scene.is_vector())
+        add("speed of long waves", number(std::sqrt(limit.diffusion / scene.time.density)));
+    }
+
+    void say_omissions(const scene::Scene &scene, DynamicResults &results)
+    {
+      const auto leave_out = [&](const std::string &what, const std::string &why,
+                                 const std::string &saving) {
+        results.omissions.push_back({what, why, saving});
+      };
+      if (!scene.is_vector())
+        leave_out("the second component", "the kernel is scalar, so components do not couple",
+                  "half the unknowns, a quarter of the bonds' work");
+      if (scene.material.is_double_well())
+        leave_out("bond state", "double wells break by the law itself, without memory",
+                  "a bit for each bond");
+      else
+      {
+        leave_out("Newton's method and new tangents", "the model is linear",
+                  "one linear solve a step of implicit schemes");
+        leave_out("the stencil of each node", "the lattice's nodes are alike",
+                  "all but one family of bonds");
+      }
+      if (scene.material.is_state_based() && !scene.has_dilatation())
+        leave_out("the dilatation", "lambda = mu: the bonds are all",
+                  "half the reach of the stencil");
+      if (scene.is_steady())
+        leave_out("loads and constraint in time", "neither has t in it", "one set instead of 17");
+    }
+  } // namespace
+
+  void conclude(const scene::Scene &scene, DynamicResults &results)
+  {
+    results.trends.clear();
+    results.facts.clear();
+    results.omissions.clear();
+    results.expectations.clear();
+    if (!results.decisive_error.empty())
+      for (const auto &runs : over_levels(results.runs))
+      {
+        results.trends.push_back(over_levels(scene, runs, results.decisive_error));
+        results.trends.push_back(over_levels(scene, runs, "velocity " + results.decisive_error));
+      }
+    results.orders = orders(results.runs);
+    say_facts(scene, results);
+    say_omissions(scene, results);
+
+    Results statics; // expectations of levels are those of statics
+    statics.decisive_error = results.decisive_error;
+    statics.trends.assign(results.trends.begin(), results.trends.end());
+    check_expectations(scene, statics);
+    results.expectations = statics.expectations;
+    expect_orders(scene, results);
+  }
+} // namespace plumbline::study

@@ -1,0 +1,233 @@
+#include "meshfree/lattice/double_well_motion.h"
+
+#include "meshfree/lattice/double_well_force.h"
+#include "method/method.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    using State = method::EquationOfMotion::State;
+
+    /// The nodes that forces are summed over: those of the torus, or the bounding box of the free
+    /// ones and a margin as wide as bonds reach.
+    struct Box
+    {
+      std::array<int, 2> n{};
+      std::vector<dealii::Point<2>> places; ///< shape (n[1], n[0])
+      std::vector<char> is_free;
+    };
+
+    Box torus(const scene::Scene &scene, const geometry::Lattice &lattice)
+    {
+      const double offset = scene.methods.nodes.are_vertices() ? 0 : .5;
+      Box box{lattice.n_cells(), {}, {}};
+      for (int j = 0; j < box.n[1]; ++j)
+        for (int i = 0; i < box.n[0]; ++i)
+          box.places.push_back(lattice.point(i + offset, j + offset));
+      box.is_free.assign(box.places.size(), 1);
+      return box;
+    }
+
+    Box with_margin(const geometry::NodeSet &nodes, const geometry::Lattice &lattice, int margin)
+    {
+      Box box{{nodes.n[0] + 2 * margin, nodes.n[1] + 2 * margin}, {}, {}};
+      for (int j = -margin; j < nodes.n[1] + margin; ++j)
+        for (int i = -margin; i < nodes.n[0] + margin; ++i)
+        {
+          const auto place = nodes.place(0, i, j);
+          box.places.push_back(lattice.point(place[0], place[1]));
+          box.is_free.push_back(nodes.free(0, i, j) ? 1 : 0);
+        }
+      return box;
+    }
+
+    /// ω at the nodes of a box; empty: 1.
+    std::vector<double> boundary_function(const scene::Scene &scene, const Box &box, double horizon)
+    {
+      std::vector<double> omega;
+      if (scene.material.boundary_function == scene::BoundaryFunction::one)
+        return omega;
+      const geometry::Box &body = scene.domain.boxes.include.front();
+      for (const auto &x : box.places)
+      {
+        double distance = horizon;
+        for (unsigned int a = 0; a < 2; ++a)
+          distance = std::min({distance, x[a] - body.lower[a], body.upper[a] - x[a]});
+        const double t = std::max(0., distance) / horizon;
+        omega.push_back(t * t * (3 - 2 * t));
+      }
+      return omega;
+    }
+
+    int reach(const std::vector<WellBond> &bonds)
+    {
+      int reach = 0;
+      for (const WellBond &bond : bonds)
+        reach = std::max({reach, std::abs(bond.k[0]), std::abs(bond.k[1])});
+      return reach;
+    }
+
+    /// States are u at the free nodes, shape (2, n_nodes). What drives them is b there and behind
+    /// it u at the held nodes, of the same shape.
+    class DoubleWellMotion : public method::EquationOfMotion
+    {
+    public:
+      DoubleWellMotion(const scene::Scene &scene, double h, double horizon, const Box &box,
+                       const std::vector<WellBond> &bonds, double largest_eigenvalue)
+          : cell_(h * h), largest_(largest_eigenvalue), toughness_(lattice_toughness(bonds, 2, h)),
+            n_all_(box.places.size()),
+            force_(bonds, h, box.n, scene.domain.is_periodic ? Exterior::periodic : Exterior::empty,
+                   boundary_function(scene, box, horizon)),
+            all_(2 * n_all_), other_(2 * n_all_)
+      {
+        for (std::size_t k = 0; k < n_all_; ++k)
+          (box.is_free[k] != 0 ? free_ : held_).push_back(k);
+        for (const std::size_t k : free_)
+          nodes_.push_back(box.places[k]);
+        for (const std::size_t k : held_)
+          held_nodes_.push_back(box.places[k]);
+      }
+
+      std::size_t size() const override { return 2 * free_.size(); }
+
+      std::vector<double> drive(const scene::Problem &instant) const override
+      {
+        std::vector<double> g = state(instant.load);
+        for (unsigned int c = 0; c < 2; ++c)
+          for (const auto &node : held_nodes_)
+            g.push_back(instant.constraint.value(node, c));
+        return g;
+      }
+
+      std::vector<double> inertia(const scene::Problem &instant) const override
+      {
+        std::vector<double> g = state(*instant.solution);
+        g.resize(size() + 2 * held_.size());
+        return g;
+      }
+
+      State state(const scene::Field &field) const override
+      {
+        State u;
+        for (unsigned int c = 0; c < 2; ++c)
+          for (const auto &node : nodes_)
+            u.push_back(field.series ? (*field.series)(node, c) : field.value(node, c));
+        return u;
+      }
+
+      void acceleration(const State &u, const std::vector<double> &g, State &a) const override
+      {
+        spread(u, &g[size()], all_);
+        force_.force(all_, other_);
+        gather(other_, a);
+        for (std::size_t i = 0; i < a.size(); ++i)
+          a[i] += g[i];
+      }
+
+      void tangent(const State &u, const std::vector<double> &g, const State &v,
+                   State &out) const override
+      {
+        State direction(2 * n_all_);
+        spread(u, &g[size()], all_);
+        spread(v, nullptr, direction);
+        force_.tangent(all_, direction, other_);
+        gather(other_, out);
+      }
+
+      double product(const State &u, const State &v) const override
+      {
+        double sum = 0;
+        for (std::size_t i = 0; i < u.size(); ++i)
+          sum += u[i] * v[i];
+        return cell_ * sum;
+      }
+
+      double energy(const State &u, const std::vector<double> &g) const override
+      {
+        spread(u, &g[size()], all_);
+        return force_.energy(all_);
+      }
+
+      double power(const State &u, const State &v, const std::vector<double> &g,
+                   const std::vector<double> &rate) const override
+      {
+        double sum = product({g.begin(), g.begin() + static_cast<std::ptrdiff_t>(size())}, v);
+        if (held_.empty())
+          return sum;
+        spread(u, &g[size()], all_);
+        force_.force(all_, other_);
+        for (unsigned int c = 0; c < 2; ++c)
+          for (std::size_t k = 0; k < held_.size(); ++k)
+            sum -= cell_ * other_[c * n_all_ + held_[k]] * rate[size() + c * held_.size() + k];
+        return sum;
+      }
+
+      std::optional<double> largest_eigenvalue() const override { return largest_; }
+
+      std::map<std::string, double> facts() const override
+      {
+        return {{"toughness of the lattice", toughness_},
+                {"bonds of one evaluation", static_cast<double>(force_.n_bonds())}};
+      }
+      unsigned int n_components() const override { return 2; }
+      const std::vector<dealii::Point<2>> &nodes() const override { return nodes_; }
+      std::vector<double> nodal(const State &u) const override
+      {
+        std::vector<double> values;
+        for (std::size_t k = 0; k < free_.size(); ++k)
+          for (unsigned int c = 0; c < 2; ++c)
+            values.push_back(u[c * free_.size() + k]);
+        return values;
+      }
+
+    private:
+      /// @param held  at the held nodes, shape (2, n_held); null: 0
+      void spread(const State &u, const double *held, State &all) const
+      {
+        for (unsigned int c = 0; c < 2; ++c)
+        {
+          for (std::size_t k = 0; k < free_.size(); ++k)
+            all[c * n_all_ + free_[k]] = u[c * free_.size() + k];
+          for (std::size_t k = 0; k < held_.size(); ++k)
+            all[c * n_all_ + held_[k]] = held == nullptr ? 0 : held[c * held_.size() + k];
+        }
+      }
+
+      void gather(const State &all, State &u) const
+      {
+        u.resize(size());
+        for (unsigned int c = 0; c < 2; ++c)
+          for (std::size_t k = 0; k < free_.size(); ++k)
+            u[c * free_.size() + k] = all[c * n_all_ + free_[k]];
+      }
+
+      double cell_, largest_, toughness_;
+      std::size_t n_all_;
+      DoubleWellForce<2> force_;
+      std::vector<std::size_t> free_, held_; ///< of the box
+      std::vector<dealii::Point<2>> nodes_, held_nodes_;
+      mutable State all_, other_; ///< over the box, shape (2, n[1], n[0])
+    };
+  } // namespace
+
+  std::unique_ptr<method::EquationOfMotion> move_double_well(const scene::Scene &scene,
+                                                             const scene::Problem &problem,
+                                                             const Bonds &bonds,
+                                                             double largest_eigenvalue)
+  {
+    const double horizon = problem.horizon();
+    const auto wells = well_bonds(make_double_well(scene, horizon), bonds);
+    const geometry::Lattice &lattice = *problem.lattice;
+    const Box box =
+        scene.domain.is_periodic
+            ? torus(scene, lattice)
+            : with_margin(method::comparison_nodes(scene, lattice, 1), lattice, reach(wells));
+    return std::make_unique<DoubleWellMotion>(scene, problem.h, horizon, box, wells,
+                                              largest_eigenvalue);
+  }
+} // namespace plumbline::meshfree

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "meshfree/rules/bonds.h"
+#include "method/equation_of_motion.h"
+
+namespace plumbline::meshfree
+{
+  /// Double wells on a lattice by a rule's bonds: on a torus, or with u given at all nodes that are
+  /// not free within reach, where ω may vanish. Forces, tangents and energies are those of
+  /// DoubleWellForce.
+  /// @param largest_eigenvalue  of the rule's stencil of small strains on the unbounded lattice,
+  /// which is that of a torus, and bounds that of other boxes from above
+  /// @throws NumericalError  weights that differ between mirror images
+  /// @pre scene.material.is_double_well(), problem.lattice
+  std::unique_ptr<method::EquationOfMotion> move_double_well(const scene::Scene &scene,
+                                                             const scene::Problem &problem,
+                                                             const Bonds &bonds,
+                                                             double largest_eigenvalue);
+} // namespace plumbline::meshfree

@@ -1,0 +1,100 @@
+#include "reference/lattice/torus_motion.h"
+
+#include "base/error.h"
+#include "reference/lattice/torus_force.h"
+
+namespace plumbline::reference
+{
+  namespace
+  {
+    class TorusMotion : public method::ContinuousMotion
+    {
+    public:
+      TorusMotion(const scene::Scene &scene, double horizon, unsigned int n)
+          : lower_(scene.domain.boxes.include.front().lower),
+            side_(scene.domain.boxes.include.front().upper[0] - lower_[0]), n_(n),
+            force_(make_double_well(scene, horizon), n, side_, n_radii, n_angles)
+      {
+        for (unsigned int j = 0; j < n; ++j)
+          for (unsigned int i = 0; i < n; ++i)
+            nodes_.emplace_back(lower_[0] + side_ * i / n, lower_[1] + side_ * j / n);
+      }
+
+      std::size_t size() const override { return force_.size(); }
+      std::vector<double> drive(const scene::Problem &instant) const override
+      {
+        return state(instant.load);
+      }
+      std::vector<double> inertia(const scene::Problem &instant) const override
+      {
+        return state(*instant.solution);
+      }
+      State state(const scene::Field &field) const override
+      {
+        State u;
+        for (unsigned int c = 0; c < 2; ++c)
+          for (const auto &node : nodes_)
+            u.push_back(field.series ? (*field.series)(node, c) : field.value(node, c));
+        return u;
+      }
+      void acceleration(const State &u, const std::vector<double> &g, State &a) const override
+      {
+        force_.force(u, a);
+        for (std::size_t i = 0; i < a.size(); ++i)
+          a[i] += g[i];
+      }
+      void tangent(const State &, const std::vector<double> &, const State &,
+                   State &) const override
+      {
+        throw NumericalError("the torus without a mesh has no tangent; take an explicit scheme");
+      }
+      bool has_tangent() const override { return false; }
+      double product(const State &u, const State &v) const override
+      {
+        double sum = 0;
+        for (std::size_t i = 0; i < u.size(); ++i)
+          sum += u[i] * v[i];
+        return side_ * side_ / static_cast<double>(nodes_.size()) * sum;
+      }
+      double energy(const State &u, const std::vector<double> &) const override
+      {
+        return force_.energy(u);
+      }
+      double power(const State &, const State &v, const std::vector<double> &g,
+                   const std::vector<double> &) const override
+      {
+        return product(g, v);
+      }
+      unsigned int n_components() const override { return 2; }
+      const std::vector<dealii::Point<2>> &nodes() const override { return nodes_; }
+      std::vector<double> nodal(const State &u) const override
+      {
+        std::vector<double> values;
+        for (std::size_t k = 0; k < nodes_.size(); ++k)
+          for (unsigned int c = 0; c < 2; ++c)
+            values.push_back(u[c * nodes_.size() + k]);
+        return values;
+      }
+      double value(const State &u, const dealii::Point<2> &x, unsigned int component) const override
+      {
+        return force_.interpolate(&u[component * nodes_.size()],
+                                  {x[0] - lower_[0], x[1] - lower_[1]});
+      }
+
+    private:
+      // enough for fields whose waves are 7 horizons long, see physics::WellForce
+      static constexpr unsigned int n_radii = 12, n_angles = 32;
+      dealii::Point<2> lower_;
+      double side_;
+      unsigned int n_;
+      TorusForce<2> force_;
+      std::vector<dealii::Point<2>> nodes_;
+    };
+  } // namespace
+
+  std::unique_ptr<method::ContinuousMotion> move_on_torus(const scene::Scene &scene, double horizon,
+                                                          unsigned int n)
+  {
+    return std::make_unique<TorusMotion>(scene, horizon, n);
+  }
+} // namespace plumbline::reference

@@ -1,0 +1,104 @@
+// `plumbline run` of scenes that move: what it writes, and what it refuses.
+
+#include "command.h"
+
+#include <nlohmann/json.hpp>
+
+namespace
+{
+  using namespace plumbline::app;
+
+  const std::string schemes = std::string(PLUMBLINE_SCENES) + "/dynamics/schemes.prm";
+
+  /// Exit code 2, the message, nothing printed and nothing written.
+  void expect_refused(const std::string &settings, const std::string &message)
+  {
+    const fs::path folder = temporary("motion");
+    const Outcome outcome = run("run " + schemes + " " + settings + " -o " + folder.string());
+    EXPECT_EQ(outcome.exit_code, 2) << settings << '\n' << outcome.err;
+    expect_found(outcome.err, message);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_FALSE(fs::exists(folder)) << settings;
+  }
+
+  std::string set(const std::string &key, const std::string &value)
+  {
+    return "--set '" + key + "=" + value + "' ";
+  }
+
+  const std::string quick = set("Time/steps", "0.05, 0.025") + set("Expected/orders", "") +
+                            set("Time/schemes", "velocity Verlet, implicit Euler");
+} // namespace
+
+TEST(DynamicsCommand, writes_a_page_its_numbers_and_frames)
+{
+  const fs::path folder = temporary("motion");
+  const Outcome outcome =
+      run("run " + schemes + " " + quick + set("Time/frames", "3") + " -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "Orders in time");
+  const std::string page = read(folder / "dynamics.html");
+  for (const std::string part : {"<svg", "toughness of the lattice", "What was left out", "C̄"})
+    expect_found(page, part);
+  for (const std::string chart : {"orders", "energies", "balance"})
+    EXPECT_TRUE(fs::exists(folder / "dynamics" / (chart + ".csv"))) << chart;
+  expect_found(read(folder / "dynamics.md"), "velocity Verlet");
+  EXPECT_FALSE(fs::exists(folder / "dynamics.jsonl"));
+
+  const auto json = nlohmann::json::parse(read(folder / "dynamics.json"));
+  ASSERT_EQ(json["runs"].size(), 4u);
+  const auto &first = json["runs"][0], &implicit = json["runs"][3];
+  EXPECT_EQ(first["n_steps"], 20);
+  EXPECT_EQ(first["n_forces"], 21);
+  EXPECT_GT(implicit["n_newton"], 0);
+  const double toughness = first["facts"]["toughness of the lattice"];
+  EXPECT_NEAR(toughness, 4 / M_PI / 3, .1 * 4 / M_PI / 3); // of J = 1 at m = 4: .9375 of it
+  // energies: Verlet keeps them, implicit Euler loses them
+  const auto stored = [](const nlohmann::json &motion, std::size_t i)
+  {
+    return motion["history"]["kinetic"][i].get<double>() +
+           motion["history"]["bond"][i].get<double>();
+  };
+  const std::size_t last = first["history"]["t"].size() - 1;
+  EXPECT_EQ(first["history"]["t"][last], 1);
+  EXPECT_NEAR(stored(first, last), stored(first, 0), 5e-3 * stored(first, 0));
+  EXPECT_LT(stored(implicit, implicit["history"]["t"].size() - 1), .95 * stored(first, 0));
+
+  const std::string list = read(folder / "frames/pa-ac_u_delta-0.2.pvd");
+  expect_found(list, "timestep=\"0.5\"");
+  expect_found(list, "_00002.vtu");
+  expect_found(read(folder / "frames/pa-ac_u_delta-0.2_00002.vtu"), "NumberOfPoints=\"400\"");
+}
+
+TEST(DynamicsCommand, interrupted_keeps_what_is_finished)
+{
+  // the first levels take a second, the last one a minute
+  const fs::path folder = temporary("motion");
+  const std::string settings = set("Time/final time", "4000") + set("Time/steps", "0.02") +
+                               set("Expected/orders", "") + set("Time/schemes", "velocity Verlet") +
+                               set("Study/h", "0.2, 0.1, 0.05, 0.025");
+  const int status = std::system(("timeout --preserve-status -s INT 4 " +
+                                  std::string(PLUMBLINE_COMMAND) + " run " + schemes + " " +
+                                  settings + " --quiet -o " + folder.string() + " 2>/dev/null")
+                                     .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  const auto json = nlohmann::json::parse(read(folder / "dynamics.json"));
+  EXPECT_FALSE(json["is_complete"]);
+  EXPECT_GE(json["runs"].size(), 1u);
+  EXPECT_LT(json["runs"].size(), 4u);
+  expect_found(read(folder / "dynamics.html"), "interrupted: what was finished");
+}
+
+TEST(DynamicsCommand, refuses_what_cannot_move)
+{
+  expect_refused(set("Time/steps", "0"), "Time/steps = 0 must be positive");
+  expect_refused(set("Time/density", "-1"), "Time/density = -1 must be positive");
+  expect_refused(set("Material/beta", "0"), "Material/beta = 0 must be positive");
+  expect_refused(set("Time/initial displacement", "log(x-2), 0"), "must be a finite number");
+  expect_refused(set("Time/show blow-up", "false"), "the scheme is unstable at any step");
+  expect_refused(set("Time/frames", "100000") + set("Study/h", "0.001"), "GB are free");
+  expect_refused("--methods DGQ1", "no fixed quadrature resolves");
+  expect_refused("--methods LOCAL", "Domain/mesh = lattice");
+  expect_refused(set("Time/schemes", "leapfrog"), "choose one of: explicit Euler");
+  expect_refused(set("Time/final time", "0"), "Domain/boundary");
+}

@@ -1,0 +1,226 @@
+// Scenes that move, run by both sides: rates in time and space, energies, and what is refused.
+
+#include "study/dynamics.h"
+
+#include "base/error.h"
+#include "meshfree/method.h"
+#include "reference/lattice/torus_motion.h"
+#include "reference/method.h"
+#include "study/preflight.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace plumbline;
+using namespace plumbline::study;
+
+namespace
+{
+  using Settings = std::vector<scene::Override>;
+
+  scene::Scene scene_of(const std::string &model, const Settings &common, const Settings &settings)
+  {
+    Settings all = common;
+    all.insert(all.end(), settings.begin(), settings.end());
+    return scene::parse_scene("t.prm", scene::scene_template(model), all);
+  }
+
+  /// A manufactured motion, h at a fixed horizon.
+  scene::Scene wave(const std::string &model, const std::string &solution, const Settings &settings)
+  {
+    return scene_of(model,
+                    {{"Problem/solution", solution},
+                     {"Time/final time", "0.5"},
+                     {"Study/regime", "delta"},
+                     {"Study/h", "0.2, 0.1, 0.05"},
+                     {"Study/norms", "nodal L2"},
+                     {"Study/decisive error", "nodal L2 | exact"}},
+                    settings);
+  }
+
+  scene::Scene torus(const Settings &settings)
+  {
+    return scene_of("double-well", {{"Study/h", "0.1, 0.05, 0.025"}}, settings);
+  }
+
+  DynamicResults run(const scene::Scene &scene)
+  {
+    method::Methods all = meshfree::methods();
+    for (const auto &method : reference::methods())
+      all.push_back(method);
+    const method::Methods methods = choose_methods(scene, all);
+    check_motions(scene, methods, 0);
+    MotionControl control;
+    control.make_torus = reference::move_on_torus;
+    DynamicResults results = run_motions(scene, methods, control);
+    conclude(scene, results);
+    for (const MotionRun &motion : results.runs)
+      EXPECT_EQ(motion.failure, "") << motion.method;
+    return results;
+  }
+
+  /// Errors of u at the levels, coarse to fine.
+  std::vector<double> errors(const DynamicResults &results, const std::string &method,
+                             const std::string &prefix = "")
+  {
+    for (const MotionTrend &trend : results.trends)
+      if (trend.method == method && trend.error == prefix + results.decisive_error)
+        return trend.values;
+    throw InputError("no such trend: " + method);
+  }
+
+  double last_rate(const std::vector<double> &errors)
+  {
+    return std::log2(errors[errors.size() - 2] / errors.back());
+  }
+} // namespace
+
+TEST(Motions, manufactured_fields_that_methods_hold_are_exact_to_round_off)
+{
+  // bilinear in space with constants and first moments right: errors are those of time alone
+  const Settings settings = {{"Methods/names", "PA-AC, IPA-AC-R2, Q1, Q2, DGQ1"},
+                             {"Study/h", "0.2"},
+                             {"Study/m", "2.5"},
+                             {"Time/density", "1.7"},
+                             {"Time/damping", "0.6"},
+                             {"Time/schemes", "Runge-Kutta"}};
+  for (const bool is_lumped : {false, true})
+  {
+    Settings with_mass = settings;
+    with_mass.push_back({"Time/mass", is_lumped ? "lumped" : "consistent"});
+    const auto results = run(wave("scalar", "(1 + x)*(2 - y)*sin(2*t) + x - y", with_mass));
+    ASSERT_EQ(results.runs.size(), 5u);
+    for (const MotionRun &motion : results.runs)
+      if (!is_lumped || motion.family == "meshfree")
+      {
+        EXPECT_LT(motion.errors.at("nodal L2 | exact"), 1e-9) << motion.method;
+        EXPECT_LT(motion.errors.at("velocity nodal L2 | exact"), 1e-8) << motion.method;
+      }
+  }
+}
+
+TEST(Motions, converge_in_space_at_the_order_of_their_method)
+{
+  const std::string solution = "sin(2*x + y - 3*t)";
+  const auto results = run(
+      wave("scalar", solution,
+           {{"Methods/names", "FA, IPA-AC-R2, IPA-AC-R4, Q1"}, {"Time/schemes", "Runge-Kutta"}}));
+  EXPECT_NEAR(last_rate(errors(results, "IPA-AC-R2")), 2, .2);
+  EXPECT_NEAR(last_rate(errors(results, "IPA-AC-R4")), 4, .4);
+  EXPECT_NEAR(last_rate(errors(results, "Q1")), 2, .2);
+  EXPECT_LT(last_rate(errors(results, "FA")), .5); // wrong second moments
+  EXPECT_NEAR(last_rate(errors(results, "Q1", "velocity ")), 2, .3);
+}
+
+TEST(Motions, of_solids_agree_on_both_sides)
+{
+  const auto results = run(
+      wave("LPS", "sin(t)*x^2*y + y^2, cos(2*t)*x*y^2 + x^2",
+           {{"Methods/names", "IPA-AC-R2, Q1"}, {"Time/density", "2"}, {"Time/damping", "0.5"}}));
+  EXPECT_GT(last_rate(errors(results, "IPA-AC-R2")), 1.7);
+  EXPECT_GT(last_rate(errors(results, "Q1")), 1.7);
+  for (const MotionRun &motion : results.runs)
+    EXPECT_LT(motion.imbalance, .02) << motion.method; // trapezoidal work over the steps
+}
+
+TEST(Motions, schemes_show_their_orders_in_time)
+{
+  const std::vector<std::pair<std::string, double>> expected = {
+      {"explicit Euler", 1}, {"symplectic Euler", 1}, {"velocity Verlet", 2},
+      {"Blanes-Moan", 4},    {"trapezoidal", 2},      {"implicit Euler", 1}};
+  std::string names;
+  for (const auto &[name, order] : expected)
+    names += (names.empty() ? "" : ", ") + name;
+  const auto results = run(torus({{"Methods/names", "PA-AC"},
+                                  {"Study/h", "0.1"},
+                                  {"Reference/method", "none"},
+                                  {"Study/decisive error", "nodal L2 | exact"},
+                                  {"Time/initial displacement", "0.2*sin(2*pi*x), 0.1*cos(2*pi*y)"},
+                                  {"Time/schemes", names},
+                                  {"Time/show blow-up", "true"},
+                                  {"Time/steps", "0.05, 0.025, 0.0125, 0.00625"}}));
+  ASSERT_EQ(results.orders.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    EXPECT_EQ(results.orders[i].scheme, expected[i].first);
+    EXPECT_NEAR(results.orders[i].rate, expected[i].second, .15) << expected[i].first;
+  }
+}
+
+TEST(Motions, of_double_wells_tend_to_the_torus_without_a_mesh)
+{
+  const auto results = run(torus({{"Time/initial displacement", "0.2*sin(2*pi*x), 0"},
+                                  {"Time/schemes", "Blanes-Moan"},
+                                  {"Methods/names", "FA, IPA-AC-R2"}}));
+  ASSERT_EQ(results.references.size(), 1u);
+  EXPECT_LT(results.references[0].estimate, 1e-8);
+  const auto of_rule = errors(results, "IPA-AC-R2");
+  EXPECT_NEAR(last_rate(of_rule), 2, .3);
+  EXPECT_LT(of_rule.back(), .5 * errors(results, "FA").back());
+  for (const MotionRun &motion : results.runs)
+    EXPECT_LT(motion.imbalance, 1e-3) << motion.method; // symplectic
+}
+
+TEST(Motions, of_double_wells_are_driven_by_a_manufactured_force_on_both_sides)
+{
+  const std::string solution = "0.1*sin(2*pi*x)*cos(2*t), 0.1*sin(2*pi*y)*sin(t)";
+  const auto results = run(torus({{"Problem/solution", solution},
+                                  {"Time/initial displacement", ""},
+                                  {"Methods/names", "IPA-AC-R2, Q1"},
+                                  {"Reference/method", "torus"},
+                                  {"Study/norms", "nodal L2"},
+                                  {"Study/decisive error", "nodal L2 | exact"},
+                                  {"Study/h", "0.2, 0.1"},
+                                  {"Time/final time", "0.3"},
+                                  {"Time/steps", "0.02"}}));
+  for (const std::string method : {"IPA-AC-R2", "Q1"})
+    EXPECT_NEAR(last_rate(errors(results, method)), 2, .5) << method;
+  for (const MotionRun &motion : results.runs) // the torus itself is driven to the exact solution
+    EXPECT_NEAR(motion.errors.at("nodal L2 | reference"), motion.errors.at("nodal L2 | exact"),
+                1e-7);
+}
+
+TEST(Motions, of_double_wells_take_data_in_a_collar)
+{
+  const auto results = run(torus({{"Domain/boundary", "constrained"},
+                                  {"Reference/method", "none"},
+                                  {"Study/decisive error", "nodal L2 | exact"},
+                                  {"Problem/solution", "0.1*sin(3*x + t), 0.1*cos(2*y - t)*x"},
+                                  {"Time/initial displacement", ""},
+                                  {"Methods/names", "IPA-AC-R2"},
+                                  {"Time/steps", "0.01"}}));
+  const auto of_rule = errors(results, "IPA-AC-R2");
+  EXPECT_NEAR(last_rate(of_rule), 2, .4);
+  EXPECT_LT(of_rule.back(), 1e-3);
+  for (const MotionRun &motion : results.runs) // the collar's work is in the balance
+    EXPECT_LT(motion.imbalance, 1e-3);
+}
+
+TEST(Motions, refuse_steps_beyond_the_critical_one_with_its_number)
+{
+  const auto expect_refused = [](const Settings &settings, const std::string &fragment)
+  {
+    try
+    {
+      (void)run(torus(settings));
+      ADD_FAILURE() << "no error: " << fragment;
+    }
+    catch (const InputError &error)
+    {
+      EXPECT_NE(std::string(error.what()).find(fragment), std::string::npos) << error.what();
+    }
+  };
+  const Settings coarse = {{"Study/h", "0.1"}, {"Methods/names", "FA"}};
+  const auto with = [&](Settings settings)
+  {
+    settings.insert(settings.begin(), coarse.begin(), coarse.end());
+    return settings;
+  };
+  // 1.4905 ε at m = 2, see tests/meshfree/double_well_dynamics.cc
+  expect_refused(with({{"Time/steps", "0.3"}}), "longer than the critical one, 0.298");
+  expect_refused(with({{"Time/critical fractions", "1.1"}}), "1.1 of critical with the scheme");
+  expect_refused(with({{"Time/schemes", "explicit Euler"}}), "unstable at any step");
+  expect_refused(with({{"Time/schemes", "leapfrog"}}), "Time/schemes: time-stepping scheme");
+  expect_refused(with({{"Methods/names", "Q1"}, {"Time/schemes", "trapezoidal"}}), "the tangent");
+}
