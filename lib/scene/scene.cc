@@ -39,7 +39,7 @@ namespace plumbline::scene
     /// What follows from the keys, once all are read.
     void complete(Scene &scene)
     {
-      scene.kernel.complete();
+      scene.kernel.complete(scene.folder);
       scene.material.complete();
       if (scene.solver.is_full_model)
         scene = full_model(std::move(scene));
