@@ -102,7 +102,7 @@ namespace plumbline::benchmarks
     {
       constexpr double h = 1. / 12, horizon = 6 * h;
       const Body body(way == Way::triangles, degree, h, horizon);
-      const reference::RadialProfile profile(make_kernel(type, horizon));
+      const reference::KernelEntries profile(make_kernel(type, horizon));
       const Pairs pairs = sample(body, horizon, place);
       reference::PairBlocks blocks;
       const auto run = [&](auto &integrator, const auto &cell)

@@ -141,7 +141,7 @@ namespace plumbline::benchmarks
       std::shared_ptr<const geometry::Mesh> mesh;
       reference::MeshSpace space;
       reference::MeshCells cells;
-      reference::RadialProfile profile;
+      reference::KernelEntries profile;
 
       Body(bool is_triangles, const std::string &kernel)
           : mesh(std::make_shared<const geometry::Mesh>(geometry::lattice_mesh(

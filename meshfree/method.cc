@@ -54,11 +54,16 @@ namespace plumbline::meshfree
     };
   } // namespace
 
+  std::shared_ptr<const method::Method> make_method(const Rule &rule)
+  {
+    return std::make_shared<RuleMethod>(rule);
+  }
+
   method::Methods methods()
   {
     method::Methods methods;
     for (const Rule &rule : rules())
-      methods.push_back(std::make_shared<RuleMethod>(rule));
+      methods.push_back(make_method(rule));
     for (const Rule &rule : traps())
       methods.push_back(std::make_shared<RuleMethod>(rule, true));
     return methods;

@@ -22,38 +22,36 @@ namespace plumbline::physics
       throw InputError(message.str());
     }
 
-    double sum(const std::vector<PowerTerm> &terms, double t)
-    {
-      double result = 0;
-      for (const PowerTerm &term : terms)
-        result += term.coefficient * std::pow(t, term.exponent);
-      return result;
-    }
-
     /// J >= 0 is what makes small strains stable.
-    void check_influence(const std::vector<PowerTerm> &influence)
+    void check_influence(const RadialProfile &influence)
     {
       constexpr int n_samples = 1000;
-      constexpr double rounding = 1e-14; // of the coefficients
-      double size = 0, largest = 0;
-      for (const PowerTerm &term : influence)
-      {
-        if (term.exponent < 0 || !std::isfinite(term.coefficient))
-          throw InputError("double well: the influence function has the term " +
-                           std::to_string(term.coefficient) + " r^" +
-                           std::to_string(term.exponent) +
-                           "; it must be bounded: use finite coefficients and powers from 0");
-        size += std::abs(term.coefficient);
-      }
+      constexpr double rounding = 1e-14; // of the terms that make the values
+      if (influence.is_empty())
+        throw InputError("double well: the influence function is empty; give coefficients such as "
+                         "1, -1 for 1 - r");
+      if (influence.lowest_exponent() < 0)
+        throw InputError("double well: the influence function behaves like r^" +
+                         std::to_string(influence.lowest_exponent()) +
+                         " at 0; it must be bounded: use powers from 0");
+      double largest = 0, least = 0, at = 0;
       for (int i = 0; i <= n_samples; ++i)
       {
-        const double t = static_cast<double>(i) / n_samples, value = sum(influence, t);
-        largest = std::max(largest, value);
-        if (value < -rounding * size)
+        const double t = static_cast<double>(i) / n_samples, value = influence(t);
+        if (!std::isfinite(value))
           throw InputError("double well: the influence function is " + std::to_string(value) +
-                           " at r = " + std::to_string(t) +
-                           " horizons; it must not be negative in [0, 1], change its coefficients");
+                           " at r = " + std::to_string(t) + " horizons; use finite coefficients");
+        largest = std::max(largest, value);
+        if (value < least)
+        {
+          least = value;
+          at = t;
+        }
       }
+      if (least < -rounding * (largest + influence.size()))
+        throw InputError("double well: the influence function is " + std::to_string(least) +
+                         " at r = " + std::to_string(at) +
+                         " horizons; it must not be negative in [0, 1], change its coefficients");
       if (!(largest > 0))
         throw InputError("double well: the influence function vanishes, so there are no forces; "
                          "give coefficients such as 1, -1 for 1 - r");
@@ -65,8 +63,7 @@ namespace plumbline::physics
     }
   } // namespace
 
-  DoubleWell::DoubleWell(int dim, std::vector<PowerTerm> influence, double c, double beta,
-                         double horizon)
+  DoubleWell::DoubleWell(int dim, RadialProfile influence, double c, double beta, double horizon)
       : dim_(dim), influence_(std::move(influence)), c_(c), beta_(beta), horizon_(horizon)
   {
     if (dim < 1 || dim > 3)
@@ -81,20 +78,14 @@ namespace plumbline::physics
 
   double DoubleWell::influence(double r) const
   {
-    return std::max(0., sum(influence_, r / horizon_));
+    return std::max(0., influence_(r / horizon_));
   }
 
   double DoubleWell::moment(int n) const
   {
-    double result = 0;
-    for (const PowerTerm &term : influence_)
-      if (term.coefficient != 0)
-      {
-        if (term.exponent + n + 1 <= 0)
-          return std::numeric_limits<double>::infinity();
-        result += term.coefficient / (term.exponent + n + 1);
-      }
-    return result;
+    if (influence_.lowest_exponent() + n + 1 <= 0)
+      return std::numeric_limits<double>::infinity();
+    return influence_.moment(n);
   }
 
   double DoubleWell::potential(double s) const
@@ -162,9 +153,7 @@ namespace plumbline::physics
 
   Kernel<2> DoubleWell::linear_kernel() const
   {
-    std::vector<PowerTerm> profile = influence_;
-    for (PowerTerm &term : profile)
-      --term.exponent;
-    return {Structure::tensor, profile, horizon_, force_factor() * stiffness() / horizon_};
+    return {Structure::tensor, influence_.over_t(), horizon_,
+            force_factor() * stiffness() / horizon_};
   }
 } // namespace plumbline::physics

@@ -2,8 +2,6 @@
 
 #include "physics/kernel.h"
 
-#include <vector>
-
 namespace plumbline::physics
 {
   /// Bonds with two wells, one at rest and one at infinity, in dim = 1, 2 or 3 dimensions:
@@ -17,25 +15,25 @@ namespace plumbline::physics
   {
   public:
     /// @param dim        1, 2 or 3
-    /// @param influence  J(t), t = r/ε in [0, 1], a sum of powers >= 0; not negative there
+    /// @param influence  J(t), t = r/ε in [0, 1], bounded and not negative there
     /// @param c          f at infinity, > 0 [energy/length^(dim-1)]
     /// @param beta       β > 0 [1/length]
     /// @param horizon    ε > 0 [length]
     /// @throws InputError  names the key that is out of range
-    DoubleWell(int dim, std::vector<PowerTerm> influence, double c, double beta, double horizon);
+    DoubleWell(int dim, RadialProfile influence, double c, double beta, double horizon);
 
     int dim() const { return dim_; }
     double c() const { return c_; }
     double beta() const { return beta_; }
     double horizon() const { return horizon_; }
     double stiffness() const { return c_ * beta_; } ///< p = f'(0)
-    const std::vector<PowerTerm> &influence() const { return influence_; }
+    const RadialProfile &influence() const { return influence_; }
 
     /// J(r/ε) for r <= ε; beyond, its formula, a negative one counting as 0: cells that a rule lets
     /// reach out of the ball take the kernel there.
     double influence(double r) const;
 
-    /// M_n = ∫_0^1 t^n J(t) dt, exact; infinite where the integral is.
+    /// M_n = ∫_0^1 t^n J(t) dt; infinite where the integral is.
     double moment(int n) const;
 
     double potential(double s) const;  ///< f(s), exact for small s as well
@@ -78,7 +76,7 @@ namespace plumbline::physics
 
   private:
     int dim_;
-    std::vector<PowerTerm> influence_;
+    RadialProfile influence_;
     double c_, beta_, horizon_;
   };
 } // namespace plumbline::physics

@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 namespace plumbline::physics
@@ -26,6 +27,48 @@ namespace plumbline::physics
       return product / std::tgamma(.5 * order);
     }
 
+    RadialProfile polynomial(const ProfileKeys &given)
+    {
+      std::vector<PowerTerm> terms;
+      for (std::size_t i = 0; i < given.coefficients.size(); ++i)
+        terms.push_back(
+            {given.coefficients[i], static_cast<int>(i) - static_cast<int>(given.singularity)});
+      return terms;
+    }
+
+    /// Of a profile that decays in so many horizons.
+    double checked_width(double width)
+    {
+      constexpr double least = .05; // exp(-20) is left at the horizon
+      if (!(width >= least && std::isfinite(width)))
+      {
+        std::ostringstream message;
+        message << "Kernel/width = " << width << " horizons must be " << least
+                << " or more and finite; a kernel that is narrower does without most of its ball: "
+                   "take a smaller horizon";
+        throw InputError(message.str());
+      }
+      return width;
+    }
+
+    RadialProfile gaussian(const ProfileKeys &given)
+    {
+      const double scale = 1 / checked_width(given.width);
+      return RadialProfile::smooth([scale](double t) { return std::exp(-t * t * scale * scale); },
+                                   true);
+    }
+
+    RadialProfile exponential(const ProfileKeys &given)
+    {
+      const double scale = 1 / checked_width(given.width);
+      return RadialProfile::smooth([scale](double t) { return std::exp(-t * scale); }, false);
+    }
+
+    RadialProfile table(const ProfileKeys &given)
+    {
+      return RadialProfile::table(given.table);
+    }
+
     std::string known_names()
     {
       std::string names;
@@ -40,6 +83,8 @@ namespace plumbline::physics
     const std::string yang = "Yang & Yin, Analysis of convergence for the IPA-AC method";
     const std::string scheme = "Silling 2000, doi:10.1016/S0022-5096(99)00029-0";
     const std::string variational = "conical influence function of state-based models";
+    const std::string of_width = "s is the width of the scene, in horizons";
+    const std::string of_table = "a file of the scene, linear between its rows";
     static const std::vector<KernelType> types = {
         {"linear-decay", Structure::scalar, {{1, 0}, {-1, 1}}, "c (1 - r/δ)", yang + ", (2.1)"},
         {"constant", Structure::scalar, {{1, 0}}, "c", scheme},
@@ -49,7 +94,12 @@ namespace plumbline::physics
          Structure::scalar,
          {},
          "c p(r/δ) (δ/r)^a",
-         "coefficients and a of the scene"},
+         "coefficients and a of the scene",
+         "coefficients",
+         polynomial},
+        {"gaussian", Structure::scalar, {}, "c exp(-(r/(s δ))²)", of_width, "width", gaussian},
+        {"exponential", Structure::scalar, {}, "c exp(-r/(s δ))", of_width, "width", exponential},
+        {"table", Structure::scalar, {}, "c ρ(r/δ)", of_table, "table file", table},
         {"bond-tensor", Structure::tensor, {{1, -1}}, "c δ ξ⊗ξ/r³", yang + ", (2.2)"},
         {"bond-tensor constant", Structure::tensor, {{1, 0}}, "c ξ⊗ξ/r²", scheme},
         {"bond-tensor conical",
@@ -61,7 +111,30 @@ namespace plumbline::physics
          Structure::tensor,
          {},
          "c p(r/δ) (δ/r)^a ξ⊗ξ/r²",
-         "coefficients and a of the scene"},
+         "coefficients and a of the scene",
+         "coefficients",
+         polynomial},
+        {"bond-tensor gaussian",
+         Structure::tensor,
+         {},
+         "c exp(-(r/(s δ))²) ξ⊗ξ/r²",
+         of_width,
+         "width",
+         gaussian},
+        {"bond-tensor exponential",
+         Structure::tensor,
+         {},
+         "c exp(-r/(s δ)) ξ⊗ξ/r²",
+         of_width,
+         "width",
+         exponential},
+        {"bond-tensor table",
+         Structure::tensor,
+         {},
+         "c ρ(r/δ) ξ⊗ξ/r²",
+         of_table,
+         "table file",
+         table},
     };
     return types;
   }
@@ -75,20 +148,18 @@ namespace plumbline::physics
   }
 
   template <int dim>
-  Kernel<dim>::Kernel(Structure structure, std::vector<PowerTerm> profile, double horizon,
-                      double constant)
+  Kernel<dim>::Kernel(Structure structure, RadialProfile profile, double horizon, double constant)
       : structure_(structure), profile_(std::move(profile)), horizon_(horizon), constant_(constant)
   {
     if (!(horizon_ > 0) || !std::isfinite(horizon_))
       throw InputError("kernel: horizon = " + std::to_string(horizon_) +
                        " is not a positive length; give a horizon > 0");
-    if (profile_.empty())
+    if (profile_.is_empty())
       throw InputError("kernel: the radial profile has no term; give Kernel/coefficients");
-    for (const PowerTerm &term : profile_)
-      if (term.exponent <= -dim)
-        throw InputError("kernel: the profile term r^" + std::to_string(term.exponent) +
-                         " is not integrable in " + std::to_string(dim) +
-                         "D; use exponents above " + std::to_string(-dim));
+    if (profile_.lowest_exponent() <= -dim)
+      throw InputError("kernel: the profile term r^" + std::to_string(profile_.lowest_exponent()) +
+                       " is not integrable in " + std::to_string(dim) + "D; use exponents above " +
+                       std::to_string(-dim));
   }
 
   namespace
@@ -105,8 +176,7 @@ namespace plumbline::physics
   } // namespace
 
   template <int dim>
-  Kernel<dim> Kernel<dim>::with_diffusion(std::vector<PowerTerm> profile, double horizon,
-                                          double diffusion)
+  Kernel<dim> Kernel<dim>::with_diffusion(RadialProfile profile, double horizon, double diffusion)
   {
     const Kernel unit(Structure::scalar, profile, horizon, 1);
     return Kernel(Structure::scalar, std::move(profile), horizon,
@@ -114,8 +184,7 @@ namespace plumbline::physics
   }
 
   template <int dim>
-  Kernel<dim> Kernel<dim>::with_bulk_modulus(std::vector<PowerTerm> profile, double horizon,
-                                             double kappa)
+  Kernel<dim> Kernel<dim>::with_bulk_modulus(RadialProfile profile, double horizon, double kappa)
   {
     const Kernel unit(Structure::tensor, profile, horizon, 1);
     return Kernel(Structure::tensor, std::move(profile), horizon,
@@ -123,26 +192,27 @@ namespace plumbline::physics
   }
 
   template <int dim>
+  std::vector<double> Kernel<dim>::breaks() const
+  {
+    std::vector<double> radii = profile_.breaks();
+    for (double &radius : radii)
+      radius *= horizon_;
+    return radii;
+  }
+
+  template <int dim>
+  std::vector<Kernel<dim>> Kernel<dim>::parts() const
+  {
+    std::vector<Kernel> result;
+    for (const RadialProfile::Piece &part : profile_.parts())
+      result.emplace_back(structure_, part.profile, part.end * horizon_, constant_);
+    return result;
+  }
+
+  template <int dim>
   double Kernel<dim>::radial(double r) const
   {
-    const double t = r / horizon_;
-    double sum = 0;
-    for (const PowerTerm &term : profile_)
-      switch (term.exponent)
-      {
-      case -1:
-        sum += term.coefficient / t;
-        break;
-      case 0:
-        sum += term.coefficient;
-        break;
-      case 1:
-        sum += term.coefficient * t;
-        break;
-      default:
-        sum += term.coefficient * std::pow(t, term.exponent);
-      }
-    return constant_ * sum;
+    return constant_ * profile_(r / horizon_);
   }
 
   template <int dim>
@@ -168,10 +238,7 @@ namespace plumbline::physics
     }
     else if (a != b)
       return 0;
-    double radial_integral = 0;
-    for (const PowerTerm &term : profile_)
-      radial_integral += term.coefficient / (term.exponent + order + dim);
-    return constant_ * std::pow(horizon_, order + dim) * radial_integral *
+    return constant_ * std::pow(horizon_, order + dim) * profile_.moment(order + dim - 1) *
            sphere_moment<dim>(direction);
   }
 

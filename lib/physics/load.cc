@@ -1,15 +1,12 @@
 #include "physics/load.h"
 
 #include "base/error.h"
-
-#include <deal.II/base/quadrature_lib.h>
+#include "physics/gauss.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <mutex>
 #include <sstream>
 #include <utility>
 
@@ -17,15 +14,6 @@ namespace plumbline::physics
 {
   namespace
   {
-    /// Gauss points on (0,1), made once an order.
-    const dealii::Quadrature<1> &gauss(unsigned int n)
-    {
-      static std::mutex mutex;
-      static std::map<unsigned int, dealii::QGauss<1>> rules;
-      const std::lock_guard<std::mutex> lock(mutex);
-      return rules.try_emplace(n, n).first->second;
-    }
-
     /// An integrand at ξ, the difference of values that it is made of, and their own size, whose
     /// rounding no quadrature can mend.
     struct Sample
@@ -33,25 +21,31 @@ namespace plumbline::physics
       double value, difference, size;
     };
 
-    /// ∫_{|ξ|<δ} g(ξ) dξ, the largest difference and size, with so many radii and angles.
+    /// ∫_{|ξ|<δ} g(ξ) dξ, the largest difference and size, with so many angles, and radii between
+    /// any two of the kernel's breaks.
     template <typename Integrand>
-    Sample over_ball(double horizon, unsigned int n_radii, unsigned int n_angles,
+    Sample over_ball(const std::vector<double> &ends, unsigned int n_radii, unsigned int n_angles,
                      const Integrand &g)
     {
       Sample result{0, 0, 0};
-      for (unsigned int q = 0; q < n_radii; ++q)
+      double from = 0;
+      for (const double to : ends)
       {
-        const double r = horizon * gauss(n_radii).point(q)[0];
-        double ring = 0;
-        for (unsigned int k = 0; k < n_angles; ++k)
+        for (unsigned int q = 0; q < n_radii; ++q)
         {
-          const double angle = 2 * M_PI * (k + .5) / n_angles;
-          const Sample sample = g(Point<2>(r * std::cos(angle), r * std::sin(angle)));
-          ring += sample.value;
-          result.difference = std::max(result.difference, std::abs(sample.difference));
-          result.size = std::max(result.size, std::abs(sample.size));
+          const double r = from + (to - from) * gauss(n_radii).point(q)[0];
+          double ring = 0;
+          for (unsigned int k = 0; k < n_angles; ++k)
+          {
+            const double angle = 2 * M_PI * (k + .5) / n_angles;
+            const Sample sample = g(Point<2>(r * std::cos(angle), r * std::sin(angle)));
+            ring += sample.value;
+            result.difference = std::max(result.difference, std::abs(sample.difference));
+            result.size = std::max(result.size, std::abs(sample.size));
+          }
+          result.value += ring * r * gauss(n_radii).weight(q) * (to - from) * 2 * M_PI / n_angles;
         }
-        result.value += ring * r * gauss(n_radii).weight(q) * horizon * 2 * M_PI / n_angles;
+        from = to;
       }
       return result;
     }
@@ -60,16 +54,18 @@ namespace plumbline::physics
     /// @param scale  of round-off: ∫ of the size of the factor of the differences
     /// @param what   the integral is, and @param x  where, for the message
     template <typename Integrand>
-    double settled_integral(double horizon, double scale, const char *what, const Point<2> &x,
-                            const Integrand &g)
+    double settled_integral(const Kernel<2> &kernel, double scale, const char *what,
+                            const Point<2> &x, const Integrand &g)
     {
       constexpr double settled = 1e-14, acceptable = 1e-12;
       constexpr double round_off = 2 * std::numeric_limits<double>::epsilon(); // of a difference
-      Sample coarse = over_ball(horizon, 6, 12, g);
+      std::vector<double> ends = kernel.breaks();
+      ends.push_back(kernel.horizon());
+      Sample coarse = over_ball(ends, 6, 12, g);
       double change = 0, size = 0, noise = 0;
       for (unsigned int n = 12; n <= 192; n *= 2)
       {
-        const Sample fine = over_ball(horizon, n, 2 * n, g);
+        const Sample fine = over_ball(ends, n, 2 * n, g);
         change = std::abs(fine.value - coarse.value);
         size = std::abs(fine.value) + scale * fine.difference;
         noise = round_off * scale * fine.size;
@@ -117,8 +113,7 @@ namespace plumbline::physics
       result.value *= kernel_.radial(xi.norm()) * (a_ ? a_->mean(a0, a_->at(x + xi)) : 1);
       return result;
     };
-    return settled_integral(kernel_.horizon(), operator_scale(kernel_), "the load L u", x,
-                            integrand);
+    return settled_integral(kernel_, operator_scale(kernel_), "the load L u", x, integrand);
   }
 
   double FieldDilatation::operator()(const Point<2> &x) const
@@ -131,7 +126,7 @@ namespace plumbline::physics
                     std::max(std::abs(first), std::abs(second)),
                     std::max(std::abs(u0[0]), std::abs(u0[1]))};
     };
-    return settled_integral(influence_.horizon(), influence_.horizon() * operator_scale(influence_),
+    return settled_integral(influence_, influence_.horizon() * operator_scale(influence_),
                             "the dilatation of u", x, integrand);
   }
 
@@ -151,15 +146,13 @@ namespace plumbline::physics
           std::max(std::abs(theta), std::abs(theta0));
       return Sample{-influence.radial(xi.norm()) * xi[component] * sum, size, size};
     };
-    return settled_integral(influence.horizon(), influence.horizon() * operator_scale(influence),
+    return settled_integral(influence, influence.horizon() * operator_scale(influence),
                             "the load of the dilatation", x, integrand);
   }
 
   double operator_scale(const Kernel<2> &kernel)
   {
-    double integral = 0;
-    for (const PowerTerm &term : kernel.profile())
-      integral += std::abs(term.coefficient) / (term.exponent + 2);
-    return std::abs(kernel.constant()) * integral * 2 * M_PI * kernel.horizon() * kernel.horizon();
+    return std::abs(kernel.constant()) * kernel.profile().size() * 2 * M_PI * kernel.horizon() *
+           kernel.horizon();
   }
 } // namespace plumbline::physics

@@ -38,7 +38,7 @@ namespace plumbline::physics
     return {k - l / 8, l / 8};
   }
 
-  Kernel<2> influence_function(std::vector<PowerTerm> profile, double horizon)
+  Kernel<2> influence_function(RadialProfile profile, double horizon)
   {
     return Kernel<2>::with_diffusion(std::move(profile), horizon, .5);
   }

@@ -34,7 +34,7 @@ namespace plumbline::physics
   /// The influence function of a radial profile ρ(|ξ|/δ): K = c ρ with ∫K|ξ|² = 2, so that the
   /// dilatation ∫Kξ·(u(x+ξ) - u(x)) dξ of a linear field is its divergence. ρ = 1/t gives K =
   /// 3/(πδ³|ξ|).
-  Kernel<2> influence_function(std::vector<PowerTerm> profile, double horizon);
+  Kernel<2> influence_function(RadialProfile profile, double horizon);
 
   /// The bonds of a state-based solid: 8μ K ξ⊗ξ/|ξ|².
   Kernel<2> deviatoric_kernel(const Kernel<2> &influence, double mu);

@@ -1,8 +1,7 @@
 #include "physics/waves.h"
 
 #include "base/error.h"
-
-#include <deal.II/base/quadrature_lib.h>
+#include "physics/gauss.h"
 
 #include <array>
 #include <cmath>
@@ -40,24 +39,32 @@ namespace plumbline::physics
     /// Value and derivative by k of an integrand.
     using Pair = std::array<double, 2>;
 
-    /// ∫_0^δ f(r) dr with more and more Gauss points until it settles.
-    Pair integrate(double horizon, double k, const std::function<Pair(double r)> &f)
+    /// ∫_0^δ f(r) dr with more and more Gauss points between breaks until it settles.
+    Pair integrate(const Kernel<2> &kernel, double k, const std::function<Pair(double r)> &f)
     {
+      const double horizon = kernel.horizon();
+      std::vector<double> ends = kernel.breaks();
+      ends.push_back(horizon);
       constexpr double settled = 1e-14, acceptable = 1e-12;
       Pair scale{};
       const auto by = [&](unsigned int n)
       {
-        const dealii::QGauss<1> gauss(n);
+        const auto &rule = gauss(n);
         Pair sum{};
         scale = {};
-        for (unsigned int q = 0; q < n; ++q)
+        double from = 0;
+        for (const double to : ends)
         {
-          const Pair value = f(horizon * gauss.point(q)[0]);
-          for (unsigned int i = 0; i < 2; ++i)
+          for (unsigned int q = 0; q < n; ++q)
           {
-            sum[i] += horizon * gauss.weight(q) * value[i];
-            scale[i] += horizon * gauss.weight(q) * std::abs(value[i]);
+            const Pair value = f(from + (to - from) * rule.point(q)[0]);
+            for (unsigned int i = 0; i < 2; ++i)
+            {
+              sum[i] += (to - from) * rule.weight(q) * value[i];
+              scale[i] += (to - from) * rule.weight(q) * std::abs(value[i]);
+            }
           }
+          from = to;
         }
         return sum;
       };
@@ -121,13 +128,13 @@ namespace plumbline::physics
                        Polarisation polarisation, double k)
   {
     const Pair of_bonds =
-        integrate(kernel.horizon(), k, [&](double r) { return bonds(kernel, polarisation, k, r); });
+        integrate(kernel, k, [&](double r) { return bonds(kernel, polarisation, k, r); });
     Frequency result{of_bonds[0], of_bonds[1]};
     if (dilatation && polarisation == Polarisation::longitudinal)
     {
       const Kernel<2> &influence = dilatation->influence;
       const Pair g =
-          integrate(influence.horizon(), k,
+          integrate(influence, k,
                     [&](double r) -> Pair
                     {
                       const Bessel b = bessel(k * r);

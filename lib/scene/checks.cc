@@ -222,6 +222,10 @@ namespace plumbline::scene
               "Material/" + scene.material.keys[0] + " or " + scene.material.keys[1] +
                   " varies in space",
               mesh_remedy);
+        needs(!scene.has_dilatation() || is_free || scene.kernel.profile.breaks().empty(),
+              "Kernel/type = " + scene.kernel.type,
+              "dilatations on a lattice need an influence function without breaks; write "
+              "Domain/mesh = squares, or another Kernel/type");
         needs(scene.methods.nodes.perturbation == 0, "Methods/perturbation > 0", mesh_remedy);
         needs(scene.problem.local_solution != LocalSolution::computed,
               "Problem/local solution = computed", mesh_remedy);

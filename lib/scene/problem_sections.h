@@ -76,16 +76,18 @@ namespace plumbline::scene
     std::string type = "linear-decay";
     Limit limit = Limit::half_laplace;
     double bulk_modulus = 1, constant = 1;
-    std::vector<double> coefficients;                          ///< of a polynomial
-    unsigned int singularity = 0;                              ///< of a polynomial
-    std::vector<physics::PowerTerm> profile;                   ///< of the type
+    std::vector<double> coefficients; ///< of a polynomial
+    unsigned int singularity = 0;     ///< of a polynomial
+    std::optional<double> width;      ///< of a Gaussian or an exponential, in horizons
+    std::string table_file;           ///< of a table: .csv
+    physics::RadialProfile profile;   ///< of the type
     physics::Structure structure = physics::Structure::scalar; ///< of the type
     std::string coefficient;                 ///< an expression; empty: homogeneous, or by materials
     std::vector<GroupCoefficient> materials; ///< a coefficient for each group of the mesh, or empty
     physics::Mean symmetrisation = physics::Mean::arithmetic;
 
     void declare(Keys &keys);
-    void complete();
+    void complete(const std::string &folder); ///< that the table file's path begins in
   };
 
   /// The solid of a state-based model, or the bonds with two wells.

@@ -42,7 +42,7 @@ namespace plumbline::scene
     /// What follows from the keys, once all are read.
     void complete(Scene &scene)
     {
-      scene.kernel.complete();
+      scene.kernel.complete(scene.folder);
       scene.material.complete();
       scene.time.complete();
       scene.crack.complete();

@@ -1,5 +1,7 @@
 #include "reference/lattice/dilatation.h"
 
+#include "base/error.h"
+
 #include <deal.II/base/quadrature_lib.h>
 
 #include <Eigen/Core>
@@ -58,16 +60,10 @@ namespace plumbline::reference
     /// t. One quarter of the lens, r_2 <= r_1 <= 1: sinh²(s/2) <= sin²(t/2) - (1 - 1/w). The root
     /// of the right-hand side, real for w > 1 and imaginary for w < 1, is removed by t = root cosh
     /// u and root sinh u.
-    /// @param profile  coefficients of K r
-    DilatationKernel::Value convolve(const std::vector<double> &profile, double w, const Rule &rule)
+    /// @param value  K r, smooth in [0, 1]
+    template <class Function>
+    DilatationKernel::Value convolve(const Function &value, double w, const Rule &rule)
     {
-      const auto value = [&](double r)
-      {
-        double sum = 0;
-        for (auto c = profile.rbegin(); c != profile.rend(); ++c)
-          sum = sum * r + *c;
-        return sum;
-      };
       const double least = 1 - 1 / w, end = M_PI / 2;
       const bool is_cut = least > 0; // the lens does not reach the foci
       const double root =
@@ -220,13 +216,30 @@ namespace plumbline::reference
   DilatationKernel::DilatationKernel(const physics::Kernel<2> &influence)
       : horizon_(influence.horizon())
   {
-    std::vector<double> profile; // of δ K r
-    for (const physics::PowerTerm &term : influence.profile())
+    const physics::RadialProfile &profile = influence.profile();
+    if (!profile.breaks().empty())
+      throw InputError("the dilatation of a solid on a lattice needs an influence function without "
+                       "breaks, but its table has " +
+                       std::to_string(profile.breaks().size()) + "; write Domain/mesh = squares");
+    std::vector<double> powers; // of δ K r
+    for (const physics::PowerTerm &term :
+         profile.is_function() ? physics::RadialProfile::Powers() : profile.powers())
     {
-      profile.resize(std::max<std::size_t>(profile.size(), term.exponent + 2));
-      profile[term.exponent + 1] += influence.constant() * horizon_ * horizon_ * term.coefficient;
+      powers.resize(std::max<std::size_t>(powers.size(), term.exponent + 2));
+      powers[term.exponent + 1] += influence.constant() * horizon_ * horizon_ * term.coefficient;
     }
-    const Rule rule(14 + 2 * static_cast<unsigned int>(profile.size()));
+    const auto moment = [&](double r) // K r
+    {
+      if (profile.is_function())
+        return influence.constant() * horizon_ * horizon_ * profile(r) * r;
+      double sum = 0;
+      for (auto c = powers.rbegin(); c != powers.rend(); ++c)
+        sum = sum * r + *c;
+      return sum;
+    };
+    const auto n_powers =
+        static_cast<unsigned int>(profile.is_function() ? profile.degree() / 2 + 2 : powers.size());
+    const Rule rule(14 + 2 * n_powers);
     for (const double sign : {1., -1., 1., -1.})
     {
       const double end = static_cast<double>((series_.size() / n_levels + 1) / 2);
@@ -239,7 +252,7 @@ namespace plumbline::reference
         {
           const double angle = M_PI * (i + .5) / n_terms;
           const double distance = from + .5 * (to - from) * (1 + std::cos(angle));
-          const Value value = convolve(profile, end + sign * distance, rule);
+          const Value value = convolve(moment, end + sign * distance, rule);
           for (unsigned int k = 0; k < n_terms; ++k)
           {
             const double factor = (k == 0 ? 1. : 2.) / n_terms * std::cos(k * angle);

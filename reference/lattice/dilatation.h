@@ -29,6 +29,7 @@ namespace plumbline::reference
 
     /// Tabulates C, in 10 ms for the cone.
     /// @param influence  K, scalar, usually with ∫K|ξ|² = 2
+    /// @throws InputError  an influence function with breaks
     explicit DilatationKernel(const physics::Kernel<2> &influence);
 
     double radius() const { return 2 * horizon_; }

@@ -7,21 +7,27 @@ namespace plumbline::reference
 {
   namespace
   {
-    using geometry::Ball;
     using geometry::Point;
 
     /// ∫ over cell ∩ ball of C_ab(z) P_p(x) P_q(y) dz, x and y the cell's own coordinates in [-1,
     /// 1], for (a,b) = (0,0), (0,1), (1,1): index (ab n_modes + p) n_modes + q.
     using CellMoments = std::vector<double>;
 
-    /// Gauss points in the radius, exact for the profile times r times the shape functions'
-    /// products.
-    unsigned int n_radii(const physics::Kernel<2> &kernel, unsigned int n_modes)
+    /// Gauss points in the angle and in the radius, exact for the profile times r times the shape
+    /// functions' products on a cell.
+    /// @param kernel  without breaks
+    geometry::CutRule rule_on(const std::array<Point<2>, 4> &cell, double h,
+                              const physics::Kernel<2> &kernel, unsigned int n_modes,
+                              geometry::Backend backend)
     {
-      int exponent = 0;
-      for (const physics::PowerTerm &term : kernel.profile())
-        exponent = std::max(exponent, term.exponent);
-      return std::max(10u, (static_cast<unsigned int>(exponent) + 2 * n_modes) / 2 + 1);
+      const physics::RadialProfile &profile = kernel.profile();
+      const unsigned int degree = profile.degree(std::min(1., h * M_SQRT2 / kernel.horizon()));
+      const int exponent = std::max(0, profile.lowest_exponent() + static_cast<int>(degree));
+      const unsigned int n_angles = 16 + (profile.is_function() ? degree / 2 : 0),
+                         n_radii = std::max(
+                             10u, (static_cast<unsigned int>(exponent) + 2 * n_modes) / 2 + 1);
+      return geometry::polar_rule({Point<2>(), kernel.horizon()}, geometry::view(cell), n_angles,
+                                  n_radii, backend);
     }
 
     class MomentTable
@@ -45,8 +51,8 @@ namespace plumbline::reference
         const int big = std::max(fold(i), fold(j)), small = std::min(fold(i), fold(j));
         return static_cast<std::size_t>(big) * (big + 1) / 2 + small;
       }
-      CellMoments integrate(const physics::Kernel<2> &kernel, double h, int i, int j,
-                            geometry::Backend backend) const;
+      void integrate(const physics::Kernel<2> &kernel, double h, int i, int j,
+                     geometry::Backend backend, CellMoments &moments) const;
 
       int n_;
       unsigned int n_modes_, n_pairs_;
@@ -58,22 +64,26 @@ namespace plumbline::reference
         : n_(static_cast<int>(std::ceil(kernel.horizon() / h * (1 - 1e-14)))), n_modes_(n_modes),
           n_pairs_(kernel.n_components() == 1 ? 1 : 3)
     {
+      const std::vector<physics::Kernel<2>> parts = kernel.parts();
       for (int i = 0; i < n_; ++i)
         for (int j = 0; j <= i; ++j)
-          octant_.push_back(integrate(kernel, h, i, j, backend));
+        {
+          CellMoments moments;
+          for (const physics::Kernel<2> &part : parts)
+            integrate(part, h, i, j, backend, moments);
+          octant_.push_back(std::move(moments));
+        }
     }
 
-    CellMoments MomentTable::integrate(const physics::Kernel<2> &kernel, double h, int i, int j,
-                                       geometry::Backend backend) const
+    void MomentTable::integrate(const physics::Kernel<2> &kernel, double h, int i, int j,
+                                geometry::Backend backend, CellMoments &moments) const
     {
       if (h * std::hypot(i, j) >= kernel.horizon())
-        return {};
-      const Ball ball{Point<2>(), kernel.horizon()};
+        return;
       const auto cell = geometry::square(Point<2>(i * h, j * h), h);
-      const geometry::CutRule rule =
-          geometry::polar_rule(ball, geometry::view(cell), 16, n_radii(kernel, n_modes_), backend);
+      const geometry::CutRule rule = rule_on(cell, h, kernel, n_modes_, backend);
 
-      CellMoments moments(n_pairs_ * n_modes_ * n_modes_);
+      moments.resize(n_pairs_ * n_modes_ * n_modes_);
       std::vector<double> x(n_modes_), y(n_modes_);
       for (std::size_t q = 0; q < rule.points.size(); ++q)
       {
@@ -93,7 +103,6 @@ namespace plumbline::reference
           }
         }
       }
-      return moments;
     }
 
     double MomentTable::operator()(int i, int j, unsigned int a, unsigned int b, unsigned int p,

@@ -32,7 +32,7 @@ namespace plumbline::reference
     class PairIntegrator
     {
     public:
-      PairIntegrator(const MeshSpace &space, const MeshCells &cells, const RadialProfile &profile,
+      PairIntegrator(const MeshSpace &space, const MeshCells &cells, const KernelEntries &profile,
                      double horizon, const std::optional<physics::Coefficient> &coefficient,
                      const AssemblyOptions &options)
           : cells_(cells), by_quadrature_(space, cells, profile, horizon, coefficient,
@@ -154,7 +154,7 @@ namespace plumbline::reference
                       const std::optional<physics::Coefficient> &coefficient,
                       const AssemblyOptions &options, const base::Team &team)
   {
-    const RadialProfile profile(kernel);
+    const KernelEntries profile(kernel);
     std::vector<std::size_t> outer_cells;
     for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
       if (space.mesh().cells[cell].is_inside)

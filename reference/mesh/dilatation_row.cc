@@ -13,15 +13,6 @@ namespace plumbline::reference
     /// Angles that suffice between any two corners for a function times 1/r (`polar_rule`).
     constexpr unsigned int most_angles = 16;
 
-    int highest_exponent(const physics::Kernel<2> &kernel)
-    {
-      const auto highest =
-          std::max_element(kernel.profile().begin(), kernel.profile().end(),
-                           [](const physics::PowerTerm &a, const physics::PowerTerm &b)
-                           { return a.exponent < b.exponent; });
-      return highest->exponent;
-    }
-
     /// Exact to degree 2 n - 1.
     dealii::Quadrature<2> gauss(unsigned int n_vertices, unsigned int n)
     {
@@ -54,9 +45,8 @@ namespace plumbline::reference
                                const physics::Dilatation &dilatation, unsigned int smooth_degree,
                                geometry::Backend backend)
       : space_(space), cells_(cells), dilatation_(dilatation), profile_(dilatation.influence),
-        highest_exponent_(highest_exponent(dilatation.influence)), smooth_degree_(smooth_degree),
-        backend_(backend), whole_(whole_rules(space.shapes())), theta_(2 * space.shapes().size()),
-        test_(2 * space.shapes().size())
+        smooth_degree_(smooth_degree), backend_(backend), whole_(whole_rules(space.shapes())),
+        theta_(2 * space.shapes().size()), test_(2 * space.shapes().size())
   {
   }
 
@@ -108,17 +98,29 @@ namespace plumbline::reference
   /// theta_ and test_ of ball(x) ∩ cell.
   void DilatationRow::integrate(const Point<2> &x, std::size_t inner)
   {
-    const double *phi = find_rule(x, inner);
-    const std::size_t n = space_.shapes().size();
-    const bool is_two_point = !dilatation_.is_symmetric();
     std::fill(theta_.begin(), theta_.end(), 0.);
     std::fill(test_.begin(), test_.end(), 0.);
+    const double distance = x.distance(cells_.centroid(inner)), radius = cells_.radius(inner);
+    profile_.for_balls(distance - radius, distance + radius,
+                       [&](double ball_radius, const SmoothEntries &influence) {
+                         add_ball({x, ball_radius}, influence, inner);
+                       });
+  }
+
+  /// An influence function without breaks on ball ∩ cell.
+  void DilatationRow::add_ball(const geometry::Ball &ball, const SmoothEntries &influence,
+                               std::size_t inner)
+  {
+    const Point<2> &x = ball.centre;
+    const double *phi = find_rule(ball, influence, inner);
+    const std::size_t n = space_.shapes().size();
+    const bool is_two_point = !dilatation_.is_symmetric();
     for (std::size_t q = 0; q < rule_.points.size(); ++q, phi += n)
     {
       const Point<2> &y = rule_.points[q];
       const double xi[2] = {y[0] - x[0], y[1] - x[1]};
       double k;
-      profile_.operator()<1>(xi[0], xi[1], &k);
+      influence.operator()<1>(xi[0], xi[1], &k);
       k *= rule_.weights[q];
       for (std::size_t a = 0; a < n; ++a)
       {
@@ -138,16 +140,18 @@ namespace plumbline::reference
   }
 
   /// rule_ on ball(x) ∩ cell. @return  shape functions at its points, shape (n_points, n_shapes)
-  const double *DilatationRow::find_rule(const Point<2> &x, std::size_t inner)
+  const double *DilatationRow::find_rule(const geometry::Ball &ball, const SmoothEntries &influence,
+                                         std::size_t inner)
   {
+    const Point<2> &x = ball.centre;
     const CellShapes &shapes = space_.shapes();
     const geometry::ConvexCell &cell = cells_[inner];
     const CellMap &map = space_.map(inner);
-    const geometry::Ball ball{x, dilatation_.influence.horizon()};
     const double distance = x.distance(cells_.centroid(inner)), radius = cells_.radius(inner);
     const unsigned int smooth = map.is_affine() && dilatation_.is_symmetric() ? 0 : smooth_degree_;
-    unsigned int kernel = 1 + highest_exponent_;
-    if (!profile_.is_polynomial())
+    const int highest = influence.highest_exponent(2 * radius);
+    unsigned int kernel = 1 + highest;
+    if (!influence.is_smooth())
       kernel += degree_away_from_singularity(distance, radius, accuracy);
     const bool is_whole =
         std::all_of(cell.vertices().begin(), cell.vertices().end(),
@@ -167,11 +171,11 @@ namespace plumbline::reference
     }
     // along a line shape functions of squares have twice their degree along an axis
     const unsigned int line = shapes.degree() * (shapes.n_vertices() - 2) + smooth;
-    if (profile_.is_polynomial())
+    if (influence.is_smooth())
       geometry::cut_rule(ball, cell, kernel + line, rule_, backend_);
     else // along a ray Kξ and the factor r of the weights are a polynomial
       geometry::polar_rule(ball, cell, std::min(most_angles, kernel / 2 + 1),
-                           (2 + highest_exponent_ + line) / 2 + 1, rule_, backend_);
+                           (2 + highest + line) / 2 + 1, rule_, backend_);
     phi_.resize(rule_.points.size() * shapes.size());
     for (std::size_t q = 0; q < rule_.points.size(); ++q)
       shapes.values(map.unit(rule_.points[q]), &phi_[q * shapes.size()]);

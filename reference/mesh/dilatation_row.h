@@ -33,13 +33,14 @@ namespace plumbline::reference
 
   private:
     void integrate(const Point<2> &x, std::size_t inner);
-    const double *find_rule(const Point<2> &x, std::size_t inner);
+    void add_ball(const geometry::Ball &ball, const SmoothEntries &influence, std::size_t inner);
+    const double *find_rule(const geometry::Ball &ball, const SmoothEntries &influence,
+                            std::size_t inner);
 
     const MeshSpace &space_;
     const MeshCells &cells_;
     physics::Dilatation dilatation_;
-    RadialProfile profile_;
-    int highest_exponent_; ///< of |ξ| in the influence function
+    KernelEntries profile_;
     unsigned int smooth_degree_;
     geometry::Backend backend_;
     std::vector<ShapeRule> whole_; ///< on whole cells, exact to degree 2 i + 1

@@ -74,10 +74,19 @@ namespace plumbline::reference
         shapes.values(rule.unit[q], &rule.phi[q * shapes.size()]);
       return rule;
     }
+
+    /// @param farthest  a bound of the distance of the cell's points from the ball's centre
+    bool is_whole(const geometry::Ball &ball, const geometry::ConvexCell &cell, double farthest)
+    {
+      return farthest <= ball.radius ||
+             std::all_of(cell.vertices().begin(), cell.vertices().end(),
+                         [&](const Point<2> &v)
+                         { return (v - ball.centre).norm_square() <= ball.radius * ball.radius; });
+    }
   } // namespace
 
   PairQuadrature::PairQuadrature(const MeshSpace &space, const MeshCells &cells,
-                                 const RadialProfile &profile, double horizon,
+                                 const KernelEntries &profile, double horizon,
                                  std::optional<physics::Coefficient> coefficient,
                                  unsigned int refinement, geometry::Backend backend)
       : space_(space), cells_(cells), profile_(profile), horizon_(horizon),
@@ -139,11 +148,10 @@ namespace plumbline::reference
     blocks.reset(n_, n_entries);
     if (is_product(outer, inner))
       return integrate_constant(outer, inner, blocks);
-    const bool is_whole = cells_.farthest(outer, inner) <= horizon_;
     const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
     const bool is_smooth =
-        is_whole && (profile_.is_polynomial() ||
-                     between > near * (cells_.radius(outer) + cells_.radius(inner)));
+        !is_cut(between, outer, inner) && !profile_.is_function() &&
+        (profile_.is_smooth() || between > near * (cells_.radius(outer) + cells_.radius(inner)));
     const ShapeRule &rule = tables_->outer;
     if (refinement_ > 0 && !is_smooth)
       return integrate_part<n_entries, n_shapes>({0, 0, 1, false}, 0, outer, inner, blocks);
@@ -211,6 +219,19 @@ namespace plumbline::reference
       }
   }
 
+  /// A circle about a point of E, where the kernel is not smooth, may cut E'.
+  bool PairQuadrature::is_cut(double between, std::size_t outer, std::size_t inner) const
+  {
+    const double farthest = cells_.farthest(outer, inner);
+    if (farthest > horizon_ || !profile_.has_breaks())
+      return farthest > horizon_;
+    const double nearest = between - cells_.radius(outer) - cells_.radius(inner);
+    const auto &circles = profile_.circles();
+    return std::any_of(circles.begin(), circles.end(),
+                       [&](const KernelEntries::Ball &circle)
+                       { return nearest < circle.radius && circle.radius < farthest; });
+  }
+
   /// Of the inner integral, for x in this part.
   PairQuadrature::Kink PairQuadrature::find_kink(const Part &part, std::size_t outer,
                                                  std::size_t inner) const
@@ -231,10 +252,11 @@ namespace plumbline::reference
       const double length = side.norm(), along = (from * side) / length;
       const double across = std::abs(side[0] * from[1] - side[1] * from[0]) / length;
       const bool is_beside = along > -reach && along < length + reach;
-      if (std::abs(from.norm() - horizon_) <= reach ||
-          (is_beside && std::abs(across - horizon_) <= reach))
-        return Kink::at_circle;
-      if (!profile_.is_polynomial() && is_beside && across <= reach)
+      for (const KernelEntries::Ball &circle : profile_.circles())
+        if (std::abs(from.norm() - circle.radius) <= reach ||
+            (is_beside && std::abs(across - circle.radius) <= reach))
+          return Kink::at_circle;
+      if (!profile_.is_smooth() && is_beside && across <= reach)
         kink = Kink::at_side;
     }
     return kink;
@@ -254,10 +276,13 @@ namespace plumbline::reference
   }
 
   /// Of the kernel on a cell, as a rule must take it.
-  unsigned int PairQuadrature::kernel_degree(double distance, double radius) const
+  unsigned int PairQuadrature::kernel_degree(const SmoothEntries &kernel, double distance,
+                                             double radius) const
   {
-    return profile_.is_polynomial() ? profile_.degree()
-                                    : degree_away_from_singularity(distance, radius, accuracy_);
+    if (kernel.is_smooth())
+      return kernel.degree(2 * radius, accuracy_);
+    return degree_away_from_singularity(distance, radius, accuracy_) +
+           kernel.degree_of_function(2 * radius, accuracy_);
   }
 
   /// sum_, first_, second_ of ball(x) ∩ cell.
@@ -269,54 +294,61 @@ namespace plumbline::reference
     const double distance = x.distance(cells_.centroid(inner)), radius = cells_.radius(inner);
     if (distance >= horizon_ + radius)
       return;
-    bool is_whole = distance + radius <= horizon_;
-    if (!is_whole)
-      is_whole = std::all_of(cell.vertices().begin(), cell.vertices().end(),
-                             [&](const Point<2> &v)
-                             { return (v - x).norm_square() <= horizon_ * horizon_; });
-    const geometry::Ball ball{x, horizon_};
     if (has_moments_)
-      return add_moments(is_whole ? cell.moments() : geometry::intersect(ball, cell, backend_),
+      return add_moments(is_whole({x, horizon_}, cell, distance + radius)
+                             ? cell.moments()
+                             : geometry::intersect({x, horizon_}, cell, backend_),
                          inner);
 
     std::fill(first_.begin(), first_.end(), 0.);
     std::fill(second_.begin(), second_.end(), 0.);
     if (coefficient_)
       a_x_ = coefficient_->at(x);
-    if (!profile_.is_polynomial() && distance < near * radius)
-    {
-      // along a ray the integrand is a polynomial: two shape functions, r C(r)
-      const unsigned int p = space_.shapes().degree();
-      const unsigned int along = (space_.shapes().n_vertices() - 2) * 2 * p + profile_.degree() + 1;
-      geometry::polar_rule(ball, cell, 5 + p + std::min(6u, refinement_), along / 2 + 1, rule_,
-                           backend_);
-      add_points<n_entries, n_shapes>(x, inner, rule_);
-    }
-    else
-    {
-      // of two shape functions, along an axis; on quadrilaterals their total degree is twice that
-      const unsigned int p = 2 * space_.shapes().degree();
-      const unsigned int degree = kernel_degree(distance, radius);
-      if (const unsigned int i = (p + degree) / 2; is_whole && i < n_whole_rules)
-        add_whole<n_entries, n_shapes>(x, inner, tables_->whole[i]);
-      else
-      {
-        const bool is_quad = space_.shapes().n_vertices() == 4;
-        geometry::cut_rule(ball, cell, (is_quad ? 2 * p : p) + degree, rule_, backend_);
-        add_points<n_entries, n_shapes>(x, inner, rule_);
-      }
-    }
+    profile_.for_balls(distance - radius, distance + radius,
+                       [&](double ball_radius, const SmoothEntries &kernel) {
+                         add_ball<n_entries, n_shapes>({x, ball_radius}, kernel, inner);
+                       });
     for (unsigned int a = 0; a < n_; ++a)
       for (unsigned int b = 0; b < a; ++b)
         for (int e = 0; e < n_entries; ++e)
           second_[(a * n_ + b) * n_entries + e] = second_[(b * n_ + a) * n_entries + e];
   }
 
+  /// A kernel without breaks on ball ∩ cell.
   template <int n_entries, int n_shapes>
-  void PairQuadrature::add(const Point<2> &x, const Point<2> &y, double weight, const double *phi)
+  void PairQuadrature::add_ball(const geometry::Ball &ball, const SmoothEntries &kernel,
+                                std::size_t inner)
+  {
+    const Point<2> &x = ball.centre;
+    const geometry::ConvexCell &cell = cells_[inner];
+    const double distance = x.distance(cells_.centroid(inner)), radius = cells_.radius(inner);
+    if (!kernel.is_smooth() && distance < near * radius)
+    {
+      // along a ray the integrand is a polynomial: two shape functions, r C(r)
+      const unsigned int p = space_.shapes().degree();
+      const unsigned int along =
+          (space_.shapes().n_vertices() - 2) * 2 * p + kernel.degree(2 * radius, accuracy_) + 1;
+      geometry::polar_rule(ball, cell, 5 + p + std::min(6u, refinement_), along / 2 + 1, rule_,
+                           backend_);
+      return add_points<n_entries, n_shapes>(x, kernel, inner, rule_);
+    }
+    // of two shape functions, along an axis; on quadrilaterals their total degree is twice that
+    const unsigned int p = 2 * space_.shapes().degree();
+    const unsigned int degree = kernel_degree(kernel, distance, radius);
+    if (const unsigned int i = (p + degree) / 2;
+        i < n_whole_rules && is_whole(ball, cell, distance + radius))
+      return add_whole<n_entries, n_shapes>(x, kernel, inner, tables_->whole[i]);
+    const bool is_quad = space_.shapes().n_vertices() == 4;
+    geometry::cut_rule(ball, cell, (is_quad ? 2 * p : p) + degree, rule_, backend_);
+    add_points<n_entries, n_shapes>(x, kernel, inner, rule_);
+  }
+
+  template <int n_entries, int n_shapes>
+  void PairQuadrature::add(const Point<2> &x, const SmoothEntries &kernel, const Point<2> &y,
+                           double weight, const double *phi)
   {
     double entries[n_entries];
-    profile_.template operator()<n_entries>(y[0] - x[0], y[1] - x[1], entries);
+    kernel.template operator()<n_entries>(y[0] - x[0], y[1] - x[1], entries);
     if (coefficient_)
       weight *= coefficient_->mean(a_x_, coefficient_->at(y));
     const unsigned int n = n_shapes > 0 ? n_shapes : n_;
@@ -337,23 +369,24 @@ namespace plumbline::reference
   }
 
   template <int n_entries, int n_shapes>
-  void PairQuadrature::add_points(const Point<2> &x, std::size_t inner,
+  void PairQuadrature::add_points(const Point<2> &x, const SmoothEntries &kernel, std::size_t inner,
                                   const geometry::CutRule &rule)
   {
     const CellMap &map = space_.map(inner);
     for (std::size_t q = 0; q < rule.points.size(); ++q)
     {
       space_.shapes().values(map.unit(rule.points[q]), phi_.data());
-      add<n_entries, n_shapes>(x, rule.points[q], rule.weights[q], phi_.data());
+      add<n_entries, n_shapes>(x, kernel, rule.points[q], rule.weights[q], phi_.data());
     }
   }
 
   template <int n_entries, int n_shapes>
-  void PairQuadrature::add_whole(const Point<2> &x, std::size_t inner, const ShapeRule &rule)
+  void PairQuadrature::add_whole(const Point<2> &x, const SmoothEntries &kernel, std::size_t inner,
+                                 const ShapeRule &rule)
   {
     const CellMap &map = space_.map(inner);
     for (std::size_t q = 0; q < rule.unit.size(); ++q)
-      add<n_entries, n_shapes>(x, map.point(rule.unit[q]),
+      add<n_entries, n_shapes>(x, kernel, map.point(rule.unit[q]),
                                rule.weight[q] * map.determinant(rule.unit[q]), &rule.phi[q * n_]);
   }
 

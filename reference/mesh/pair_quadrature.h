@@ -2,8 +2,8 @@
 
 #include "physics/coefficient.h"
 #include "reference/mesh/cells.h"
+#include "reference/mesh/kernel_entries.h"
 #include "reference/mesh/pair_blocks.h"
-#include "reference/mesh/radial_profile.h"
 #include "reference/mesh/space.h"
 
 #include <memory>
@@ -23,18 +23,18 @@ namespace plumbline::reference
   /// that is exact on the curved piece: few points on whole cells, a fan of curved triangles on cut
   /// ones, polar about x where the kernel has a kink or a singularity there. Zero row sums by
   /// construction: the same points serve the three blocks.
-  /// The inner integral is only piecewise smooth in x: it has kinks where the circle crosses a
-  /// vertex of E' or touches a side. There E is halved `refinement` times, elsewhere a third as
-  /// often. On the boundary of E' it behaves like d log d (kernels like 1/r) or better: parts of E
-  /// there take points that crowd towards their sides.
-  /// Accuracy: where the circle comes to touch a side the integral is like d^(3/2), so that two
-  /// refinements gain a factor of 32; what each of them gains depends on how the kink cuts the
+  /// The inner integral is only piecewise smooth in x: it has kinks where the circle, or one of
+  /// those where the profile has a break, crosses a vertex of E' or touches a side. There E is
+  /// halved `refinement` times, elsewhere a third as often. On the boundary of E' it behaves like d
+  /// log d (kernels like 1/r) or better: parts of E there take points that crowd towards their
+  /// sides. Accuracy: where the circle comes to touch a side the integral is like d^(3/2), so that
+  /// two refinements gain a factor of 32; what each of them gains depends on how the kink cuts the
   /// smallest parts.
   /// Not thread safe: give each thread its own copy.
   class PairQuadrature
   {
   public:
-    PairQuadrature(const MeshSpace &space, const MeshCells &cells, const RadialProfile &profile,
+    PairQuadrature(const MeshSpace &space, const MeshCells &cells, const KernelEntries &profile,
                    double horizon, std::optional<physics::Coefficient> coefficient,
                    unsigned int refinement, geometry::Backend backend);
 
@@ -85,18 +85,24 @@ namespace plumbline::reference
     template <int n_entries, int n_shapes>
     void integrate_inner(const Point<2> &x, std::size_t inner);
     template <int n_entries, int n_shapes>
-    void add_points(const Point<2> &x, std::size_t inner, const geometry::CutRule &rule);
+    void add_ball(const geometry::Ball &ball, const SmoothEntries &entries, std::size_t inner);
     template <int n_entries, int n_shapes>
-    void add_whole(const Point<2> &x, std::size_t inner, const ShapeRule &rule);
+    void add_points(const Point<2> &x, const SmoothEntries &kernel, std::size_t inner,
+                    const geometry::CutRule &rule);
     template <int n_entries, int n_shapes>
-    void add(const Point<2> &x, const Point<2> &y, double weight, const double *phi);
+    void add_whole(const Point<2> &x, const SmoothEntries &kernel, std::size_t inner,
+                   const ShapeRule &rule);
+    template <int n_entries, int n_shapes>
+    void add(const Point<2> &x, const SmoothEntries &kernel, const Point<2> &y, double weight,
+             const double *phi);
     void add_moments(const geometry::Moments &moments, std::size_t inner);
     void integrate_constant(std::size_t outer, std::size_t inner, PairBlocks &blocks) const;
-    unsigned int kernel_degree(double distance, double radius) const;
+    unsigned int kernel_degree(const SmoothEntries &kernel, double distance, double radius) const;
+    bool is_cut(double between, std::size_t outer, std::size_t inner) const;
 
     const MeshSpace &space_;
     const MeshCells &cells_;
-    const RadialProfile &profile_;
+    const KernelEntries &profile_;
     double horizon_;
     std::optional<physics::Coefficient> coefficient_;
     unsigned int refinement_;

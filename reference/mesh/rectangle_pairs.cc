@@ -26,7 +26,7 @@ namespace plumbline::reference
     }
   } // namespace
 
-  RectanglePairs::RectanglePairs(const CellShapes &shapes, const RadialProfile &profile,
+  RectanglePairs::RectanglePairs(const CellShapes &shapes, const KernelEntries &profile,
                                  double horizon, geometry::Backend backend)
       : shapes_(shapes), profile_(profile), ball_{Point<2>(), horizon}, backend_(backend),
         n_axis_(shapes.degree() + 1), n_modes_(2 * shapes.degree() + 2)
@@ -97,20 +97,39 @@ namespace plumbline::reference
          Point<2>(x.lower, y.upper)}};
     const Point<2> centre(.5 * (x.lower + x.upper), .5 * (y.lower + y.upper));
     const double radius = centre.distance(corners[0]);
+    std::fill(moments_.begin(), moments_.end(), 0.);
+    profile_.for_balls(centre.norm() - radius, centre.norm() + radius,
+                       [&](double ball_radius, const SmoothEntries &kernel)
+                       {
+                         find_rule(ball_radius, corners, kernel);
+                         add_moments(x, y, kernel);
+                       });
+  }
+
+  /// rule_ on ball ∩ rectangle.
+  void RectanglePairs::find_rule(double ball_radius, const std::array<Point<2>, 4> &corners,
+                                 const SmoothEntries &kernel)
+  {
+    const geometry::Ball ball{Point<2>(), ball_radius};
+    const Point<2> centre = corners[0] + .5 * (corners[2] - corners[0]);
+    const double radius = centre.distance(corners[0]);
     const unsigned int series_degree = 2 * (n_modes_ - 1);
-    if (profile_.is_polynomial())
-      geometry::cut_rule(ball_, geometry::view(corners), series_degree + profile_.degree(), rule_,
-                         backend_);
+    const unsigned int of_function = kernel.degree_of_function(2 * radius);
+    if (kernel.is_smooth())
+      geometry::cut_rule(ball, geometry::view(corners), series_degree + kernel.degree(2 * radius),
+                         rule_, backend_);
     else if (centre.norm() < 3 * radius)
-      geometry::polar_rule(ball_, geometry::view(corners), 16, std::max(10u, n_modes_ + 6), rule_,
-                           backend_);
+      geometry::polar_rule(ball, geometry::view(corners), 16 + of_function / 2,
+                           std::max(10u, n_modes_ + 6) + of_function / 2, rule_, backend_);
     else
-      geometry::cut_rule(ball_, geometry::view(corners),
-                         series_degree +
+      geometry::cut_rule(ball, geometry::view(corners),
+                         series_degree + of_function +
                              degree_away_from_singularity(centre.norm(), radius, accuracy),
                          rule_, backend_);
+  }
 
-    std::fill(moments_.begin(), moments_.end(), 0.);
+  void RectanglePairs::add_moments(const Piece &x, const Piece &y, const SmoothEntries &kernel)
+  {
     std::array<double, 2 * CellShapes::most> p{}, q{};
     for (std::size_t i = 0; i < rule_.points.size(); ++i)
     {
@@ -118,12 +137,12 @@ namespace plumbline::reference
       legendre(2 * (z[0] - x.lower) / (x.upper - x.lower) - 1, n_modes_, p.data());
       legendre(2 * (z[1] - y.lower) / (y.upper - y.lower) - 1, n_modes_, q.data());
       double entries[3];
-      if (profile_.is_tensor())
-        profile_.operator()<3>(z[0], z[1], entries);
+      if (kernel.is_tensor())
+        kernel.operator()<3>(z[0], z[1], entries);
       else
-        profile_.operator()<1>(z[0], z[1], entries);
+        kernel.operator()<1>(z[0], z[1], entries);
       double *moment = moments_.data();
-      for (unsigned int e = 0; e < profile_.n_entries(); ++e)
+      for (unsigned int e = 0; e < kernel.n_entries(); ++e)
         for (unsigned int m = 0; m < n_modes_; ++m)
         {
           const double row = rule_.weights[i] * entries[e] * p[m];

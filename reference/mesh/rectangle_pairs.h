@@ -1,8 +1,8 @@
 #pragma once
 
 #include "reference/mesh/cell_shapes.h"
+#include "reference/mesh/kernel_entries.h"
 #include "reference/mesh/pair_blocks.h"
-#include "reference/mesh/radial_profile.h"
 
 namespace plumbline::reference
 {
@@ -13,7 +13,7 @@ namespace plumbline::reference
   {
   public:
     /// @param shapes  of quadrilaterals
-    RectanglePairs(const CellShapes &shapes, const RadialProfile &profile, double horizon,
+    RectanglePairs(const CellShapes &shapes, const KernelEntries &profile, double horizon,
                    geometry::Backend backend);
 
     void integrate(const geometry::Box &outer, const geometry::Box &inner, PairBlocks &blocks);
@@ -30,10 +30,13 @@ namespace plumbline::reference
     std::vector<Piece> correlate(double outer_lower, double outer_upper, double inner_lower,
                                  double inner_upper) const;
     void moments(const Piece &x, const Piece &y);
+    void find_rule(double ball_radius, const std::array<Point<2>, 4> &corners,
+                   const SmoothEntries &kernel);
+    void add_moments(const Piece &x, const Piece &y, const SmoothEntries &kernel);
     void contract(const Piece &x, const Piece &y, PairBlocks &blocks);
 
     const CellShapes &shapes_;
-    const RadialProfile &profile_;
+    const KernelEntries &profile_;
     geometry::Ball ball_;
     geometry::Backend backend_;
     unsigned int n_axis_, n_modes_;

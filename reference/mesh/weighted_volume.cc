@@ -1,5 +1,7 @@
 #include "reference/mesh/weighted_volume.h"
 
+#include "physics/gauss.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -71,6 +73,47 @@ namespace plumbline::reference
       }
       return value;
     }
+
+    /// ∫ [G(δ) - G(|ξ|)] dφ over a segment from s0 to s1 at the distance d.
+    double missing_of_powers(const physics::Kernel<2> &kernel, double d, double s0, double s1)
+    {
+      const double delta = kernel.horizon();
+      double value = 0;
+      for (const physics::PowerTerm &term : kernel.profile().powers())
+      {
+        // K = c t^e, so that G = c r^(e+4) / (e+4) δ^e and dφ = d ds / r²
+        const int e = term.exponent;
+        const double c = kernel.constant() * term.coefficient / ((e + 4) * std::pow(delta, e));
+        value += c * (std::pow(delta, e + 4) * (std::atan2(s1, d) - std::atan2(s0, d)) -
+                      d * (power_integral(e + 2, d, s1) - power_integral(e + 2, d, s0)));
+      }
+      return value;
+    }
+
+    /// The same along s = d sinh(u), where G is a smooth function of r = d cosh(u) and dφ = du /
+    /// cosh(u).
+    double missing_of_function(const physics::Kernel<2> &kernel, double d, double s0, double s1)
+    {
+      constexpr double tiny = 1e-15; // of δ: what is left there is an angle
+      constexpr double widest = 1;   // 20 points suffice for 1 / cosh(u), measured
+      const double delta = kernel.horizon(), scale = kernel.constant() * std::pow(delta, 4);
+      const physics::RadialProfile &profile = kernel.profile();
+      if (d <= tiny * delta)
+        return s0 < 0 && s1 > 0 ? scale * profile.moment(3) * M_PI : 0;
+      const double first = std::asinh(s0 / d), last = std::asinh(s1 / d);
+      const auto n_parts = static_cast<unsigned int>(std::ceil((last - first) / widest));
+      const auto &gauss = physics::gauss(20 + profile.degree() / 2);
+      const double part = (last - first) / n_parts;
+      double value = 0;
+      for (unsigned int k = 0; k < n_parts; ++k)
+        for (unsigned int q = 0; q < gauss.size(); ++q)
+        {
+          const double cosh_u = std::cosh(first + part * (k + gauss.point(q)[0]));
+          value +=
+              part * gauss.weight(q) / cosh_u * profile.moment(3, std::min(1., d * cosh_u / delta));
+        }
+      return scale * value;
+    }
   } // namespace
 
   WeightedVolume::WeightedVolume(const geometry::Mesh &mesh, const physics::Kernel<2> &kernel)
@@ -79,14 +122,15 @@ namespace plumbline::reference
   }
 
   WeightedVolume::WeightedVolume(std::vector<Side> outer_sides, const physics::Kernel<2> &kernel)
-      : kernel_(kernel), full_(kernel.moment({2, 0}) + kernel.moment({0, 2})),
-        sides_(std::move(outer_sides)), search_(boxes(sides_))
+      : horizon_(kernel.horizon()), parts_(kernel.parts()),
+        full_(kernel.moment({2, 0}) + kernel.moment({0, 2})), sides_(std::move(outer_sides)),
+        search_(boxes(sides_))
   {
   }
 
   double WeightedVolume::operator()(const Point<2> &x) const
   {
-    const dealii::Tensor<1, 2> reach({kernel_.horizon(), kernel_.horizon()});
+    const dealii::Tensor<1, 2> reach({horizon_, horizon_});
     thread_local std::vector<unsigned int> near; // asked at every quadrature point
     search_.find({x - reach, x + reach}, near);
     double value = full_;
@@ -99,26 +143,23 @@ namespace plumbline::reference
   double WeightedVolume::missing(const dealii::Tensor<1, 2> &from,
                                  const dealii::Tensor<1, 2> &to) const
   {
-    const double delta = kernel_.horizon(), length = (to - from).norm();
+    const double length = (to - from).norm();
     const dealii::Tensor<1, 2> along = (to - from) / length;
     const double height = from[0] * along[1] - from[1] * along[0], d = std::abs(height);
-    if (d >= delta)
-      return 0;
-    const double half_chord = std::sqrt((delta - d) * (delta + d));
-    const double s0 = std::max(from * along, -half_chord), s1 = std::min(to * along, half_chord);
-    if (s0 >= s1)
-      return 0;
+    double value = 0;
+    for (const physics::Kernel<2> &part : parts_)
+    {
+      const double radius = part.horizon();
+      if (d >= radius)
+        continue;
+      const double half_chord = std::sqrt((radius - d) * (radius + d));
+      const double s0 = std::max(from * along, -half_chord), s1 = std::min(to * along, half_chord);
+      if (s0 < s1)
+        value += part.profile().is_function() ? missing_of_function(part, d, s0, s1)
+                                              : missing_of_powers(part, d, s0, s1);
+    }
     // rounding does not put a point of the boundary outside
     const double sign = height < -1e-14 * (from.norm() + to.norm()) ? -1 : 1;
-    double value = 0;
-    for (const physics::PowerTerm &term : kernel_.profile())
-    {
-      // K = c t^e, so that G = c r^(e+4) / (e+4) δ^e and dφ = d ds / r²
-      const int e = term.exponent;
-      const double c = kernel_.constant() * term.coefficient / ((e + 4) * std::pow(delta, e));
-      value += c * (std::pow(delta, e + 4) * (std::atan2(s1, d) - std::atan2(s0, d)) -
-                    d * (power_integral(e + 2, d, s1) - power_integral(e + 2, d, s0)));
-    }
     return sign * value;
   }
 } // namespace plumbline::reference

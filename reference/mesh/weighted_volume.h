@@ -10,8 +10,9 @@ namespace plumbline::reference
   /// full ball, less where the body ends. Radial, so that only the mesh's outer sides near x
   /// matter:
   ///   ∮ G(min(|ξ|, δ)) dφ,  G(r) = ∫_0^r K s³ ds,
-  /// in closed form on each side. Thread safe.
-  /// Accuracy: 1e-14. Cost: .05 µs away from outer sides, .1 µs for each one in reach.
+  /// in closed form on each side for powers and tables, by quadrature for functions. Thread safe.
+  /// Accuracy: 1e-14. Cost: .05 µs away from outer sides, .1 µs for each one in reach, and some 10
+  /// µs of an influence function that is no sum of powers.
   class WeightedVolume
   {
   public:
@@ -27,8 +28,9 @@ namespace plumbline::reference
 
     double missing(const dealii::Tensor<1, 2> &from, const dealii::Tensor<1, 2> &to) const;
 
-    physics::Kernel<2> kernel_;
-    double full_; ///< of the whole ball
+    double horizon_;
+    std::vector<physics::Kernel<2>> parts_; ///< without breaks, that add up to the kernel
+    double full_;                           ///< of the whole ball
     std::vector<Side> sides_;
     geometry::BoxSearch search_;
   };

@@ -1,5 +1,5 @@
-# Install to a fresh prefix, build the consumer against it, run it.
-set(work ${BUILD}/tests/install-work)
+# Install to a fresh prefix, build the project CONSUMER against it, run its PROGRAM.
+set(work ${BUILD}/tests/${PROGRAM}-work)
 file(REMOVE_RECURSE ${work})
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -15,5 +15,5 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/prefix)
 run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${work}/build -DCMAKE_PREFIX_PATH=${work}/prefix
     -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_CXX_FLAGS=${flags})
 run(${CMAKE_COMMAND} --build ${work}/build)
-run(${work}/build/consumer)
+run(${work}/build/${PROGRAM})
 run(${work}/prefix/bin/plumbline list scenes)

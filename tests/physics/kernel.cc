@@ -15,25 +15,33 @@ namespace
 {
   constexpr double horizon = .3;
 
-  std::vector<PowerTerm> profile_of(const KernelType &type)
+  RadialProfile profile_of(const KernelType &type)
   {
-    return type.profile.empty() ? std::vector<PowerTerm>{{2, -1}, {-1, 0}, {.5, 2}} : type.profile;
+    return type.make == nullptr
+               ? type.profile
+               : type.make({{2, -1, 0, .5}, 1, .4, {{0, 2}, {.3, 1.5}, {.5, .2}, {1, .1}}});
+  }
+
+  constexpr unsigned int n_parts = 10; ///< of the radius: profiles may break at tenths
+  double radius(const dealii::Quadrature<1> &rule, unsigned int q)
+  {
+    return horizon / n_parts * (q / rule.size() + rule.point(q % rule.size())[0]);
   }
 
   /// Brute force: Gauss in r, θ (and z), independent of the closed forms.
   double moment_2d(const Kernel<2> &kernel, const std::array<int, 2> &alpha, unsigned int a,
                    unsigned int b)
   {
-    const dealii::QGauss<1> gauss(24);
+    const dealii::QGauss<1> gauss(12);
     constexpr int n_angles = 64;
     double sum = 0;
-    for (unsigned int q = 0; q < gauss.size(); ++q)
+    for (unsigned int q = 0; q < n_parts * gauss.size(); ++q)
       for (int k = 0; k < n_angles; ++k)
       {
-        const double r = horizon * gauss.point(q)[0], angle = 2 * M_PI * k / n_angles;
+        const double r = radius(gauss, q), angle = 2 * M_PI * k / n_angles;
         const Point<2> xi(r * std::cos(angle), r * std::sin(angle));
-        sum += gauss.weight(q) * horizon * 2 * M_PI / n_angles * r * kernel.radial(r) *
-               kernel.direction_factor(a, b, xi) * std::pow(xi[0], alpha[0]) *
+        sum += gauss.weight(q % gauss.size()) * horizon / n_parts * 2 * M_PI / n_angles * r *
+               kernel.radial(r) * kernel.direction_factor(a, b, xi) * std::pow(xi[0], alpha[0]) *
                std::pow(xi[1], alpha[1]);
       }
     return sum;
@@ -45,16 +53,16 @@ namespace
     const dealii::QGauss<1> gauss(16);
     constexpr int n_angles = 32;
     double sum = 0;
-    for (unsigned int q = 0; q < gauss.size(); ++q)
+    for (unsigned int q = 0; q < n_parts * gauss.size(); ++q)
       for (unsigned int p = 0; p < gauss.size(); ++p)
         for (int k = 0; k < n_angles; ++k)
         {
-          const double r = horizon * gauss.point(q)[0], z = 2 * gauss.point(p)[0] - 1;
+          const double r = radius(gauss, q), z = 2 * gauss.point(p)[0] - 1;
           const double angle = 2 * M_PI * k / n_angles, s = std::sqrt(1 - z * z);
           const Point<3> xi(r * s * std::cos(angle), r * s * std::sin(angle), r * z);
-          sum += gauss.weight(q) * horizon * 2 * gauss.weight(p) * 2 * M_PI / n_angles * r * r *
-                 kernel.radial(r) * kernel.direction_factor(a, b, xi) * std::pow(xi[0], alpha[0]) *
-                 std::pow(xi[1], alpha[1]) * std::pow(xi[2], alpha[2]);
+          sum += gauss.weight(q % gauss.size()) * horizon / n_parts * 2 * gauss.weight(p) * 2 *
+                 M_PI / n_angles * r * r * kernel.radial(r) * kernel.direction_factor(a, b, xi) *
+                 std::pow(xi[0], alpha[0]) * std::pow(xi[1], alpha[1]) * std::pow(xi[2], alpha[2]);
         }
     return sum;
   }

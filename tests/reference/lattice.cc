@@ -95,6 +95,35 @@ TEST(Correlations, series_reproduce_them_and_partitions_of_unity_add_up)
     }
 }
 
+TEST(GalerkinStencil, of_a_table_tends_to_that_of_the_powers_it_is_sampled_from)
+{
+  const physics::RadialProfile powers({{1, 0}, {-2, 1}, {1, 2}});
+  const auto stencil = [](const physics::RadialProfile &profile)
+  {
+    return galerkin_stencil(Kernel<2>(physics::Structure::scalar, profile, horizon, 1), h,
+                            AxisShapes(true, 1), Backend::fast);
+  };
+  const auto exact = stencil(powers);
+  double before = 0;
+  for (const unsigned int n : {8u, 16u, 32u})
+  {
+    std::vector<std::array<double, 2>> rows;
+    for (unsigned int i = 0; i <= n; ++i)
+      rows.push_back({1. * i / n, powers(1. * i / n)});
+    const auto entries = stencil(physics::RadialProfile::table(rows));
+    double difference = 0;
+    for (int k2 = -exact.reach(); k2 <= exact.reach(); ++k2)
+      for (int k1 = -exact.reach(); k1 <= exact.reach(); ++k1)
+        difference = std::max(difference, std::abs(entries(0, 0, k1, k2) - exact(0, 0, k1, k2)));
+    if (before > 0)
+    {
+      EXPECT_NEAR(before / difference, 4, .3);
+    }
+    before = difference;
+  }
+  EXPECT_LT(before, 2e-3 * exact(0, 0, 0, 0));
+}
+
 TEST(GalerkinStencil, constants_are_in_the_kernel_and_second_moments_are_those_of_the_kernel)
 {
   for (const double ratio : {1., 1.5, 2.5, 3., 5., 7.3})
@@ -107,6 +136,23 @@ TEST(GalerkinStencil, constants_are_in_the_kernel_and_second_moments_are_those_o
     // Σ_k A(k) (k1 h)² = -h² ∫ C ξ_1²
     EXPECT_NEAR(stencil_moment(stencil, 0, 0, 2, 0) * h * h, -h * h * scalar.moment({2, 0}), 1e-13);
     EXPECT_NEAR(stencil_moment(stencil, 0, 0, 1, 1), 0, 1e-13 * size);
+
+    const physics::RadialProfile table =
+        physics::RadialProfile::table({{0, 2}, {.3, 1.5}, {.5, .2}, {1, .1}});
+    for (const auto &profile : {physics::kernel_type("gaussian").make({{}, 0, .2, {}}), table})
+    {
+      const Kernel<2> kernel = Kernel<2>::with_diffusion(profile, delta, .5);
+      const auto entries = galerkin_stencil(kernel, h, AxisShapes(true, 2), Backend::fast);
+      double sum = 0;
+      for (unsigned int s = 0; s < entries.n_blocks(); ++s)
+        for (unsigned int t = 0; t < entries.n_blocks(); ++t)
+          sum += stencil_moment(entries, s, t, 0, 0);
+      EXPECT_NEAR(sum, 0, 1e-13 * entries(0, 0, 0, 0));
+      EXPECT_NEAR(stencil_moment(galerkin_stencil(kernel, h, AxisShapes(true, 1), Backend::fast), 0,
+                                 0, 2, 0) *
+                      h * h,
+                  -h * h, 1e-13);
+    }
 
     const auto tensor = tensor_kernel(delta);
     const auto blocks = galerkin_stencil(tensor, h, AxisShapes(true, 1), Backend::fast);

@@ -18,10 +18,14 @@ using physics::Lame;
 
 namespace
 {
-  using Profile = std::vector<physics::PowerTerm>;
+  using Profile = physics::RadialProfile;
   constexpr double h = .1;
   const Profile cone = {{1, -1}}; // the influence 1/r, whose potential is a cone
-  const std::vector<Profile> profiles = {cone, {{1, 0}}, {{1, 0}, {-1, 1}}, {{1, 6}, {1, -1}}};
+  const std::vector<Profile> profiles = {cone,
+                                         {{1, 0}},
+                                         {{1, 0}, {-1, 1}},
+                                         {{1, 6}, {1, -1}},
+                                         physics::kernel_type("gaussian").make({{}, 0, .4, {}})};
 
   /// ∫ f over [0, 2δ] by Gauss points graded towards 0, δ and 2δ.
   template <class Function>

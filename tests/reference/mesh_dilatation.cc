@@ -91,7 +91,7 @@ namespace
     return inside;
   }
 
-  Dilatation homogeneous(std::vector<physics::PowerTerm> profile, double horizon)
+  Dilatation homogeneous(physics::RadialProfile profile, double horizon)
   {
     return {physics::influence_function(std::move(profile), horizon),
             [](const Point<2> &) {
@@ -109,8 +109,10 @@ namespace
             is_two_point, false};
   }
 
-  const std::vector<physics::PowerTerm> singular{{1, -1}}, constant{{1, 0}},
-      conical{{1, 0}, {-1, 1}};
+  const physics::RadialProfile singular{{1, -1}}, constant{{1, 0}}, conical{{1, 0}, {-1, 1}},
+      bell = physics::kernel_type("gaussian").make({{}, 0, .5, {}}),
+      decaying = physics::kernel_type("exponential").make({{}, 0, .5, {}}),
+      table = physics::RadialProfile::table({{0, 2}, {.3, 1.5}, {.5, .2}, {1, .1}});
 
   std::vector<double> product(const algebra::Rows &rows, const std::vector<double> &values)
   {
@@ -184,7 +186,7 @@ namespace
 
 TEST(DilatationRow, GivesTheDivergenceOfLinearAndQuadraticFields)
 {
-  for (const auto &profile : {singular, constant, conical})
+  for (const auto &profile : {singular, constant, conical, bell, decaying, table})
     for (const bool is_triangles : {true, false})
       for (const unsigned int degree : {1u, 2u})
         for (const bool is_continuous : {true, false})
@@ -204,7 +206,7 @@ TEST(DilatationRow, GivesTheDivergenceOfLinearAndQuadraticFields)
 TEST(WeightedVolume, IsTwoInAFullBallAndItsShareAtTheBoundary)
 {
   const Mesh mesh = free_square(.25, true);
-  for (const auto &profile : {singular, constant, conical})
+  for (const auto &profile : {singular, constant, conical, bell, decaying, table})
   {
     const reference::WeightedVolume volume(mesh, physics::influence_function(profile, .3));
     EXPECT_DOUBLE_EQ(volume(Point<2>(.5, .5)), 2);
@@ -219,7 +221,7 @@ TEST(WeightedVolume, IsTheSumOverTheCells)
   Mesh mesh = square_mesh(.25, .1, true, .1);
   mesh.cells.erase(mesh.cells.begin() + 20, mesh.cells.begin() + 30); // holes, corners of all kinds
   const MeshCells cells(mesh);
-  for (const auto &profile : {singular, constant, conical})
+  for (const auto &profile : {singular, constant, conical, bell, decaying, table})
   {
     const auto kernel = physics::influence_function(profile, .3);
     const reference::WeightedVolume volume(mesh, kernel);
@@ -228,8 +230,10 @@ TEST(WeightedVolume, IsTheSumOverTheCells)
       const geometry::Ball ball{cells.centroid(cell), .3};
       double sum = 0;
       for (std::size_t other = 0; other < cells.size(); ++other)
-        sum += geometry::weighted_moments(
-            ball, cells[other], [&](double r) { return kernel.radial(r) * r * r; }, 0)[0];
+        for (const auto &part : kernel.parts())
+          sum += geometry::weighted_moments(
+              {ball.centre, part.horizon()}, cells[other],
+              [&](double r) { return part.radial(r) * r * r; }, 0)[0];
       EXPECT_NEAR(volume(ball.centre), sum, 1e-13);
     }
   }

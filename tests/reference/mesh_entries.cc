@@ -131,6 +131,14 @@ namespace
                                               .5);
   }
 
+  /// Of a type whose profile is no sum of powers.
+  physics::Kernel<2> no_powers(const std::string &name, double horizon)
+  {
+    const physics::KernelType &type = physics::kernel_type(name);
+    return {type.structure, type.make({{}, 0, .5, {{0, 2}, {.3, 1.5}, {.5, .2}, {1, .1}}}), horizon,
+            1};
+  }
+
   const geometry::Domain unit_square{{{Point<2>(0, 0), Point<2>(1, 1)}}, {}};
 
   /// Place of an unknown of a lattice space: its family and cell, x and y.
@@ -254,7 +262,10 @@ TEST(MeshEntries, AgreeWithStoredMatricesAndConverge)
 TEST(MeshEntries, OfRectanglesAreThoseOfTheLattice)
 {
   const double h = .25;
-  for (const auto &kernel : {constant(.6), linear_decay(.75), linear_decay(.6), bond_tensor(.75)})
+  for (const auto &kernel : {constant(.6), linear_decay(.75), linear_decay(.6), bond_tensor(.75),
+                             no_powers("gaussian", .6), no_powers("exponential", .6),
+                             no_powers("bond-tensor gaussian", .75), no_powers("table", .75),
+                             no_powers("bond-tensor table", .6)})
     for (const bool is_continuous : {true, false})
       for (unsigned int degree = is_continuous ? 1 : 0; degree <= 3; ++degree)
       {
@@ -282,7 +293,8 @@ TEST(MeshEntries, ByRefinedQuadratureApproachTheExactOnes)
   const geometry::Domain four_cells{{{Point<2>(0, 0), Point<2>(.5, .5)}}, {}};
   const Mesh mesh = geometry::lattice_mesh(four_cells, h, horizon, false);
   for (const auto &[kernel, finest] :
-       {Case{constant(horizon), 8}, Case{linear_decay(horizon), 5}, Case{bond_tensor(horizon), 6}})
+       {Case{constant(horizon), 8}, Case{linear_decay(horizon), 5}, Case{bond_tensor(horizon), 6},
+        Case{no_powers("gaussian", horizon), 6}})
   {
     const auto exact = entries(assemble(mesh, kernel, true, 1, 0).matrix.rows);
     std::vector<double> errors;
@@ -294,6 +306,25 @@ TEST(MeshEntries, ByRefinedQuadratureApproachTheExactOnes)
       EXPECT_LT(errors[n + 2], errors[n] / 20) << "refinement " << n + 2;
     EXPECT_LT(errors[finest - 1], 1e-7); // both places of the kink
     EXPECT_LT(errors[finest], 1e-7);
+  }
+}
+
+TEST(MeshEntries, OfFunctionsAndTablesApproachTheExactOnes)
+{
+  // the circles of a table touch sides at other places of a cell for each refinement
+  const double h = .25, horizon = 4 * h / 3;
+  const geometry::Domain four_cells{{{Point<2>(0, 0), Point<2>(.5, .5)}}, {}};
+  const Mesh mesh = geometry::lattice_mesh(four_cells, h, horizon, false);
+  for (const std::string name : {"exponential", "table", "bond-tensor gaussian"})
+  {
+    const auto exact = entries(assemble(mesh, no_powers(name, horizon), true, 1, 0).matrix.rows);
+    const auto error = [&](unsigned int refinement)
+    {
+      const auto rows = assemble(mesh, no_powers(name, horizon), true, 1, refinement, false);
+      return frobenius_difference(entries(rows.matrix.rows), exact);
+    };
+    EXPECT_GT(error(0), 1e-4) << name;
+    EXPECT_LT(error(4), 5e-6) << name;
   }
 }
 

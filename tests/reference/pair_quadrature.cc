@@ -33,7 +33,7 @@ TEST(PairQuadrature, inner_rules_have_five_digits_and_one_more_with_each_refinem
   const MeshSpace space(mesh, false, 0);
   const MeshCells cells(*mesh);
   const physics::Kernel<2> kernel(physics::Structure::scalar, {{1, -1}}, 1, 1);
-  const RadialProfile profile(kernel);
+  const KernelEntries profile(kernel);
 
   double exact = 0;
   const dealii::QGauss<2> outer(3), inner(20);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <new>
@@ -205,8 +206,30 @@ TEST(SceneErrors, kernels_and_models_that_do_not_fit)
   expect_error(section("Problem", "solution = x, y"),
                "has 2 component(s), but the scalar kernel needs 1");
   expect_error(section("Kernel", "type = polynomial"),
-               "needs its polynomial; give Kernel/coefficients");
-  expect_error(section("Kernel", "coefficients = 1, 2"), "is for polynomial kernels");
+               "needs its profile; give Kernel/coefficients");
+  expect_error(section("Kernel", "coefficients = 1, 2"),
+               "is for polynomial, bond-tensor polynomial");
+  expect_error(section("Kernel", "type = gaussian"), "needs its profile; give Kernel/width");
+  expect_error(section("Kernel", "type = gaussian\n set width = 0"),
+               "Kernel/width = 0 horizons must be 0.05 or more");
+  expect_error(section("Kernel", "type = gaussian\n set width = wide"), "Kernel/width");
+  expect_error(section("Kernel", "width = 1"), "Kernel/width is for gaussian, exponential, bond-");
+  expect_error(section("Kernel", "type = table"), "give Kernel/table file");
+  expect_error(section("Kernel", "type = table\n set table file = none.csv"), "none.csv");
+}
+
+TEST(SceneErrors, tables_of_kernels_name_file_and_row)
+{
+  const auto file = std::filesystem::path(testing::TempDir()) / "rho.csv";
+  const auto expect = [&](const std::string &rows, const std::string &message)
+  {
+    std::ofstream(file) << "t, rho\n" << rows;
+    expect_error(section("Kernel", "type = table\n set table file = " + file.string()), message);
+  };
+  expect("0, 1\n", "rho.csv: kernel: the table of the radial profile has 1 rows; give 2 to 1000");
+  expect("0, 1\n.5, .4\n.5, .3\n1, 0\n", "row 3 of the table of the radial profile has t = 0.5");
+  expect("0, 1\n.9, 0\n", "the last t must be 1");
+  expect("0, 1\n1, inf\n", "rho.csv");
 }
 
 TEST(SceneErrors, expressions_and_targets)

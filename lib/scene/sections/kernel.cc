@@ -1,7 +1,10 @@
 #include "base/error.h"
+#include "scene/csv.h"
 #include "scene/keys.h"
 #include "scene/problem_sections.h"
 #include "scene/values.h"
+
+#include <filesystem>
 
 namespace plumbline::base
 {
@@ -29,6 +32,20 @@ namespace plumbline::scene
              "a_0, a_1, ... of the profile p(t) = a_0 + a_1 t + ..., t = r / horizon, of "
              "polynomial kernels.");
     keys.add("singularity", singularity, count(0, 1), "a of the polynomial profile p(t) / t^a.");
+    keys.add(
+        "width", "", any_text(),
+        [this](const std::string &text)
+        {
+          width.reset();
+          if (!text.empty())
+            width = to_number(text);
+        },
+        "s > 0 of gaussian and exponential kernels, in horizons: exp(-(t/s)^2) and exp(-t/s), t = "
+        "r "
+        "/ horizon.");
+    keys.add("table file", table_file,
+             "Of kernels given as a table: a .csv file with the columns t = r / horizon, from 0 to "
+             "1, and rho. Linear between its rows, of which there are 1000 at most.");
     keys.add("coefficient", coefficient,
              "a > 0 of a kernel a C: an expression in x and y. Empty: homogeneous. Needs a mesh.");
     keys.add(
@@ -45,18 +62,56 @@ namespace plumbline::scene
              "The mean of the coefficients at both ends of a bond.");
   }
 
-  void KernelSection::complete()
+  namespace
+  {
+    std::vector<std::array<double, 2>> read_table(const std::string &file)
+    {
+      Csv csv(file, {"t", "rho"});
+      std::vector<std::array<double, 2>> rows;
+      while (csv.next())
+        rows.push_back({csv.number("t"), csv.number("rho")});
+      return rows;
+    }
+
+    std::string types_with(const std::string &key)
+    {
+      std::vector<std::string> types;
+      for (const physics::KernelType &one : physics::kernel_types())
+        if (one.key == key)
+          types.push_back(one.name);
+      return join(types, ", ");
+    }
+  } // namespace
+
+  void KernelSection::complete(const std::string &folder)
   {
     const physics::KernelType &known = physics::kernel_type(type);
     structure = known.structure;
+    for (const auto &[key, is_given] :
+         {std::pair("coefficients", !coefficients.empty()), std::pair("width", width.has_value()),
+          std::pair("table file", !table_file.empty())})
+    {
+      if (is_given && known.key != key)
+        throw InputError("Kernel/" + std::string(key) + " is for " + types_with(key) +
+                         ", but Kernel/type = '" + type + "'; clear it or choose one of them");
+      if (!is_given && known.key == key)
+        throw InputError("Kernel/type = '" + type + "' needs its profile; give Kernel/" + key);
+    }
     profile = known.profile;
-    if (!profile.empty() && !coefficients.empty())
-      throw InputError("Kernel/coefficients is for polynomial kernels, but Kernel/type = '" + type +
-                       "'; clear it or choose a polynomial type");
-    if (profile.empty() && coefficients.empty())
-      throw InputError("Kernel/type = '" + type +
-                       "' needs its polynomial; give Kernel/coefficients");
-    for (std::size_t i = 0; i < coefficients.size(); ++i)
-      profile.push_back({coefficients[i], static_cast<int>(i) - static_cast<int>(singularity)});
+    if (known.make == nullptr)
+      return;
+    physics::ProfileKeys given{coefficients, singularity, width.value_or(0), {}};
+    const std::string file = (std::filesystem::path(folder) / table_file).string();
+    if (!table_file.empty())
+      given.table = read_table(file);
+    try
+    {
+      profile = known.make(given);
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(table_file.empty() ? error.what()
+                                          : "Kernel/table file = " + file + ": " + error.what());
+    }
   }
 } // namespace plumbline::scene
