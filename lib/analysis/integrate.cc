@@ -24,21 +24,21 @@ namespace plumbline::analysis
     }
 
     /// 0 x is 0, or not a number; sums that do not wait for each other.
-    bool is_finite(const Vector &x)
+    bool is_finite(const double *x, std::size_t n)
     {
       constexpr std::size_t n_sums = 8;
       double sums[n_sums] = {};
-      for (std::size_t i = 0; i + n_sums <= x.size(); i += n_sums)
+      for (std::size_t i = 0; i + n_sums <= n; i += n_sums)
         for (std::size_t l = 0; l < n_sums; ++l)
           sums[l] += 0 * x[i + l];
-      for (std::size_t i = x.size() / n_sums * n_sums; i < x.size(); ++i)
+      for (std::size_t i = n / n_sums * n_sums; i < n; ++i)
         sums[0] += 0 * x[i];
       return std::all_of(std::begin(sums), std::end(sums), [](double sum) { return sum == 0; });
     }
 
     bool is_finite(const State &state)
     {
-      return is_finite(state.u) && is_finite(state.v);
+      return is_finite(state.u.data(), state.u.size()) && is_finite(state.v.data(), state.v.size());
     }
 
     void check(const Motion &motion, const Scheme &scheme, const Stepping &stepping, double end,
@@ -67,41 +67,20 @@ namespace plumbline::analysis
                ", so that errors grow without bound; shorten it, or ask to be shown the blow-up");
     }
 
-    /// The exact flow of v̇ = a - η v over a time.
-    void kick(double time, double eta, const Vector &a, Vector &v)
-    {
-      const double decay = std::exp(-eta * time);
-      const double gain = eta == 0 ? time : -std::expm1(-eta * time) / eta;
-      for (std::size_t i = 0; i < v.size(); ++i)
-        v[i] = decay * v[i] + gain * a[i];
-    }
-
-    /// The same, and then a drift of u: vectors that do not fit a cache are read once.
-    void kick_and_drift(double time, double eta, const Vector &a, double drift_time, State &state)
-    {
-      const double decay = std::exp(-eta * time);
-      const double gain = eta == 0 ? time : -std::expm1(-eta * time) / eta;
-      for (std::size_t i = 0; i < a.size(); ++i)
-      {
-        const double v = decay * state.v[i] + gain * a[i];
-        state.v[i] = v;
-        state.u[i] += drift_time * v;
-      }
-    }
-
-    /// a(u, t) of a state that is known to have moved or not.
-    class Acceleration
+    /// Accelerations, and the flows of split schemes. Kicks and drifts between two accelerations
+    /// change each number by itself: they wait, and go over the vectors together, in blocks that
+    /// fit a cache.
+    class Flow
     {
     public:
-      Acceleration(const Motion &motion, Counts &counts)
-          : motion_(motion), counts_(counts), a_(motion.n)
-      {
-      }
+      Flow(const Motion &motion, Counts &counts) : motion_(motion), counts_(counts), a_(motion.n) {}
 
-      const Vector &at(const State &state)
+      /// a(u, t) of a state that is known to have moved or not.
+      const Vector &acceleration(State &state)
       {
         if (!is_current_)
         {
+          apply(state);
           motion_.acceleration(state.u, state.t, a_);
           ++counts_.n_accelerations;
         }
@@ -111,47 +90,74 @@ namespace plumbline::analysis
       void forget() { is_current_ = false; }
       Vector &values() { return a_; }
 
+      /// The exact flow of v̇ = a - η v over a time.
+      void kick(double time, State &state)
+      {
+        acceleration(state);
+        const double eta = motion_.damping;
+        waiting_.push_back(
+            {true, std::exp(-eta * time), eta == 0 ? time : -std::expm1(-eta * time) / eta});
+      }
+
+      void drift(double time, State &state)
+      {
+        waiting_.push_back({false, 0, time});
+        state.t += time;
+        forget();
+      }
+
+      /// What waits. The acceleration is still that of the kicks among it.
+      void apply(State &state)
+      {
+        constexpr std::size_t block = 1024;
+        for (std::size_t begin = 0; begin < a_.size() && !waiting_.empty(); begin += block)
+        {
+          const std::size_t n = std::min(block, a_.size() - begin);
+          double *const u = state.u.data() + begin, *const v = state.v.data() + begin;
+          const double *const a = a_.data() + begin;
+          for (const auto &[is_kick, decay, time] : waiting_)
+            if (is_kick)
+              for (std::size_t i = 0; i < n; ++i)
+                v[i] = decay * v[i] + time * a[i];
+            else
+              for (std::size_t i = 0; i < n; ++i)
+                u[i] += time * v[i];
+          is_finite_ = is_finite_ && is_finite(u, n) && is_finite(v, n);
+        }
+        waiting_.clear();
+      }
+      bool is_still_finite() const { return is_finite_; } ///< of what was applied
+
     private:
+      struct Change
+      {
+        bool is_kick = false;
+        double decay = 0, time = 0; ///< of a kick that by which a counts
+      };
       const Motion &motion_;
       Counts &counts_;
       Vector a_;
-      bool is_current_ = false;
+      std::vector<Change> waiting_;
+      bool is_current_ = false, is_finite_ = true;
     };
 
-    void split_step(const Motion &motion, const Scheme &scheme, double step, State &state,
-                    Acceleration &acceleration)
+    void split_step(const Scheme &scheme, double step, State &state, Flow &flow)
     {
-      const auto &substeps = scheme.substeps;
-      for (std::size_t i = 0; i < substeps.size(); ++i)
-      {
-        const double time = substeps[i].coefficient * step;
-        const bool drifts_next = i + 1 < substeps.size() && !substeps[i + 1].is_kick;
-        if (substeps[i].is_kick && !drifts_next)
-        {
-          kick(time, motion.damping, acceleration.at(state), state.v);
-          continue;
-        }
-        double drift_time = time;
-        if (substeps[i].is_kick)
-        {
-          drift_time = substeps[++i].coefficient * step;
-          kick_and_drift(time, motion.damping, acceleration.at(state), drift_time, state);
-        }
+      for (const auto &[is_kick, coefficient] : scheme.substeps)
+        if (is_kick)
+          flow.kick(coefficient * step, state);
         else
-          add(state.u, drift_time, state.v);
-        state.t += drift_time;
-        acceleration.forget();
-      }
+          flow.drift(coefficient * step, state);
     }
 
-    void explicit_step(const Motion &motion, double step, State &state, Acceleration &acceleration)
+    void explicit_step(const Motion &motion, double step, State &state, Flow &flow)
     {
-      const Vector &a = acceleration.at(state);
+      const Vector &a = flow.acceleration(state);
       const Vector v = state.v;
       for (std::size_t i = 0; i < v.size(); ++i)
         state.v[i] += step * (a[i] - motion.damping * v[i]);
       add(state.u, step, v);
-      acceleration.forget();
+      flow.forget();
     }
   } // namespace
 
@@ -171,22 +177,24 @@ namespace plumbline::analysis
     const auto n_steps =
         static_cast<std::uint64_t>(std::ceil((end - start) / stepping.step * (1 - step_tolerance)));
     const double step = (end - start) / static_cast<double>(n_steps);
-    Acceleration acceleration(motion, counts);
+    Flow flow(motion, counts);
     for (std::uint64_t k = 1; k <= n_steps; ++k)
     {
       if (scheme.is_implicit())
       {
-        acceleration.at(state);
-        theta_step(motion, scheme.theta, step, stepping.tolerance, state, acceleration.values(),
-                   counts);
+        flow.acceleration(state);
+        theta_step(motion, scheme.theta, step, stepping.tolerance, state, flow.values(), counts);
       }
       else if (scheme.is_explicit_euler)
-        explicit_step(motion, step, state, acceleration);
+        explicit_step(motion, step, state, flow);
       else
-        split_step(motion, scheme, step, state, acceleration);
+        split_step(scheme, step, state, flow);
+      const bool is_split = !scheme.substeps.empty();
+      if (is_split && (observer || k == n_steps))
+        flow.apply(state);
       state.t = k == n_steps ? end : start + static_cast<double>(k) * step;
       counts.n_steps = k;
-      if (!is_finite(state))
+      if (is_split ? !flow.is_still_finite() : !is_finite(state))
       {
         std::ostringstream message;
         message << "the motion is not finite any more after " << k << " steps, at t = " << state.t
