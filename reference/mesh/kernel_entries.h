@@ -110,7 +110,7 @@ namespace plumbline::reference
   public:
     struct Ball
     {
-      double radius; ///< [length]
+      double radius = 0; ///< [length]
       SmoothEntries entries;
     };
 
