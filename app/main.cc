@@ -173,8 +173,7 @@ int main(int argc, char **argv)
   int exit_code = 0;
   const auto command = [&]
   {
-    options.overrides = weights.overrides = measures.overrides = waves.overrides =
-        strip.overrides =
+    options.overrides = weights.overrides = measures.overrides = waves.overrides = strip.overrides =
         to_overrides(settings);
     if (*run)
       exit_code = plumbline::app::run(options);

@@ -30,6 +30,7 @@ namespace
   {
     Settings all = {{"Problem/solution", "flat: 1 + x - 2*y; wave: sin(5*x)*cos(4*y)"},
                     {"Geometry/checks", "0"},
+                    {"Methods/names", "Q1"},
                     {"Study/h", "0.125"}};
     all.insert(all.end(), settings.begin(), settings.end());
     return scene::parse_scene("test.prm", "", all);
