@@ -7,9 +7,9 @@
 #include "base/number_text.h"
 #include "meshfree/lattice/crack_strip.h"
 #include "meshfree/rules/rules.h"
+#include "report/crack_frames.h"
 #include "report/crack_page.h"
 #include "report/formats.h"
-#include "report/frames.h"
 
 #include <cmath>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "report/frames.h"
+#include "report/crack_frames.h"
 
 #include "report/formats.h"
 
