@@ -1,11 +1,11 @@
 #include "analysis/integrate.h"
 
+#include "algebra/lane.h"
 #include "analysis/steps.h"
 #include "base/error.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <sstream>
 
 namespace plumbline::analysis
@@ -24,7 +24,7 @@ namespace plumbline::analysis
     }
 
     /// 0 x is 0, or not a number; sums that do not wait for each other.
-    bool is_finite(const double *x, std::size_t n)
+    PLUMBLINE_WIDE_CLONES bool is_finite(const double *x, std::size_t n)
     {
       constexpr std::size_t n_sums = 8;
       double sums[n_sums] = {};
@@ -33,7 +33,10 @@ namespace plumbline::analysis
           sums[l] += 0 * x[i + l];
       for (std::size_t i = n / n_sums * n_sums; i < n; ++i)
         sums[0] += 0 * x[i];
-      return std::all_of(std::begin(sums), std::end(sums), [](double sum) { return sum == 0; });
+      bool is = true;
+      for (const double sum : sums)
+        is = is && sum == 0;
+      return is;
     }
 
     bool is_finite(const State &state)
@@ -65,6 +68,19 @@ namespace plumbline::analysis
         refuse("time step = ", stepping.step, " is longer than the critical step ",
                *stepping.critical_step, " of the scheme ", scheme.name,
                ", so that errors grow without bound; shorten it, or ask to be shown the blow-up");
+    }
+
+    PLUMBLINE_WIDE_CLONES void add_kick(double decay, double time, const double *a, double *v,
+                                        std::size_t n)
+    {
+      for (std::size_t i = 0; i < n; ++i)
+        v[i] = decay * v[i] + time * a[i];
+    }
+
+    PLUMBLINE_WIDE_CLONES void add_drift(double time, const double *v, double *u, std::size_t n)
+    {
+      for (std::size_t i = 0; i < n; ++i)
+        u[i] += time * v[i];
     }
 
     /// Accelerations, and the flows of split schemes. Kicks and drifts between two accelerations
@@ -117,11 +133,9 @@ namespace plumbline::analysis
           const double *const a = a_.data() + begin;
           for (const auto &[is_kick, decay, time] : waiting_)
             if (is_kick)
-              for (std::size_t i = 0; i < n; ++i)
-                v[i] = decay * v[i] + time * a[i];
+              add_kick(decay, time, a, v, n);
             else
-              for (std::size_t i = 0; i < n; ++i)
-                u[i] += time * v[i];
+              add_drift(time, v, u, n);
           is_finite_ = is_finite_ && is_finite(u, n) && is_finite(v, n);
         }
         waiting_.clear();
