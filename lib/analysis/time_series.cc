@@ -12,9 +12,12 @@ namespace plumbline::analysis
 {
   namespace
   {
+    /// @param n  0: the start
     double point(std::size_t k, std::size_t n, double end)
     {
-      return .5 * end * (1 - std::cos(M_PI * static_cast<double>(k) / static_cast<double>(n)));
+      return n == 0 ? 0
+                    : .5 * end *
+                          (1 - std::cos(M_PI * static_cast<double>(k) / static_cast<double>(n)));
     }
 
     /// Barycentric weights of Chebyshev's points. Source: Berrut & Trefethen 2004,
@@ -114,13 +117,16 @@ namespace plumbline::analysis
 
   void TimeSeries::add(double factor, const TimeSeries &other)
   {
-    if (values_.size() == 1 && other.values_.size() > 1)
+    if (values_.size() < other.values_.size()) // the same polynomial, by more points
     {
-      values_.resize(other.values_.size(), values_[0]);
+      const std::size_t n = other.values_.size() - 1;
+      std::vector<Vector> finer;
+      for (std::size_t k = 0; k <= n; ++k)
+        finer.push_back(at(point(k, n, other.end_)));
+      values_ = std::move(finer);
       end_ = other.end_;
     }
     for (std::size_t k = 0; k < values_.size(); ++k)
-      analysis::add(values_[k], factor,
-                    other.values_.size() == 1 ? other.values_[0] : other.values_[k]);
+      analysis::add(values_[k], factor, other.at(point(k, values_.size() - 1, end_)));
   }
 } // namespace plumbline::analysis

@@ -24,25 +24,22 @@ namespace plumbline::method
     CollarData collar_data(const scene::Problem &problem, const geometry::NodeSet &nodes,
                            int margin)
     {
-      CollarData data{collar_values(problem, nodes, margin), {}};
+      std::vector<std::size_t> held; // component by component
+      CollarData data{collar_values(problem, nodes, margin, &held), {}};
       const std::size_t n_values = data.values.size() / nodes.n_components;
+      auto first = held.begin();
       for (unsigned int c = 0; c < nodes.n_components; ++c)
       {
         double low = std::numeric_limits<double>::infinity(), high = -low;
-        std::vector<std::size_t> held;
-        std::size_t k = c * n_values;
-        for (unsigned int s = 0; s < nodes.n_families(); ++s)
-          for (int j = -margin; j < nodes.n[1] + margin; ++j)
-            for (int i = -margin; i < nodes.n[0] + margin; ++i, ++k)
-              if (!nodes.free(s, i, j))
-              {
-                low = std::min(low, data.values[k]);
-                high = std::max(high, data.values[k]);
-                held.push_back(k);
-              }
-        data.middle.push_back(held.empty() ? 0 : low + (high - low) / 2);
-        for (const std::size_t place : held)
-          data.values[place] -= data.middle.back();
+        const auto last = std::lower_bound(first, held.end(), (c + 1) * n_values);
+        for (auto place = first; place != last; ++place)
+        {
+          low = std::min(low, data.values[*place]);
+          high = std::max(high, data.values[*place]);
+        }
+        data.middle.push_back(first == last ? 0 : low + (high - low) / 2);
+        for (; first != last; ++first)
+          data.values[*first] -= data.middle.back();
       }
       return data;
     }

@@ -224,7 +224,7 @@ namespace plumbline::method
   }
 
   std::vector<double> collar_values(const scene::Problem &problem, const geometry::NodeSet &nodes,
-                                    int margin)
+                                    int margin, std::vector<std::size_t> *held)
   {
     std::vector<double> values;
     values.reserve(static_cast<std::size_t>(nodes.n_blocks()) * (nodes.n[0] + 2 * margin) *
@@ -234,11 +234,15 @@ namespace plumbline::method
         for (int j = -margin; j < nodes.n[1] + margin; ++j)
           for (int i = -margin; i < nodes.n[0] + margin; ++i)
           {
-            const auto place = nodes.place(s, i, j);
-            values.push_back(
-                nodes.free(s, i, j)
-                    ? 0
-                    : problem.constraint.value(problem.lattice->point(place[0], place[1]), c));
+            double value = 0;
+            if (!nodes.free(s, i, j))
+            {
+              const auto place = nodes.place(s, i, j);
+              value = problem.constraint.value(problem.lattice->point(place[0], place[1]), c);
+              if (held != nullptr)
+                held->push_back(values.size());
+            }
+            values.push_back(value);
           }
     return values;
   }

@@ -28,6 +28,7 @@ namespace plumbline::method
 
   /// The constraint at all positions within `margin` of the bounding box that are not free, 0 where
   /// they are: shape (n_blocks, n[1] + 2 margin, n[0] + 2 margin).
+  /// @param held  if given: where those that are not free stand, component by component
   std::vector<double> collar_values(const scene::Problem &problem, const geometry::NodeSet &nodes,
-                                    int margin);
+                                    int margin, std::vector<std::size_t> *held = nullptr);
 } // namespace plumbline::method

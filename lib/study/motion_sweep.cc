@@ -169,7 +169,7 @@ namespace plumbline::study
                      const Transient &transient, const MotionData &data, const Torus *torus,
                      const std::optional<State> &in_time, bool is_shown)
       {
-        constexpr std::uint64_t n_samples = 100;
+        const std::uint64_t n_samples = scene_.time.shows_blow_up ? 2000 : 100; // it grows fast
         const double end = scene_.time.final_time;
         const auto n_steps = static_cast<std::uint64_t>(std::ceil(end / run.step));
         State state = data.start;

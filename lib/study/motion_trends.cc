@@ -192,6 +192,8 @@ namespace plumbline::study
             number(law.c1()) + ", " + number(law.c2()) + ", " + number(law.c3()));
         add("C̄; Lipschitz bound 6 C̄/ε² of F in L²",
             number(law.c_bar()) + "; " + number(6 * law.c_bar() / (horizon * horizon)));
+        add("rates proven (Jha & Lipton 2018, doi:10.1137/17M1112236)",
+            "h^γ/ε² for data in C^(0,γ), γ <= 1, and Δt; smooth data show more");
         add("softening strain of a bond as long as the horizon",
             number(law.softening_strain(horizon)));
         return;

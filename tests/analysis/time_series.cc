@@ -36,6 +36,23 @@ TEST(TimeSeries, sums_with_what_does_not_change)
   EXPECT_NEAR(sum.at(1.5)[1], 6.5, 1e-13);
 }
 
+TEST(TimeSeries, sums_with_what_took_more_points)
+{
+  const auto slow = [](double t) { return Vector{t * t}; };
+  const auto fast = [](double t) { return Vector{std::sin(12 * t)}; };
+  TimeSeries few = TimeSeries::resolve(slow, 2, 1e-11, "u"),
+             many = TimeSeries::resolve(fast, 2, 1e-11, "u");
+  ASSERT_LT(few.n_points(), many.n_points());
+  TimeSeries sum = few;
+  sum.add(1, many);
+  many.add(1, few);
+  for (const double t : {0., .3, 1.7})
+  {
+    EXPECT_NEAR(sum.at(t)[0], t * t + std::sin(12 * t), 1e-10);
+    EXPECT_NEAR(many.at(t)[0], sum.at(t)[0], 1e-12);
+  }
+}
+
 TEST(TimeSeries, refuses_what_is_not_smooth)
 {
   EXPECT_THROW(
