@@ -38,6 +38,8 @@ namespace
       try
       {
         const scene::Scene scene = scene::read_scene(file.string());
+        if (scene.time.is_dynamic() || scene.crack.is_there())
+          return; // estimates are of statics
         const std::string name =
             file.parent_path().filename().string() + "/" + file.stem().string();
         for (unsigned int c = 0; c < scene.problem.case_names().size(); ++c)

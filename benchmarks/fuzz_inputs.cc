@@ -78,7 +78,7 @@ namespace plumbline::benchmarks
         study::Trend trend;
         trend.method = method;
         trend.error = results.decisive_error;
-        trend.parameter = "h";
+        trend.axis = study::Axis::mesh_size;
         for (unsigned int level = 0; level < 3; ++level)
         {
           study::Run run;

@@ -33,7 +33,7 @@ namespace plumbline::report
     }
 
     Vertex coordinates(const study::Results &results, const study::Run &run, ChartKind kind,
-                       bool is_horizon)
+                       study::Axis axis)
     {
       const double error = positive(decisive_error(results, run));
       switch (kind)
@@ -45,14 +45,14 @@ namespace plumbline::report
       case ChartKind::pairs:
         return {positive(static_cast<double>(run.cost.n_bonds)), error};
       case ChartKind::iterations:
-        return {positive(is_horizon ? run.horizon : run.h),
-                run.failure.empty() ? positive(run.cost.n_iterations)
-                                    : std::numeric_limits<double>::quiet_NaN()};
+        return {positive(coordinate(axis, run)), run.failure.empty()
+                                                     ? positive(run.cost.n_iterations)
+                                                     : std::numeric_limits<double>::quiet_NaN()};
       case ChartKind::convergence:
       case ChartKind::error_map:
         break;
       }
-      return {positive(is_horizon ? run.horizon : run.h), error};
+      return {positive(coordinate(axis, run)), error};
     }
 
     std::string kind_slug(ChartKind kind)
@@ -101,7 +101,7 @@ namespace plumbline::report
              kind == ChartKind::pairs;
     }
 
-    std::string x_label(ChartKind kind, bool is_horizon)
+    std::string x_label(ChartKind kind, study::Axis axis)
     {
       switch (kind)
       {
@@ -116,7 +116,7 @@ namespace plumbline::report
       case ChartKind::error_map:
         break;
       }
-      return is_horizon ? "horizon δ [length]" : "mesh size h [length]";
+      return label(axis);
     }
 
     /// The cases of a chart: one, or all of its problem.
@@ -137,10 +137,10 @@ namespace plumbline::report
       for (const MethodName &method : methods)
         for (const Case *one : chosen)
         {
-          const bool is_horizon = varies_horizon(results, *one);
+          const study::Axis axis = axis_of(results, *one);
           for (const study::Run *run : runs_of(results, method.name, *one))
           {
-            const Vertex v = coordinates(results, *run, kind, is_horizon);
+            const Vertex v = coordinates(results, *run, kind, axis);
             points.push_back({&method, one, run, v.x, v.y});
           }
         }
@@ -197,17 +197,17 @@ namespace plumbline::report
                  const std::vector<const Case *> &chosen, const Chart &chart,
                  const std::vector<Point> &points)
     {
-      const bool is_horizon = varies_horizon(results, *chosen.front());
+      const study::Axis axis = axis_of(results, *chosen.front());
       const bool is_iterations = chart.kind == ChartKind::iterations;
       Plot plot;
       plot.file = chart.name + ".svg";
       plot.title = chart.title;
-      plot.x_label = x_label(chart.kind, is_horizon);
+      plot.x_label = x_label(chart.kind, axis);
       plot.y_label = is_iterations ? "iterations [1]"
                                    : "error: " + error_words(results.decisive_error) +
                                          " [unit of the solution]";
       // with a fixed mesh errors fall as the horizon grows: no order to compare with
-      plot.has_slopes = chart.kind == ChartKind::convergence && !is_horizon;
+      plot.has_slopes = chart.kind == ChartKind::convergence && axis == study::Axis::mesh_size;
       plot.shows_round_off = !is_iterations;
 
       double least = std::numeric_limits<double>::max(), most = 0;
@@ -240,7 +240,7 @@ namespace plumbline::report
       return plot;
     }
 
-    Table data_of(const Chart &chart, const std::vector<Point> &points, bool is_horizon)
+    Table data_of(const Chart &chart, const std::vector<Point> &points, study::Axis axis)
     {
       const bool is_iterations = chart.kind == ChartKind::iterations;
       Table table;
@@ -248,7 +248,7 @@ namespace plumbline::report
                        "problem",
                        "series",
                        "level",
-                       x_label(chart.kind, is_horizon),
+                       x_label(chart.kind, axis),
                        is_iterations ? "iterations" : "error"};
       for (const Point &point : points)
         table.rows.push_back({text_cell(point.method->name), text_cell(point.one->problem),
@@ -343,7 +343,7 @@ namespace plumbline::report
       const std::vector<Point> points = points_of(results, names, chosen, chart.kind);
       plots.push_back(plot_of(results, names, chosen, chart, points));
       write_file(folder / (chart.name + ".csv"),
-                 to_csv(data_of(chart, points, varies_horizon(results, *chosen.front()))));
+                 to_csv(data_of(chart, points, axis_of(results, *chosen.front()))));
     }
     if (charts.empty())
       return charts;

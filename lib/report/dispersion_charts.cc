@@ -58,7 +58,7 @@ namespace plumbline::report
       {
         if (t.series != series)
           continue;
-        chart.plot.x_label = t.parameter == "h" ? "mesh size h [length]" : "horizon δ [length]";
+        chart.plot.x_label = study::label(t.axis);
         chart.plot.y_label = "|c/c(nonlocal) - 1|, worst direction";
         Line line{t.method, style_of(methods, t.method), 1.8, {}};
         for (std::size_t i = 0; i < t.x.size(); ++i)

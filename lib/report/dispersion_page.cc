@@ -198,7 +198,7 @@ namespace plumbline::report
       json["verdicts"].push_back({{"method", t.method},
                                   {"series", t.series},
                                   {"error", t.error},
-                                  {t.parameter, t.x},
+                                  {base::word(t.axis), t.x},
                                   {"errors", t.values},
                                   {"rates", t.rates},
                                   {"plateau", t.plateau},

@@ -77,7 +77,7 @@ namespace plumbline::report
               {"scheme", t.scheme},
               {"steps", t.steps},
               {"error", t.error},
-              {t.parameter, t.x},
+              {base::word(t.axis), t.x},
               {"errors", t.values},
               {"rates", t.rates},
               {"rate", known_number(t.rate)},

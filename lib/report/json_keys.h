@@ -19,6 +19,11 @@ namespace plumbline::report
   {
     return {"unknown", "compatible", "incompatible"};
   }
+  constexpr auto names(study::Axis)
+  {
+    return base::words<study::Axis>;
+  }
+
   template <typename Archive>
   void visit(Archive &a, base::Cost &cost)
   {
@@ -86,7 +91,7 @@ namespace plumbline::report
     a("problem", trend.problem);
     a("series", trend.series);
     a("error", trend.error);
-    a("parameter", trend.parameter);
+    a("parameter", trend.axis);
     a("x", trend.x);
     a("values", trend.values);
     a("size", trend.size);

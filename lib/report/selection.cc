@@ -111,12 +111,12 @@ namespace plumbline::report
     return not_a_number;
   }
 
-  bool varies_horizon(const study::Results &results, const Case &one)
+  study::Axis axis_of(const study::Results &results, const Case &one)
   {
     for (const study::Trend &trend : results.trends)
       if (trend.problem == one.problem && trend.series == one.series)
-        return trend.parameter == "horizon";
-    return false;
+        return trend.axis;
+    return study::Axis::mesh_size;
   }
 
   std::string error_words(const std::string &error)

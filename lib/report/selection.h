@@ -48,8 +48,8 @@ namespace plumbline::report
   /// none.
   double rate_at(const study::Trend &trend, double x);
 
-  /// What varies over the levels, from the trends: the horizon if one says so, else h.
-  bool varies_horizon(const study::Results &results, const Case &one);
+  /// What varies over the levels, as the trends say.
+  study::Axis axis_of(const study::Results &results, const Case &one);
 
   /// "nodal Linf | exact" in words: "nodal L∞ against exact".
   std::string error_words(const std::string &error);

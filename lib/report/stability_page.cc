@@ -193,7 +193,7 @@ namespace plumbline::report
     for (const study::StabilityTrend &t : results.trends)
       json["powers"].push_back({{"method", t.method},
                                 {"series", t.series},
-                                {"parameter", t.parameter},
+                                {"parameter", base::word(t.axis)},
                                 {"smallest_eigenvalue", t.smallest},
                                 {"largest_eigenvalue", t.largest},
                                 {"inverse_norm", t.inverse_norm}});

@@ -47,10 +47,10 @@ namespace plumbline::report
     struct Series
     {
       std::string name;
-      bool is_horizon; ///< h is fixed
+      study::Axis axis = study::Axis::horizon; ///< unless h varies
       std::vector<const StabilityRow *> rows;
 
-      double x(const StabilityRow &row) const { return is_horizon ? row.horizon : row.h; }
+      double x(const StabilityRow &row) const { return coordinate(axis, row); }
       std::string suffix() const { return name.empty() ? "" : "_" + slug(name); }
       std::string title() const { return name.empty() ? "" : name + ": "; }
     };
@@ -63,9 +63,9 @@ namespace plumbline::report
         auto found = std::find_if(all.begin(), all.end(),
                                   [&](const Series &s) { return s.name == row.series; });
         if (found == all.end())
-          found = all.insert(all.end(), {row.series, true, {}});
-        found->is_horizon =
-            found->is_horizon && (found->rows.empty() || row.h == found->rows[0]->h);
+          found = all.insert(all.end(), {row.series});
+        if (!found->rows.empty() && row.h != found->rows[0]->h)
+          found->axis = study::Axis::mesh_size;
         found->rows.push_back(&row);
       }
       return all;
@@ -104,7 +104,7 @@ namespace plumbline::report
       Plot plot;
       plot.file = std::string(measure.name) + series.suffix() + ".svg";
       plot.title = series.title() + measure.title;
-      plot.x_label = series.is_horizon ? "horizon δ [length]" : "mesh size h [length]";
+      plot.x_label = label(series.axis);
       plot.y_label = measure.axis;
       const auto methods = methods_of(results);
       bool has_bound = false;

@@ -87,8 +87,9 @@ namespace plumbline::report
     const auto power = [](double value) { return known(std::isfinite(value), rate_cell(value)); };
     for (const study::StabilityTrend &t : results.trends)
       if (std::isfinite(t.smallest) || std::isfinite(t.largest) || std::isfinite(t.inverse_norm))
-        table.rows.push_back({text_cell(t.method), text_cell(t.series), text_cell(t.parameter),
-                              power(t.smallest), power(t.largest), power(t.inverse_norm)});
+        table.rows.push_back({text_cell(t.method), text_cell(t.series),
+                              text_cell(base::word(t.axis)), power(t.smallest), power(t.largest),
+                              power(t.inverse_norm)});
     return without_empty_columns(table);
   }
 

@@ -95,7 +95,7 @@ namespace plumbline::report
         table.columns.push_back({"rate", {method.name + " rate"}});
       }
 
-    const bool is_horizon = varies_horizon(results, one);
+    const study::Axis axis = axis_of(results, one);
     for (const Level &level : levels_of(results, one))
     {
       std::vector<Cell> row = {count_cell(level.number), number_cell(level.h),
@@ -108,7 +108,7 @@ namespace plumbline::report
           {
             error = error_cell(decisive_error(results, *run));
             if (const study::Trend *trend = decisive_trend(results, method->name, one))
-              rate = rate_cell(rate_at(*trend, is_horizon ? run->horizon : run->h));
+              rate = rate_cell(rate_at(*trend, coordinate(axis, *run)));
           }
         row.push_back(error);
         row.push_back(rate);

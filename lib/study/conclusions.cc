@@ -91,7 +91,7 @@ namespace plumbline::study
       trend.problem = first.problem;
       trend.series = first.series;
       trend.error = error;
-      trend.parameter = scene.study.regime == scene::Regime::horizon ? "horizon" : "h";
+      trend.axis = level_axis(scene.study.regime);
       for (const Run &run : results.runs)
       {
         if (run.method != first.method || run.problem != first.problem ||
@@ -109,7 +109,7 @@ namespace plumbline::study
         trend.round_off = std::max(trend.round_off, run.round_off);
         const LimitProof &proof = run.diagnostics.limit;
         trend.proof = trend.x.empty() ? proof : weaker(trend.proof, proof);
-        trend.x.push_back(trend.parameter == "h" ? run.h : run.horizon);
+        trend.x.push_back(coordinate(trend.axis, run));
         trend.values.push_back(value->second);
       }
       if (trend.outcome != Outcome::failed)

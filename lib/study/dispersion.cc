@@ -270,7 +270,7 @@ namespace plumbline::study
         first.family = row.family;
         first.series = row.series;
         first.error = "phase speed | nonlocal";
-        first.parameter = scene.study.regime == scene::Regime::horizon ? "horizon" : "h";
+        first.axis = level_axis(scene.study.regime);
         first.size = 1; // errors are relative
         trend = trends.insert(trends.end(), first);
       }
@@ -286,7 +286,7 @@ namespace plumbline::study
                                    : ", also those of the nonlocal operator itself");
         continue;
       }
-      trend->x.push_back(trend->parameter == "h" ? row.h : row.horizon);
+      trend->x.push_back(coordinate(trend->axis, row));
       trend->values.push_back(error);
       trend->round_off = std::max(trend->round_off, row.round_off);
       trend->proof = row.limit.defect >= trend->proof.defect ? row.limit : trend->proof;

@@ -57,7 +57,7 @@ namespace plumbline::study
       constexpr double rounding = 1e-10;
       MotionTrend trend = begin(*runs.back(), error);
       trend.steps = runs.back()->steps;
-      trend.parameter = scene.study.regime == scene::Regime::horizon ? "horizon" : "h";
+      trend.axis = level_axis(scene.study.regime);
       std::string failure;
       for (const MotionRun *run : runs)
       {
@@ -66,7 +66,7 @@ namespace plumbline::study
           failure = run->failure;
         else if (found != run->errors.end())
         {
-          trend.x.push_back(trend.parameter == "h" ? run->h : run->horizon);
+          trend.x.push_back(coordinate(trend.axis, *run));
           trend.values.push_back(found->second);
           trend.size = run->size;
           trend.round_off = rounding * run->size;
@@ -103,7 +103,7 @@ namespace plumbline::study
         if (place == all.size())
         {
           all.push_back(begin(run, time_error));
-          all.back().parameter = "dt";
+          all.back().axis = Axis::time_step;
         }
         MotionTrend &trend = all[place];
         trend.size = run.size;

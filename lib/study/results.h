@@ -2,6 +2,7 @@
 
 #include "base/cost.h"
 #include "method/diagnostics.h"
+#include "study/axis.h"
 
 #include <array>
 #include <map>
@@ -46,9 +47,9 @@ namespace plumbline::study
   struct Trend
   {
     std::string method, family, problem, series;
-    std::string error;                           ///< "norm | target"
-    std::string parameter;                       ///< what varies: "h" or "horizon"
-    std::vector<double> x;                       ///< its values, coarse to fine [length]
+    std::string error; ///< "norm | target"
+    Axis axis = Axis::mesh_size;
+    std::vector<double> x;                       ///< values on the axis, coarse to fine
     std::vector<double> values;                  ///< the errors
     double size = 0;                             ///< of the solution, how far it varies: see Run
     std::vector<double> rates;                   ///< between neighbours, size x.size() - 1

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/stability.h"
+#include "study/axis.h"
 
 namespace plumbline::study
 {
@@ -20,13 +21,13 @@ namespace plumbline::study
     double m() const { return horizon / h; }
   };
 
-  /// How the measures of one method vary over one series: the powers of `parameter` at the finest
+  /// How the measures of one method vary over one series: the powers of what varies at the finest
   /// three levels. Not a number: fewer levels have the measure, or their sizes are within a
   /// factor 2.
   struct StabilityTrend
   {
     std::string method, series;
-    std::string parameter; ///< "h", or "horizon" where h is fixed
+    Axis axis = Axis::mesh_size;
     double smallest = 0, largest = 0, inverse_norm = 0;
   };
 

@@ -112,10 +112,10 @@ namespace plumbline::study
           largest.push_back(s.largest);
           inverse_norm.push_back(s.inverse_norm);
         }
-      const bool is_horizon = h.front() == h.back();
-      const auto &x = is_horizon ? horizon : h;
-      trends.push_back({first.method, first.series, is_horizon ? "horizon" : "h",
-                        power(x, smallest), power(x, largest), power(x, inverse_norm)});
+      const Axis axis = h.front() == h.back() ? Axis::horizon : Axis::mesh_size;
+      const auto &x = axis == Axis::horizon ? horizon : h;
+      trends.push_back({first.method, first.series, axis, power(x, smallest), power(x, largest),
+                        power(x, inverse_norm)});
     }
     return trends;
   }
@@ -129,7 +129,7 @@ namespace plumbline::study
     for (const StabilityTrend &trend : stability_trends(rows))
       if (trend.smallest > most_decay)
       {
-        result.explanation = "the coercivity constant falls like " + trend.parameter +
+        result.explanation = "the coercivity constant falls like " + base::word(trend.axis) +
                              " to the power " + base::to_text(trend.smallest, 4) + " in series " +
                              trend.series;
         return result;

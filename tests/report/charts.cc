@@ -72,7 +72,7 @@ namespace plumbline::report
   {
     study::Results results = fixture::results();
     for (study::Trend &trend : results.trends)
-      trend.parameter = "h";
+      trend.axis = study::Axis::mesh_size;
     const fixture::Folder folder;
     write_charts(results, folder.path());
     for (const char *kind : {"convergence", "iterations"})

@@ -113,7 +113,7 @@ namespace plumbline::report
       trend.problem = "case";
       trend.series = "series";
       trend.error = results.decisive_error;
-      trend.parameter = is_horizon ? "horizon" : "h";
+      trend.axis = is_horizon ? study::Axis::horizon : study::Axis::mesh_size;
       trend.values = {1e-1, 5e-2, 1e-2};
       trend.rates = {1, 2.5};
       for (unsigned int level = 0; level < 3; ++level)

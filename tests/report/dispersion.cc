@@ -59,7 +59,7 @@ namespace plumbline::report
       t.family = "meshfree";
       t.series = "m = 3";
       t.error = "phase speed | nonlocal";
-      t.parameter = "h";
+      t.axis = study::Axis::mesh_size;
       t.x = {.2, .1, .05};
       t.values = {.04, .03, .0275};
       t.rates = {.415, .126};

@@ -62,7 +62,7 @@ namespace plumbline::report::fixture
                              problem,
                              series,
                              results.decisive_error,
-                             "horizon",
+                             study::Axis::horizon,
                              {},
                              {},
                              1,

@@ -328,7 +328,7 @@ TEST(StabilityTrends, are_the_powers_at_the_finest_three_levels_of_each_series)
   rows[0].stability.smallest = 1e9; // too coarse to count
   const auto trends = stability_trends(rows);
   ASSERT_EQ(trends.size(), 2u);
-  EXPECT_EQ(trends[0].parameter, "h");
+  EXPECT_EQ(trends[0].axis, study::Axis::mesh_size);
   EXPECT_NEAR(trends[0].smallest, .5, 1e-12);
   EXPECT_NEAR(trends[1].smallest, 0, 1e-12);
   EXPECT_NEAR(trends[1].largest, -2, 1e-12);
@@ -340,6 +340,6 @@ TEST(StabilityTrends, are_the_powers_at_the_finest_three_levels_of_each_series)
   std::vector<StabilityRow> one = {row(4, .1, 8), row(2, .1, 4), row(1, .1, 2)};
   for (StabilityRow &level : one)
     level.series = "h = 0.1";
-  EXPECT_EQ(stability_trends(one)[0].parameter, "horizon");
+  EXPECT_EQ(stability_trends(one)[0].axis, study::Axis::horizon);
   EXPECT_NEAR(stability_trends(one)[0].smallest, 1, 1e-12);
 }
