@@ -1,6 +1,7 @@
 #include "dynamics.h"
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/number_text.h"
 #include "base/team.h"
 #include "methods.h"
@@ -42,15 +43,12 @@ namespace plumbline::app
       const double needed = of_node * n_nodes * scene.time.n_frames *
                             static_cast<double>(methods.size()) *
                             static_cast<double>(scene.problem.case_names().size());
-      fs::path existing = fs::absolute(folder);
-      while (!fs::exists(existing))
-        existing = existing.parent_path();
-      const auto free = static_cast<double>(fs::space(existing).available);
+      const double free = base::available_disk(folder.string());
       if (needed > .5 * free)
         throw InputError("Time/frames = " + std::to_string(scene.time.n_frames) +
-                         " would take some " + base::to_text(needed / 1e9, 3) + " GB in '" +
-                         folder.string() + "', where " + base::to_text(free / 1e9, 3) +
-                         " GB are free; write fewer, or give another folder with -o");
+                         " would take some " + base::bytes_to_text(needed) + " in '" +
+                         folder.string() + "', where " + base::bytes_to_text(free) +
+                         " are free; write fewer, or give another folder with -o");
     }
 
     void write_frame(const fs::path &folder, const std::string &name,

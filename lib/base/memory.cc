@@ -88,6 +88,16 @@ namespace plumbline::base
     return std::min(shared / n_local_ranks(), address_space_bytes());
   }
 
+  double available_disk(const std::string &folder)
+  {
+    std::error_code code;
+    fs::path existing = fs::absolute(folder, code);
+    while (!fs::exists(existing, code) && existing.has_relative_path())
+      existing = existing.parent_path();
+    const auto space = fs::space(existing, code);
+    return code ? unlimited : static_cast<double>(space.available);
+  }
+
   std::string bytes_to_text(double bytes)
   {
     std::ostringstream text;

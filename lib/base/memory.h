@@ -2,7 +2,7 @@
 
 #include <string>
 
-// What memory there is, so that what does not fit is refused before it is begun.
+// What memory and disk there is, so that what does not fit is refused before it is begun.
 namespace plumbline::base
 {
   /// What this process may still take [bytes]: the least of what the machine has available
@@ -10,6 +10,9 @@ namespace plumbline::base
   /// leave and what `ulimit -v` leaves; infinite where nothing says. What others take later is not
   /// known.
   double available_memory();
+
+  /// What is free on the disk where a folder is, or will be [bytes]; infinite where nothing says.
+  double available_disk(const std::string &folder);
 
   /// 1.5 GB, 320 MB: two significant digits.
   std::string bytes_to_text(double bytes);

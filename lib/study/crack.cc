@@ -204,20 +204,17 @@ namespace plumbline::study
     // a point of a frame: its place, u and damage, indices, as compressed text; of a checkpoint: u,
     // v and the moments, while the last one is still there
     constexpr double frame_bytes = 50, checkpoint_bytes = 2 * 8 * (4 + n_crack_moments);
-    std::filesystem::path folder = std::filesystem::absolute(plan.checkpoint).parent_path();
-    std::error_code code;
-    while (!std::filesystem::exists(folder, code) && folder.has_relative_path())
-      folder = folder.parent_path();
-    const auto space = std::filesystem::space(folder, code);
+    const std::string folder = plan.checkpoint.parent_path().string();
+    const double available = base::available_disk(folder);
     const double frames = plan.n_frames == 0 ? 0 : (plan.n_frames + 1.) * frame_bytes * n_nodes,
                  needed = frames + checkpoint_bytes * n_nodes;
-    if (!code && needed > static_cast<double>(space.available))
-      throw InputError(
-          "Time/frames = " + std::to_string(plan.n_frames) + ": " + std::to_string(plan.n_frames) +
-          " frames and a checkpoint of " + std::to_string(static_cast<long long>(n_nodes)) +
-          " nodes need some " + base::bytes_to_text(needed) + " of disk, and " +
-          base::bytes_to_text(static_cast<double>(space.available)) + " are free in '" +
-          folder.string() + "'; write fewer frames, raise Study/h, or give another folder (-o)");
+    if (needed > available)
+      throw InputError("Time/frames = " + std::to_string(plan.n_frames) + ": " +
+                       std::to_string(plan.n_frames) + " frames and a checkpoint of " +
+                       std::to_string(static_cast<long long>(n_nodes)) + " nodes need some " +
+                       base::bytes_to_text(needed) + " of disk, and " +
+                       base::bytes_to_text(available) + " are free in '" + folder +
+                       "'; write fewer frames, raise Study/h, or give another folder (-o)");
   }
 
   std::vector<std::string> left_out_of_cracks()
