@@ -2,6 +2,7 @@
 
 #include "base/number_text.h"
 #include "report/crack_charts.h"
+#include "report/data_charts.h"
 #include "report/page_parts.h"
 #include "report/text_table.h"
 
@@ -202,15 +203,8 @@ namespace plumbline::report
   {
     write_file(dir / "crack.json", crack_json(results));
     write_file(dir / "crack.md", markdown(results));
-    try
-    {
-      write_crack_pictures(results, dir);
-    }
-    catch (const std::exception &)
-    {
-      write_file(dir / "crack.html", page_of(results, dir)); // says what is missing
-      throw;
-    }
-    write_file(dir / "crack.html", page_of(results, dir));
+    write_with_pictures(
+        dir / "crack.html", [&] { write_crack_pictures(results, dir); },
+        [&] { return page_of(results, dir); });
   }
 } // namespace plumbline::report

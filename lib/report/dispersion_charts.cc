@@ -39,19 +39,19 @@ namespace plumbline::report
       return series.empty() ? "" : "_" + slug(series);
     }
 
-    DispersionChart named(const std::string &name, const std::string &title)
+    DataChart named(const std::string &name, const std::string &title)
     {
-      DispersionChart chart;
+      DataChart chart;
       chart.name = name;
       chart.plot.file = name + ".svg";
       chart.plot.title = title;
       return chart;
     }
 
-    DispersionChart errors_chart(const DispersionResults &results, const std::string &series)
+    DataChart errors_chart(const DispersionResults &results, const std::string &series)
     {
       const auto methods = methods_of(results);
-      DispersionChart chart =
+      DataChart chart =
           named("errors" + suffix(series), series + ": error of the longest wave's phase speed");
       chart.data.columns = {"method", "series", "h", "horizon", "nonlocal", "local"};
       for (const study::Trend &t : results.trends)
@@ -90,8 +90,8 @@ namespace plumbline::report
         group{"group", "group speed", &WaveSample::group, &WaveSample::exact_group};
 
     /// Speeds over the wavelength of all methods in one direction, the i-th of each row's curves.
-    DispersionChart speeds_chart(const DispersionResults &results, const std::string &series,
-                                 std::size_t i, const Speed &speed)
+    DataChart speeds_chart(const DispersionResults &results, const std::string &series,
+                           std::size_t i, const Speed &speed)
     {
       const auto methods = methods_of(results);
       std::vector<const DispersionRow *> rows;
@@ -99,8 +99,8 @@ namespace plumbline::report
         if (row->series == series && !row->curves[i].samples.empty())
           rows.push_back(row);
       const std::string which = rows.empty() ? "" : title(rows[0]->curves[i]);
-      DispersionChart chart = named(std::string(speed.name) + suffix(series) + "_" + slug(which),
-                                    series + ", " + which + ": " + speed.words);
+      DataChart chart = named(std::string(speed.name) + suffix(series) + "_" + slug(which),
+                              series + ", " + which + ": " + speed.words);
       chart.plot.is_y_log = false;
       chart.plot.x_label = "wavelength [h]";
       chart.plot.y_label = std::string(speed.words) + " over the local limit's";
@@ -134,20 +134,20 @@ namespace plumbline::report
       return chart;
     }
 
-    bool has_points(const DispersionChart &chart, std::size_t least)
+    bool has_points(const DataChart &chart, std::size_t least)
     {
       return std::any_of(chart.plot.lines.begin(), chart.plot.lines.end(),
                          [&](const Line &line) { return line.points.size() >= least; });
     }
   } // namespace
 
-  std::vector<DispersionChart> dispersion_charts(const DispersionResults &results)
+  std::vector<DataChart> dispersion_charts(const DispersionResults &results)
   {
-    std::vector<DispersionChart> charts;
+    std::vector<DataChart> charts;
     const auto finest = finest_rows(results);
     const std::size_t n_curves = finest.empty() ? 0 : finest[0]->curves.size(),
                       n_polarisations = finest.empty() ? 0 : finest[0]->anisotropy.size();
-    const auto add = [&](const DispersionChart &chart, std::size_t least)
+    const auto add = [&](const DataChart &chart, std::size_t least)
     {
       if (has_points(chart, least))
         charts.push_back(chart);
@@ -161,23 +161,5 @@ namespace plumbline::report
         add(speeds_chart(results, series, i, group), 1);
     }
     return charts;
-  }
-
-  void write_dispersion_charts(const std::vector<DispersionChart> &charts,
-                               const std::filesystem::path &dir)
-  {
-    if (charts.empty())
-      return;
-    const std::filesystem::path folder = dir / "dispersion";
-    std::vector<Plot> plots;
-    std::vector<std::string> pictures;
-    for (const DispersionChart &chart : charts)
-    {
-      write_file(folder / (chart.name + ".csv"), to_csv(chart.data));
-      plots.push_back(chart.plot);
-      pictures.push_back(chart.plot.file);
-    }
-    write_file(folder / "charts.gp", gnuplot_script(plots));
-    run_gnuplot(folder, "charts.gp", pictures);
   }
 } // namespace plumbline::report

@@ -102,8 +102,7 @@ namespace plumbline::report
                            page::paragraph(question(results)) + text + "</tbody></table></div>\n");
     }
 
-    std::string page_of(const DispersionResults &results,
-                        const std::vector<DispersionChart> &charts,
+    std::string page_of(const DispersionResults &results, const std::vector<DataChart> &charts,
                         const std::filesystem::path &dir)
     {
       std::string text = verdicts(results), pictures;
@@ -215,16 +214,9 @@ namespace plumbline::report
   {
     write_file(dir / "dispersion.json", dispersion_json(results));
     write_file(dir / "dispersion.md", markdown(results));
-    const std::vector<DispersionChart> charts = dispersion_charts(results);
-    try
-    {
-      write_dispersion_charts(charts, dir);
-    }
-    catch (const std::exception &)
-    {
-      write_file(dir / "dispersion.html", page_of(results, charts, dir)); // says what is missing
-      throw;
-    }
-    write_file(dir / "dispersion.html", page_of(results, charts, dir));
+    const std::vector<DataChart> charts = dispersion_charts(results);
+    write_with_pictures(
+        dir / "dispersion.html", [&] { write_charts(charts, dir / "dispersion"); },
+        [&] { return page_of(results, charts, dir); });
   }
 } // namespace plumbline::report

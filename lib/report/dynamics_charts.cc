@@ -59,9 +59,9 @@ namespace plumbline::report
       return label(results, run.method, run.problem, run.series, run.scheme);
     }
 
-    MotionChart named(const std::string &name, const std::string &title, const std::string &caption)
+    DataChart named(const std::string &name, const std::string &title, const std::string &caption)
     {
-      MotionChart chart;
+      DataChart chart;
       chart.name = name;
       chart.caption = caption;
       chart.plot.file = name + ".svg";
@@ -74,8 +74,8 @@ namespace plumbline::report
       return "error at the end, " + results.decisive_error;
     }
 
-    MotionChart trends_chart(const DynamicResults &results, const std::vector<MotionTrend> &trends,
-                             const std::string &error, MotionChart chart)
+    DataChart trends_chart(const DynamicResults &results, const std::vector<MotionTrend> &trends,
+                           const std::string &error, DataChart chart)
     {
       chart.data.columns = {"method", "case", "series", "scheme", "x", "error"};
       chart.plot.has_slopes = true;
@@ -100,11 +100,11 @@ namespace plumbline::report
       return chart;
     }
 
-    MotionChart cost_chart(const DynamicResults &results)
+    DataChart cost_chart(const DynamicResults &results)
     {
-      MotionChart chart = named("cost", "What accuracy costs",
-                                "All runs, over h and time step: each line is one method, scheme "
-                                "and step over h; grey: the best pairs of h and step.");
+      DataChart chart = named("cost", "What accuracy costs",
+                              "All runs, over h and time step: each line is one method, scheme "
+                              "and step over h; grey: the best pairs of h and step.");
       chart.plot.x_label = "CPU seconds, preparation and steps";
       chart.plot.y_label = error_words(results);
       chart.plot.frontier_label = "best pairs";
@@ -165,11 +165,11 @@ namespace plumbline::report
             std::max<unsigned int>(1, static_cast<unsigned int>(line.points.size()) / 8);
     }
 
-    MotionChart energies_chart(const MotionRun &run)
+    DataChart energies_chart(const MotionRun &run)
     {
       constexpr double wild = 1e3; // growth beyond which a linear axis shows one spike
       const double most = largest_shown * std::max(run.energies.front().stored(), 1.);
-      MotionChart chart = named(
+      DataChart chart = named(
           "energies", "Energies: " + run.method + ", " + run.scheme + ", h = " + rounded(run.h),
           "Of one run, " + run.steps + "; the others are in dynamics.json.");
       chart.plot.is_x_log = false;
@@ -222,8 +222,8 @@ namespace plumbline::report
 
     /// Over time on a logarithmic axis, of all runs at the finest level.
     template <typename Value>
-    MotionChart history_chart(const DynamicResults &results, MotionChart chart, bool all_steps,
-                              const Value &value)
+    DataChart history_chart(const DynamicResults &results, DataChart chart, bool all_steps,
+                            const Value &value)
     {
       constexpr double floor = 1e-16; // of the largest: below it a logarithm says nothing
       chart.plot.is_x_log = false;
@@ -261,7 +261,7 @@ namespace plumbline::report
       return std::abs(now.stored() + now.dissipated - now.work - first.stored()) / size;
     }
 
-    bool has_points(const MotionChart &chart, std::size_t least)
+    bool has_points(const DataChart &chart, std::size_t least)
     {
       std::size_t most = 0;
       for (const Line &line : chart.plot.lines)
@@ -270,28 +270,28 @@ namespace plumbline::report
     }
   } // namespace
 
-  std::vector<MotionChart> motion_charts(const DynamicResults &results)
+  std::vector<DataChart> motion_charts(const DynamicResults &results)
   {
-    std::vector<MotionChart> charts;
-    const auto add = [&](const MotionChart &chart, std::size_t least)
+    std::vector<DataChart> charts;
+    const auto add = [&](const DataChart &chart, std::size_t least)
     {
       if (has_points(chart, least))
         charts.push_back(chart);
     };
     if (results.runs.empty())
       return charts;
-    MotionChart errors = named("errors", "Errors of displacements at the end",
-                               "With the shortest step of each scheme."),
-                orders = named("orders", "Errors in time at the finest level",
-                               "Against the same lattice's motion exact in time."),
-                balance = named("balance", "Balance of energy",
-                                "What stored and dissipated less supplied energy differ from the "
-                                "start by, over the largest of them, at the finest level with the "
-                                "shortest step."),
-                stored = named("stored", "Stored energy over that at the start",
-                               "At the finest level, with all steps."),
-                history = named("history", "Errors over time",
-                                "Of displacements at the finest level with the shortest step.");
+    DataChart errors = named("errors", "Errors of displacements at the end",
+                             "With the shortest step of each scheme."),
+              orders = named("orders", "Errors in time at the finest level",
+                             "Against the same lattice's motion exact in time."),
+              balance = named("balance", "Balance of energy",
+                              "What stored and dissipated less supplied energy differ from the "
+                              "start by, over the largest of them, at the finest level with the "
+                              "shortest step."),
+              stored = named("stored", "Stored energy over that at the start",
+                             "At the finest level, with all steps."),
+              history = named("history", "Errors over time",
+                              "Of displacements at the finest level with the shortest step.");
     errors.plot.x_label = "h";
     errors.plot.y_label = error_words(results);
     orders.plot.x_label = "time step";
@@ -319,22 +319,5 @@ namespace plumbline::report
                       { return i < run.history.size() ? run.history[i] : 0; }),
         2);
     return charts;
-  }
-
-  void write_motion_charts(const std::vector<MotionChart> &charts, const std::filesystem::path &dir)
-  {
-    if (charts.empty())
-      return;
-    const std::filesystem::path folder = dir / "dynamics";
-    std::vector<Plot> plots;
-    std::vector<std::string> pictures;
-    for (const MotionChart &chart : charts)
-    {
-      write_file(folder / (chart.name + ".csv"), to_csv(chart.data));
-      plots.push_back(chart.plot);
-      pictures.push_back(chart.plot.file);
-    }
-    write_file(folder / "charts.gp", gnuplot_script(plots));
-    run_gnuplot(folder, "charts.gp", pictures);
   }
 } // namespace plumbline::report

@@ -63,7 +63,7 @@ namespace plumbline::report
       return page::plain_header(results.scene_name, "dynamics", results.purpose, facts);
     }
 
-    std::string page_of(const DynamicResults &results, const std::vector<MotionChart> &charts,
+    std::string page_of(const DynamicResults &results, const std::vector<DataChart> &charts,
                         const std::filesystem::path &dir)
     {
       const auto table = [](const Part &part)
@@ -136,16 +136,9 @@ namespace plumbline::report
     write_file(dir / "dynamics.md", markdown(results));
     for (const Part &part : parts(results))
       write_file(dir / "dynamics" / (std::string(part.id) + "_table.csv"), to_csv(part.table));
-    const std::vector<MotionChart> charts = motion_charts(results);
-    try
-    {
-      write_motion_charts(charts, dir);
-    }
-    catch (const std::exception &)
-    {
-      write_file(dir / "dynamics.html", page_of(results, charts, dir)); // says what is missing
-      throw;
-    }
-    write_file(dir / "dynamics.html", page_of(results, charts, dir));
+    const std::vector<DataChart> charts = motion_charts(results);
+    write_with_pictures(
+        dir / "dynamics.html", [&] { write_charts(charts, dir / "dynamics"); },
+        [&] { return page_of(results, charts, dir); });
   }
 } // namespace plumbline::report

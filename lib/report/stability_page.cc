@@ -1,6 +1,7 @@
 #include "report/stability_page.h"
 
 #include "base/error.h"
+#include "report/data_charts.h"
 #include "report/page_parts.h"
 #include "report/stability_pictures.h"
 #include "report/stability_tables.h"
@@ -209,15 +210,8 @@ namespace plumbline::report
   {
     write_file(dir / "stability.json", stability_json(results));
     write_file(dir / "stability.md", markdown(results));
-    try
-    {
-      write_pictures(results, dir);
-    }
-    catch (const std::exception &)
-    {
-      write_file(dir / "stability.html", page_of(results, dir)); // it says what is missing
-      throw;
-    }
-    write_file(dir / "stability.html", page_of(results, dir));
+    write_with_pictures(
+        dir / "stability.html", [&] { write_pictures(results, dir); },
+        [&] { return page_of(results, dir); });
   }
 } // namespace plumbline::report

@@ -17,6 +17,12 @@ namespace plumbline::scene
   {
     std::function<double(const dealii::Point<2> &, unsigned int component)> value;
     std::optional<physics::ChebyshevField> series; ///< on the bounding box of Ω
+
+    /// In Ω, by the series where there is one, which is cheaper.
+    double operator()(const dealii::Point<2> &x, unsigned int component) const
+    {
+      return series ? (*series)(x, component) : value(x, component);
+    }
   };
 
   /// One case of a scene at one level: what a method needs to know, and nothing of other levels. It

@@ -210,9 +210,8 @@ namespace plumbline::study
         const auto rule = geometry::polygon_rule(geometry::view(cells.pieces[piece]), degree);
         for (std::size_t q = 0; q < rule.points.size(); ++q)
           for (unsigned int c = 0; c < n_components; ++c)
-            result[cell * n_components + c] += rule.weights[q] / cells.area[cell] *
-                                               (field.series ? (*field.series)(rule.points[q], c)
-                                                             : field.value(rule.points[q], c));
+            result[cell * n_components + c] +=
+                rule.weights[q] / cells.area[cell] * field(rule.points[q], c);
       }
     return result;
   }

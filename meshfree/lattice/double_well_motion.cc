@@ -2,6 +2,7 @@
 
 #include "meshfree/lattice/double_well_force.h"
 #include "method/method.h"
+#include "method/nodal_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,9 +73,9 @@ namespace plumbline::meshfree
       return reach;
     }
 
-    /// States are u at the free nodes, shape (2, n_nodes). What drives them is b there and behind
-    /// it u at the held nodes, of the same shape.
-    class DoubleWellMotion : public method::EquationOfMotion
+    /// What drives states is b at the free nodes and behind it u at the held ones, of the same
+    /// shape.
+    class DoubleWellMotion : public method::NodalMotion<>
     {
     public:
       DoubleWellMotion(const scene::Scene &scene, double h, double horizon, const Box &box,
@@ -93,8 +94,6 @@ namespace plumbline::meshfree
           held_nodes_.push_back(box.places[k]);
       }
 
-      std::size_t size() const override { return 2 * free_.size(); }
-
       std::vector<double> drive(const scene::Problem &instant) const override
       {
         std::vector<double> g = state(instant.load);
@@ -109,15 +108,6 @@ namespace plumbline::meshfree
         std::vector<double> g = state(*instant.solution);
         g.resize(size() + 2 * held_.size());
         return g;
-      }
-
-      State state(const scene::Field &field) const override
-      {
-        State u;
-        for (unsigned int c = 0; c < 2; ++c)
-          for (const auto &node : nodes_)
-            u.push_back(field.series ? (*field.series)(node, c) : field.value(node, c));
-        return u;
       }
 
       void acceleration(const State &u, const std::vector<double> &g, State &a) const override
@@ -174,16 +164,6 @@ namespace plumbline::meshfree
         return {{"toughness of the lattice", toughness_},
                 {"bonds of one evaluation", static_cast<double>(force_.n_bonds())}};
       }
-      unsigned int n_components() const override { return 2; }
-      const std::vector<dealii::Point<2>> &nodes() const override { return nodes_; }
-      std::vector<double> nodal(const State &u) const override
-      {
-        std::vector<double> values;
-        for (std::size_t k = 0; k < free_.size(); ++k)
-          for (unsigned int c = 0; c < 2; ++c)
-            values.push_back(u[c * free_.size() + k]);
-        return values;
-      }
 
     private:
       /// @param held  at the held nodes, shape (2, n_held); null: 0
@@ -210,7 +190,7 @@ namespace plumbline::meshfree
       std::size_t n_all_;
       DoubleWellForce<2> force_;
       std::vector<std::size_t> free_, held_; ///< of the box
-      std::vector<dealii::Point<2>> nodes_, held_nodes_;
+      std::vector<dealii::Point<2>> held_nodes_;
       mutable State all_, other_; ///< over the box, shape (2, n[1], n[0])
     };
   } // namespace

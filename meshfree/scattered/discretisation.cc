@@ -80,8 +80,7 @@ namespace plumbline::meshfree
         const scene::Field &b = problem.load;
         for (std::size_t i = first; i < last; ++i)
           for (unsigned int c = 0; c < n_components_; ++c)
-            load[i * n_components_ + c] =
-                b.series ? (*b.series)(cells_->nodes[i], c) : b.value(cells_->nodes[i], c);
+            load[i * n_components_ + c] = b(cells_->nodes[i], c);
         std::vector<double> collar;
         for (std::size_t i = cells_->n_free; i < cells_->size(); ++i)
           for (unsigned int c = 0; c < n_components_; ++c)

@@ -1,6 +1,7 @@
 #include "reference/lattice/double_well_motion.h"
 
 #include "base/error.h"
+#include "method/nodal_motion.h"
 #include "reference/lattice/double_well_galerkin.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -9,7 +10,7 @@ namespace plumbline::reference
 {
   namespace
   {
-    class Q1Motion : public method::EquationOfMotion
+    class Q1Motion : public method::NodalMotion<>
     {
     public:
       Q1Motion(const scene::Scene &scene, const scene::Problem &problem, bool is_lumped,
@@ -24,7 +25,6 @@ namespace plumbline::reference
             nodes_.push_back(lattice_.point(i, j));
       }
 
-      std::size_t size() const override { return space_.size(); }
       std::vector<double> drive(const scene::Problem &instant) const override
       {
         return tested(instant.load);
@@ -32,14 +32,6 @@ namespace plumbline::reference
       std::vector<double> inertia(const scene::Problem &instant) const override
       {
         return tested(*instant.solution);
-      }
-      State state(const scene::Field &field) const override
-      {
-        State u;
-        for (unsigned int c = 0; c < 2; ++c)
-          for (const auto &node : nodes_)
-            u.push_back(field.value(node, c));
-        return u;
       }
       void acceleration(const State &u, const std::vector<double> &g, State &a) const override
       {
@@ -74,16 +66,6 @@ namespace plumbline::reference
       {
         return product(g, v);
       }
-      unsigned int n_components() const override { return 2; }
-      const std::vector<dealii::Point<2>> &nodes() const override { return nodes_; }
-      std::vector<double> nodal(const State &u) const override
-      {
-        std::vector<double> values;
-        for (std::size_t k = 0; k < nodes_.size(); ++k)
-          for (unsigned int c = 0; c < 2; ++c)
-            values.push_back(u[c * nodes_.size() + k]);
-        return values;
-      }
 
     private:
       double cell() const { return lattice_.h() * lattice_.h(); }
@@ -109,8 +91,7 @@ namespace plumbline::reference
               const dealii::Point<2> s = gauss.point(q), x = lattice_.point(i + s[0], j + s[1]);
               for (unsigned int c = 0; c < 2; ++c)
               {
-                const double value =
-                    cell() * gauss.weight(q) * (b.series ? (*b.series)(x, c) : b.value(x, c));
+                const double value = cell() * gauss.weight(q) * b(x, c);
                 for (int l = 0; l < 2; ++l)
                   for (int k = 0; k < 2; ++k)
                     result[(c * static_cast<std::size_t>(n[1]) + (j + l) % n[1]) * n[0] +
@@ -129,7 +110,6 @@ namespace plumbline::reference
       DoubleWellGalerkin<2> space_;
       bool is_lumped_;
       double largest_;
-      std::vector<dealii::Point<2>> nodes_;
     };
   } // namespace
 

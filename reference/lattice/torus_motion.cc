@@ -1,13 +1,14 @@
 #include "reference/lattice/torus_motion.h"
 
 #include "base/error.h"
+#include "method/nodal_motion.h"
 #include "reference/lattice/torus_force.h"
 
 namespace plumbline::reference
 {
   namespace
   {
-    class TorusMotion : public method::ContinuousMotion
+    class TorusMotion : public method::NodalMotion<method::ContinuousMotion>
     {
     public:
       TorusMotion(const scene::Scene &scene, double horizon, unsigned int n)
@@ -20,7 +21,6 @@ namespace plumbline::reference
             nodes_.emplace_back(lower_[0] + side_ * i / n, lower_[1] + side_ * j / n);
       }
 
-      std::size_t size() const override { return force_.size(); }
       std::vector<double> drive(const scene::Problem &instant) const override
       {
         return state(instant.load);
@@ -28,14 +28,6 @@ namespace plumbline::reference
       std::vector<double> inertia(const scene::Problem &instant) const override
       {
         return state(*instant.solution);
-      }
-      State state(const scene::Field &field) const override
-      {
-        State u;
-        for (unsigned int c = 0; c < 2; ++c)
-          for (const auto &node : nodes_)
-            u.push_back(field.series ? (*field.series)(node, c) : field.value(node, c));
-        return u;
       }
       void acceleration(const State &u, const std::vector<double> &g, State &a) const override
       {
@@ -65,16 +57,6 @@ namespace plumbline::reference
       {
         return product(g, v);
       }
-      unsigned int n_components() const override { return 2; }
-      const std::vector<dealii::Point<2>> &nodes() const override { return nodes_; }
-      std::vector<double> nodal(const State &u) const override
-      {
-        std::vector<double> values;
-        for (std::size_t k = 0; k < nodes_.size(); ++k)
-          for (unsigned int c = 0; c < 2; ++c)
-            values.push_back(u[c * nodes_.size() + k]);
-        return values;
-      }
       double value(const State &u, const dealii::Point<2> &x, unsigned int component) const override
       {
         return force_.interpolate(&u[component * nodes_.size()],
@@ -88,7 +70,6 @@ namespace plumbline::reference
       double side_;
       unsigned int n_;
       TorusForce<2> force_;
-      std::vector<dealii::Point<2>> nodes_;
     };
   } // namespace
 

@@ -183,7 +183,7 @@ namespace plumbline::reference
             const Point<2> &x = values.quadrature_point(q);
             std::array<double, 2> at{};
             for (unsigned int c = 0; c < problem.n_components; ++c)
-              at[c] = values.JxW(q) * (b.series ? (*b.series)(x, c) : b.value(x, c));
+              at[c] = values.JxW(q) * b(x, c);
             for (unsigned int i = 0; i < indices.size(); ++i)
               result[indices[i]] +=
                   at[element_.system_to_component_index(i).first] * values.shape_value(i, q);

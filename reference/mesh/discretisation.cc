@@ -46,7 +46,7 @@ namespace plumbline::reference
             const double weight = gauss.weight(q) * space.map(cell).determinant(gauss.point(q));
             for (unsigned int c = 0; c < nc; ++c)
             {
-              const double value = weight * (b.series ? (*b.series)(x, c) : b.value(x, c));
+              const double value = weight * b(x, c);
               for (unsigned int a = 0; a < shapes.size(); ++a)
                 of_cells[(cell - first) * n_values + a * nc + c] +=
                     value * phi[q * shapes.size() + a];

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "report/formats.h"
+#include "report/plot.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace plumbline::report
+{
+  /// A picture NAME.svg, and its data NAME.csv beside it.
+  struct DataChart
+  {
+    std::string name, caption;
+    Plot plot;
+    Table data;
+  };
+
+  /// Draw them into a folder, in one gnuplot process; charts.gp draws them again.
+  /// @throws NumericalError  gnuplot is missing or fails; InputError  the folder cannot be written
+  void write_charts(const std::vector<DataChart> &charts, const std::filesystem::path &folder);
+
+  /// Draw pictures, then write the page that shows them. Where they cannot be drawn it is written
+  /// all the same and says what is missing, and the error goes on.
+  /// @param page  its text, from the pictures that are there
+  void write_with_pictures(const std::filesystem::path &file, const std::function<void()> &draw,
+                           const std::function<std::string()> &page);
+} // namespace plumbline::report
