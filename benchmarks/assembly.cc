@@ -136,7 +136,7 @@ namespace plumbline::benchmarks
     /// than the blocks above, of cut and whole pairs in their shares, is the price of finding and
     /// summing.
     void mesh(benchmark::State &state, bool is_triangles, const std::string &type,
-              unsigned int degree)
+              unsigned int degree, bool is_exact)
     {
       constexpr double h = 1. / 16, horizon = 4 * h;
       const Body body(is_triangles, degree, h, horizon);
@@ -144,7 +144,8 @@ namespace plumbline::benchmarks
       double n_entries = 0;
       for (auto _ : state)
         n_entries = static_cast<double>(
-            reference::assemble(body.space, body.cells, kernel, {}, {}, base::Team::alone())
+            reference::assemble(body.space, body.cells, kernel, {}, {0, is_exact, Backend::fast},
+                                base::Team::alone())
                 .rows.value.size());
       const Pairs pairs = all_pairs(body, horizon);
       const auto n = static_cast<double>(pairs.size());
@@ -181,7 +182,11 @@ namespace plumbline::benchmarks
       for (const bool is_triangles : {false, true})
         benchmark::RegisterBenchmark(
             ("assembly/" + title(is_triangles ? "triangles" : "squares")).c_str(), mesh,
-            is_triangles, type, degree)
+            is_triangles, type, degree, !is_triangles)
+            ->Unit(benchmark::kMillisecond);
+      if (degree == 1)
+        benchmark::RegisterBenchmark(("assembly/" + title("triangles") + "/sides").c_str(), mesh,
+                                     true, type, degree, true)
             ->Unit(benchmark::kMillisecond);
     }
   } // namespace

@@ -79,8 +79,8 @@ namespace plumbline::scene
 
   struct QuadratureSection
   {
-    bool exact_rectangles = true; ///< axis-aligned rectangles by correlation, not by quadrature
-    double tolerance = 1e-4;      ///< relative, of the solution
+    bool exact_entries = true; ///< where an exact way is known, else by quadrature
+    double tolerance = 1e-4;   ///< relative, of the solution
     unsigned int max_refinements = 4;
 
     void declare(Keys &keys);

@@ -1,5 +1,6 @@
 #include "reference/mesh/assembly.h"
 
+#include "reference/mesh/edge_assembly.h"
 #include "reference/mesh/number_set.h"
 #include "reference/mesh/pair_quadrature.h"
 #include "reference/mesh/rectangle_pairs.h"
@@ -38,7 +39,7 @@ namespace plumbline::reference
           : cells_(cells), by_quadrature_(space, cells, profile, horizon, coefficient,
                                           options.refinement, options.backend)
       {
-        if (options.exact_rectangles && !coefficient && space.shapes().n_vertices() == 4)
+        if (options.exact_entries && !coefficient && space.shapes().n_vertices() == 4)
           by_correlation_.emplace(space.shapes(), profile, horizon, options.backend);
       }
 
@@ -154,6 +155,16 @@ namespace plumbline::reference
                       const std::optional<physics::Coefficient> &coefficient,
                       const AssemblyOptions &options, const base::Team &team)
   {
+    std::string way = "by quadrature";
+    if (options.exact_entries && space.is_continuous() && space.shapes().n_vertices() == 3)
+    {
+      const std::string refusal =
+          coefficient ? "the material changes from place to place" : refuse_edges(space, kernel);
+      if (refusal.empty())
+        return {assemble_by_edges(space, kernel, team), true,
+                "exact by pairs of sides of the triangles"};
+      way += ", not exact by pairs of sides: " + refusal;
+    }
     const KernelEntries profile(kernel);
     std::vector<std::size_t> outer_cells;
     for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
@@ -197,6 +208,8 @@ namespace plumbline::reference
     if (failure)
       std::rethrow_exception(failure);
     pairs = {};
-    return {sum.combine(kernel.n_components()), sum.is_exact};
+    if (sum.is_exact)
+      way = "of axis-aligned rectangles exact by correlation";
+    return {sum.combine(kernel.n_components()), sum.is_exact, way};
   }
 } // namespace plumbline::reference

@@ -13,8 +13,8 @@ namespace plumbline::reference
   struct AssemblyOptions
   {
     unsigned int refinement =
-        0; ///< of the outer rule where the circle crosses a cell: 4^refinement
-    bool exact_rectangles = true; ///< axis-aligned rectangles by correlation
+        0;                     ///< of the outer rule where the circle crosses a cell: 4^refinement
+    bool exact_entries = true; ///< where an exact way is known, else by quadrature
     geometry::Backend backend = geometry::Backend::fast;
   };
 
@@ -24,7 +24,8 @@ namespace plumbline::reference
     /// Rows of the free unknowns, columns of all: unknown = dof · n_components + component; shape
     /// (n_free n_components, n_dofs n_components). On several ranks the sum of all is the matrix.
     algebra::Rows rows;
-    bool is_exact = true; ///< all entries came by correlation: no outer quadrature, no error
+    bool is_exact = true; ///< no outer quadrature: no error but rounding
+    std::string way;      ///< how the entries came, in words
   };
 
   /// A(u, v) = ½ ∬ a C (u(y) - u(x)) · (v(y) - v(x)) over all pairs of points of Ω and its collar

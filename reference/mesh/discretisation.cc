@@ -104,6 +104,7 @@ namespace plumbline::reference
         matrix.rows = add(matrix.rows,
                           assemble_dilatation(space, cells, *problem.dilatation, dilatation, team));
         matrix.is_exact = false;
+        matrix.way += ", dilatations by quadrature";
       }
       return matrix;
     }
@@ -175,7 +176,7 @@ namespace plumbline::reference
           : SparseDiscretisation(scene, solver_options(problem, *space), team), scene_(scene),
             problem_(problem), space_(std::move(space)),
             cells_(std::make_shared<const MeshCells>(*problem.mesh)),
-            options_{0, scene.quadrature.exact_rectangles, scene.geometry.backend}
+            options_{0, scene.quadrature.exact_entries, scene.geometry.backend}
       {
         make_rows();
       }
@@ -215,9 +216,8 @@ namespace plumbline::reference
       {
         method::Diagnostics result;
         result.is_outer_error_known = is_exact_ || scene_.quadrature.tolerance > 0;
-        if (is_exact_)
-          result.notes.push_back("entries of axis-aligned rectangles exact by correlation");
-        else if (scene_.quadrature.tolerance == 0)
+        result.notes.push_back("entries " + way_);
+        if (!is_exact_ && scene_.quadrature.tolerance == 0)
           result.notes.push_back("outer quadrature not refined: its error is not known");
         if (space_->shapes().degree() > 0)
           result.limit = method::prove_galerkin(scene_, problem_, result);
@@ -244,6 +244,7 @@ namespace plumbline::reference
         team().together([&]
                         { matrix = assemble_all(problem_, *space_, *cells_, options_, team()); });
         is_exact_ = !team().any(!matrix.is_exact);
+        way_ = matrix.way;
         set_rows(method::part(std::move(matrix.rows), space_->n_free() * problem_.n_components));
       }
 
@@ -260,6 +261,7 @@ namespace plumbline::reference
       std::shared_ptr<const MeshCells> cells_;
       AssemblyOptions options_;
       bool is_exact_ = false;
+      std::string way_;
     };
   } // namespace
 

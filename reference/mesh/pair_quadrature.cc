@@ -152,12 +152,32 @@ namespace plumbline::reference
     const bool is_smooth =
         !is_cut(between, outer, inner) && !profile_.is_function() &&
         (profile_.is_smooth() || between > near * (cells_.radius(outer) + cells_.radius(inner)));
-    const ShapeRule &rule = tables_->outer;
-    if (refinement_ > 0 && !is_smooth)
+    const ShapeRule *rule = &tables_->outer;
+    if (refinement_ > 0)
+      rule = is_smooth ? smooth_rule(between, outer, inner) : nullptr;
+    if (rule == nullptr)
       return integrate_part<n_entries, n_shapes>({0, 0, 1, false}, 0, outer, inner, blocks);
-    for (std::size_t q = 0; q < rule.unit.size(); ++q)
-      integrate_point<n_entries, n_shapes>(outer, inner, rule.unit[q], rule.weight[q],
-                                           &rule.phi[q * n_], blocks);
+    for (std::size_t q = 0; q < rule->unit.size(); ++q)
+      integrate_point<n_entries, n_shapes>(outer, inner, rule->unit[q], rule->weight[q],
+                                           &rule->phi[q * n_], blocks);
+  }
+
+  /// The outer rule of a pair whose integrand is smooth in x, of a degree that its error stays below
+  /// those of pairs that the circle cuts; none: it would be too high.
+  const ShapeRule *PairQuadrature::smooth_rule(double between, std::size_t outer,
+                                               std::size_t inner) const
+  {
+    const double radius = cells_.radius(outer) + cells_.radius(inner);
+    const SmoothEntries &kernel = profile_.circles().back().entries;
+    unsigned int degree = 2 * space_.shapes().degree();
+    if (profile_.is_smooth())
+      degree += kernel.degree(radius, accuracy_);
+    else
+      degree += degree_away_from_singularity(between, radius, 100 * accuracy_);
+    if (coefficient_) // any function: its error falls with each refinement
+      degree += 2 * refinement_;
+    const unsigned int i = degree / 2;
+    return i < n_whole_rules ? &tables_->whole[i] : nullptr;
   }
 
   template <int n_entries, int n_shapes>

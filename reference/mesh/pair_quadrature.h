@@ -53,6 +53,7 @@ namespace plumbline::reference
       std::vector<double> integrals, mass; ///< of the shape functions over an affine cell's area
     };
 
+    const ShapeRule *smooth_rule(double between, std::size_t outer, std::size_t inner) const;
     template <int n_entries, int n_shapes>
     void integrate_as(std::size_t outer, std::size_t inner, PairBlocks &blocks);
     /// Part of the unit cell: a square or triangle of side `size` at (s, t), or a triangle turned

@@ -294,7 +294,8 @@ TEST(MeshEntries, ByRefinedQuadratureApproachTheExactOnes)
   const Mesh mesh = geometry::lattice_mesh(four_cells, h, horizon, false);
   for (const auto &[kernel, finest] :
        {Case{constant(horizon), 8}, Case{linear_decay(horizon), 5}, Case{bond_tensor(horizon), 6},
-        Case{no_powers("gaussian", horizon), 6}})
+        Case{no_powers("gaussian", horizon), 6},
+        Case{physics::Kernel<2>::with_diffusion({{1, 0}, {-1, 2}}, horizon, 1), 5}})
   {
     const auto exact = entries(assemble(mesh, kernel, true, 1, 0).matrix.rows);
     std::vector<double> errors;
@@ -394,10 +395,10 @@ TEST(MeshEntries, OfUniformTrianglesReproduceLinearFields)
   for (const auto &kernel : {linear_decay(.3), bond_tensor(.3), constant(.25)})
   {
     const Mesh mesh = geometry::lattice_mesh(unit_square, .125, kernel.horizon(), true);
-    const auto system = assemble(mesh, kernel, true, 1, 0);
+    const auto system = assemble(mesh, kernel, true, 1, 0, false);
     const double margin = kernel.horizon() + .125;
     EXPECT_LT(largest_row(system, kernel.n_components(), linear, margin), 1e-12);
-    const auto refined = assemble(mesh, kernel, true, 1, 2);
+    const auto refined = assemble(mesh, kernel, true, 1, 2, false);
     EXPECT_LT(largest_row(refined, kernel.n_components(), linear),
               .2 * largest_row(system, kernel.n_components(), linear));
   }

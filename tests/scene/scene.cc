@@ -82,7 +82,7 @@ TEST(Scene, one_that_nobody_filled_has_the_defaults_of_the_keys)
   EXPECT_EQ(scene.methods.loads_are_averages, read.methods.loads_are_averages);
   EXPECT_EQ(scene.study.regime, read.study.regime);
   EXPECT_EQ(scene.reference.tolerance, read.reference.tolerance);
-  EXPECT_EQ(scene.quadrature.exact_rectangles, read.quadrature.exact_rectangles);
+  EXPECT_EQ(scene.quadrature.exact_entries, read.quadrature.exact_entries);
   EXPECT_EQ(scene.quadrature.tolerance, read.quadrature.tolerance);
   EXPECT_EQ(scene.quadrature.max_refinements, read.quadrature.max_refinements);
   EXPECT_EQ(scene.geometry.backend, read.geometry.backend);

@@ -33,9 +33,10 @@ namespace plumbline::scene
 
   void QuadratureSection::declare(Keys &keys)
   {
-    keys.add("rectangles", exact_rectangles, "quadrature", "correlation",
-             "Entries of axis-aligned rectangles of a mesh: exact by correlation, or by quadrature "
-             "as all other cells.");
+    keys.add("entries", exact_entries, "quadrature", "exact",
+             "Entries of Galerkin matrices on meshes. exact: to rounding where a way is known "
+             "(axis-aligned rectangles by correlation; continuous P1 on triangles with a scalar "
+             "kernel of powers by pairs of sides), else by quadrature. quadrature: all of them.");
     keys.add("tolerance", tolerance, between(0, 1),
              "Outer quadrature on meshes is refined until the solution changes by less, relative "
              "to it. 0: the first rule is taken as it is, and nothing is known of its error.");

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "reference/mesh/edge_integrals.h"
+#include "reference/mesh/space.h"
+
+#include <array>
+
+namespace plumbline::reference
+{
+  /// A side of one or two triangles, with the nodes whose shape functions' normal derivative jumps
+  /// there: its ends, and the vertices opposite.
+  struct Edge
+  {
+    Segment segment;
+    std::array<unsigned int, 4> node; ///< dofs, the ends first; n_nodes of them count
+    std::array<double, 4> jump;       ///< J = -Σ_T |e| ∂φ/∂n_T
+    unsigned int n_nodes = 2;
+    double radius = 0; ///< about its middle, of the nodes
+  };
+
+  /// What continuous piecewise linears on triangles are by their sides: Δφ = Σ_e J(e) along e.
+  struct EdgeForm
+  {
+    explicit EdgeForm(const MeshSpace &space);
+
+    std::vector<Edge> edges;         ///< those with a free node first, each group by its first end
+    std::size_t n_active;            ///< with a free node
+    std::vector<double> radius;      ///< of each dof's support, about its node
+    std::vector<double> integral;    ///< of each shape function
+    std::vector<char> is_at_outside; ///< nodes of sides that have one triangle
+    double longest = 0;              ///< side
+    double most_slender = 0;         ///< longest side squared over twice the area, of cells
+  };
+
+  /// How ∬ C φ_i(x) φ_j(y) over pairs of points within the horizon is found.
+  enum class PairWay : char
+  {
+    none,  ///< supports are farther apart
+    whole, ///< all of it counts
+    in,    ///< by the potential inside the circle: supports must be apart
+    out    ///< the whole without what the potential outside of it gives
+  };
+
+  /// The way of each pair of nodes, symmetric.
+  class PairWays
+  {
+  public:
+    PairWays(const MeshSpace &space, const EdgeForm &form, double horizon);
+
+    PairWay operator()(unsigned int i, unsigned int j) const
+    {
+      const double distance = space_.support(i).distance(space_.support(j));
+      const double both = form_.radius[i] + form_.radius[j];
+      if (distance - both >= horizon_)
+        return PairWay::none;
+      if (distance + both <= horizon_)
+        return PairWay::whole;
+      if (form_.is_at_outside[i] || form_.is_at_outside[j]) // not continuous: only this is valid
+        return PairWay::in;
+      return distance > horizon_ && distance - both > apart * horizon_ ? PairWay::in : PairWay::out;
+    }
+
+    /// Nodes farther apart have no pair by the potential outside.
+    double farthest_out() const { return farthest_out_; }
+
+  private:
+    static constexpr double apart = .35; ///< of supports, so that Q needs few points
+
+    const MeshSpace &space_;
+    const EdgeForm &form_;
+    double horizon_, farthest_out_;
+  };
+} // namespace plumbline::reference

@@ -1,0 +1,105 @@
+// Radial potentials of kernels against closed forms, series and nested integrals.
+#include "physics/radial_potential.h"
+
+#include "physics/gauss.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+  using namespace plumbline;
+  using physics::Kernel;
+  using physics::RadialPotential;
+  using physics::Structure;
+
+  constexpr double horizon = .7, lowest = -8;
+
+  Kernel<2> powers(physics::RadialProfile::Powers terms)
+  {
+    return {Structure::scalar, std::move(terms), horizon, 1};
+  }
+
+  /// f of Σ c (r/δ)^k: of D² f = C / 16 with f = O((1-q)^4), D = d/dq (q d/dq), by Euler's powers
+  /// q^(k/2+2) and the solutions 1, q, ln q, q ln q of D² f = 0.
+  long double closed_f(const physics::RadialProfile::Powers &terms, long double q)
+  {
+    long double sum = 0;
+    for (const auto &[coefficient, k] : terms)
+    {
+      const long double m = k / 2.L + 2;
+      const long double p = coefficient / ((k + 2.L) * (k + 2) * (k + 4) * (k + 4));
+      const long double c = -p * m * (m - 1) * (m - 1), d = -p * m * m * (m - 1);
+      const long double b = -p * m - c - d, a = -p - b;
+      sum += p * std::pow(q, m) + a + b * q + (c + d * q) * std::log(q);
+    }
+    return sum;
+  }
+} // namespace
+
+TEST(RadialPotential, is_that_of_closed_forms)
+{
+  for (const physics::RadialProfile::Powers &terms :
+       {physics::RadialProfile::Powers{{1, 0}}, physics::RadialProfile::Powers{{1, 0}, {-1, 1}},
+        physics::RadialProfile::Powers{{1, -1}}, physics::RadialProfile::Powers{{2, 1}, {-1, 4}}})
+  {
+    const RadialPotential potential(powers(terms), lowest);
+    for (double rho = lowest; rho <= RadialPotential::highest_rho; rho += .0137)
+    {
+      if (std::abs(rho) < .2)
+        continue; // the closed form cancels
+      const auto expected = static_cast<double>(closed_f(terms, 1 - rho));
+      EXPECT_NEAR(potential.f(rho), expected,
+                  (rho < .9 ? 1e-14 : 1e-13) * std::abs(expected) + 1e-16)
+          << rho;
+    }
+  }
+}
+
+TEST(RadialPotential, of_the_constant_kernel_is_its_series_at_the_circle)
+{
+  const RadialPotential potential(powers({{1, 0}}), lowest);
+  for (const double rho : {-.25, -.1, -.01, -1e-6, 1e-9, 1e-3, .02, .25})
+  {
+    double f = 0, integral = 0; // 16 f = Σ_{j >= 4} (j-3)/(2j(j-1)) ρ^j
+    for (int j = 60; j >= 4; --j)
+    {
+      const double coefficient = (j - 3.) / (32. * j * (j - 1)) * std::pow(rho, j);
+      f += coefficient;
+      integral += coefficient * rho / (j + 1);
+    }
+    EXPECT_NEAR(potential.f(rho), f, 1e-14 * std::abs(f)) << rho;
+    EXPECT_NEAR(potential.g(rho), integral / (2 * (1 - rho)), 1e-14 * std::abs(integral)) << rho;
+  }
+}
+
+TEST(RadialPotential, of_any_profile_solves_its_equation)
+{
+  // D w = C/16, D f = w: twice f(q) = ∫_q^1 ln(s/q) (…)(s) ds
+  const auto profile =
+      physics::RadialProfile::smooth([](double t) { return std::exp(-3 * t * t); }, true);
+  const Kernel<2> kernel(Structure::scalar, profile, horizon, 2);
+  const RadialPotential potential(kernel, lowest);
+  const auto &rule = physics::gauss(40);
+  const auto invert = [&](const std::function<double(double)> &of, double q)
+  {
+    double sum = 0;
+    for (unsigned int i = 0; i < rule.size(); ++i)
+    {
+      const double s = q + (1 - q) * rule.point(i)[0];
+      sum += (1 - q) * rule.weight(i) * std::log(s / q) * of(s);
+    }
+    return sum;
+  };
+  const auto c = [&](double s) { return kernel.radial(horizon * std::sqrt(s)) / 16; };
+  for (const double q : {.2, .5, .9, 1.3, 4.})
+  {
+    const double f = invert([&](double s) { return invert(c, s); }, q);
+    EXPECT_NEAR(potential.f(1 - q), f, 1e-12 * std::abs(f)) << q;
+    double integral = 0; // of f from q to 1
+    for (unsigned int i = 0; i < rule.size(); ++i)
+      integral += (1 - q) * rule.weight(i) * potential.f((1 - q) * (1 - rule.point(i)[0]));
+    EXPECT_NEAR(potential.g(1 - q), integral / (2 * q), 1e-13 * std::abs(integral)) << q;
+  }
+}

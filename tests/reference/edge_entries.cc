@@ -1,0 +1,263 @@
+// Galerkin matrices of continuous piecewise linears by pairs of sides, against identities that only
+// exact entries satisfy, and against quadrature, which has nothing in common with them.
+#include "geometry/mesh_input.h"
+#include "reference/mesh/assembly.h"
+#include "reference/mesh/edge_assembly.h"
+
+#include <gtest/gtest.h>
+
+#include <deal.II/base/multithread_info.h>
+
+#include <map>
+#include <random>
+
+namespace
+{
+  using namespace plumbline;
+  using geometry::Mesh;
+  using geometry::Point;
+  using reference::MeshSpace;
+
+  const geometry::Domain unit_square{{{Point<2>(0, 0), Point<2>(1, 1)}}, {}};
+
+  physics::Kernel<2> kernel_of(physics::RadialProfile::Powers powers, double horizon)
+  {
+    return physics::Kernel<2>::with_diffusion(std::move(powers), horizon, 1);
+  }
+  physics::Kernel<2> constant(double horizon)
+  {
+    return kernel_of({{1, 0}}, horizon);
+  }
+  std::vector<physics::Kernel<2>> kernels(double horizon)
+  {
+    return {constant(horizon), kernel_of({{1, 0}, {-1, 1}}, horizon), kernel_of({{1, -1}}, horizon),
+            kernel_of({{1, 0}, {-1, 2}}, horizon)};
+  }
+
+  /// Triangles on a lattice, the vertices of Ω moved by up to a part of h.
+  Mesh triangles(double h, double horizon, double part)
+  {
+    Mesh mesh = geometry::lattice_mesh(unit_square, h, horizon, true);
+    std::mt19937 random(3);
+    for (auto &vertex : mesh.vertices)
+      for (unsigned int d = 0; d < 2; ++d)
+        if (std::min({vertex[0], vertex[1], 1 - vertex[0], 1 - vertex[1]}) > 1e-9)
+          vertex[d] += part * h * (2. * random() / random.max() - 1);
+    return mesh;
+  }
+
+  struct Assembled
+  {
+    std::shared_ptr<const MeshSpace> space;
+    reference::MeshMatrix matrix;
+
+    double entry(std::size_t i, unsigned int j) const
+    {
+      const auto &rows = matrix.rows;
+      const auto first = rows.column.begin() + static_cast<std::ptrdiff_t>(rows.start[i]),
+                 last = rows.column.begin() + static_cast<std::ptrdiff_t>(rows.start[i + 1]);
+      const auto at = std::lower_bound(first, last, j);
+      return at == last || *at != j
+                 ? 0
+                 : rows.value[static_cast<std::size_t>(at - rows.column.begin())];
+    }
+  };
+
+  Assembled assemble(const Mesh &mesh, const physics::Kernel<2> &kernel, bool exact = true,
+                     unsigned int refinement = 0)
+  {
+    auto space = std::make_shared<const MeshSpace>(std::make_shared<const Mesh>(mesh), true, 1);
+    const reference::MeshCells cells(mesh);
+    return {space,
+            reference::assemble(*space, cells, kernel, {},
+                                {refinement, exact, geometry::Backend::fast}, base::Team::alone())};
+  }
+
+  /// The largest |Σ_j A_ij u(x_j - x_i) - expected| over the rows, in units of the diagonal.
+  double worst_row(const Assembled &system,
+                   const std::function<double(const dealii::Tensor<1, 2> &)> &u,
+                   double expected = 0)
+  {
+    double worst = 0;
+    const auto &rows = system.matrix.rows;
+    for (std::size_t i = 0; i < rows.n_rows(); ++i)
+    {
+      double sum = 0;
+      for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+        sum += rows.value[k] * u(system.space->support(rows.column[k]) - system.space->support(i));
+      worst =
+          std::max(worst, std::abs(sum - expected) / system.entry(i, static_cast<unsigned int>(i)));
+    }
+    return worst;
+  }
+
+  double largest_difference(const Assembled &a, const Assembled &b)
+  {
+    double largest = 0, diagonal = 0;
+    for (std::size_t i = 0; i < a.matrix.rows.n_rows(); ++i)
+    {
+      diagonal = std::max(diagonal, a.entry(i, static_cast<unsigned int>(i)));
+      for (unsigned int j = 0; j < a.space->n_dofs(); ++j)
+        largest = std::max(largest, std::abs(a.entry(i, j) - b.entry(i, j)));
+    }
+    return largest / diagonal;
+  }
+
+  /// Rounding in units of the diagonal: terms are larger than their sum where supports nearly
+  /// touch, in terms of δ, and in whole pairs of kernels that are not constant.
+  double rounding(const physics::Kernel<2> &kernel, double m)
+  {
+    if (m < 3)
+      return 2e-12;
+    const bool is_constant =
+        kernel.profile().degree() == 0 && kernel.profile().lowest_exponent() == 0;
+    return is_constant ? 1e-13 : 1e-14 * std::pow(m, 3);
+  }
+} // namespace
+
+TEST(EdgeEntries, ReproduceQuadraticFieldsOnLattices)
+{
+  const double h = .125;
+  for (const double m : {2., 3.7, 6.})
+    for (const auto &kernel : kernels(m * h))
+    {
+      const Assembled system = assemble(triangles(h, m * h, 0), kernel);
+      ASSERT_TRUE(system.matrix.is_exact) << system.matrix.way;
+      const double allowed = rounding(kernel, m);
+      EXPECT_LT(worst_row(system, [](const auto &) { return 1.; }), allowed);
+      EXPECT_LT(worst_row(system, [&](const auto &x) { return (x[0] - 2 * x[1]) / (m * h); }),
+                allowed);
+      // A(x²) = -2 ∫φ = -2 h², whatever the horizon
+      EXPECT_LT(worst_row(
+                    system, [](const auto &x) { return x[0] * x[0]; }, -2 * h * h),
+                allowed);
+      EXPECT_LT(worst_row(system, [](const auto &x) { return x[0] * x[1]; }), allowed);
+    }
+}
+
+TEST(EdgeEntries, OfMovedTrianglesAreSymmetricToTheLastBitAndReproduceLinearFields)
+{
+  const double h = .125;
+  for (const double m : {2., 3., 4.5, 8.})
+    for (const auto &kernel : kernels(m * h))
+    {
+      const Assembled system = assemble(triangles(h, m * h, .2), kernel);
+      ASSERT_TRUE(system.matrix.is_exact) << system.matrix.way;
+      const double allowed = rounding(kernel, m);
+      EXPECT_LT(worst_row(system, [](const auto &) { return 1.; }), allowed) << m;
+      EXPECT_LT(worst_row(system, [&](const auto &x) { return (x[0] - 2 * x[1]) / (m * h); }),
+                allowed);
+      for (unsigned int i = 0; i < system.matrix.rows.n_rows(); ++i)
+        for (unsigned int j = 0; j < i; ++j)
+          ASSERT_EQ(system.entry(i, j), system.entry(j, i));
+    }
+}
+
+TEST(EdgeEntries, OfARefinedMeshAddUpToThoseOfTheCoarseOne)
+{
+  // coarse shape functions are sums of fine ones: A = Pᵀ A_fine P
+  const double h = .25;
+  for (const double m : {2., 3.3})
+    for (const auto &kernel : kernels(m * h))
+    {
+      const Mesh mesh = triangles(h, m * h, .2);
+      const Assembled coarse = assemble(mesh, kernel), fine = assemble(refine(mesh), kernel);
+      ASSERT_TRUE(coarse.matrix.is_exact && fine.matrix.is_exact);
+      // a fine node is a coarse one or the middle of two that share a side
+      std::vector<std::map<unsigned int, double>> parents(fine.space->n_dofs());
+      const auto &cells = coarse.space->mesh().cells;
+      const auto at = [&](const Point<2> &x)
+      {
+        for (unsigned int dof = 0; dof < fine.space->n_dofs(); ++dof)
+          if (fine.space->support(dof).distance(x) < 1e-12)
+            return dof;
+        ADD_FAILURE() << "no node at " << x;
+        return 0u;
+      };
+      for (std::size_t cell = 0; cell < cells.size(); ++cell)
+        for (unsigned int k = 0; k < 3; ++k)
+        {
+          const unsigned int a = coarse.space->dofs(cell)[k],
+                             b = coarse.space->dofs(cell)[(k + 1) % 3];
+          const Point<2> &x = coarse.space->support(a), &y = coarse.space->support(b);
+          parents[at(x)] = {{a, 1.}};
+          parents[at(x + .5 * (y - x))] = {{a, .5}, {b, .5}};
+        }
+      std::map<std::pair<unsigned int, unsigned int>, double> sum;
+      const auto &rows = fine.matrix.rows;
+      for (unsigned int i = 0; i < rows.n_rows(); ++i)
+        for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+          for (const auto &[from, p] : parents[i])
+            for (const auto &[to, q] : parents[rows.column[k]])
+              sum[{from, to}] += p * q * rows.value[k];
+      double worst = 0, diagonal = 0;
+      for (unsigned int i = 0; i < coarse.matrix.rows.n_rows(); ++i)
+        for (unsigned int j = 0; j < coarse.space->n_dofs(); ++j)
+        {
+          const double entry = coarse.entry(i, j);
+          diagonal = std::max(diagonal, entry);
+          worst = std::max(worst, std::abs(entry - sum[{i, j}]));
+        }
+      EXPECT_LT(worst, 2e-13 * diagonal) << m;
+    }
+}
+
+TEST(EdgeEntries, AreWhatRefinedQuadratureApproaches)
+{
+  const double h = .25;
+  for (const double part : {0., .2})
+    for (const auto &kernel : kernels(3 * h))
+    {
+      const Mesh mesh = triangles(h, 3 * h, part);
+      const Assembled exact = assemble(mesh, kernel);
+      const auto error = [&](unsigned int refinement)
+      { return largest_difference(exact, assemble(mesh, kernel, false, refinement)); };
+      const double coarse = error(1), fine = error(4);
+      EXPECT_LT(fine, 5e-7);
+      EXPECT_GT(coarse, 10 * fine);
+    }
+}
+
+TEST(EdgeEntries, DoNotDependOnTheNumberOfThreads)
+{
+  const Mesh mesh = triangles(.125, .5, .2);
+  const Assembled several = assemble(mesh, constant(.5));
+  dealii::MultithreadInfo::set_thread_limit(1);
+  const Assembled one = assemble(mesh, constant(.5));
+  dealii::MultithreadInfo::set_thread_limit();
+  EXPECT_EQ(several.matrix.rows.value, one.matrix.rows.value);
+}
+
+TEST(EdgeEntries, AreRefusedWhereTheFormDoesNotHold)
+{
+  const auto reason =
+      [](const Mesh &mesh, const physics::Kernel<2> &kernel, unsigned int degree = 1)
+  {
+    const MeshSpace space(std::make_shared<const Mesh>(mesh), true, degree);
+    return reference::refuse_edges(space, kernel);
+  };
+  const double h = .125;
+  const Mesh mesh = triangles(h, 4 * h, 0);
+  EXPECT_EQ(reason(mesh, constant(4 * h)), "");
+  EXPECT_EQ(reason(mesh, constant(4 * h), 2), "the degree is not 1");
+  EXPECT_EQ(reason(mesh, physics::Kernel<2>::with_bulk_modulus({{1, -1}}, 4 * h, 1)),
+            "the kernel is a tensor");
+  EXPECT_EQ(reason(mesh, {physics::Structure::scalar,
+                          physics::RadialProfile::table({{0, 2}, {.5, 1}, {1, .2}}), 4 * h, 1}),
+            "the kernel is no sum of powers");
+  EXPECT_EQ(reason(mesh, constant(4.5 * h)), "balls reach beyond the mesh");
+  EXPECT_EQ(reason(triangles(h, 1.2 * h, 0), constant(1.2 * h)),
+            "triangles are large in relation to the horizon");
+  Mesh body = mesh;
+  for (auto &cell : body.cells)
+    cell.is_inside = true;
+  EXPECT_EQ(reason(body, constant(4 * h)), "balls reach beyond the mesh");
+  Mesh flat = mesh;
+  for (auto &vertex : flat.vertices)
+    vertex[1] *= .02;
+  EXPECT_EQ(reason(flat, constant(.01 * h)),
+            "some triangle is more than 30 times longer than high");
+  const Assembled system = assemble(body, constant(4 * h));
+  EXPECT_FALSE(system.matrix.is_exact);
+  EXPECT_NE(system.matrix.way.find("balls reach beyond the mesh"), std::string::npos);
+}
