@@ -44,7 +44,7 @@ namespace plumbline::physics
   } // namespace
 
   template <class Function>
-  RadialPotential::Table RadialPotential::tabulate(const Function &function) const
+  RadialPotential::Tables RadialPotential::tabulate(const Function &function) const
   {
     // Chebyshev's interpolant on each interval, x in (-1, 1), written in powers of x
     std::array<std::array<double, n_terms>, n_terms> chebyshev{}; // T_k's coefficients
@@ -53,35 +53,36 @@ namespace plumbline::physics
       for (unsigned int p = 0; p < n_terms; ++p)
         chebyshev[k][p] = (p > 0 ? 2 * chebyshev[k - 1][p - 1] : 0) - chebyshev[k - 2][p];
 
-    Table table(n_intervals_ * n_terms);
-    std::array<double, n_terms> value{};
-    for (std::size_t i = 0; i < n_intervals_; ++i)
+    const auto make = [&](double from, double to, double length)
     {
-      for (unsigned int j = 0; j < n_terms; ++j)
-        value[j] =
-            function(lowest_ + per_interval * (i + .5 + .5 * std::cos(M_PI * (j + .5) / n_terms)));
-      for (unsigned int k = 0; k < n_terms; ++k)
+      const auto n = static_cast<std::size_t>(std::ceil((to - from) / length)) + 1;
+      Table table{from, length, std::vector<double>(n * n_terms)};
+      std::array<double, n_terms> value{};
+      for (std::size_t i = 0; i < n; ++i)
       {
-        double coefficient = 0;
         for (unsigned int j = 0; j < n_terms; ++j)
-          coefficient += value[j] * std::cos(M_PI * k * (j + .5) / n_terms);
-        coefficient *= (k == 0 ? 1. : 2.) / n_terms;
-        for (unsigned int p = 0; p < n_terms; ++p)
-          table[i * n_terms + p] += coefficient * chebyshev[k][p];
+          value[j] = function(from + length * (i + .5 + .5 * std::cos(M_PI * (j + .5) / n_terms)));
+        for (unsigned int k = 0; k < n_terms; ++k)
+        {
+          double coefficient = 0;
+          for (unsigned int j = 0; j < n_terms; ++j)
+            coefficient += value[j] * std::cos(M_PI * k * (j + .5) / n_terms);
+          coefficient *= (k == 0 ? 1. : 2.) / n_terms;
+          for (unsigned int p = 0; p < n_terms; ++p)
+            table.coefficients[i * n_terms + p] += coefficient * chebyshev[k][p];
+        }
       }
-    }
-    return table;
+      return table;
+    };
+    constexpr double knee = -.5, far = 1. / 16, near = 1. / 128;
+    return {make(std::min(lowest_, knee), knee, far), make(knee, highest_rho, near)};
   }
 
   RadialPotential::RadialPotential(const Kernel<2> &kernel, double lowest_rho)
-      : horizon_(kernel.horizon())
+      : horizon_(kernel.horizon()), lowest_(lowest_rho)
   {
     if (kernel.structure() != Structure::scalar || !kernel.breaks().empty())
       throw NumericalError("radial potentials are of scalar kernels without breaks");
-    // whole intervals, so that ρ = 0 is an end of two: tables are best where f matters most
-    n_intervals_ = static_cast<std::size_t>(std::ceil(-lowest_rho / per_interval)) + 1;
-    lowest_ = -per_interval * static_cast<double>(n_intervals_);
-    n_intervals_ += static_cast<std::size_t>(std::ceil(highest_rho / per_interval)) + 1;
     f_ = tabulate([&](double rho) { return reduced_f(kernel, rho); });
     g_ = tabulate(
         [&](double rho)
@@ -91,7 +92,7 @@ namespace plumbline::physics
           for (unsigned int i = 0; i < rule.size(); ++i)
           {
             const double tau = rule.point(i)[0];
-            sum += rule.weight(i) * tau * tau * tau * tau * reduced(f_, rho * tau);
+            sum += rule.weight(i) * tau * tau * tau * tau * f_(rho * tau);
           }
           return sum / (2 * (1 - rho));
         });

@@ -13,7 +13,7 @@ namespace plumbline::physics
   ///   div (ξ δ⁴ g(ρ)) = -Ψ with g = O(ρ⁵).
   /// From Green's function of the operator D = d/dq (q d/dq), Δ = (4/δ²) D:
   ///   16 f = ∫_q^1 C(δ√s) [(s + q) ln(s/q) - 2 (s - q)] ds,   2 q g = ∫_q^1 f ds.
-  /// f/ρ⁴ and g/ρ⁵ are tables of polynomials in ρ, made once for a kernel (some 10 ms). Accuracy:
+  /// f/ρ⁴ and g/ρ⁵ are tables of polynomials in ρ, made once for a kernel (some 30 ms). Accuracy:
   /// 1e-14 relative for ρ < .9, 1e-13 up to highest_rho: a test. Thread safe.
   class RadialPotential
   {
@@ -28,17 +28,40 @@ namespace plumbline::physics
     double lowest_rho() const { return lowest_; }
 
     /// f, for lowest_rho <= ρ <= highest_rho. [1 / length^4 times the unit of the operator]
-    double f(double rho) const { return power(rho, 4) * reduced(f_, rho); }
-    double g(double rho) const { return power(rho, 5) * reduced(g_, rho); }
+    double f(double rho) const { return power(rho, 4) * f_(rho); }
+    double g(double rho) const { return power(rho, 5) * g_(rho); }
 
   private:
-    static constexpr unsigned int n_terms = 10;      ///< of a polynomial
-    static constexpr double per_interval = 1. / 128; ///< length of one, in ρ
+    static constexpr unsigned int n_terms = 10; ///< of a polynomial
 
-    using Table = std::vector<double>; ///< shape (n_intervals, n_terms)
+    /// Polynomials on intervals of one length: short ones near the logarithm and at the circle,
+    /// longer ones far outside.
+    struct Table
+    {
+      double start = 0, length = 0;
+      std::vector<double> coefficients; ///< shape (n_intervals, n_terms)
+
+      double operator()(double rho) const
+      {
+        const double place = (rho - start) * (1 / length);
+        const auto i = static_cast<unsigned int>(place);
+        const double *const c = &coefficients[i * n_terms];
+        const double x = 2 * (place - i) - 1;
+        double value = c[n_terms - 1];
+        for (unsigned int k = n_terms - 1; k-- > 0;)
+          value = value * x + c[k];
+        return value;
+      }
+    };
+    struct Tables
+    {
+      Table far, near;
+
+      double operator()(double rho) const { return rho < near.start ? far(rho) : near(rho); }
+    };
 
     template <class Function>
-    Table tabulate(const Function &function) const;
+    Tables tabulate(const Function &function) const;
 
     static double power(double rho, int n)
     {
@@ -46,20 +69,7 @@ namespace plumbline::physics
       return n == 4 ? square * square : square * square * rho;
     }
 
-    double reduced(const Table &table, double rho) const
-    {
-      const double place = (rho - lowest_) * (1 / per_interval);
-      const auto i = static_cast<unsigned int>(place);
-      const double *const c = &table[i * n_terms];
-      const double x = 2 * (place - i) - 1;
-      double value = c[n_terms - 1];
-      for (unsigned int k = n_terms - 1; k-- > 0;)
-        value = value * x + c[k];
-      return value;
-    }
-
     double horizon_, lowest_;
-    std::size_t n_intervals_;
-    Table f_, g_;
+    Tables f_, g_; ///< over ρ⁴ and ρ⁵
   };
 } // namespace plumbline::physics
