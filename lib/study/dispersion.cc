@@ -219,9 +219,9 @@ namespace plumbline::study
     return study;
   }
 
-  std::vector<DispersionRow> measure_waves(const Method &method, const scene::Scene &scene,
-                                           const scene::Problem &problem, const WaveStudy &study,
-                                           const std::string &series, bool is_finest)
+  std::vector<DispersionRow> measure_waves(const Method &method, const scene::Problem &problem,
+                                           const WaveStudy &study, const std::string &series,
+                                           bool is_finest)
   {
     const Measurement measurement(problem, study);
     DispersionRow row;
@@ -233,7 +233,7 @@ namespace plumbline::study
     std::optional<algebra::WaveOperator> waves;
     try
     {
-      const auto discretisation = method.discretise(scene, problem, base::Team::alone());
+      const auto discretisation = method.discretise(problem, base::Team::alone());
       waves = discretisation->waves();
       row.limit = discretisation->diagnostics().limit;
     }

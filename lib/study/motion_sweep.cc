@@ -104,7 +104,7 @@ namespace plumbline::study
           const double shared = problems.seconds();
           const scene::Problem &first = problems.at(0);
           area_ = area_of(first);
-          const auto discretisation = method.discretise(scene_, first, base::Team::alone());
+          const auto discretisation = method.discretise(first, base::Team::alone());
           const auto equation = discretisation->motion(scene_.time.is_lumped);
           if (!equation)
             throw NumericalError("its motion is not there");

@@ -52,7 +52,7 @@ namespace plumbline::study
         return need.text + "; " + take + (take.empty() || need.remedy.empty() ? "" : ", or ") +
                need.remedy;
       }
-    return method.why_not(scene, problem);
+    return method.why_not(problem);
   }
 
   std::string capability_table(const Methods &methods)

@@ -294,7 +294,7 @@ namespace plumbline::study
         const scene::Problem &problem = one.problem;
         run.cost = solution.cost;
         run.size = variation(problem, solution);
-        run.round_off = round_off_error(scene_, problem, solution);
+        run.round_off = round_off_error(problem, solution);
         run.diagnostics = solution.diagnostics;
         run.errors = errors(scene_, problem, solution, one.targets);
         for (const auto &[error, value] : run.errors)
@@ -318,8 +318,7 @@ namespace plumbline::study
       {
         scene::Problem fine = problem;
         fine.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh));
-        return analysis::solve(*find_method(available_, "LOCAL", "Problem/local solution"), scene_,
-                               fine)
+        return analysis::solve(*find_method(available_, "LOCAL", "Problem/local solution"), fine)
             .averages;
       }
 
@@ -331,10 +330,9 @@ namespace plumbline::study
         for (const Case *one : cases)
           problems.push_back(&one->problem);
         return solve_and_time(
-            [&]
-            {
-              return control_.solve ? control_.solve(method, scene_, problems)
-                                    : analysis::solve(method, scene_, problems);
+            [&] {
+              return control_.solve ? control_.solve(method, problems)
+                                    : analysis::solve(method, problems);
             });
       }
 
