@@ -91,7 +91,7 @@ namespace plumbline::app
     public:
       explicit GivenWeights(const FamilySource &families) : families_(families) {}
       std::string name() const override { return "given"; }
-      std::string family() const override { return "meshfree"; }
+      method::Side side() const override { return method::Side::meshfree; }
       std::string help() const override { return "weights of a file"; }
       std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
                                                          const base::Team &team) const override
@@ -160,7 +160,7 @@ namespace plumbline::app
         found.rule_factor = rule->factor;
       }
       found.causes = find_causes(given, rule, scene.methods.names);
-      if (rule && rule->rule == "FA" && found.causes.empty())
+      if (rule && rule->is_full_area() && found.causes.empty())
         found.rule_remark = ramp_text(ramp_effects(given, families));
       const double point_scale = found.causes.empty() ? 1 : found.causes.front().point_scale;
       const std::size_t n_volumes = found.outliers.size();

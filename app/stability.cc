@@ -44,7 +44,7 @@ namespace plumbline::app
     StabilityRow measure_level(const method::Method &method, const scene::Problem &problem,
                                const std::string &series, const scene::Level &level)
     {
-      StabilityRow row{method.name(), method.family(), series, level.h, level.horizon, {}, {}, {}};
+      StabilityRow row{method.name(), method.side(), series, level.h, level.horizon, {}, {}, {}};
       try
       {
         const auto discretisation = method.discretise(problem, base::Team::alone());
@@ -75,11 +75,12 @@ namespace plumbline::app
         const auto found =
             std::find_if(verdicts.begin(), verdicts.end(),
                          [&](const auto &verdict) { return verdict.method == expected.method; });
-        if (found != verdicts.end() && found->verdict == expected.verdict)
+        if (found != verdicts.end() && base::word(found->verdict) == expected.verdict)
           continue;
         all_hold = false;
         std::cerr << "not as expected: " << expected.text << ": found "
-                  << (found == verdicts.end() ? "no such method" : found->verdict) << '\n';
+                  << (found == verdicts.end() ? "no such method" : base::word(found->verdict))
+                  << '\n';
       }
       return all_hold;
     }

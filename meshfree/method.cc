@@ -16,7 +16,7 @@ namespace plumbline::meshfree
       {
       }
       std::string name() const override { return rule_.name; }
-      std::string family() const override { return "meshfree"; }
+      method::Side side() const override { return method::Side::meshfree; }
       std::string help() const override { return rule_.help; }
       bool is_in_all() const override { return !is_trap_; }
       std::string why_not(const scene::Problem &problem) const override

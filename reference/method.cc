@@ -23,7 +23,7 @@ namespace plumbline::reference
         return std::string(is_continuous_ ? "" : "DG") + (n_vertices_ == 4 ? "Q" : "P") +
                std::to_string(degree_);
       }
-      std::string family() const override { return "reference"; }
+      method::Side side() const override { return method::Side::reference; }
       std::string help() const override
       {
         return std::string(is_continuous_ ? "continuous" : "discontinuous") +
@@ -92,7 +92,7 @@ namespace plumbline::reference
     {
     public:
       std::string name() const override { return "LOCAL"; }
-      std::string family() const override { return "local"; }
+      method::Side side() const override { return method::Side::local; }
       std::string help() const override
       {
         return "classical finite elements of degree 2 for the local limit (Poisson, Navier)";

@@ -2,6 +2,7 @@
 
 #include "method/capabilities.h"
 #include "method/discretisation.h"
+#include "method/side.h"
 
 #include <array>
 #include <memory>
@@ -31,7 +32,7 @@ namespace plumbline::method
   public:
     virtual ~Method() = default;
     virtual std::string name() const = 0;
-    virtual std::string family() const = 0; ///< "meshfree", "reference" or "local"
+    virtual Side side() const = 0;
     virtual std::string help() const = 0;
 
     /// Whether Methods/names = all takes it: not where it is there to show how it fails.

@@ -226,7 +226,7 @@ namespace plumbline::study
     const Measurement measurement(problem, study);
     DispersionRow row;
     row.method = method.name();
-    row.family = method.family();
+    row.side = method.side();
     row.series = series;
     row.h = problem.h;
     row.horizon = problem.horizon();
@@ -267,7 +267,7 @@ namespace plumbline::study
       {
         Trend first;
         first.method = row.method;
-        first.family = row.family;
+        first.side = row.side;
         first.series = row.series;
         first.error = "phase speed | nonlocal";
         first.axis = level_axis(scene.study.regime);

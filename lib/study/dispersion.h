@@ -33,9 +33,11 @@ namespace plumbline::study
   /// The waves of one method at one level of a scene.
   struct DispersionRow
   {
-    std::string method, family, series; ///< family: "meshfree" or "reference"
-    double h = 0, horizon = 0;          ///< [length]
-    std::vector<WaveCurve> curves;      ///< for each direction one of each polarisation
+    std::string method;
+    Side side = Side::meshfree; ///< of the method
+    std::string series;
+    double h = 0, horizon = 0;     ///< [length]
+    std::vector<WaveCurve> curves; ///< for each direction one of each polarisation
     /// For each polarisation the speed of long waves along an axis less that along the diagonal,
     /// over c.
     std::vector<double> anisotropy;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <sstream>
 
 namespace plumbline::study
@@ -87,7 +86,8 @@ namespace plumbline::study
 
     bool is_estimated(const scene::Scene &scene, const Method &method)
     {
-      if (method.family() != "reference" || scene.reference.estimate == scene::Estimate::none)
+      if (method.side() != method::Side::reference ||
+          scene.reference.estimate == scene::Estimate::none)
         return false;
       return method.name() == scene.reference.method ||
              scene.reference.estimate == scene::Estimate::every ||
@@ -110,7 +110,7 @@ namespace plumbline::study
     {
       if (!scene.domain.mesh.is_file())
         return true;
-      if (std::filesystem::path(scene.domain.mesh.name).extension() == ".msh")
+      if (scene.domain.mesh.is_msh())
         return false;
       return measured_size(scene, {coarse.level.h / 2, coarse.level.horizon}).n_cells >
              1.5 * coarse.n_cells;

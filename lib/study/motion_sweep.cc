@@ -70,7 +70,7 @@ namespace plumbline::study
               {
                 MotionRun run;
                 run.method = method->name();
-                run.family = method->family();
+                run.side = method->side();
                 run.problem = names[c];
                 run.series = series.name;
                 run.level = level;

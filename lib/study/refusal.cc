@@ -26,7 +26,7 @@ namespace plumbline::study
         if (other->is_in_all() && can_do(*other, needed))
         {
           all.push_back(other->name());
-          if (other->family() == method.family())
+          if (other->side() == method.side())
             alike.push_back(other->name());
         }
       const auto &names = alike.empty() ? all : alike;

@@ -94,7 +94,7 @@ namespace
   class QuadratureFault : public GivenSolutions
   {
   public:
-    explicit QuadratureFault(double part) : GivenSolutions("fault", "reference"), part_(part) {}
+    explicit QuadratureFault(double part) : GivenSolutions("fault", Side::reference), part_(part) {}
 
   private:
     method::Field field(const scene::Problem &problem) const override

@@ -9,12 +9,12 @@ namespace plumbline::study
   class GivenSolutions : public Method
   {
   public:
-    explicit GivenSolutions(std::string name, std::string family = "meshfree")
-        : name_(std::move(name)), family_(std::move(family))
+    explicit GivenSolutions(std::string name, Side side = Side::meshfree)
+        : name_(std::move(name)), side_(side)
     {
     }
     std::string name() const override { return name_; }
-    std::string family() const override { return family_; }
+    Side side() const override { return side_; }
     std::string help() const override { return ""; }
     std::unique_ptr<method::Discretisation> discretise(const scene::Problem &,
                                                        const base::Team &) const override
@@ -68,7 +68,8 @@ namespace plumbline::study
       }
     };
 
-    std::string name_, family_;
+    std::string name_;
+    Side side_;
   };
 
   /// Solutions as if each had cost so many CPU seconds; 1 is enough not to be repeated for its

@@ -76,7 +76,7 @@ namespace anisotropic
       Fibres(meshfree::Rule rule, double a) : rule_(std::move(rule)), a_(a) {}
 
       std::string name() const override { return "fibres " + rule_.name; }
-      std::string family() const override { return "meshfree"; }
+      method::Side side() const override { return method::Side::meshfree; }
       std::string help() const override { return "fibres along x: " + rule_.help; }
       method::Capabilities can() const override
       {
