@@ -67,12 +67,12 @@ namespace plumbline::app
     }
 
     /// @throws NumericalError  there is none, naming method, case and level
-    analysis::Solution reference_solution(const scene::Scene &scene, const scene::Problem &problem,
+    analysis::Solution reference_solution(const scene::Problem &problem,
                                           const method::Method &method, const std::string &place)
     {
       try
       {
-        return analysis::solve(method, scene, problem);
+        return analysis::solve(method, problem);
       }
       catch (const MemoryError &)
       {
@@ -91,19 +91,14 @@ namespace plumbline::app
     public:
       explicit GivenWeights(const FamilySource &families) : families_(families) {}
       std::string name() const override { return "given"; }
-      std::string family() const override { return "meshfree"; }
+      method::Side side() const override { return method::Side::meshfree; }
       std::string help() const override { return "weights of a file"; }
-      std::string why_not(const scene::Scene &, const scene::Problem &) const override
-      {
-        return {};
-      }
-      std::unique_ptr<method::Discretisation> discretise(const scene::Scene &scene,
-                                                         const scene::Problem &problem,
+      std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
                                                          const base::Team &team) const override
       {
         return discretise_on_scattered_nodes(
-            [&](auto share) { return scattered_operator(families_, problem, share); }, scene,
-            problem, team);
+            [&](auto share) { return scattered_operator(families_, problem, share); }, problem,
+            team);
       }
 
     private:
@@ -116,11 +111,11 @@ namespace plumbline::app
                          const FamilySource &families)
     {
       const auto method = reference_method(scene, problem);
-      const analysis::Solution reference = reference_solution(scene, problem, *method, place);
+      const analysis::Solution reference = reference_solution(problem, *method, place);
       CaseCheck result{name, method->name(), {}, {}, study::errors(scene, problem, reference, {})};
       try
       {
-        const analysis::Solution solution = analysis::solve(GivenWeights(families), scene, problem);
+        const analysis::Solution solution = analysis::solve(GivenWeights(families), problem);
         result.errors = study::errors(scene, problem, solution, {reference.averages, {}});
       }
       catch (const NumericalError &error)
@@ -165,7 +160,7 @@ namespace plumbline::app
         found.rule_factor = rule->factor;
       }
       found.causes = find_causes(given, rule, scene.methods.names);
-      if (rule && rule->rule == "FA" && found.causes.empty())
+      if (rule && rule->is_full_area() && found.causes.empty())
         found.rule_remark = ramp_text(ramp_effects(given, families));
       const double point_scale = found.causes.empty() ? 1 : found.causes.front().point_scale;
       const std::size_t n_volumes = found.outliers.size();

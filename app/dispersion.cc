@@ -51,7 +51,7 @@ namespace plumbline::app
                      const scene::Problem problem = scene::make_problem(scene, 0, level);
                      for (std::size_t i = 0; i < methods.size(); ++i)
                      {
-                       auto own = study::measure_waves(*methods[i], scene, problem, results.study,
+                       auto own = study::measure_waves(*methods[i], problem, results.study,
                                                        series.name, is_finest);
                        std::move(own.begin(), own.end(), std::back_inserter(rows[i]));
                      }

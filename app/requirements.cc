@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <sstream>
 
 namespace plumbline::app
@@ -98,6 +99,16 @@ namespace plumbline::app
     }
   } // namespace
 
+  namespace
+  {
+    /// Those without a number, by their words.
+    const std::map<std::string, bool Requirements::*> switches = {
+        {"ac", &Requirements::ac},
+        {"consistent", &Requirements::consistent},
+        {"symmetric", &Requirements::symmetric},
+        {"m-matrix", &Requirements::m_matrix}};
+  } // namespace
+
   Requirements parse_requirements(const std::vector<std::string> &words)
   {
     Requirements required;
@@ -105,14 +116,8 @@ namespace plumbline::app
     {
       std::istringstream in(list);
       for (std::string word; std::getline(in, word, ',');)
-        if (word == "ac")
-          required.ac = true;
-        else if (word == "consistent")
-          required.consistent = true;
-        else if (word == "symmetric")
-          required.symmetric = true;
-        else if (word == "m-matrix")
-          required.m_matrix = true;
+        if (const auto found = switches.find(word); found != switches.end())
+          required.*found->second = true;
         else if (word.compare(0, 8, "moments=") == 0)
         {
           std::istringstream value(word.substr(8));

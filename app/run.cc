@@ -1,7 +1,9 @@
 #include "run.h"
 
+#include "base/choice.h"
 #include "base/error.h"
 #include "base/team.h"
+#include "base/text_file.h"
 #include "dynamics.h"
 #include "methods.h"
 #include "report/journal.h"
@@ -23,6 +25,26 @@
 
 namespace plumbline::app
 {
+  namespace
+  {
+    /// What 'plumbline list' lists.
+    enum class Listed
+    {
+      methods,
+      kernels,
+      scenes
+    };
+  } // namespace
+} // namespace plumbline::app
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<app::Listed> = std::array{"methods", "kernels", "scenes"};
+} // namespace plumbline::base
+
+namespace plumbline::app
+{
   namespace fs = std::filesystem;
 
   namespace
@@ -38,7 +60,8 @@ namespace plumbline::app
       if (!scene.domain.is_free_body)
         return scene.domain.mesh.is_lattice();
       return std::any_of(methods.begin(), methods.end(),
-                         [](const auto &method) { return method->family() == "meshfree"; });
+                         [](const auto &method)
+                         { return method->side() == method::Side::meshfree; });
     }
 
     /// What an interrupted run of the same scene left in the folder.
@@ -138,8 +161,10 @@ namespace plumbline::app
     {
       const std::string subject = run.method + ", " + run.problem + ", " + run.series + ": verdict";
       return std::any_of(results.expectations.begin(), results.expectations.end(),
-                         [&](const study::Expectation &e)
-                         { return e.subject == subject && e.expected == "failed" && e.holds; });
+                         [&](const study::Expectation &e) {
+                           return e.subject == subject &&
+                                  e.expected == base::word(study::Outcome::failed) && e.holds;
+                         });
     }
 
     int exit_code(const study::Results &results, bool check)
@@ -274,32 +299,49 @@ namespace plumbline::app
     return 0;
   }
 
-  void list(const std::string &subject, bool as_matrix)
+  namespace
   {
-    if (as_matrix && subject != "methods")
-      throw InputError("list --matrix is of methods, not of " + subject + "; leave it out");
-    if (as_matrix)
-      std::cout << study::capability_table(all_methods());
-    else if (subject == "methods")
+    void list_methods()
+    {
       for (const auto &method : all_methods())
         std::cout << std::left << std::setw(11) << method->name() << std::setw(11)
-                  << method->family() << method->help() << '\n';
-    else if (subject == "kernels")
+                  << base::word(method->side()) << method->help() << '\n';
+    }
+
+    void list_kernels()
+    {
       for (const physics::KernelType &type : physics::kernel_types())
         std::cout << std::left << std::setw(24) << type.name << type.formula << "   ("
                   << type.source << ")\n";
-    else if (subject == "scenes")
+    }
+
+    void list_scenes()
     {
       const fs::path folder = scenes_folder();
       if (!fs::is_directory(folder))
         throw InputError("the scenes folder '" + folder.string() + "' is not there");
       std::set<fs::path> files;
       for (const auto &entry : fs::recursive_directory_iterator(folder))
-        if (entry.path().extension() == ".prm")
+        if (base::has_ending(entry.path().string(), ".prm"))
           files.insert(entry.path());
       for (const fs::path &file : files)
         std::cout << file.string() << "\n    " << purpose(file) << '\n';
     }
+  } // namespace
+
+  void list(const std::string &subject, bool as_matrix)
+  {
+    const auto listed = base::from_word<Listed>(subject);
+    if (as_matrix && listed != Listed::methods)
+      throw InputError("list --matrix is of methods, not of " + subject + "; leave it out");
+    if (as_matrix)
+      std::cout << study::capability_table(all_methods());
+    else if (listed == Listed::methods)
+      list_methods();
+    else if (listed == Listed::kernels)
+      list_kernels();
+    else if (listed == Listed::scenes)
+      list_scenes();
     else
       throw InputError("list: '" + subject + "' is not known; choose methods, kernels or scenes");
   }

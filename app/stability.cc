@@ -41,14 +41,13 @@ namespace plumbline::app
       }
     }
 
-    StabilityRow measure_level(const method::Method &method, const scene::Scene &scene,
-                               const scene::Problem &problem, const std::string &series,
-                               const scene::Level &level)
+    StabilityRow measure_level(const method::Method &method, const scene::Problem &problem,
+                               const std::string &series, const scene::Level &level)
     {
-      StabilityRow row{method.name(), method.family(), series, level.h, level.horizon, {}, {}, {}};
+      StabilityRow row{method.name(), method.side(), series, level.h, level.horizon, {}, {}, {}};
       try
       {
-        const auto discretisation = method.discretise(scene, problem, base::Team::alone());
+        const auto discretisation = method.discretise(problem, base::Team::alone());
         const method::DiscreteOperator matrix = discretisation->matrix();
         if (matrix.size() == 0)
           throw InputError("Methods/names: '" + method.name() +
@@ -76,11 +75,12 @@ namespace plumbline::app
         const auto found =
             std::find_if(verdicts.begin(), verdicts.end(),
                          [&](const auto &verdict) { return verdict.method == expected.method; });
-        if (found != verdicts.end() && found->verdict == expected.verdict)
+        if (found != verdicts.end() && base::word(found->verdict) == expected.verdict)
           continue;
         all_hold = false;
         std::cerr << "not as expected: " << expected.text << ": found "
-                  << (found == verdicts.end() ? "no such method" : found->verdict) << '\n';
+                  << (found == verdicts.end() ? "no such method" : base::word(found->verdict))
+                  << '\n';
       }
       return all_hold;
     }
@@ -104,8 +104,7 @@ namespace plumbline::app
                      const scene::Problem problem = scene::make_problem(scene, 0, level);
                      for (std::size_t i = 0; i < methods.size(); ++i)
                      {
-                       rows[i].push_back(
-                           measure_level(*methods[i], scene, problem, series.name, level));
+                       rows[i].push_back(measure_level(*methods[i], problem, series.name, level));
                        if (is_finest)
                          write_modes(rows[i].back(), folder / "stability");
                      }

@@ -19,11 +19,10 @@ namespace plumbline::audit
       double averages, field;
     };
 
-    Truth against_solution(const scene::Scene &scene, const scene::Problem &problem,
-                           const analysis::Solution &solution)
+    Truth against_solution(const scene::Problem &problem, const analysis::Solution &solution)
     {
       constexpr unsigned int degree = 14;
-      const auto exact = study::cell_averages(*problem.solution, scene, problem);
+      const auto exact = study::cell_averages(*problem.solution, problem);
       return {study::averages_l2(problem, solution.averages, exact),
               study::field_l2(problem, solution.value, problem.solution->value, degree)};
     }
@@ -49,12 +48,12 @@ namespace plumbline::audit
                            unsigned int case_index, const method::Method &method, unsigned int n,
                            double &seconds)
   {
-    const analysis::Solution solution = analysis::solve(method, scene, problem);
+    const analysis::Solution solution = analysis::solve(method, problem);
     seconds = solution.cost.seconds();
     const std::vector<double> zero(solution.averages.size());
     const double size = study::averages_l2(problem, solution.averages, zero);
     const Truth truth = problem.solution
-                            ? against_solution(scene, problem, solution)
+                            ? against_solution(problem, solution)
                             : against_finer(scene, problem, case_index, method, n, solution);
     std::vector<Entry> entries;
     const auto enter = [&](const std::string &way, const std::string &norm, double error,

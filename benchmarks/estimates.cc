@@ -46,7 +46,7 @@ namespace
           if (!is_wrong_on_purpose(name, scene.problem.case_names()[c]))
             for (const auto &series : scene.study.series)
               for (const auto &method : reference::methods())
-                if (method->family() == "reference")
+                if (method->side() == method::Side::reference)
                   add(name, scene, c, series, *method);
       }
       catch (const InputError &error)

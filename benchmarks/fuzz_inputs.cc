@@ -69,7 +69,7 @@ namespace plumbline::benchmarks
     {
       study::Results results;
       results.scene_name = "small";
-      results.regime = "delta";
+      results.regime = scene::Regime::delta;
       results.decisive_error = "nodal Linf | exact";
       results.is_complete = true;
       results.provenance = {{"plumbline", "0"}};
@@ -83,7 +83,7 @@ namespace plumbline::benchmarks
         {
           study::Run run;
           run.method = method;
-          run.family = method == "FA" ? "meshfree" : "reference";
+          run.side = method == "FA" ? study::Side::meshfree : study::Side::reference;
           run.level = level;
           run.h = .1 / (1U << level);
           run.horizon = 3 * run.h;

@@ -148,11 +148,11 @@ namespace
     for (const auto &one : methods)
       if (one->name() == method)
       {
-        (void)analysis::solve(*one, scene,
+        (void)analysis::solve(*one,
                               problem); // the first one starts threads and plans transforms
         for (auto _ : state)
         {
-          const auto solution = analysis::solve(*one, scene, problem);
+          const auto solution = analysis::solve(*one, problem);
           state.counters["unknowns"] = static_cast<double>(solution.cost.n_unknowns);
           state.counters["MB"] = static_cast<double>(solution.cost.peak_bytes) / 1e6;
         }
@@ -183,7 +183,7 @@ namespace
       if (one->name() == "OPT")
         for (auto _ : state)
         {
-          const auto cost = analysis::solve(*one, scene, problem).cost;
+          const auto cost = analysis::solve(*one, problem).cost;
           state.counters["unknowns"] = static_cast<double>(cost.n_unknowns);
           state.counters["iterations"] = cost.n_iterations;
           state.counters["solve ms"] = 1e3 * cost.solve_seconds;

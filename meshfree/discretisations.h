@@ -8,28 +8,28 @@
 namespace plumbline::meshfree
 {
   /// On the problem's lattice: one stencil for all nodes.
-  std::unique_ptr<method::Discretisation>
-  discretise_on_lattice(const Rule &rule, const scene::Scene &scene, const scene::Problem &problem);
+  std::unique_ptr<method::Discretisation> discretise_on_lattice(const Rule &rule,
+                                                                const scene::Problem &problem);
 
   /// On the problem's scattered nodes: a sparse matrix whose rows all ranks build.
   /// @note Collective.
   std::unique_ptr<method::Discretisation>
-  discretise_on_scattered_nodes(const Rule &rule, const scene::Scene &scene,
-                                const scene::Problem &problem, const base::Team &team);
+  discretise_on_scattered_nodes(const Rule &rule, const scene::Problem &problem,
+                                const base::Team &team);
 
   /// The same with an operator of which every rank makes its share.
   /// @note Collective.
   std::unique_ptr<method::Discretisation> discretise_on_scattered_nodes(
       const std::function<ScatteredOperator(std::pair<std::size_t, std::size_t> share)> &make,
-      const scene::Scene &scene, const scene::Problem &problem, const base::Team &team);
+      const scene::Problem &problem, const base::Team &team);
 
   /// On a body with a free boundary: sums over one family for all nodes. Its data throw InputError
   /// for a constraint that is not 0.
-  std::unique_ptr<method::Discretisation>
-  discretise_on_body(const Rule &rule, const scene::Scene &scene, const scene::Problem &problem);
+  std::unique_ptr<method::Discretisation> discretise_on_body(const Rule &rule,
+                                                             const scene::Problem &problem);
 
   /// Of one of these, see method::Method::expected_bytes.
-  double expected_bytes(const scene::Scene &scene, const method::ProblemSize &size);
+  double expected_bytes(const method::ProblemSize &size);
 
   /// A body's operator at its free nodes.
   method::DiscreteOperator show(std::shared_ptr<const VariationalOperator> matrix);

@@ -16,36 +16,35 @@ namespace plumbline::meshfree
       {
       }
       std::string name() const override { return rule_.name; }
-      std::string family() const override { return "meshfree"; }
+      method::Side side() const override { return method::Side::meshfree; }
       std::string help() const override { return rule_.help; }
       bool is_in_all() const override { return !is_trap_; }
-      std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const override
+      std::string why_not(const scene::Problem &problem) const override
       {
-        if (scene.solver.iteration != base::Iteration::cg || problem.lattice || problem.body)
+        if (problem.settings.solver.iteration != base::Iteration::cg || problem.lattice ||
+            problem.body)
           return {};
         std::string why = "on scattered nodes a bond has two weights, one for each end";
         if (problem.dilatation && !problem.dilatation->is_symmetric())
           why = "harmonic means of constants that vary in space (LPS) make none";
-        else if (scene.domain.is_damaged())
+        else if (problem.damage.is_there())
           why = "what cracks and free surfaces add to rows makes none";
         return "Solver/iteration = cg needs a symmetric operator, but " + why +
                "; write automatic, gmres or bicgstab";
       }
 
-      std::unique_ptr<method::Discretisation> discretise(const scene::Scene &scene,
-                                                         const scene::Problem &problem,
+      std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
                                                          const base::Team &team) const override
       {
         if (problem.body)
-          return discretise_on_body(rule_, scene, problem);
-        return problem.lattice ? discretise_on_lattice(rule_, scene, problem)
-                               : discretise_on_scattered_nodes(rule_, scene, problem, team);
+          return discretise_on_body(rule_, problem);
+        return problem.lattice ? discretise_on_lattice(rule_, problem)
+                               : discretise_on_scattered_nodes(rule_, problem, team);
       }
 
-      double expected_bytes(const scene::Scene &scene,
-                            const method::ProblemSize &size) const override
+      double expected_bytes(const method::ProblemSize &size) const override
       {
-        return meshfree::expected_bytes(scene, size);
+        return meshfree::expected_bytes(size);
       }
 
     private:

@@ -23,7 +23,7 @@ namespace plumbline::reference
         return std::string(is_continuous_ ? "" : "DG") + (n_vertices_ == 4 ? "Q" : "P") +
                std::to_string(degree_);
       }
-      std::string family() const override { return "reference"; }
+      method::Side side() const override { return method::Side::reference; }
       std::string help() const override
       {
         return std::string(is_continuous_ ? "continuous" : "discontinuous") +
@@ -46,18 +46,15 @@ namespace plumbline::reference
           can.insert({Capability::double_well, Capability::periodic});
         return can;
       }
-      std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const override
+      std::string why_not(const scene::Problem &problem) const override
       {
-        if (scene.time.is_dynamic() && scene.material.is_double_well() && !scene.domain.is_periodic)
-          return "nonlinear Galerkin forces are those of a torus, without boundary function or "
-                 "collar; write Domain/boundary = periodic, or take meshfree methods";
-        if (problem.body && !scene.domain.is_floating &&
+        if (problem.body && !problem.is_floating &&
             std::all_of(problem.mesh->cells.begin(), problem.mesh->cells.end(),
                         [](const geometry::MeshCell &cell) { return cell.is_inside; }))
-          return "no cell of Domain/mesh = " + scene.domain.mesh.name +
-                 " has its centroid in Domain/fixed, so that nothing holds the body; give smaller "
+          return "no cell of Domain/mesh has its centroid in Domain/fixed, so that nothing holds "
+                 "the body; give smaller "
                  "cells there, or take meshfree methods alone";
-        if (scene.solver.iteration == base::Iteration::cg && problem.dilatation &&
+        if (problem.settings.solver.iteration == base::Iteration::cg && problem.dilatation &&
             !problem.dilatation->is_symmetric())
           return "Solver/iteration = cg needs a symmetric operator, but harmonic means of "
                  "constants "
@@ -69,22 +66,20 @@ namespace plumbline::reference
       {
         return std::make_shared<GalerkinMethod>(n_vertices_, is_continuous_, degree_ + 1);
       }
-      std::unique_ptr<method::Discretisation> discretise(const scene::Scene &scene,
-                                                         const scene::Problem &problem,
+      std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
                                                          const base::Team &team) const override
       {
         if (problem.lattice)
-          return discretise_on_lattice(scene, problem, AxisShapes(is_continuous_, degree_));
-        return discretise_on_mesh(scene, problem, is_continuous_, degree_, team);
+          return discretise_on_lattice(problem, AxisShapes(is_continuous_, degree_));
+        return discretise_on_mesh(problem, is_continuous_, degree_, team);
       }
-      double expected_bytes(const scene::Scene &scene,
-                            const method::ProblemSize &size) const override
+      double expected_bytes(const method::ProblemSize &size) const override
       {
         if (!size.is_lattice())
-          return expected_mesh_bytes(scene, size, n_vertices_, is_continuous_, degree_);
+          return expected_mesh_bytes(size, n_vertices_, is_continuous_, degree_);
         const unsigned int n_axis = is_continuous_ ? degree_ : degree_ + 1;
-        return method::expected_lattice_bytes(size, n_axis * n_axis, scene.is_vector() ? 2 : 1,
-                                              scene.reach(size.level.horizon) / size.level.h + 1);
+        return method::expected_lattice_bytes(size, n_axis * n_axis, size.n_components,
+                                              size.reach() / size.level.h + 1);
       }
 
     private:
@@ -97,7 +92,7 @@ namespace plumbline::reference
     {
     public:
       std::string name() const override { return "LOCAL"; }
-      std::string family() const override { return "local"; }
+      method::Side side() const override { return method::Side::local; }
       std::string help() const override
       {
         return "classical finite elements of degree 2 for the local limit (Poisson, Navier)";
@@ -108,12 +103,7 @@ namespace plumbline::reference
         return {Capability::quadrilaterals, Capability::triangles, Capability::heterogeneous,
                 Capability::zero_dilatation, Capability::mixed_dilatation};
       }
-      std::string why_not(const scene::Scene &, const scene::Problem &) const override
-      {
-        return {};
-      }
-      std::unique_ptr<method::Discretisation> discretise(const scene::Scene &,
-                                                         const scene::Problem &problem,
+      std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
                                                          const base::Team &) const override
       {
         return discretise_local_limit(problem);

@@ -15,8 +15,7 @@ namespace plumbline::analysis
     using method::Discretisation;
     using method::Vector;
 
-    [[noreturn]] void refuse_unsettled(const scene::Scene &scene, unsigned int refinement,
-                                       double change)
+    [[noreturn]] void refuse_unsettled(double tolerance, unsigned int refinement, double change)
     {
       std::ostringstream message;
       if (refinement == 0)
@@ -25,7 +24,7 @@ namespace plumbline::analysis
       else
         message << "outer quadrature, refinement " << refinement
                 << ", still changes the solution by " << change << " relative to it,";
-      message << " more than Quadrature/tolerance = " << scene.quadrature.tolerance
+      message << " more than Quadrature/tolerance = " << tolerance
               << "; raise Quadrature/max refinements or the tolerance, or refine the mesh";
       throw NumericalError(message.str());
     }
@@ -45,9 +44,9 @@ namespace plumbline::analysis
     class Statics
     {
     public:
-      Statics(const method::Method &method, const scene::Scene &scene,
-              const std::vector<const scene::Problem *> &cases, const base::Team &team)
-          : method_(method), scene_(scene), team_(team)
+      Statics(const method::Method &method, const std::vector<const scene::Problem *> &cases,
+              const base::Team &team)
+          : method_(method), team_(team)
       {
         for (const scene::Problem *problem : cases)
           cases_.push_back({problem});
@@ -73,6 +72,8 @@ namespace plumbline::analysis
       }
 
     private:
+      const scene::MethodSettings &settings() const { return cases_.front().problem->settings; }
+
       /// What fails for one case, others may still do.
       static std::exception_ptr failure_of(const std::function<void()> &action)
       {
@@ -97,7 +98,7 @@ namespace plumbline::analysis
         const base::CpuTimer timer;
         system_.reset();
         if (refinement_ == 0)
-          discretisation_ = method_.discretise(scene_, *cases_.front().problem, team_);
+          discretisation_ = method_.discretise(*cases_.front().problem, team_);
         else
           discretisation_->refine_quadrature();
         system_ = discretisation_->tangent();
@@ -112,8 +113,8 @@ namespace plumbline::analysis
         const base::CpuTimer timer;
         const method::CaseData data = discretisation_->data(*one.problem);
         Vector u(data.load.size());
-        const algebra::LinearSolve solved =
-            system_->solve(u, data.load, {scene_.solver.tolerance, scene_.solver.max_iterations});
+        const algebra::LinearSolve solved = system_->solve(
+            u, data.load, {settings().solver.tolerance, settings().solver.max_iterations});
         const base::Team team = discretisation_->team();
         one.cost.solve_seconds += team.sum(timer.seconds());
         one.cost.n_unknowns = discretisation_->n_unknowns();
@@ -126,12 +127,12 @@ namespace plumbline::analysis
           one.solver.outer_change = data.relative_change(one.u, u);
         std::swap(one.u, u);
         const bool is_settled =
-            !discretisation_->has_quadrature_error() || scene_.quadrature.tolerance == 0 ||
-            (!is_first && one.solver.outer_change <= scene_.quadrature.tolerance);
+            !discretisation_->has_quadrature_error() || settings().quadrature.tolerance == 0 ||
+            (!is_first && one.solver.outer_change <= settings().quadrature.tolerance);
         if (is_settled)
           finish(one, data);
-        else if (refinement_ == scene_.quadrature.max_refinements)
-          refuse_unsettled(scene_, refinement_, one.solver.outer_change);
+        else if (refinement_ == settings().quadrature.max_refinements)
+          refuse_unsettled(settings().quadrature.tolerance, refinement_, one.solver.outer_change);
       }
 
       void finish(Case &one, const method::CaseData &data)
@@ -154,7 +155,6 @@ namespace plumbline::analysis
       }
 
       const method::Method &method_;
-      const scene::Scene &scene_;
       base::Team team_;
       const base::MemoryGauge memory_;
       std::vector<Case> cases_;
@@ -164,17 +164,17 @@ namespace plumbline::analysis
     };
   } // namespace
 
-  std::vector<Outcome> solve(const method::Method &method, const scene::Scene &scene,
+  std::vector<Outcome> solve(const method::Method &method,
                              const std::vector<const scene::Problem *> &cases,
                              const base::Team &team)
   {
-    return Statics(method, scene, cases, team).run();
+    return Statics(method, cases, team).run();
   }
 
-  Solution solve(const method::Method &method, const scene::Scene &scene,
-                 const scene::Problem &problem, const base::Team &team)
+  Solution solve(const method::Method &method, const scene::Problem &problem,
+                 const base::Team &team)
   {
-    std::vector<Outcome> outcomes = solve(method, scene, {&problem}, team);
+    std::vector<Outcome> outcomes = solve(method, {&problem}, team);
     if (!outcomes.front().solution)
       std::rethrow_exception(outcomes.front().failure);
     return std::move(*outcomes.front().solution);

@@ -27,12 +27,12 @@ namespace plumbline::analysis
   /// case is done when its own does not. Each case's cost is what it would be alone.
   /// @note Collective.
   /// @throws InputError  data that is not finite
-  std::vector<Outcome> solve(const method::Method &method, const scene::Scene &scene,
+  std::vector<Outcome> solve(const method::Method &method,
                              const std::vector<const scene::Problem *> &cases,
                              const base::Team &team = base::Team::all());
 
   /// One case.
   /// @throws NumericalError  there is no solution
-  Solution solve(const method::Method &method, const scene::Scene &scene,
-                 const scene::Problem &problem, const base::Team &team = base::Team::all());
+  Solution solve(const method::Method &method, const scene::Problem &problem,
+                 const base::Team &team = base::Team::all());
 } // namespace plumbline::analysis

@@ -66,6 +66,11 @@ namespace plumbline::base
     return text;
   }
 
+  bool has_ending(const std::string &file, const std::string &ending)
+  {
+    return std::filesystem::path(file).extension() == ending;
+  }
+
   std::string shown(const std::string &text, std::size_t longest)
   {
     std::string result;

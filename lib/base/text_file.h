@@ -17,6 +17,9 @@ namespace plumbline::base
   /// @throws InputError  control characters, no UTF-8; by line
   void check_text(const std::string &text, const std::string &what);
 
+  /// @param ending  e.g. ".prm"
+  bool has_ending(const std::string &file, const std::string &ending);
+
   /// A piece of input for a message: its first characters, others than printable ones as '?'.
   std::string shown(const std::string &text, std::size_t longest = 40);
 } // namespace plumbline::base

@@ -22,6 +22,9 @@ namespace plumbline::geometry
     constexpr std::array writes_files = {"Save", "Print", "CreateDir", "Plugin"};
     constexpr std::array reads_scripts = {"Include", "Merge", "MergeWithBoundingBox",
                                           "ShapeFromFile"};
+    /// Messages, which a '>' turns into files.
+    constexpr std::array prints = {"Printf", "Error"};
+
     /// Where gmsh skips a branch, a loop or a macro it looks for these, in quotes and as part of a
     /// word, too, and goes on behind them.
     constexpr std::array ends_skipping = {"EndIf", "Else", "EndFor", "Return"};
@@ -90,7 +93,7 @@ namespace plumbline::geometry
             if (is_one_of(reads_scripts, word))
               fail_computed(word);
             word = take_word();
-            is_printing = is_printing || word == "Printf" || word == "Error";
+            is_printing = is_printing || is_one_of(prints, word);
             check_word(word);
           }
           else

@@ -10,6 +10,7 @@
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <deque>
@@ -88,9 +89,11 @@ namespace plumbline::geometry
     void check_counts(const std::string &generator, const std::string &arguments,
                       const std::string &source)
     {
+      static const std::array<std::string, 2> counts_first = {"hyper_cross", "cheese"};
       const double most = std::floor(std::sqrt(most_cells));
-      const bool begins_with_counts = generator.compare(0, 10, "subdivided") == 0 ||
-                                      generator == "hyper_cross" || generator == "cheese";
+      const bool begins_with_counts =
+          generator.compare(0, 10, "subdivided") == 0 ||
+          std::find(counts_first.begin(), counts_first.end(), generator) != counts_first.end();
       std::istringstream all(arguments);
       bool is_first = true;
       for (std::string argument; std::getline(all, argument, ':'); is_first = false)

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <limits>
 #include <map>
+#include <set>
 #include <sstream>
 #include <tuple>
 #include <unordered_map>
@@ -27,6 +28,13 @@ namespace plumbline::geometry
     constexpr std::array other_surfaces = {9L,  10L, 16L, 20L, 21L, 22L, 23L, 24L, 25L,
                                            36L, 37L, 38L, 39L, 40L, 41L, 42L, 43L, 44L,
                                            45L, 46L, 47L, 48L, 49L, 50L, 51L};
+
+    using Section = MshSection;
+
+    std::string begin_of(Section section)
+    {
+      return "$" + base::word(section);
+    }
 
     template <std::size_t n>
     bool is_one_of(const std::array<long, n> &types, long type)
@@ -59,12 +67,11 @@ namespace plumbline::geometry
 
       Mesh read(bool has_collar)
       {
-        const std::string first(words_.word());
-        if (first != "$MeshFormat")
+        if (words_.word() != begin_of(Section::format))
           words_.fail("does not begin with $MeshFormat, as .msh files do; mesh a .geo file, or "
                       "export the mesh from gmsh");
         format();
-        end_section("MeshFormat", 1);
+        end_section(base::word(Section::format), 1);
         bool has_elements = false;
         for (std::string word(words_.word()); !word.empty(); word = words_.word())
         {
@@ -73,16 +80,17 @@ namespace plumbline::geometry
             words_.fail("text stands outside of the sections ($Nodes, $Elements, ...); mend the "
                         "file, or export it again");
           const std::string name = word.substr(1);
-          if (name == "Nodes" && has_elements)
+          const auto section = base::from_word<Section>(name);
+          if (section == Section::nodes && has_elements)
             words_.fail("$Nodes stands behind $Elements, which needs it; export the file again");
-          has_elements = has_elements || name == "Elements";
-          if (name == "PhysicalNames")
+          has_elements = has_elements || section == Section::elements;
+          if (section == Section::groups)
             physical_names();
-          else if (name == "Entities" && is_4_)
+          else if (section == Section::entities && is_4_)
             entities();
-          else if (name == "Nodes")
+          else if (section == Section::nodes)
             is_4_ ? nodes_4() : nodes_2();
-          else if (name == "Elements")
+          else if (section == Section::elements)
             is_4_ ? elements_4() : elements_2();
           else
           {
@@ -109,10 +117,12 @@ namespace plumbline::geometry
         words_.integer("the bytes of a number", 1, most);
       }
 
+      static std::string end_of(const std::string &name) { return "$End" + name; }
+
       void end_section(const std::string &name, std::size_t begin)
       {
         const std::string_view word = words_.word();
-        if (word == "$End" + name)
+        if (word == end_of(name))
           return;
         words_.fail(word.empty() ? "the file ends within $" + name + ", begun in line " +
                                        std::to_string(begin) + "; it was cut off, export it again"
@@ -127,7 +137,7 @@ namespace plumbline::geometry
         {
           words_.skip_line();
           word = words_.word();
-        } while (!word.empty() && word != "$End" + name);
+        } while (!word.empty() && word != end_of(name));
         if (word.empty())
           end_section(name, begin);
       }
@@ -373,9 +383,9 @@ namespace plumbline::geometry
     std::istringstream head(text.substr(0, 100));
     std::string section, version, kind;
     head >> section >> version >> kind;
-    return section == "$MeshFormat" &&
-           (kind == "1" || version == "1" || version == "4" || version == "4.0" ||
-            version == "1.0" || version == "3" || version == "3.0");
+    static const std::set<std::string> others = {"1", "1.0", "3", "3.0", "4", "4.0"};
+    const std::string binary = "1";
+    return section == begin_of(Section::format) && (kind == binary || others.count(version) > 0);
   }
 
   Mesh read_msh(const std::string &text, const std::string &source, bool has_collar)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/choice.h"
 #include "base/error.h"
 
 #include <charconv>
@@ -9,6 +10,16 @@
 
 namespace plumbline::geometry
 {
+  /// Sections of a .msh file that count; others are skipped.
+  enum class MshSection
+  {
+    format,
+    groups, ///< of cells, by name
+    entities,
+    nodes,
+    elements
+  };
+
   /// The words of a text one by one, and the lines they stand in, for messages.
   class MshWords
   {
@@ -104,3 +115,10 @@ namespace plumbline::geometry
     std::size_t at_ = 0, line_ = 1;
   };
 } // namespace plumbline::geometry
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<geometry::MshSection> =
+      std::array{"MeshFormat", "PhysicalNames", "Entities", "Nodes", "Elements"};
+} // namespace plumbline::base

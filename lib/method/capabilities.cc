@@ -40,6 +40,8 @@ namespace plumbline::method
         Capability::nonlocal);
     add(scene.time.is_dynamic(), Capability::dynamic);
     add(scene.material.is_double_well(), Capability::double_well);
+    add(scene.time.is_dynamic() && scene.material.is_double_well() && !scene.domain.is_periodic,
+        Capability::double_well_collar);
     add(scene.domain.is_periodic, Capability::periodic);
     return needed;
   }
@@ -78,6 +80,10 @@ namespace plumbline::method
           "make e^(-beta du^2/r) a layer at r = 0 that no fixed quadrature resolves, and cracks "
           "strains of 1/h",
           "write bond-based"};
+    case Capability::double_well_collar:
+      return {"u is given in a collar around double wells, but nonlinear Galerkin forces are those "
+              "of a torus",
+              "write Domain/boundary = periodic"};
     case Capability::periodic:
       return {"Domain/boundary = periodic", "write constrained"};
     }

@@ -23,7 +23,8 @@ namespace plumbline::method
     nonlocal,         ///< a solution at a horizon, not its local limit
     dynamic,          ///< motions, see scene::TimeSection
     double_well,
-    periodic ///< a torus
+    double_well_collar, ///< with u given all around
+    periodic            ///< a torus
   };
 
   using Capabilities = std::set<Capability>;
@@ -45,9 +46,18 @@ namespace plumbline::method
 namespace plumbline::base
 {
   template <>
-  inline constexpr auto words<method::Capability> =
-      std::array{"lattice",          "quadrilaterals", "triangles", "mixed cells",
-                 "free boundary",    "heterogeneous",  "damage",    "zero collar dilatation",
-                 "mixed dilatation", "nonlocal",       "dynamic",   "double well",
-                 "periodic"};
+  inline constexpr auto words<method::Capability> = std::array{"lattice",
+                                                               "quadrilaterals",
+                                                               "triangles",
+                                                               "mixed cells",
+                                                               "free boundary",
+                                                               "heterogeneous",
+                                                               "damage",
+                                                               "zero collar dilatation",
+                                                               "mixed dilatation",
+                                                               "nonlocal",
+                                                               "dynamic",
+                                                               "double well",
+                                                               "double well in a collar",
+                                                               "periodic"};
 } // namespace plumbline::base

@@ -65,12 +65,11 @@ namespace plumbline::method
     }
   } // namespace
 
-  LatticeDiscretisation::LatticeDiscretisation(const scene::Scene &scene,
-                                               const scene::Problem &problem,
+  LatticeDiscretisation::LatticeDiscretisation(const scene::Problem &problem,
                                                geometry::NodeSet nodes, algebra::Stencil stencil,
                                                std::vector<double> mass)
       : lattice_(*problem.lattice), nodes_(std::move(nodes)), stencil_(std::move(stencil)),
-        mass_(std::move(mass)), backend_(scene.solver.operator_backend)
+        mass_(std::move(mass)), backend_(problem.settings.solver.operator_backend)
   {
   }
 

@@ -19,9 +19,8 @@ namespace plumbline::method
   {
   public:
     /// @param mass  as above
-    LatticeDiscretisation(const scene::Scene &scene, const scene::Problem &problem,
-                          geometry::NodeSet nodes, algebra::Stencil stencil,
-                          std::vector<double> mass);
+    LatticeDiscretisation(const scene::Problem &problem, geometry::NodeSet nodes,
+                          algebra::Stencil stencil, std::vector<double> mass);
 
     std::size_t n_unknowns() const override { return nodes_.n_unknowns(); }
     CaseData data(const scene::Problem &problem) const override;

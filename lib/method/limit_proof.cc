@@ -83,11 +83,11 @@ namespace plumbline::method
     }
   } // namespace
 
-  LimitProof prove_by_moments(const scene::Scene &scene, const scene::Problem &problem,
-                              const algebra::Stencil &stencil, double mass)
+  LimitProof prove_by_moments(const scene::Problem &problem, const algebra::Stencil &stencil,
+                              double mass)
   {
     LimitProof proof;
-    if (scene.study.regime != scene::Regime::delta)
+    if (!problem.settings.tends_to_local_limit)
       return proof;
     proof.defect = moment_defect(problem, stencil, mass);
     proof.answer = proof.has_wrong_moments() ? Answer::incompatible : Answer::compatible;
@@ -100,14 +100,13 @@ namespace plumbline::method
     return proof;
   }
 
-  LimitProof prove_galerkin(const scene::Scene &scene, const scene::Problem &problem,
-                            const Diagnostics &diagnostics)
+  LimitProof prove_galerkin(const scene::Problem &problem, const Diagnostics &diagnostics)
   {
     LimitProof proof;
-    if (scene.study.regime != scene::Regime::delta)
+    if (!problem.settings.tends_to_local_limit)
       return proof;
     const bool has_entries = problem.lattice || diagnostics.is_outer_error_known;
-    if (!scene.is_homogeneous() || scene.domain.is_free_body)
+    if (!problem.is_homogeneous || problem.body)
       proof.reason = "no theorem for this material or boundary";
     else if (!is_non_increasing_and_positive(problem.kernel))
       proof.reason = "no theorem for a kernel that is negative or increases with distance";

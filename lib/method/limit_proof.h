@@ -15,8 +15,8 @@ namespace plumbline::method
   /// to show, which refuses stencils that are not positive definite.
   /// @param mass  1 for equations at nodes, h² for tested ones [1 or length^2]
   /// @pre  stencil.n_blocks() == problem.n_components: one family of nodes
-  LimitProof prove_by_moments(const scene::Scene &scene, const scene::Problem &problem,
-                              const algebra::Stencil &stencil, double mass);
+  LimitProof prove_by_moments(const scene::Problem &problem, const algebra::Stencil &stencil,
+                              double mass);
 
   /// A conforming Galerkin method of degree 1 or more. Its space holds the continuous piecewise
   /// linear (on quadrilaterals bilinear) functions, which are dense in the local energy space
@@ -26,6 +26,5 @@ namespace plumbline::method
   /// kernels, all that a scene can have, make discontinuous spaces conforming too. Unknown
   /// elsewhere: for coefficients that vary, free bodies, and entries by quadrature of unknown
   /// error.
-  LimitProof prove_galerkin(const scene::Scene &scene, const scene::Problem &problem,
-                            const Diagnostics &diagnostics);
+  LimitProof prove_galerkin(const scene::Problem &problem, const Diagnostics &diagnostics);
 } // namespace plumbline::method

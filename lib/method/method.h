@@ -2,6 +2,7 @@
 
 #include "method/capabilities.h"
 #include "method/discretisation.h"
+#include "method/side.h"
 
 #include <array>
 #include <memory>
@@ -17,8 +18,12 @@ namespace plumbline::method
     std::array<double, 2> extents{}; ///< of Ω's bounding box on a lattice [cells]
     double n_cells = 0, n_free = 0;  ///< of a mesh with its collar, and in Ω
     double cell_area = 0;            ///< of a mesh, in the mean [length^2]
+    unsigned int n_components = 1;
+    bool is_body = false;        ///< with a free boundary
+    bool has_dilatation = false; ///< so that bonds are as long as two horizons
 
     bool is_lattice() const { return extents[0] > 0; }
+    double reach() const { return has_dilatation ? 2 * level.horizon : level.horizon; }
   };
 
   /// A way to solve scenes, on either side.
@@ -27,7 +32,7 @@ namespace plumbline::method
   public:
     virtual ~Method() = default;
     virtual std::string name() const = 0;
-    virtual std::string family() const = 0; ///< "meshfree", "reference" or "local"
+    virtual Side side() const = 0;
     virtual std::string help() const = 0;
 
     /// Whether Methods/names = all takes it: not where it is there to show how it fails.
@@ -36,22 +41,21 @@ namespace plumbline::method
     /// What a scene may need of it; see study/refusal.h.
     virtual Capabilities can() const { return all_capabilities(); }
 
-    /// Empty if the method can do the scene, else the reason that is none of its capabilities.
-    /// @param problem  of any case and level
-    virtual std::string why_not(const scene::Scene &scene, const scene::Problem &problem) const = 0;
+    /// Empty if the method can do the problem, of any case and level, else the reason that is none
+    /// of its capabilities.
+    virtual std::string why_not(const scene::Problem &) const { return {}; }
 
     /// Collective over the team.
-    /// @param scene, problem  must outlive what is made
+    /// @param problem  must outlive what is made
     /// @throws NumericalError  there is none, e.g. weights are infeasible; @throws InputError  data
     /// that is not finite
     virtual std::unique_ptr<Discretisation>
-    discretise(const scene::Scene &scene, const scene::Problem &problem,
-               const base::Team &team = base::Team::all()) const = 0;
+    discretise(const scene::Problem &problem, const base::Team &team = base::Team::all()) const = 0;
 
     /// The most memory that a static solution takes above what stood before (Cost::peak_bytes),
     /// within a factor of 2 where it is more than some 50 MB, for one rank; 0 where it is little.
     /// Not in it: the factors of a direct solver.
-    virtual double expected_bytes(const scene::Scene &, const ProblemSize &) const { return 0; }
+    virtual double expected_bytes(const ProblemSize &) const { return 0; }
 
     /// The rate at which field and averages tend to a smooth solution at a fixed horizon, at least:
     /// p + 1 of Galerkin methods whose kernel is integrable. For error estimates.
@@ -63,9 +67,8 @@ namespace plumbline::method
 
   using Methods = std::vector<std::shared_ptr<const Method>>;
 
-  /// The cells that solutions are averaged over, one for each meshfree node: the lattice cells of
-  /// Ω, or squares around its inner vertices. One family of nodes with the given number of
-  /// components.
-  geometry::NodeSet comparison_nodes(const scene::Scene &scene, const geometry::Lattice &lattice,
-                                     unsigned int n_components);
+  /// The cells that solutions on a lattice are averaged over, one for each meshfree node: the
+  /// lattice cells of Ω, or squares around its inner vertices. One family of nodes with the given
+  /// number of components.
+  geometry::NodeSet comparison_nodes(const scene::Problem &problem, unsigned int n_components);
 } // namespace plumbline::method

@@ -37,12 +37,12 @@ namespace plumbline::method
         load[i] -= held.value[k] * values[held.column[k]];
   }
 
-  SparseDiscretisation::SparseDiscretisation(const scene::Scene &scene,
+  SparseDiscretisation::SparseDiscretisation(const scene::SolverSection &solver,
                                              algebra::SparseOptions options, const base::Team &team)
       : options_(std::move(options)), team_(team)
   {
-    options_.solver = scene.solver.linear_solver;
-    options_.iteration = scene.solver.iteration;
+    options_.solver = solver.linear_solver;
+    options_.iteration = solver.iteration;
   }
 
   void SparseDiscretisation::set_rows(PartedRows rows)

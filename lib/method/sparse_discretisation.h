@@ -23,8 +23,8 @@ namespace plumbline::method
   class SparseDiscretisation : public Discretisation
   {
   public:
-    /// Options of the scene's solver are added to those given.
-    SparseDiscretisation(const scene::Scene &scene, algebra::SparseOptions options,
+    /// What the scene chooses is added to the options given.
+    SparseDiscretisation(const scene::SolverSection &solver, algebra::SparseOptions options,
                          const base::Team &team);
 
     std::size_t n_unknowns() const override { return free_->n_rows(); }

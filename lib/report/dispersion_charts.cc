@@ -21,7 +21,7 @@ namespace plumbline::report
       for (const DispersionRow &row : results.rows)
         if (std::none_of(methods.begin(), methods.end(),
                          [&](const MethodName &one) { return one.name == row.method; }))
-          methods.push_back({row.method, row.family});
+          methods.push_back({row.method, row.side});
       return methods;
     }
 

@@ -144,7 +144,7 @@ namespace plumbline::report
     Json level_json(const study::DispersionRow &row)
     {
       Json json{{"method", row.method},
-                {"family", row.family},
+                {"family", base::word(row.side)},
                 {"series", row.series},
                 {"h", row.h},
                 {"horizon", row.horizon},

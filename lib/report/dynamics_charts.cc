@@ -86,7 +86,7 @@ namespace plumbline::report
         if (t.error != error)
           continue;
         Line &line = lines.of(label(results, t.method, t.problem, t.series, t.scheme),
-                              t.family != "meshfree");
+                              t.side != study::Side::meshfree);
         for (std::size_t i = 0; i < t.x.size(); ++i)
         {
           chart.data.rows.push_back({text_cell(t.method), text_cell(t.problem), text_cell(t.series),
@@ -117,7 +117,8 @@ namespace plumbline::report
           const std::string name =
               label(results, run) +
               (has_several(results.runs, &MotionRun::steps) ? ", " + run.steps : "");
-          lines.of(name, run.family != "meshfree").points.push_back({run.cost.seconds(), error});
+          lines.of(name, run.side != study::Side::meshfree)
+              .points.push_back({run.cost.seconds(), error});
           chart.data.rows.push_back({text_cell(run.method), text_cell(run.problem),
                                      text_cell(run.series), text_cell(run.scheme),
                                      number_cell(run.h), number_cell(run.step),
@@ -243,7 +244,7 @@ namespace plumbline::report
           if (y > floor)
             lines
                 .of(label(results, *run) + (has_steps ? ", " + run->steps : ""),
-                    run->family != "meshfree")
+                    run->side != study::Side::meshfree)
                 .points.push_back({t, y});
         }
       chart.plot.lines = lines.take();
@@ -303,9 +304,9 @@ namespace plumbline::report
     add(cost_chart(results), 2);
     add(trends_chart(results, results.orders, "nodal L2 | time", orders), 2);
     const auto shown = finest(results, false);
-    const auto stable =
-        std::find_if(shown.begin(), shown.end(),
-                     [](const MotionRun *run) { return run->scheme != "explicit Euler"; });
+    const auto stable = std::find_if(shown.begin(), shown.end(),
+                                     [](const MotionRun *run)
+                                     { return !analysis::scheme(run->scheme).is_explicit_euler; });
     if (!shown.empty())
       add(energies_chart(stable == shown.end() ? *shown.front() : **stable), 2);
     if (results.shows_blow_up)

@@ -42,7 +42,7 @@ namespace plumbline::report
     Json run_json(const study::MotionRun &run)
     {
       Json json = {{"method", run.method},
-                   {"family", run.family},
+                   {"family", base::word(run.side)},
                    {"case", run.problem},
                    {"series", run.series},
                    {"level", run.level},

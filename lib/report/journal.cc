@@ -1,6 +1,7 @@
 #include "report/journal.h"
 
 #include "base/error.h"
+#include "base/text_file.h"
 #include "report/formats.h"
 #include "report/json.h"
 
@@ -75,7 +76,7 @@ namespace plumbline::report
   study::Results read_results(const fs::path &folder)
   {
     const fs::path file = results_file(folder);
-    if (file.extension() == ".json")
+    if (base::has_ending(file.string(), ".json"))
       return read_json(file);
     std::ifstream in(file);
     std::string line;

@@ -7,21 +7,17 @@
 // The keys of results.json. Each stands here once; the same list writes and reads.
 namespace plumbline::report
 {
-  using study::Outcome;
   using Answer = study::LimitProof::Answer;
 
   // How the values of enumerations are called, in their order.
-  constexpr std::array<const char *, 5> names(Outcome)
-  {
-    return {"converges", "stalls", "undecided", "failed", "field only"};
-  }
   constexpr std::array<const char *, 3> names(Answer)
   {
     return {"unknown", "compatible", "incompatible"};
   }
-  constexpr auto names(study::Axis)
+  template <typename Enum>
+  constexpr auto names(Enum)
   {
-    return base::words<study::Axis>;
+    return base::words<Enum>;
   }
 
   template <typename Archive>
@@ -69,7 +65,7 @@ namespace plumbline::report
   void visit(Archive &a, study::Run &run)
   {
     a("method", run.method);
-    a("family", run.family);
+    a("family", run.side);
     a("problem", run.problem);
     a("series", run.series);
     a("level", run.level);
@@ -87,7 +83,7 @@ namespace plumbline::report
   void visit(Archive &a, study::Trend &trend)
   {
     a("method", trend.method);
-    a("family", trend.family);
+    a("family", trend.side);
     a("problem", trend.problem);
     a("series", trend.series);
     a("error", trend.error);

@@ -18,7 +18,7 @@ namespace plumbline::report
   {
     namespace
     {
-      std::string regime_words(const std::string &regime)
+      std::string regime_words(scene::Regime regime)
       {
         static const std::array<const char *, 4> texts = {
             "m-convergence: the horizon δ is fixed and h → 0, against the nonlocal solution",
@@ -26,8 +26,7 @@ namespace plumbline::report
             "asymptotic compatibility (AC)",
             "δm-convergence: δ → 0 and m = δ/h → ∞ together",
             "h is fixed and the horizon δ varies: how errors depend on the horizon"};
-        const auto known = base::from_word<scene::Regime>(regime);
-        return known ? texts[static_cast<std::size_t>(*known)] : regime;
+        return texts[static_cast<std::size_t>(regime)];
       }
 
       std::string outcome_class(study::Outcome outcome)

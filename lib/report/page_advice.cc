@@ -197,7 +197,8 @@ namespace plumbline::report::page
     if (results.advice.empty())
       return "";
     const std::vector<MethodName> names = methods(results);
-    if (results.regime == "horizon") // nothing is refined here, so nothing converges or stalls
+    if (results.regime ==
+        scene::Regime::horizon) // nothing is refined here, so nothing converges or stalls
       return section("advice", "Which method?", ranking(results, names));
     std::string open, more;
     for (std::size_t i = 0; i < results.advice.size(); ++i)

@@ -26,13 +26,12 @@ namespace plumbline::report
       found.push_back({problem, series, unique});
     }
 
-    void add_method(std::vector<MethodName> &found, const std::string &name,
-                    const std::string &family)
+    void add_method(std::vector<MethodName> &found, const std::string &name, study::Side side)
     {
       for (const MethodName &method : found)
         if (method.name == name)
           return;
-      found.push_back({name, family});
+      found.push_back({name, side});
     }
   } // namespace
 
@@ -50,9 +49,9 @@ namespace plumbline::report
   {
     std::vector<MethodName> found;
     for (const study::Run &run : results.runs)
-      add_method(found, run.method, run.family);
+      add_method(found, run.method, run.side);
     for (const study::Trend &trend : results.trends)
-      add_method(found, trend.method, trend.family);
+      add_method(found, trend.method, trend.side);
     return found;
   }
 

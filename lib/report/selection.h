@@ -17,8 +17,9 @@ namespace plumbline::report
 
   struct MethodName
   {
-    std::string name, family;
-    bool is_reference() const { return family == "reference"; }
+    std::string name;
+    study::Side side = study::Side::meshfree;
+    bool is_reference() const { return side == study::Side::reference; }
   };
 
   /// In the order in which they were run.

@@ -49,24 +49,22 @@ namespace plumbline::report
       return text;
     }
 
-    std::string verdict_class(const std::string &verdict)
-    {
-      return verdict == "stable" ? "converges" : verdict == "unstable" ? "stalls" : "undecided";
-    }
+    /// How verdicts look: sign and style, in their order.
+    constexpr std::array<std::pair<const char *, const char *>, 3> looks = {
+        {{"✓", "converges"}, {"?", "undecided"}, {"✗", "stalls"}}};
 
     std::string header(const StabilityResults &results)
     {
       std::vector<std::string> facts{std::to_string(results.verdicts.size()) + " methods",
                                      std::to_string(results.rows.size()) + " operators"};
-      for (const auto &[verdict, sign] :
-           {std::pair{"stable", "✓"}, std::pair{"conditionally stable", "?"},
-            std::pair{"unstable", "✗"}})
-        facts.push_back(std::string(sign) + " " +
-                        std::to_string(std::count_if(
-                            results.verdicts.begin(), results.verdicts.end(),
-                            [&, verdict = std::string(verdict)](const study::StabilityVerdict &v)
-                            { return v.verdict == verdict; })) +
-                        " " + verdict);
+      for (std::size_t i = 0; i < looks.size(); ++i)
+      {
+        const auto verdict = static_cast<study::StabilityAnswer>(i);
+        const auto n =
+            std::count_if(results.verdicts.begin(), results.verdicts.end(),
+                          [&](const study::StabilityVerdict &v) { return v.verdict == verdict; });
+        facts.push_back(looks[i].first + (" " + std::to_string(n)) + " " + base::word(verdict));
+      }
       return page::plain_header(results.scene_name, "stability", results.purpose, facts);
     }
 
@@ -75,8 +73,8 @@ namespace plumbline::report
       std::string text = "<div class=\"wide\"><table class=\"verdicts\">\n<tbody>\n";
       for (const study::StabilityVerdict &v : results.verdicts)
         text += "<tr><th class=\"method\" scope=\"row\">" + escape_html(v.method) +
-                "</th><td class=\"" + verdict_class(v.verdict) + "\"><b>" + escape_html(v.verdict) +
-                "</b>" +
+                "</th><td class=\"" + looks[static_cast<std::size_t>(v.verdict)].second + "\"><b>" +
+                base::word(v.verdict) + "</b>" +
                 (v.condition.empty() ? "" : "<small>" + escape_html(v.condition) + "</small>") +
                 "</td><td style=\"max-width: 100ch\">" + escape_html(v.explanation) +
                 "</td></tr>\n";
@@ -135,7 +133,7 @@ namespace plumbline::report
       const study::Stability &s = row.stability;
       const algebra::Eigenvalues &e = s.eigenvalues;
       return {{"method", row.method},
-              {"family", row.family},
+              {"family", base::word(row.side)},
               {"series", row.series},
               {"h", row.h},
               {"horizon", row.horizon},
@@ -200,7 +198,7 @@ namespace plumbline::report
                                 {"inverse_norm", t.inverse_norm}});
     for (const study::StabilityVerdict &v : results.verdicts)
       json["verdicts"].push_back({{"method", v.method},
-                                  {"verdict", v.verdict},
+                                  {"verdict", base::word(v.verdict)},
                                   {"condition", v.condition},
                                   {"explanation", v.explanation}});
     return json.dump(2) + "\n";

@@ -95,7 +95,7 @@ namespace plumbline::report
       std::vector<MethodName> methods;
       for (const StabilityRow &row : results.rows)
         if (methods.empty() || methods.back().name != row.method)
-          methods.push_back({row.method, row.family});
+          methods.push_back({row.method, row.side});
       return methods;
     }
 

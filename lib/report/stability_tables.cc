@@ -98,8 +98,8 @@ namespace plumbline::report
     Table table;
     table.columns = {"method", "verdict", "condition", "explanation"};
     for (const study::StabilityVerdict &v : results.verdicts)
-      table.rows.push_back({text_cell(v.method), text_cell(v.verdict), text_cell(v.condition),
-                            text_cell(v.explanation)});
+      table.rows.push_back({text_cell(v.method), text_cell(base::word(v.verdict)),
+                            text_cell(v.condition), text_cell(v.explanation)});
     return table;
   }
 

@@ -259,7 +259,7 @@ namespace plumbline::report
         return text;
       };
       table.rows.push_back({text_cell(method.name),
-                            text_cell(method.family),
+                            text_cell(base::word(method.side)),
                             {{span(fewest, most)}, span(fewest, most), true},
                             number_cell(ratio),
                             count_cell(n_negative),

@@ -1,6 +1,7 @@
 #include "scene/checks.h"
 
 #include "base/error.h"
+#include "base/text_file.h"
 #include "physics/expression.h"
 #include "scene/values.h"
 
@@ -272,7 +273,7 @@ namespace plumbline::scene
       const MeshSource &mesh = scene.domain.mesh;
       const std::string &nodes = scene.methods.nodes.name;
       const NodeKind kind = scene.methods.nodes.kind();
-      const bool is_csv = nodes.size() > 4 && nodes.substr(nodes.size() - 4) == ".csv";
+      const bool is_csv = base::has_ending(nodes, ".csv");
       const std::string on_mesh =
           "Methods/nodes = " + nodes + " with Domain/mesh = " + mesh.name + ": ";
       require(kind != NodeKind::file || is_csv,

@@ -55,6 +55,13 @@ namespace plumbline::scene
     file  ///< .csv, by its name
   };
 
+  enum class Boundary
+  {
+    constrained, ///< u is given in the collar
+    free,        ///< and families end there
+    periodic     ///< a torus
+  };
+
   /// How a sweep refines.
   enum class Regime
   {
@@ -138,6 +145,8 @@ namespace plumbline::base
   inline constexpr auto words<scene::LocalSolution> = std::array{"solution", "none", "computed"};
   template <>
   inline constexpr auto words<scene::NodeKind> = std::array{"centres", "vertices", "mesh"};
+  template <>
+  inline constexpr auto words<scene::Boundary> = std::array{"constrained", "free", "periodic"};
   template <>
   inline constexpr auto words<scene::Regime> = std::array{"m", "delta", "delta-m", "horizon"};
   template <>

@@ -6,13 +6,13 @@
 
 namespace plumbline::scene
 {
-  std::vector<char> find_ghosts(const Scene &scene, double horizon,
+  std::vector<char> find_ghosts(const Damage &damage, double horizon,
                                 const geometry::NodeCells &cells)
   {
     std::vector<char> is_ghost;
-    if (scene.domain.outside.empty())
+    if (damage.outside.empty())
       return is_ghost;
-    const physics::Expression outside("Domain/outside", scene.domain.outside, {{"delta", horizon}});
+    const physics::Expression outside("Domain/outside", damage.outside, {{"delta", horizon}});
     for (const dealii::Point<2> &x : cells.nodes)
       is_ghost.push_back(static_cast<char>(outside(x) > 0));
     return is_ghost;
@@ -20,13 +20,14 @@ namespace plumbline::scene
 
   void check_damage(const Scene &scene, double horizon, const geometry::NodeCells &cells)
   {
-    const auto is_ghost = find_ghosts(scene, horizon, cells);
+    const Damage damage{scene.domain.cracks, scene.domain.outside};
+    const auto is_ghost = find_ghosts(damage, horizon, cells);
     std::string key = "Domain/outside";
     try
     {
       geometry::check_ghosts(is_ghost, cells);
       key = "Domain/cracks";
-      geometry::check_cracks(scene.domain.cracks, cells, is_ghost, horizon);
+      geometry::check_cracks(damage.cracks, cells, is_ghost, horizon);
     }
     catch (const InputError &error)
     {

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "geometry/node_cells.h"
-#include "scene/scene.h"
+#include "scene/problem.h"
 
 namespace plumbline::scene
 {
-  /// Of each node whether it lies beyond a free surface; empty where the scene has none.
-  std::vector<char> find_ghosts(const Scene &scene, double horizon,
+  /// Of each node whether it lies beyond a free surface; empty where there is none.
+  std::vector<char> find_ghosts(const Damage &damage, double horizon,
                                 const geometry::NodeCells &cells);
 
   /// Cracks and free surfaces can be used with the nodes of a level.

@@ -104,7 +104,7 @@ namespace plumbline::scene
       if (!scene.reference.method)
         return;
       const std::string given = "Reference/method = " + *scene.reference.method;
-      require(*scene.reference.method == "torus",
+      require(scene.reference.is_torus(),
               given + " is for statics; motions take torus, or none and Problem/solution");
       require(scene.domain.is_periodic && scene.material.is_double_well(),
               given + " needs Domain/boundary = periodic and Material/model = double well");
@@ -129,7 +129,7 @@ namespace plumbline::scene
       return check_crack(scene);
     const TimeSection &time = scene.time;
     const std::string torus = "Reference/method = torus";
-    require(time.is_dynamic() || !scene.reference.method || *scene.reference.method != "torus",
+    require(time.is_dynamic() || !scene.reference.is_torus(),
             torus + " is for motions; give Time/final time, or a Galerkin method");
     if (!time.is_dynamic())
       return;

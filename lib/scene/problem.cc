@@ -133,11 +133,11 @@ namespace plumbline::scene
     };
 
     /// The static load of a solution.
-    ChebyshevField::Function manufactured_load(const Scene &scene, const Problem &problem,
-                                               const Expression &u, const Extent &extent)
+    ChebyshevField::Function manufactured_load(const Problem &problem, const Expression &u,
+                                               const Extent &extent)
     {
-      if (scene.material.is_double_well())
-        return WellLoad{physics::WellForce<2>(make_double_well(scene, problem.horizon())), u, {}};
+      if (problem.double_well)
+        return WellLoad{physics::WellForce<2>(*problem.double_well), u, {}};
       const physics::ManufacturedLoad bonds(problem.kernel, u, problem.coefficient);
       if (!problem.dilatation)
         return bonds;
@@ -149,6 +149,60 @@ namespace plumbline::scene
                       *problem.dilatation, dilatation_of(u, *problem.dilatation, noise, extent))](
               const Point<2> &x, unsigned int c) { return bonds(x, c) + force(x, c); };
     }
+
+    MethodSettings method_settings(const Scene &scene)
+    {
+      return {scene.methods.nodes.are_vertices(),
+              scene.methods.loads_are_averages,
+              scene.study.regime == Regime::delta,
+              scene.quadrature,
+              scene.geometry,
+              scene.solver};
+    }
+
+    /// ω of double wells, which falls to 0 at the boundary of a box.
+    double smoothstep(const geometry::Box &box, double horizon, const Point<2> &x)
+    {
+      double distance = horizon;
+      for (unsigned int a = 0; a < 2; ++a)
+        distance = std::min({distance, x[a] - box.lower[a], box.upper[a] - x[a]});
+      const double t = std::max(0., distance) / horizon;
+      return t * t * (3 - 2 * t);
+    }
+
+    /// What does not follow from cells or fields.
+    Problem without_data(const Scene &scene, const Level &level, const physics::Kernel<2> &kernel)
+    {
+      Problem problem{{},
+                      {},
+                      {},
+                      {},
+                      level.h,
+                      kernel,
+                      {},
+                      make_dilatation(scene, level.horizon),
+                      kernel.n_components(),
+                      {},
+                      {},
+                      {},
+                      {}};
+      problem.is_load_given = !scene.problem.loads.empty();
+      problem.is_homogeneous = scene.is_homogeneous();
+      problem.is_periodic = scene.domain.is_periodic;
+      problem.is_floating = scene.domain.is_floating;
+      problem.has_collar_dilatation = scene.material.has_collar_dilatation;
+      problem.damage = {scene.domain.cracks, scene.domain.outside};
+      if (scene.domain.is_free_body)
+        problem.lame = scene.material.lame();
+      if (scene.material.is_double_well())
+        problem.double_well = make_double_well(scene, level.horizon);
+      if (scene.material.boundary_function == BoundaryFunction::smoothstep)
+        problem.boundary_function =
+            [box = scene.domain.boxes.include.front(), horizon = level.horizon](const Point<2> &x)
+        { return smoothstep(box, horizon, x); };
+      problem.settings = method_settings(scene);
+      return problem;
+    }
   } // namespace
 
   Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level, double t,
@@ -156,9 +210,7 @@ namespace plumbline::scene
   {
     const physics::Kernel<2> kernel = make_kernel(scene, level.horizon);
     const unsigned int n_components = kernel.n_components();
-    Problem problem{
-        {},           {}, {}, {}, level.h, kernel, {}, make_dilatation(scene, level.horizon),
-        n_components, {}, {}, {}, {}};
+    Problem problem = without_data(scene, level, kernel);
     if (scene.domain.is_free_body)
     {
       const geometry::VertexCells body = make_body(scene, level);
@@ -198,7 +250,7 @@ namespace plumbline::scene
 
     if (known_load != nullptr)
       problem.load = *known_load;
-    else if (!scene.problem.loads.empty())
+    else if (problem.is_load_given)
       problem.load = field("Problem/load", scene.problem.loads[case_index].expression);
     else if (!problem.solution)
       problem.load = nothing;
@@ -207,8 +259,7 @@ namespace plumbline::scene
       const Expression u =
           expression("Problem/solution", scene.problem.solutions[case_index].expression);
       const double noise = noise_of(kernel, *problem.solution, n_components, omega);
-      problem.load =
-          with_series(manufactured_load(scene, problem, u, omega), n_components, omega, noise);
+      problem.load = with_series(manufactured_load(problem, u, omega), n_components, omega, noise);
     }
     return problem;
   }

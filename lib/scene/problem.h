@@ -25,8 +25,28 @@ namespace plumbline::scene
     }
   };
 
-  /// One case of a scene at one level: what a method needs to know, and nothing of other levels. It
-  /// stands either on a lattice or on a mesh with the cells of its nodes.
+  /// Where bonds are broken.
+  struct Damage
+  {
+    std::vector<std::vector<dealii::Point<2>>> cracks; ///< lines that break the bonds across them
+    std::string outside; ///< an expression that is positive beyond free surfaces; empty: none
+
+    bool is_there() const { return !cracks.empty() || !outside.empty(); }
+  };
+
+  /// What a scene asks of methods besides its problem.
+  struct MethodSettings
+  {
+    bool nodes_are_vertices = false;   ///< of lattices, with their comparison cells; else centres
+    bool loads_are_averages = false;   ///< of meshfree methods: over the cells, not at the nodes
+    bool tends_to_local_limit = false; ///< horizon and mesh are refined together, m held fixed
+    QuadratureSection quadrature = {};
+    GeometrySection geometry = {};
+    SolverSection solver = {};
+  };
+
+  /// One case of a scene at one level: all that a method needs to know, and nothing of other
+  /// levels. It stands either on a lattice or on a mesh with the cells of its nodes.
   struct Problem
   {
     std::optional<geometry::Lattice> lattice;
@@ -43,6 +63,17 @@ namespace plumbline::scene
     Field constraint;                    ///< u in the collar
     std::optional<Field> solution;       ///< the exact nonlocal solution, if known
     std::optional<Field> local_solution; ///< the solution of the local limit, if known
+    bool is_load_given = false;          ///< else it is manufactured from the solution
+    bool is_homogeneous = true;          ///< no constant of the material varies in space
+    bool is_periodic = false;            ///< a torus
+    bool is_floating = false;            ///< a body of which nothing is fixed
+    bool has_collar_dilatation = true;   ///< else the dilatation counts as 0 there
+    Damage damage = {};
+    /// λ and μ of a body with a free boundary; give each thread its own copy.
+    std::function<physics::Lame(const dealii::Point<2> &)> lame = {};
+    std::optional<physics::DoubleWell> double_well = {}; ///< `kernel` is that of its small strains
+    std::function<double(const dealii::Point<2> &)> boundary_function = {}; ///< ω; empty: 1
+    MethodSettings settings = {};
     double horizon() const { return kernel.horizon(); }
   };
 

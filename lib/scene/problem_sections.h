@@ -36,6 +36,7 @@ namespace plumbline::scene
     bool is_lattice() const { return kind() == MeshKind::lattice; }
     bool is_of_boxes() const { return base::from_word<MeshKind>(name).has_value(); }
     bool is_file() const { return kind() == MeshKind::file; }
+    bool is_msh() const; ///< a file that says its cells, whatever h is
   };
 
   struct DomainSection

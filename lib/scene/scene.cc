@@ -179,7 +179,7 @@ namespace plumbline::scene
   {
     const std::string what = opening(file);
     const std::string text = base::read_text_file(file, what, most_bytes, "a .prm or .json file");
-    const bool is_json = std::filesystem::path(file).extension() == ".json";
+    const bool is_json = base::has_ending(file, ".json");
     return build(file, what,
                  is_json ? read_json_settings(text, what) : read_settings(file, text, what),
                  overrides);

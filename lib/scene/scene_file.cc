@@ -1,5 +1,6 @@
 #include "scene/scene_file.h"
 
+#include "base/choice.h"
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/text_file.h"
@@ -8,6 +9,27 @@
 #include <cctype>
 #include <filesystem>
 #include <map>
+
+namespace plumbline::scene
+{
+  namespace
+  {
+    /// What a line begins with.
+    enum class Command
+    {
+      subsection,
+      end,
+      set,
+      include
+    };
+  } // namespace
+} // namespace plumbline::scene
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<scene::Command> = std::array{"subsection", "end", "set", "include"};
+} // namespace plumbline::base
 
 namespace plumbline::scene
 {
@@ -78,15 +100,16 @@ namespace plumbline::scene
           if (statement.empty())
             continue;
           const auto [word, rest] = first_word(statement);
-          if (word == "subsection" && !rest.empty())
+          const auto command = base::from_word<Command>(word);
+          if (command == Command::subsection && !rest.empty())
             sections.emplace_back(rest, place);
-          else if (word == "end" && rest.empty())
+          else if (command == Command::end && rest.empty())
           {
             if (sections.empty())
               fail(place, "'end' closes no subsection; take it out");
             sections.pop_back();
           }
-          else if (word == "set" && rest.find('=') != std::string::npos)
+          else if (command == Command::set && rest.find('=') != std::string::npos)
           {
             const std::size_t equals = rest.find('=');
             std::string key;
@@ -95,7 +118,7 @@ namespace plumbline::scene
             key += with_single_blanks(rest.substr(0, equals));
             add(key, without_blanks(rest.substr(equals + 1)), place);
           }
-          else if (word == "include" && !rest.empty())
+          else if (command == Command::include && !rest.empty())
             include(file, rest, parents, place);
           else
             fail(place, "'" + base::shown(statement) +

@@ -74,6 +74,8 @@ namespace plumbline::scene
     Estimate estimate = Estimate::automatic;
     double tolerance = 0; ///< relative; 0: only reported
 
+    bool is_torus() const { return method == "torus"; } ///< no method: of motions, without a mesh
+
     void declare(Keys &keys);
   };
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 namespace plumbline::scene
@@ -62,7 +63,9 @@ namespace plumbline::scene
 
   std::string method_name(const std::string &given)
   {
-    return given == "HHB" ? "QWJ" : given;
+    static const std::map<std::string, std::string> ours = {{"HHB", "QWJ"}};
+    const auto found = ours.find(given);
+    return found == ours.end() ? given : found->second;
   }
 
   std::vector<std::string> to_methods(const std::string &text)

@@ -216,23 +216,21 @@ namespace plumbline::study
     return result;
   }
 
-  std::vector<double> cell_averages(const Field &field, const scene::Scene &scene,
-                                    const scene::Problem &problem)
+  std::vector<double> cell_averages(const Field &field, const scene::Problem &problem)
   {
     if (problem.cells)
       return cell_averages(field, *problem.cells, problem.n_components);
     return cell_averages(field, *problem.lattice,
-                         method::comparison_nodes(scene, *problem.lattice, problem.n_components));
+                         method::comparison_nodes(problem, problem.n_components));
   }
 
-  std::vector<dealii::Point<2>> comparison_points(const scene::Scene &scene,
-                                                  const scene::Problem &problem)
+  std::vector<dealii::Point<2>> comparison_points(const scene::Problem &problem)
   {
     if (problem.cells)
       return {problem.cells->nodes.begin(),
               problem.cells->nodes.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free)};
     std::vector<dealii::Point<2>> points;
-    const NodeSet cells = method::comparison_nodes(scene, *problem.lattice, 1);
+    const NodeSet cells = method::comparison_nodes(problem, 1);
     for (int j = 0; j < cells.n[1]; ++j)
       for (int i = 0; i < cells.n[0]; ++i)
         if (cells.free(0, i, j))
@@ -329,8 +327,8 @@ namespace plumbline::study
     }
     map.quantity = "cell averages";
     const std::vector<double> target =
-        problem.solution ? cell_averages(*problem.solution, scene, problem) : reference;
-    const auto points = comparison_points(scene, problem);
+        problem.solution ? cell_averages(*problem.solution, problem) : reference;
+    const auto points = comparison_points(problem);
     for (std::size_t i = 0; i < target.size(); ++i)
       enter(points[i / problem.n_components], solution.averages[i] - target[i]);
     return map;
@@ -345,9 +343,8 @@ namespace plumbline::study
       if (is_wanted(scene, Quantity::nodal))
         enter(result, scene, Quantity::nodal, target, nodal_difference(problem, solution, field));
       if (is_wanted(scene, Quantity::averages))
-        enter(
-            result, scene, Quantity::averages, target,
-            averages_difference(problem, solution.averages, cell_averages(field, scene, problem)));
+        enter(result, scene, Quantity::averages, target,
+              averages_difference(problem, solution.averages, cell_averages(field, problem)));
       if (is_wanted(scene, Quantity::field))
         enter(result, scene, Quantity::field, target, field_difference(problem, solution, field));
     };

@@ -19,12 +19,10 @@ namespace plumbline::study
                                     unsigned int n_components);
 
   /// Over whichever cells the problem is compared on.
-  std::vector<double> cell_averages(const scene::Field &field, const scene::Scene &scene,
-                                    const scene::Problem &problem);
+  std::vector<double> cell_averages(const scene::Field &field, const scene::Problem &problem);
 
   /// The node of each comparison cell.
-  std::vector<dealii::Point<2>> comparison_points(const scene::Scene &scene,
-                                                  const scene::Problem &problem);
+  std::vector<dealii::Point<2>> comparison_points(const scene::Problem &problem);
 
   /// Averages over the comparison cells at h from averages over the lattice cells at h/2, which
   /// each square of side h is made of four of.

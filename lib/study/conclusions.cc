@@ -87,7 +87,7 @@ namespace plumbline::study
     {
       Trend trend;
       trend.method = first.method;
-      trend.family = first.family;
+      trend.side = first.side;
       trend.problem = first.problem;
       trend.series = first.series;
       trend.error = error;

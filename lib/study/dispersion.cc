@@ -219,21 +219,21 @@ namespace plumbline::study
     return study;
   }
 
-  std::vector<DispersionRow> measure_waves(const Method &method, const scene::Scene &scene,
-                                           const scene::Problem &problem, const WaveStudy &study,
-                                           const std::string &series, bool is_finest)
+  std::vector<DispersionRow> measure_waves(const Method &method, const scene::Problem &problem,
+                                           const WaveStudy &study, const std::string &series,
+                                           bool is_finest)
   {
     const Measurement measurement(problem, study);
     DispersionRow row;
     row.method = method.name();
-    row.family = method.family();
+    row.side = method.side();
     row.series = series;
     row.h = problem.h;
     row.horizon = problem.horizon();
     std::optional<algebra::WaveOperator> waves;
     try
     {
-      const auto discretisation = method.discretise(scene, problem, base::Team::alone());
+      const auto discretisation = method.discretise(problem, base::Team::alone());
       waves = discretisation->waves();
       row.limit = discretisation->diagnostics().limit;
     }
@@ -267,7 +267,7 @@ namespace plumbline::study
       {
         Trend first;
         first.method = row.method;
-        first.family = row.family;
+        first.side = row.side;
         first.series = row.series;
         first.error = "phase speed | nonlocal";
         first.axis = level_axis(scene.study.regime);

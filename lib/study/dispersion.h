@@ -33,9 +33,11 @@ namespace plumbline::study
   /// The waves of one method at one level of a scene.
   struct DispersionRow
   {
-    std::string method, family, series; ///< family: "meshfree" or "reference"
-    double h = 0, horizon = 0;          ///< [length]
-    std::vector<WaveCurve> curves;      ///< for each direction one of each polarisation
+    std::string method;
+    Side side = Side::meshfree; ///< of the method
+    std::string series;
+    double h = 0, horizon = 0;     ///< [length]
+    std::vector<WaveCurve> curves; ///< for each direction one of each polarisation
     /// For each polarisation the speed of long waves along an axis less that along the diagonal,
     /// over c.
     std::vector<double> anisotropy;
@@ -64,9 +66,9 @@ namespace plumbline::study
 
   /// One row of a method's own mass matrix, and one more, "NAME lumped", where that couples cells.
   /// @param is_finest  of its series: sampled from 2 to 200 h
-  std::vector<DispersionRow> measure_waves(const Method &method, const scene::Scene &scene,
-                                           const scene::Problem &problem, const WaveStudy &study,
-                                           const std::string &series, bool is_finest);
+  std::vector<DispersionRow> measure_waves(const Method &method, const scene::Problem &problem,
+                                           const WaveStudy &study, const std::string &series,
+                                           bool is_finest);
 
   /// For each method and series how the worst error of the longest wave's phase speed behaves,
   /// against the nonlocal operator's. That tends to the local limit's itself as the horizon falls,

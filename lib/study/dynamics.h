@@ -15,7 +15,9 @@ namespace plumbline::study
   /// One method, scheme and step on one case at one level.
   struct MotionRun
   {
-    std::string method, family, problem, series; ///< as of Run
+    std::string method; ///< as of Run
+    Side side = Side::meshfree;
+    std::string problem, series;
     std::string scheme;
     std::string steps; ///< as the scene says it, "dt = 0.01" or "0.5 of critical"
     unsigned int level = 0;

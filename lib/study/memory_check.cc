@@ -6,26 +6,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <sstream>
 
 namespace plumbline::study
 {
   namespace
   {
-    method::ProblemSize lattice_size(const scene::Scene &scene, const scene::Level &level)
+    /// What does not depend on cells.
+    method::ProblemSize size_of(const scene::Scene &scene, const scene::Level &level)
     {
       method::ProblemSize size;
       size.level = level;
+      size.n_components = scene.is_vector() ? 2 : 1;
+      size.is_body = scene.domain.is_free_body;
+      size.has_dilatation = scene.has_dilatation();
+      return size;
+    }
+
+    method::ProblemSize lattice_size(const scene::Scene &scene, const scene::Level &level)
+    {
+      method::ProblemSize size = size_of(scene, level);
       const auto n = geometry::Lattice(scene.domain.boxes, level.h).n_cells();
       size.extents = {static_cast<double>(n[0]), static_cast<double>(n[1])};
       return size;
     }
 
-    method::ProblemSize mesh_size(const geometry::Mesh &mesh, const scene::Level &level)
+    method::ProblemSize mesh_size(const scene::Scene &scene, const geometry::Mesh &mesh,
+                                  const scene::Level &level)
     {
-      method::ProblemSize size;
-      size.level = level;
+      method::ProblemSize size = size_of(scene, level);
       size.n_cells = static_cast<double>(mesh.cells.size());
       for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
       {
@@ -49,8 +58,7 @@ namespace plumbline::study
       return size;
     }
 
-    void require(const scene::Scene &scene, const Method &method, const method::ProblemSize &size,
-                 const std::string &what)
+    void require(const Method &method, const method::ProblemSize &size, const std::string &what)
     {
       std::ostringstream text;
       text << what << method.name() << " at h = " << size.level.h
@@ -59,7 +67,7 @@ namespace plumbline::study
         text << size.extents[0] << " x " << size.extents[1] << " cells)";
       else
         text << "some " << std::round(size.n_cells) << " cells)";
-      base::require_memory(method.expected_bytes(scene, size), text.str(),
+      base::require_memory(method.expected_bytes(size), text.str(),
                            "choose a larger h or a smaller horizon (Study/h, Study/m, "
                            "Study/horizon), run the first levels only (--levels), or leave this "
                            "method out (--methods)");
@@ -71,14 +79,15 @@ namespace plumbline::study
     {
       const std::string what = "the estimate of the error of ";
       if (size.is_lattice() || method.name() == scene.reference.method)
-        require(scene, method, at_level(size, {size.level.h / 2, size.level.horizon}), what);
+        require(method, at_level(size, {size.level.h / 2, size.level.horizon}), what);
       if (const auto higher = method.higher_degree(); higher && size.is_lattice())
-        require(scene, *higher, size, what);
+        require(*higher, size, what);
     }
 
     bool is_estimated(const scene::Scene &scene, const Method &method)
     {
-      if (method.family() != "reference" || scene.reference.estimate == scene::Estimate::none)
+      if (method.side() != method::Side::reference ||
+          scene.reference.estimate == scene::Estimate::none)
         return false;
       return method.name() == scene.reference.method ||
              scene.reference.estimate == scene::Estimate::every ||
@@ -90,9 +99,10 @@ namespace plumbline::study
     method::ProblemSize measured_size(const scene::Scene &scene, const scene::Level &level)
     {
       if (scene.domain.is_free_body)
-        return mesh_size(*scene::make_body(scene, level).mesh, level);
-      return scene.domain.mesh.is_lattice() ? lattice_size(scene, level)
-                                            : mesh_size(scene::make_mesh(scene, level), level);
+        return mesh_size(scene, *scene::make_body(scene, level).mesh, level);
+      return scene.domain.mesh.is_lattice()
+                 ? lattice_size(scene, level)
+                 : mesh_size(scene, scene::make_mesh(scene, level), level);
     }
 
     /// Whether the cells of a mesh are fewer where h is larger.
@@ -100,7 +110,7 @@ namespace plumbline::study
     {
       if (!scene.domain.mesh.is_file())
         return true;
-      if (std::filesystem::path(scene.domain.mesh.name).extension() == ".msh")
+      if (scene.domain.mesh.is_msh())
         return false;
       return measured_size(scene, {coarse.level.h / 2, coarse.level.horizon}).n_cells >
              1.5 * coarse.n_cells;
@@ -118,7 +128,7 @@ namespace plumbline::study
     {
       for (const auto &method : methods)
       {
-        require(scene, *method, size, "");
+        require(*method, size, "");
         if (is_estimated(scene, *method))
           require_estimate(scene, *method, size);
       }

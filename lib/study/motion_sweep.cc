@@ -70,7 +70,7 @@ namespace plumbline::study
               {
                 MotionRun run;
                 run.method = method->name();
-                run.family = method->family();
+                run.side = method->side();
                 run.problem = names[c];
                 run.series = series.name;
                 run.level = level;
@@ -104,7 +104,7 @@ namespace plumbline::study
           const double shared = problems.seconds();
           const scene::Problem &first = problems.at(0);
           area_ = area_of(first);
-          const auto discretisation = method.discretise(scene_, first, base::Team::alone());
+          const auto discretisation = method.discretise(first, base::Team::alone());
           const auto equation = discretisation->motion(scene_.time.is_lumped);
           if (!equation)
             throw NumericalError("its motion is not there");

@@ -42,7 +42,7 @@ namespace plumbline::study
     {
       MotionTrend trend;
       trend.method = run.method;
-      trend.family = run.family;
+      trend.side = run.side;
       trend.problem = run.problem;
       trend.series = run.series;
       trend.scheme = run.scheme;

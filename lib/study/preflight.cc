@@ -53,7 +53,7 @@ namespace plumbline::study
     if (scene.reference.method && !scene.time.is_dynamic()) // a motion's is no method
     {
       const auto reference = find_method(available, *scene.reference.method, "Reference/method");
-      if (reference->family() != "reference")
+      if (reference->side() != method::Side::reference)
         throw InputError("Reference/method: '" + *scene.reference.method +
                          "' is no Galerkin method, so nothing is known of its error; choose Q2, P2 "
                          "or another ('plumbline list methods')");

@@ -185,7 +185,7 @@ namespace plumbline::study
         estimate_.is_of_polygon = fine.is_cut && geometry_order(scene_) > 0;
         if (const auto higher = method_.higher_degree())
         {
-          const Solution other = analysis::solve(*higher, scene_, problem_);
+          const Solution other = analysis::solve(*higher, problem_);
           enter_p_change(distance(problem_, solution_, {other.averages, other.value}));
         }
       }
@@ -234,7 +234,7 @@ namespace plumbline::study
   ReferenceAverages solve_reference(const scene::Scene &scene, const scene::Problem &problem,
                                     unsigned int case_index, const Method &method)
   {
-    const Solution solution = analysis::solve(method, scene, problem);
+    const Solution solution = analysis::solve(method, problem);
     ReferenceAverages result{solution.averages, {}};
     result.estimate = scene.reference.estimate == scene::Estimate::none
                           ? Estimator(scene, problem, case_index, method, solution).outer()

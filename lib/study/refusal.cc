@@ -26,7 +26,7 @@ namespace plumbline::study
         if (other->is_in_all() && can_do(*other, needed))
         {
           all.push_back(other->name());
-          if (other->family() == method.family())
+          if (other->side() == method.side())
             alike.push_back(other->name());
         }
       const auto &names = alike.empty() ? all : alike;
@@ -52,7 +52,7 @@ namespace plumbline::study
         return need.text + "; " + take + (take.empty() || need.remedy.empty() ? "" : ", or ") +
                need.remedy;
       }
-    return method.why_not(scene, problem);
+    return method.why_not(problem);
   }
 
   std::string capability_table(const Methods &methods)

@@ -45,8 +45,7 @@ namespace plumbline::study
       constexpr double like = 1.5;
       try
       {
-        Resized result{centred(scene),
-                       scene::make_problem(centred(scene), case_index, {h, problem.horizon()})};
+        Resized result{scene::make_problem(centred(scene), case_index, {h, problem.horizon()})};
         if (result.problem.mesh)
         {
           const double ratio = mean_size(*result.problem.mesh) / mean_size(*problem.mesh);
@@ -62,9 +61,10 @@ namespace plumbline::study
       }
     }
 
-    Resized cut(const scene::Scene &scene, const scene::Problem &problem, unsigned int n)
+    Resized cut(const scene::Problem &problem, unsigned int n)
     {
-      Resized result{centred(scene), problem, true};
+      Resized result{problem, true};
+      result.problem.settings.geometry.n_checks = 0;
       for (; n > 1; n /= 2)
       {
         result.problem.mesh =
@@ -76,8 +76,7 @@ namespace plumbline::study
 
     geometry::NodeSet centres(const scene::Scene &scene, double h, unsigned int n_components)
     {
-      return method::comparison_nodes(centred(scene), geometry::Lattice(scene.domain.boxes, h),
-                                      n_components);
+      return free_nodes(geometry::Lattice(scene.domain.boxes, h), {{.5, false, 0}}, n_components);
     }
 
     /// Averages over the cells of a finer lattice, halving by halving over those of the problem.
@@ -88,8 +87,7 @@ namespace plumbline::study
       const auto is_last = [&] { return 2 * h > .75 * problem.h; };
       for (; !is_last(); h *= 2)
         averages = coarsen_averages(averages, centres(scene, h, n), centres(scene, 2 * h, n));
-      return coarsen_averages(averages, centres(scene, h, n),
-                              method::comparison_nodes(scene, *problem.lattice, n));
+      return coarsen_averages(averages, centres(scene, h, n), method::comparison_nodes(problem, n));
     }
   } // namespace
 
@@ -104,13 +102,12 @@ namespace plumbline::study
                 unsigned int n)
   {
     if (problem.lattice)
-      return {centred(scene),
-              scene::make_problem(centred(scene), case_index, {problem.h / n, problem.horizon()})};
+      return {scene::make_problem(centred(scene), case_index, {problem.h / n, problem.horizon()})};
     // beyond the free boundary of a body no field has values: its polygon stays as it is
     if (geometry_order(scene) > 0 && !problem.body)
       if (auto result = made_anew(scene, problem, case_index, problem.h / n))
         return std::move(*result);
-    return cut(scene, problem, n);
+    return cut(problem, n);
   }
 
   std::optional<Resized> coarser(const scene::Scene &scene, const scene::Problem &problem,
@@ -128,12 +125,12 @@ namespace plumbline::study
   ResizedSolution solve_resized(const Resized &resized, const scene::Scene &scene,
                                 const scene::Problem &problem, const Method &method)
   {
-    Solution solution = analysis::solve(method, resized.scene, resized.problem);
+    Solution solution = analysis::solve(method, resized.problem);
     if (problem.lattice)
       solution.averages =
           resized.problem.h < problem.h
               ? coarsened(std::move(solution.averages), scene, resized.problem.h, problem)
-              : cell_averages(scene::Field{solution.value, std::nullopt}, scene, problem);
+              : cell_averages(scene::Field{solution.value, std::nullopt}, problem);
     return {std::move(solution.averages), std::move(solution.value)};
   }
 } // namespace plumbline::study

@@ -10,7 +10,6 @@ namespace plumbline::study
   /// cells of the first one.
   struct Resized
   {
-    scene::Scene scene;
     scene::Problem problem;
     /// Cells cut in pieces, not made anew: they fill the same polygon, however curved the domain.
     bool is_cut = false;

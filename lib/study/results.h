@@ -2,6 +2,7 @@
 
 #include "base/cost.h"
 #include "method/diagnostics.h"
+#include "method/side.h"
 #include "study/axis.h"
 
 #include <array>
@@ -13,16 +14,17 @@ namespace plumbline::study
 {
   using method::Diagnostics;
   using method::LimitProof;
+  using method::Side;
 
   /// One method on one case at one level.
   struct Run
   {
-    std::string method;        ///< e.g. "IPA-AC"
-    std::string family;        ///< "meshfree", "reference" or "local"
-    std::string problem;       ///< case name, e.g. "case1"
-    std::string series;        ///< what is held fixed, e.g. "m = 3"
-    unsigned int level = 0;    ///< from coarse to fine
-    double h = 0, horizon = 0; ///< [length]
+    std::string method;         ///< e.g. "IPA-AC"
+    Side side = Side::meshfree; ///< of the method
+    std::string problem;        ///< case name, e.g. "case1"
+    std::string series;         ///< what is held fixed, e.g. "m = 3"
+    unsigned int level = 0;     ///< from coarse to fine
+    double h = 0, horizon = 0;  ///< [length]
     base::Cost cost;
     Diagnostics diagnostics;
     /// Of the solution: largest less least cell average of a component. A constant counts for
@@ -46,7 +48,9 @@ namespace plumbline::study
   /// One error over a sweep, and what it says.
   struct Trend
   {
-    std::string method, family, problem, series;
+    std::string method;
+    Side side = Side::meshfree; ///< of the method
+    std::string problem, series;
     std::string error; ///< "norm | target"
     Axis axis = Axis::mesh_size;
     std::vector<double> x;                       ///< values on the axis, coarse to fine
@@ -142,7 +146,8 @@ namespace plumbline::study
   /// Everything of one run of a scene, as written to results.json.
   struct Results
   {
-    std::string scene_name, purpose, regime;       ///< regime: "m", "delta", "delta-m" or "horizon"
+    std::string scene_name, purpose;
+    scene::Regime regime = scene::Regime::delta;
     std::string scene_text;                        ///< the scene as read, all keys
     std::map<std::string, std::string> provenance; ///< version, libraries, machine
     std::string decisive_error;                    ///< the "norm | target" that verdicts rest on
@@ -159,3 +164,10 @@ namespace plumbline::study
     bool is_complete = false; ///< false while a run is going on, or after an interrupt
   };
 } // namespace plumbline::study
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<study::Outcome> =
+      std::array{"converges", "stalls", "undecided", "failed", "field only"};
+} // namespace plumbline::base

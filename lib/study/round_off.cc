@@ -50,8 +50,7 @@ namespace plumbline::study
     return most;
   }
 
-  double round_off_error(const scene::Scene &scene, const scene::Problem &problem,
-                         const Solution &solution)
+  double round_off_error(const scene::Problem &problem, const Solution &solution)
   {
     constexpr double safety = 10, epsilon = std::numeric_limits<double>::epsilon();
     const double a = width(problem) / 2 + problem.horizon();
@@ -62,8 +61,7 @@ namespace plumbline::study
       largest = std::max(largest, std::abs(average));
     const double residual = std::max(solution.diagnostics.relative_residual, epsilon);
     const double solved_for = problem.lattice ? variation(problem, solution) : largest;
-    const double loaded_by =
-        scene.problem.loads.empty() ? largest : solved_for; // manufactured from u
+    const double loaded_by = problem.is_load_given ? solved_for : largest; // manufactured from u
     return safety * (epsilon * (amplification * loaded_by + largest) + residual * solved_for);
   }
 } // namespace plumbline::study

@@ -63,7 +63,7 @@ namespace plumbline::study
       return {};
     try
     {
-      const Solution whole = analysis::solve(method, full, problem);
+      const Solution whole = analysis::solve(method, problem);
       return Saving{method.name(), level.h,    level.horizon,
                     solution.cost, whole.cost, difference(solution, whole, level.h)};
     }

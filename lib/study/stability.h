@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/stability.h"
+#include "method/side.h"
 #include "study/axis.h"
 
 namespace plumbline::study
@@ -8,12 +9,15 @@ namespace plumbline::study
   using analysis::Consistency;
   using analysis::Modes;
   using analysis::Stability;
+  using method::Side;
 
   /// One method at one level of a scene.
   struct StabilityRow
   {
-    std::string method, family, series; ///< family: "meshfree", "reference" or "local"
-    double h = 0, horizon = 0;          ///< [length]
+    std::string method;
+    Side side = Side::meshfree; ///< of the method
+    std::string series;
+    double h = 0, horizon = 0; ///< [length]
     Stability stability;
     Consistency consistency;
     std::string failure; ///< empty, or why there is no operator
@@ -35,11 +39,18 @@ namespace plumbline::study
   /// @param rows  coarse to fine in each series
   std::vector<StabilityTrend> stability_trends(const std::vector<StabilityRow> &rows);
 
+  enum class StabilityAnswer
+  {
+    stable,
+    conditional, ///< see StabilityVerdict::condition
+    unstable
+  };
+
   /// What the levels of one method say together.
   struct StabilityVerdict
   {
     std::string method;
-    std::string verdict;     ///< "stable", "conditionally stable" or "unstable"
+    StabilityAnswer verdict = StabilityAnswer::unstable;
     std::string condition;   ///< e.g. "m >= 2.24"; empty: none
     std::string explanation; ///< one sentence with the numbers
   };
@@ -61,3 +72,10 @@ namespace plumbline::study
     std::vector<StabilityVerdict> verdicts;
   };
 } // namespace plumbline::study
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<study::StabilityAnswer> =
+      std::array{"stable", "conditionally stable", "unstable"};
+} // namespace plumbline::base

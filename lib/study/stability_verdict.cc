@@ -123,7 +123,7 @@ namespace plumbline::study
   StabilityVerdict judge(const std::vector<StabilityRow> &rows)
   {
     constexpr double most_decay = .5;
-    StabilityVerdict result{rows.front().method, "unstable", "", ""};
+    StabilityVerdict result{rows.front().method, StabilityAnswer::unstable, "", ""};
     const auto first_not = [&](const auto &is)
     { return std::find_if_not(rows.begin(), rows.end(), is); };
     for (const StabilityTrend &trend : stability_trends(rows))
@@ -148,11 +148,11 @@ namespace plumbline::study
                                  " or more (least at " + place(*lowest) + ")";
     if (first_not(is_good) == rows.end())
     {
-      result.verdict = "stable";
+      result.verdict = StabilityAnswer::stable;
       result.explanation = coercive;
       return result;
     }
-    result.verdict = "conditionally stable";
+    result.verdict = StabilityAnswer::conditional;
     for (const auto &is : {is_good, is_sound})
       if (const auto m = threshold(rows, is))
       {
@@ -169,7 +169,7 @@ namespace plumbline::study
           result.explanation += "; at " + place(*doubtful) + " " + doubt(*doubtful);
         return result;
       }
-    result.verdict = "unstable";
+    result.verdict = StabilityAnswer::unstable;
     const auto bad = first_not(is_sound);
     result.explanation = "at " + place(*bad) + " " + defect(*bad) +
                          ", and no bound on m parts this "

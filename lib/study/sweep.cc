@@ -41,7 +41,7 @@ namespace plumbline::study
       {
         results_.scene_name = scene.name;
         results_.purpose = scene.purpose;
-        results_.regime = base::word(scene.study.regime);
+        results_.regime = scene.study.regime;
         results_.scene_text = scene.text;
         results_.decisive_error = scene.study.decisive_error.text();
         results_.provenance = earlier.provenance;
@@ -257,7 +257,7 @@ namespace plumbline::study
       /// Besides the reference.
       bool is_estimated(const Method &method, const scene::Problem &problem) const
       {
-        return method.family() == "reference" && method.name() != scene_.reference.method &&
+        return method.side() == Side::reference && method.name() != scene_.reference.method &&
                (scene_.reference.estimate == scene::Estimate::every ||
                 (scene_.reference.estimate == scene::Estimate::automatic &&
                  !scene_.reference.method && !problem.solution));
@@ -270,7 +270,7 @@ namespace plumbline::study
         return run.problem == cases_.front() && run.series == scene_.study.series.front().name &&
                run.level == 0 && run.cost.n_bonds <= most_bonds && has_fuller_model(scene_) &&
                std::none_of(results_.runs.begin(), results_.runs.end(),
-                            [&](const Run &other) { return other.family == method.family(); });
+                            [&](const Run &other) { return other.side == method.side(); });
       }
 
       Run empty_run(const Method &method, const Case &one, const scene::Series &series,
@@ -278,7 +278,7 @@ namespace plumbline::study
       {
         Run run;
         run.method = method.name();
-        run.family = method.family();
+        run.side = method.side();
         run.problem = cases_[one.index];
         run.series = series.name;
         run.level = level;
@@ -294,7 +294,7 @@ namespace plumbline::study
         const scene::Problem &problem = one.problem;
         run.cost = solution.cost;
         run.size = variation(problem, solution);
-        run.round_off = round_off_error(scene_, problem, solution);
+        run.round_off = round_off_error(problem, solution);
         run.diagnostics = solution.diagnostics;
         run.errors = errors(scene_, problem, solution, one.targets);
         for (const auto &[error, value] : run.errors)
@@ -318,8 +318,7 @@ namespace plumbline::study
       {
         scene::Problem fine = problem;
         fine.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh));
-        return analysis::solve(*find_method(available_, "LOCAL", "Problem/local solution"), scene_,
-                               fine)
+        return analysis::solve(*find_method(available_, "LOCAL", "Problem/local solution"), fine)
             .averages;
       }
 
@@ -331,10 +330,9 @@ namespace plumbline::study
         for (const Case *one : cases)
           problems.push_back(&one->problem);
         return solve_and_time(
-            [&]
-            {
-              return control_.solve ? control_.solve(method, scene_, problems)
-                                    : analysis::solve(method, scene_, problems);
+            [&] {
+              return control_.solve ? control_.solve(method, problems)
+                                    : analysis::solve(method, problems);
             });
       }
 

@@ -24,7 +24,7 @@ namespace plumbline::study
     std::function<void(const Solution &, const Run &)>
         on_finest; ///< solutions of the finest levels
     /// How cases are solved; empty: analysis::solve.
-    std::function<std::vector<analysis::Outcome>(const Method &, const scene::Scene &,
+    std::function<std::vector<analysis::Outcome>(const Method &,
                                                  const std::vector<const scene::Problem *> &)>
         solve = {};
   };

@@ -188,7 +188,7 @@ namespace plumbline::study
   std::string verdict_of(scene::Regime regime, const Trend &trend)
   {
     if (trend.outcome == Outcome::failed)
-      return "failed";
+      return base::word(Outcome::failed);
     if (regime == scene::Regime::horizon)
       return "rate " + base::to_text(trend.rate, 4);
     const std::string name = regime == scene::Regime::delta ? "AC"

@@ -9,19 +9,19 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    VariationalBody make_body(const scene::Scene &scene, const scene::Problem &problem)
+    VariationalBody make_body(const scene::Problem &problem)
     {
-      const auto lame = scene.material.lame();
+      const auto lame = problem.lame;
       return body_of_cells(*problem.body, *problem.cells,
                            {[lame](const Point<2> &x) { return lame(x).lambda + lame(x).mu; },
                             [lame](const Point<2> &x) { return 8 * lame(x).mu; }});
     }
 
     VariationalOperator make_operator(const VariationalBody &body, const Bonds &bonds,
-                                      const scene::Scene &scene, const scene::Problem &problem)
+                                      const scene::Problem &problem)
     {
-      return {body, physics::influence_function(scene.kernel.profile, problem.horizon()), bonds,
-              scene.solver.operator_backend};
+      return {body, physics::influence_function(problem.kernel.profile(), problem.horizon()), bonds,
+              problem.settings.solver.operator_backend};
     }
 
     /// ∫ b over the free cells: on each quarter by a rule of degree 5, so that loads may jump at
@@ -89,10 +89,10 @@ namespace plumbline::meshfree
     class RuleOnBody : public method::Discretisation
     {
     public:
-      RuleOnBody(const scene::Scene &scene, const scene::Problem &problem, const Bonds &bonds)
-          : cells_(problem.cells), loads_are_averages_(scene.methods.loads_are_averages),
+      RuleOnBody(const scene::Problem &problem, const Bonds &bonds)
+          : cells_(problem.cells), loads_are_averages_(problem.settings.loads_are_averages),
             matrix_(std::make_shared<const VariationalOperator>(
-                make_operator(make_body(scene, problem), bonds, scene, problem)))
+                make_operator(make_body(problem), bonds, problem)))
       {
         describe_weights(bonds.family, bonds.fit, diagnostics_);
         diagnostics_.notes = bonds.notes;
@@ -145,12 +145,12 @@ namespace plumbline::meshfree
     };
   } // namespace
 
-  std::unique_ptr<method::Discretisation>
-  discretise_on_body(const Rule &rule, const scene::Scene &scene, const scene::Problem &problem)
+  std::unique_ptr<method::Discretisation> discretise_on_body(const Rule &rule,
+                                                             const scene::Problem &problem)
   {
     const Bonds bonds = lattice_bonds(rule.recipe(problem.kernel), problem.kernel, problem.body->h,
-                                      scene.geometry.backend);
-    return std::make_unique<RuleOnBody>(scene, problem, bonds);
+                                      problem.settings.geometry.backend);
+    return std::make_unique<RuleOnBody>(problem, bonds);
   }
 
   method::DiscreteOperator show(std::shared_ptr<const VariationalOperator> matrix)

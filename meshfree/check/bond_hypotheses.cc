@@ -229,7 +229,7 @@ namespace plumbline::meshfree
                                            const std::optional<Recognised> &rule,
                                            const std::vector<std::string> &meant)
     {
-      if (!rule || rule->rule != "FA")
+      if (!rule || !rule->is_full_area())
         return {};
       const auto is_meant = [&](const std::string &name)
       { return std::find(meant.begin(), meant.end(), name) != meant.end(); };

@@ -88,6 +88,11 @@ namespace plumbline::meshfree
     throw InputError("'" + name + "' is no rule");
   }
 
+  bool Recognised::is_full_area() const
+  {
+    return rule == "FA";
+  }
+
   std::optional<Recognised> recognise(const GivenBonds &given)
   {
     constexpr double enough = .9;

@@ -26,6 +26,8 @@ namespace plumbline::meshfree
     double factor = 1;
     bool has_kernel_points = false; ///< those of the rule, too
     std::vector<Family> families;   ///< what the rule makes, its weights times the factor
+
+    bool is_full_area() const; ///< whole cells, whatever part of them the horizon cuts off
   };
 
   /// What a rule makes of these nodes and volumes.

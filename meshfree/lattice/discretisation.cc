@@ -61,19 +61,17 @@ namespace plumbline::meshfree
     class RuleOnLattice : public method::LatticeDiscretisation
     {
     public:
-      RuleOnLattice(const scene::Scene &scene, const scene::Problem &problem, const Bonds &bonds)
-          : LatticeDiscretisation(
-                scene, problem,
-                method::comparison_nodes(scene, *problem.lattice, problem.n_components),
-                make_stencil(problem, bonds), {1}),
-            move_well_(scene.material.is_double_well()
-                           ? MoveWell([&scene, &problem, bonds](double largest)
-                                      { return move_double_well(scene, problem, bonds, largest); })
+      RuleOnLattice(const scene::Problem &problem, const Bonds &bonds)
+          : LatticeDiscretisation(problem, method::comparison_nodes(problem, problem.n_components),
+                                  make_stencil(problem, bonds), {1}),
+            move_well_(problem.double_well
+                           ? MoveWell([&problem, bonds](double largest)
+                                      { return move_double_well(problem, bonds, largest); })
                            : MoveWell())
       {
         describe_weights(bonds.family, bonds.fit, diagnostics_);
         diagnostics_.notes = bonds.notes;
-        diagnostics_.limit = method::prove_by_moments(scene, problem, stencil(), 1);
+        diagnostics_.limit = method::prove_by_moments(problem, stencil(), 1);
       }
 
       method::Diagnostics diagnostics() const override { return diagnostics_; }
@@ -114,12 +112,11 @@ namespace plumbline::meshfree
     };
   } // namespace
 
-  std::unique_ptr<method::Discretisation>
-  discretise_on_lattice(const Rule &rule, const scene::Scene &scene, const scene::Problem &problem)
+  std::unique_ptr<method::Discretisation> discretise_on_lattice(const Rule &rule,
+                                                                const scene::Problem &problem)
   {
-    return std::make_unique<RuleOnLattice>(scene, problem,
-                                           lattice_bonds(rule.recipe(problem.kernel),
-                                                         problem.kernel, problem.lattice->h(),
-                                                         scene.geometry.backend));
+    return std::make_unique<RuleOnLattice>(
+        problem, lattice_bonds(rule.recipe(problem.kernel), problem.kernel, problem.lattice->h(),
+                               problem.settings.geometry.backend));
   }
 } // namespace plumbline::meshfree

@@ -23,9 +23,10 @@ namespace plumbline::meshfree
       std::vector<char> is_free;
     };
 
-    Box torus(const scene::Scene &scene, const geometry::Lattice &lattice)
+    Box torus(const scene::Problem &problem)
     {
-      const double offset = scene.methods.nodes.are_vertices() ? 0 : .5;
+      const double offset = problem.settings.nodes_are_vertices ? 0 : .5;
+      const geometry::Lattice &lattice = *problem.lattice;
       Box box{lattice.n_cells(), {}, {}};
       for (int j = 0; j < box.n[1]; ++j)
         for (int i = 0; i < box.n[0]; ++i)
@@ -48,20 +49,13 @@ namespace plumbline::meshfree
     }
 
     /// ω at the nodes of a box; empty: 1.
-    std::vector<double> boundary_function(const scene::Scene &scene, const Box &box, double horizon)
+    std::vector<double> boundary_function(const scene::Problem &problem, const Box &box)
     {
       std::vector<double> omega;
-      if (scene.material.boundary_function == scene::BoundaryFunction::one)
+      if (!problem.boundary_function)
         return omega;
-      const geometry::Box &body = scene.domain.boxes.include.front();
       for (const auto &x : box.places)
-      {
-        double distance = horizon;
-        for (unsigned int a = 0; a < 2; ++a)
-          distance = std::min({distance, x[a] - body.lower[a], body.upper[a] - x[a]});
-        const double t = std::max(0., distance) / horizon;
-        omega.push_back(t * t * (3 - 2 * t));
-      }
+        omega.push_back(problem.boundary_function(x));
       return omega;
     }
 
@@ -78,12 +72,13 @@ namespace plumbline::meshfree
     class DoubleWellMotion : public method::NodalMotion<>
     {
     public:
-      DoubleWellMotion(const scene::Scene &scene, double h, double horizon, const Box &box,
+      DoubleWellMotion(const scene::Problem &problem, const Box &box,
                        const std::vector<WellBond> &bonds, double largest_eigenvalue)
-          : cell_(h * h), largest_(largest_eigenvalue), toughness_(lattice_toughness(bonds, 2, h)),
-            n_all_(box.places.size()),
-            force_(bonds, h, box.n, scene.domain.is_periodic ? Exterior::periodic : Exterior::empty,
-                   boundary_function(scene, box, horizon)),
+          : cell_(problem.h * problem.h), largest_(largest_eigenvalue),
+            toughness_(lattice_toughness(bonds, 2, problem.h)), n_all_(box.places.size()),
+            force_(bonds, problem.h, box.n,
+                   problem.is_periodic ? Exterior::periodic : Exterior::empty,
+                   boundary_function(problem, box)),
             all_(2 * n_all_), other_(2 * n_all_)
       {
         for (std::size_t k = 0; k < n_all_; ++k)
@@ -195,19 +190,13 @@ namespace plumbline::meshfree
     };
   } // namespace
 
-  std::unique_ptr<method::EquationOfMotion> move_double_well(const scene::Scene &scene,
-                                                             const scene::Problem &problem,
-                                                             const Bonds &bonds,
-                                                             double largest_eigenvalue)
+  std::unique_ptr<method::EquationOfMotion>
+  move_double_well(const scene::Problem &problem, const Bonds &bonds, double largest_eigenvalue)
   {
-    const double horizon = problem.horizon();
-    const auto wells = well_bonds(make_double_well(scene, horizon), bonds);
-    const geometry::Lattice &lattice = *problem.lattice;
-    const Box box =
-        scene.domain.is_periodic
-            ? torus(scene, lattice)
-            : with_margin(method::comparison_nodes(scene, lattice, 1), lattice, reach(wells));
-    return std::make_unique<DoubleWellMotion>(scene, problem.h, horizon, box, wells,
-                                              largest_eigenvalue);
+    const auto wells = well_bonds(*problem.double_well, bonds);
+    const Box box = problem.is_periodic ? torus(problem)
+                                        : with_margin(method::comparison_nodes(problem, 1),
+                                                      *problem.lattice, reach(wells));
+    return std::make_unique<DoubleWellMotion>(problem, box, wells, largest_eigenvalue);
   }
 } // namespace plumbline::meshfree

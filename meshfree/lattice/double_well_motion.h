@@ -11,9 +11,7 @@ namespace plumbline::meshfree
   /// @param largest_eigenvalue  of the rule's stencil of small strains on the unbounded lattice,
   /// which is that of a torus, and bounds that of other boxes from above
   /// @throws NumericalError  weights that differ between mirror images
-  /// @pre scene.material.is_double_well(), problem.lattice
-  std::unique_ptr<method::EquationOfMotion> move_double_well(const scene::Scene &scene,
-                                                             const scene::Problem &problem,
-                                                             const Bonds &bonds,
-                                                             double largest_eigenvalue);
+  /// @pre problem.double_well, problem.lattice
+  std::unique_ptr<method::EquationOfMotion>
+  move_double_well(const scene::Problem &problem, const Bonds &bonds, double largest_eigenvalue);
 } // namespace plumbline::meshfree

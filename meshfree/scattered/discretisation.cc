@@ -13,12 +13,12 @@ namespace plumbline::meshfree
   {
     using method::Vector;
 
-    algebra::SparseOptions solver_options(const scene::Scene &scene, const scene::Problem &problem)
+    algebra::SparseOptions solver_options(const scene::Problem &problem)
     {
       algebra::SparseOptions options;
       options.is_symmetric = false;
       options.n_components = problem.n_components;
-      if (scene.solver.is_mixed)
+      if (problem.settings.solver.is_mixed)
         options.n_first = problem.n_components * problem.cells->n_free;
       const auto &nodes = problem.cells->nodes;
       options.nodes.assign(nodes.begin(),
@@ -29,9 +29,8 @@ namespace plumbline::meshfree
     class RuleOnNodes : public method::SparseDiscretisation
     {
     public:
-      RuleOnNodes(const scene::Scene &scene, const scene::Problem &problem, const base::Team &team,
-                  ScatteredOperator matrix)
-          : SparseDiscretisation(scene, solver_options(scene, problem), team),
+      RuleOnNodes(const scene::Problem &problem, const base::Team &team, ScatteredOperator matrix)
+          : SparseDiscretisation(problem.settings.solver, solver_options(problem), team),
             cells_(problem.cells), n_components_(problem.n_components)
       {
         const auto n =
@@ -40,11 +39,11 @@ namespace plumbline::meshfree
           rows->start.resize(n + 1, rows->column.size());
         set_rows(std::move(matrix.rows));
         diagnostics_ = matrix.statistics.diagnostics(team);
-        if (scene.study.regime != scene::Regime::delta || scene.domain.is_damaged() ||
-            !scene.is_homogeneous())
+        if (!problem.settings.tends_to_local_limit || problem.damage.is_there() ||
+            !problem.is_homogeneous)
           diagnostics_.limit = {}; // the moments of whole families decide nothing there
-        if (scene.domain.is_damaged() && problem.dilatation)
-          is_ghost_ = find_ghosts(scene, problem.horizon(), *cells_);
+        if (problem.damage.is_there() && problem.dilatation)
+          is_ghost_ = find_ghosts(problem.damage, problem.horizon(), *cells_);
       }
 
       method::CaseData data(const scene::Problem &problem) const override
@@ -111,21 +110,21 @@ namespace plumbline::meshfree
     };
 
     /// A kept dilatation's system is on the first rank alone.
-    ScatteredOperator make_operator(const Rule &rule, const scene::Scene &scene,
-                                    const scene::Problem &problem, const base::Team &team,
+    ScatteredOperator make_operator(const Rule &rule, const scene::Problem &problem,
+                                    const base::Team &team,
                                     std::pair<std::size_t, std::size_t> share)
     {
       const Families families(rule.recipe(problem.kernel), problem.kernel, *problem.cells,
-                              scene.geometry.backend);
+                              problem.settings.geometry.backend);
       if (!problem.dilatation)
         return scattered_operator(families, problem, share);
       const auto make = [&](std::size_t node, Family &family) { families.make(node, family); };
       const StateBasedBody body{
           problem.cells.get(),
           *problem.dilatation,
-          {scene.domain.cracks, find_ghosts(scene, problem.horizon(), *problem.cells)},
-          scene.material.has_collar_dilatation};
-      if (!scene.solver.is_mixed)
+          {problem.damage.cracks, find_ghosts(problem.damage, problem.horizon(), *problem.cells)},
+          problem.has_collar_dilatation};
+      if (!problem.settings.solver.is_mixed)
         return state_based_operator(make, body, share);
       return team.rank() == 0 ? state_based_system(make, body) : ScatteredOperator();
     }
@@ -133,31 +132,29 @@ namespace plumbline::meshfree
 
   std::unique_ptr<method::Discretisation> discretise_on_scattered_nodes(
       const std::function<ScatteredOperator(std::pair<std::size_t, std::size_t> share)> &make,
-      const scene::Scene &scene, const scene::Problem &problem, const base::Team &team)
+      const scene::Problem &problem, const base::Team &team)
   {
     ScatteredOperator matrix;
     team.together([&] { matrix = make(team.share(problem.cells->n_free)); });
-    return std::make_unique<RuleOnNodes>(scene, problem, team, std::move(matrix));
+    return std::make_unique<RuleOnNodes>(problem, team, std::move(matrix));
   }
 
   std::unique_ptr<method::Discretisation>
-  discretise_on_scattered_nodes(const Rule &rule, const scene::Scene &scene,
-                                const scene::Problem &problem, const base::Team &team)
+  discretise_on_scattered_nodes(const Rule &rule, const scene::Problem &problem,
+                                const base::Team &team)
   {
-    return discretise_on_scattered_nodes(
-        [&](std::pair<std::size_t, std::size_t> share)
-        { return make_operator(rule, scene, problem, team, share); },
-        scene, problem, team);
+    return discretise_on_scattered_nodes([&](std::pair<std::size_t, std::size_t> share)
+                                         { return make_operator(rule, problem, team, share); },
+                                         problem, team);
   }
 
-  double expected_bytes(const scene::Scene &scene, const method::ProblemSize &size)
+  double expected_bytes(const method::ProblemSize &size)
   {
-    const double n_components = scene.is_vector() ? 2 : 1;
+    const double n_components = size.n_components;
     const scene::Level &level = size.level;
     if (size.is_lattice())
-      return method::expected_lattice_bytes(size, 1, scene.is_vector() ? 2 : 1,
-                                            scene.reach(level.horizon) / level.h + 1);
-    if (scene.domain.is_free_body) // two sums more by transforms than on a lattice
+      return method::expected_lattice_bytes(size, 1, size.n_components, size.reach() / level.h + 1);
+    if (size.is_body) // two sums more by transforms than on a lattice
     {
       method::ProblemSize box = size;
       box.extents.fill(std::sqrt(size.n_cells * size.cell_area) / level.h);
@@ -165,7 +162,7 @@ namespace plumbline::meshfree
     }
     // rows that grow as vectors do, Trilinos' copy and a preconditioner; measured
     constexpr double of_entry = 40, of_node = 1000;
-    const double m = scene.reach(level.horizon) / std::sqrt(size.cell_area) + .75;
+    const double m = size.reach() / std::sqrt(size.cell_area) + .75;
     return size.n_free * (M_PI * m * m * n_components * n_components * of_entry + of_node);
   }
 } // namespace plumbline::meshfree

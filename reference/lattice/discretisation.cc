@@ -98,12 +98,11 @@ namespace plumbline::reference
       return load;
     }
 
-    algebra::Stencil make_stencil(const scene::Scene &scene, const scene::Problem &problem,
-                                  const AxisShapes &shapes)
+    algebra::Stencil make_stencil(const scene::Problem &problem, const AxisShapes &shapes)
     {
       const double h = problem.lattice->h();
       const algebra::Stencil bonds =
-          galerkin_stencil(problem.kernel, h, shapes, scene.geometry.backend);
+          galerkin_stencil(problem.kernel, h, shapes, problem.settings.geometry.backend);
       if (!problem.dilatation)
         return bonds;
       const physics::Lame lame = problem.dilatation->material({});
@@ -136,25 +135,23 @@ namespace plumbline::reference
     class GalerkinOnLattice : public method::LatticeDiscretisation
     {
     public:
-      GalerkinOnLattice(const scene::Scene &scene, const scene::Problem &problem,
-                        const AxisShapes &shapes)
+      GalerkinOnLattice(const scene::Problem &problem, const AxisShapes &shapes)
           : LatticeDiscretisation(
-                scene, problem,
-                free_nodes(*problem.lattice, shapes.families(), problem.n_components),
-                make_stencil(scene, problem, shapes), masses(shapes, problem.lattice->h())),
+                problem, free_nodes(*problem.lattice, shapes.families(), problem.n_components),
+                make_stencil(problem, shapes), masses(shapes, problem.lattice->h())),
             shapes_(shapes), horizon_(problem.horizon()),
-            n_geometry_checks_(scene.geometry.n_checks), seed_(scene.geometry.seed),
-            cells_(method::comparison_nodes(scene, lattice(), problem.n_components)),
-            move_well_(
-                scene.material.is_double_well()
-                    ? MoveWell([&scene, &problem](bool is_lumped, double largest)
-                               { return move_q1_on_torus(scene, problem, is_lumped, largest); })
-                    : MoveWell())
+            n_geometry_checks_(problem.settings.geometry.n_checks),
+            seed_(problem.settings.geometry.seed),
+            cells_(method::comparison_nodes(problem, problem.n_components)),
+            move_well_(problem.double_well
+                           ? MoveWell([&problem](bool is_lumped, double largest)
+                                      { return move_q1_on_torus(problem, is_lumped, largest); })
+                           : MoveWell())
       {
         if (shapes.degree() == 0)
-          limit_ = method::prove_by_moments(scene, problem, stencil(), problem.h * problem.h);
+          limit_ = method::prove_by_moments(problem, stencil(), problem.h * problem.h);
         else
-          limit_ = method::prove_galerkin(scene, problem, {});
+          limit_ = method::prove_galerkin(problem, {});
       }
 
       method::DiscreteOperator matrix() const override
@@ -231,10 +228,9 @@ namespace plumbline::reference
     };
   } // namespace
 
-  std::unique_ptr<method::Discretisation> discretise_on_lattice(const scene::Scene &scene,
-                                                                const scene::Problem &problem,
+  std::unique_ptr<method::Discretisation> discretise_on_lattice(const scene::Problem &problem,
                                                                 const AxisShapes &shapes)
   {
-    return std::make_unique<GalerkinOnLattice>(scene, problem, shapes);
+    return std::make_unique<GalerkinOnLattice>(problem, shapes);
   }
 } // namespace plumbline::reference

@@ -13,10 +13,9 @@ namespace plumbline::reference
     class Q1Motion : public method::NodalMotion<>
     {
     public:
-      Q1Motion(const scene::Scene &scene, const scene::Problem &problem, bool is_lumped,
-               double largest_eigenvalue)
-          : lattice_(*problem.lattice), space_(make_double_well(scene, problem.horizon()),
-                                               problem.h, lattice_.n_cells(), n_points),
+      Q1Motion(const scene::Problem &problem, bool is_lumped, double largest_eigenvalue)
+          : lattice_(*problem.lattice),
+            space_(*problem.double_well, problem.h, lattice_.n_cells(), n_points),
             is_lumped_(is_lumped), largest_(largest_eigenvalue)
       {
         const auto &n = lattice_.n_cells();
@@ -113,11 +112,9 @@ namespace plumbline::reference
     };
   } // namespace
 
-  std::unique_ptr<method::EquationOfMotion> move_q1_on_torus(const scene::Scene &scene,
-                                                             const scene::Problem &problem,
-                                                             bool is_lumped,
-                                                             double largest_eigenvalue)
+  std::unique_ptr<method::EquationOfMotion>
+  move_q1_on_torus(const scene::Problem &problem, bool is_lumped, double largest_eigenvalue)
   {
-    return std::make_unique<Q1Motion>(scene, problem, is_lumped, largest_eigenvalue);
+    return std::make_unique<Q1Motion>(problem, is_lumped, largest_eigenvalue);
   }
 } // namespace plumbline::reference

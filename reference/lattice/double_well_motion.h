@@ -8,9 +8,7 @@ namespace plumbline::reference
   /// are nodal values, shape (2, n[1], n[0]). It has no tangent, so that implicit schemes are
   /// refused. Loads are tested by 3 × 3 Gauss points a cell.
   /// @param largest_eigenvalue  of the stencil of small strains and the same mass, for steps
-  /// @pre scene.domain.is_periodic, scene.material.is_double_well(), problem.lattice
-  std::unique_ptr<method::EquationOfMotion> move_q1_on_torus(const scene::Scene &scene,
-                                                             const scene::Problem &problem,
-                                                             bool is_lumped,
-                                                             double largest_eigenvalue);
+  /// @pre problem.is_periodic, problem.double_well, problem.lattice
+  std::unique_ptr<method::EquationOfMotion>
+  move_q1_on_torus(const scene::Problem &problem, bool is_lumped, double largest_eigenvalue);
 } // namespace plumbline::reference

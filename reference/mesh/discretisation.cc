@@ -171,12 +171,13 @@ namespace plumbline::reference
     class GalerkinOnMesh : public method::SparseDiscretisation
     {
     public:
-      GalerkinOnMesh(const scene::Scene &scene, const scene::Problem &problem,
-                     std::shared_ptr<const MeshSpace> space, const base::Team &team)
-          : SparseDiscretisation(scene, solver_options(problem, *space), team), scene_(scene),
+      GalerkinOnMesh(const scene::Problem &problem, std::shared_ptr<const MeshSpace> space,
+                     const base::Team &team)
+          : SparseDiscretisation(problem.settings.solver, solver_options(problem, *space), team),
             problem_(problem), space_(std::move(space)),
             cells_(std::make_shared<const MeshCells>(*problem.mesh)),
-            options_{0, scene.quadrature.exact_entries, scene.geometry.backend}
+            options_{0, problem.settings.quadrature.exact_entries,
+                     problem.settings.geometry.backend}
       {
         make_rows();
       }
@@ -215,14 +216,15 @@ namespace plumbline::reference
       method::Diagnostics diagnostics() const override
       {
         method::Diagnostics result;
-        result.is_outer_error_known = is_exact_ || scene_.quadrature.tolerance > 0;
+        result.is_outer_error_known = is_exact_ || problem_.settings.quadrature.tolerance > 0;
         result.notes.push_back("entries " + way_);
-        if (!is_exact_ && scene_.quadrature.tolerance == 0)
+        if (!is_exact_ && problem_.settings.quadrature.tolerance == 0)
           result.notes.push_back("outer quadrature not refined: its error is not known");
         if (space_->shapes().degree() > 0)
-          result.limit = method::prove_galerkin(scene_, problem_, result);
-        const auto check = check_geometry(*cells_, problem_.horizon(), scene_.geometry.n_checks,
-                                          scene_.geometry.seed);
+          result.limit = method::prove_galerkin(problem_, result);
+        const scene::GeometrySection &geometry = problem_.settings.geometry;
+        const auto check =
+            check_geometry(*cells_, problem_.horizon(), geometry.n_checks, geometry.seed);
         result.n_geometry_checks = check.n_checked;
         result.geometry_difference = check.worst_difference;
         return result;
@@ -255,7 +257,6 @@ namespace plumbline::reference
         return result;
       }
 
-      const scene::Scene &scene_;
       const scene::Problem &problem_;
       std::shared_ptr<const MeshSpace> space_;
       std::shared_ptr<const MeshCells> cells_;
@@ -265,27 +266,28 @@ namespace plumbline::reference
     };
   } // namespace
 
-  std::unique_ptr<method::Discretisation>
-  discretise_on_mesh(const scene::Scene &scene, const scene::Problem &problem, bool is_continuous,
-                     unsigned int degree, const base::Team &team)
+  std::unique_ptr<method::Discretisation> discretise_on_mesh(const scene::Problem &problem,
+                                                             bool is_continuous,
+                                                             unsigned int degree,
+                                                             const base::Team &team)
   {
-    return std::make_unique<GalerkinOnMesh>(scene, problem,
-                                            make_space(problem, is_continuous, degree), team);
+    return std::make_unique<GalerkinOnMesh>(problem, make_space(problem, is_continuous, degree),
+                                            team);
   }
 
-  double expected_mesh_bytes(const scene::Scene &scene, const method::ProblemSize &size,
-                             unsigned int n_vertices, bool is_continuous, unsigned int degree)
+  double expected_mesh_bytes(const method::ProblemSize &size, unsigned int n_vertices,
+                             bool is_continuous, unsigned int degree)
   {
     // assembled upper half, both halves, what eliminates, the solver's copy; space and geometry of
     // a cell; all measured
     constexpr double of_entry = 44, of_cell = 1000;
-    const double p = degree, n_components = scene.is_vector() ? 2 : 1;
+    const double p = degree, n_components = size.n_components;
     const bool is_shared = is_continuous && degree > 0;
     const double n_dofs = n_vertices == 4 ? (is_shared ? p * p : (p + 1) * (p + 1))
                                           : (is_shared ? p * p / 2 : (p + 1) * (p + 2) / 2);
     // the support of a shape function widens the ball: by one cell, or by those about its vertex
     const double wider = !is_shared ? .85 : degree == 1 ? 1.9 : 1.4;
-    const double reach = scene.reach(size.level.horizon) / std::sqrt(size.cell_area) + wider;
+    const double reach = size.reach() / std::sqrt(size.cell_area) + wider;
     const double n_columns = M_PI * reach * reach * n_dofs * n_components;
     return size.n_free * n_dofs * n_components * n_columns * of_entry + size.n_cells * of_cell;
   }

@@ -9,13 +9,14 @@ namespace plumbline::reference
   /// outer quadrature that is refined until solutions settle. Masses as of `discretise_on_lattice`.
   /// @note Collective.
   /// @throws NumericalError  no degree of freedom is free
-  std::unique_ptr<method::Discretisation>
-  discretise_on_mesh(const scene::Scene &scene, const scene::Problem &problem, bool is_continuous,
-                     unsigned int degree, const base::Team &team);
+  std::unique_ptr<method::Discretisation> discretise_on_mesh(const scene::Problem &problem,
+                                                             bool is_continuous,
+                                                             unsigned int degree,
+                                                             const base::Team &team);
 
   /// Memory of its static solution at the peak [bytes], see method::Method::expected_bytes.
-  double expected_mesh_bytes(const scene::Scene &scene, const method::ProblemSize &size,
-                             unsigned int n_vertices, bool is_continuous, unsigned int degree);
+  double expected_mesh_bytes(const method::ProblemSize &size, unsigned int n_vertices,
+                             bool is_continuous, unsigned int degree);
 
   /// The view of a field that a study compares.
   method::Field as_field(std::shared_ptr<const MeshField> field, const geometry::NodeCells &cells);

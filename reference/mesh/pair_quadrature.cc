@@ -1,7 +1,5 @@
 #include "reference/mesh/pair_quadrature.h"
 
-#include <deal.II/base/quadrature_lib.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -17,63 +15,6 @@ namespace plumbline::reference
     }
     /// Nearer than so many radii of a cell, a kernel that is no polynomial is taken in polar form.
     constexpr double near = 2;
-    constexpr unsigned int n_whole_rules = 7;
-    /// Points of a graded rule along an axis, of the smallest parts and degree 0; two more for each
-    /// doubling of the part keep the errors of all parts alike (measured).
-    constexpr unsigned int n_graded = 4;
-
-    /// Exact to degree 2 n - 1.
-    dealii::Quadrature<2> gauss(unsigned int n_vertices, unsigned int n)
-    {
-      if (n_vertices == 4)
-        return dealii::QGauss<2>(n);
-      return dealii::QWitherdenVincentSimplex<2>(n);
-    }
-
-    /// Of least cost, exact to degree 2 p (at least 2).
-    dealii::Quadrature<2> outer_gauss(unsigned int n_vertices, unsigned int p)
-    {
-      if (n_vertices == 4)
-        return dealii::QGauss<2>(std::max(2u, p + 1));
-      if (p <= 1)
-        return dealii::Quadrature<2>(
-            {Point<2>(1. / 6, 1. / 6), Point<2>(2. / 3, 1. / 6), Point<2>(1. / 6, 2. / 3)},
-            std::vector<double>(3, 1. / 6));
-      return dealii::QWitherdenVincentSimplex<2>(p + 1);
-    }
-
-    /// For integrands like d log d at distances d from the sides and smooth inside: n² points on
-    /// axes stretched at both ends by t²(3 - 2t), for triangles with one side collapsed.
-    dealii::Quadrature<2> graded_gauss(unsigned int n_vertices, unsigned int n)
-    {
-      const dealii::QGauss<2> gauss(n);
-      auto points = gauss.get_points();
-      auto weights = gauss.get_weights();
-      for (std::size_t q = 0; q < points.size(); ++q)
-      {
-        Point<2> &x = points[q];
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          weights[q] *= 6 * x[d] * (1 - x[d]);
-          x[d] *= x[d] * (3 - 2 * x[d]);
-        }
-        if (n_vertices == 3)
-        {
-          weights[q] *= 1 - x[0];
-          x[1] *= 1 - x[0];
-        }
-      }
-      return {points, weights};
-    }
-
-    ShapeRule shape_rule(const CellShapes &shapes, const dealii::Quadrature<2> &gauss)
-    {
-      ShapeRule rule{gauss.get_points(), gauss.get_weights(), {}};
-      rule.phi.resize(rule.unit.size() * shapes.size());
-      for (std::size_t q = 0; q < rule.unit.size(); ++q)
-        shapes.values(rule.unit[q], &rule.phi[q * shapes.size()]);
-      return rule;
-    }
 
     /// @param farthest  a bound of the distance of the cell's points from the ball's centre
     bool is_whole(const geometry::Ball &ball, const geometry::ConvexCell &cell, double farthest)
@@ -91,32 +32,12 @@ namespace plumbline::reference
                                  unsigned int refinement, geometry::Backend backend)
       : space_(space), cells_(cells), profile_(profile), horizon_(horizon),
         coefficient_(std::move(coefficient)), refinement_(refinement),
-        accuracy_(inner_accuracy(refinement)), backend_(backend), n_(space.shapes().size()),
+        accuracy_(inner_accuracy(refinement)), backend_(backend),
+        rules_(std::make_shared<const PairRules>(pair_rules(space.shapes(), refinement))),
+        n_(space.shapes().size()),
         has_moments_(profile.is_constant() && !coefficient_ && space.shapes().degree() <= 1 &&
                      space.shapes().n_vertices() == 3)
   {
-    const CellShapes &shapes = space.shapes();
-    Tables tables;
-    tables.outer = shape_rule(shapes, outer_gauss(shapes.n_vertices(), shapes.degree()));
-    tables.refined = shape_rule(shapes, gauss(shapes.n_vertices(), shapes.degree() + 2));
-    for (unsigned int i = 0; i <= refinement; ++i)
-      tables.graded.push_back(shape_rule(
-          shapes, graded_gauss(shapes.n_vertices(), shapes.degree() + n_graded + 2 * i)));
-    for (unsigned int n = 1; n <= n_whole_rules; ++n)
-      tables.whole.push_back(shape_rule(shapes, gauss(shapes.n_vertices(), n)));
-    tables.integrals.assign(n_, 0.);
-    tables.mass.assign(n_ * n_, 0.);
-    const ShapeRule &fine = tables.whole[shapes.degree()];
-    const double unit_area = shapes.n_vertices() == 3 ? .5 : 1;
-    for (std::size_t q = 0; q < fine.unit.size(); ++q)
-      for (unsigned int a = 0; a < n_; ++a)
-      {
-        const double value = fine.weight[q] / unit_area * fine.phi[q * n_ + a];
-        tables.integrals[a] += value;
-        for (unsigned int b = 0; b < n_; ++b)
-          tables.mass[a * n_ + b] += value * fine.phi[q * n_ + b];
-      }
-    tables_ = std::make_shared<const Tables>(std::move(tables));
     sum_.resize(profile.n_entries());
     first_.resize(n_ * profile.n_entries());
     second_.resize(n_ * n_ * profile.n_entries());
@@ -152,7 +73,7 @@ namespace plumbline::reference
     const bool is_smooth =
         !is_cut(between, outer, inner) && !profile_.is_function() &&
         (profile_.is_smooth() || between > near * (cells_.radius(outer) + cells_.radius(inner)));
-    const ShapeRule *rule = &tables_->outer;
+    const ShapeRule *rule = &rules_->outer;
     if (refinement_ > 0)
       rule = is_smooth ? smooth_rule(between, outer, inner) : nullptr;
     if (rule == nullptr)
@@ -162,8 +83,8 @@ namespace plumbline::reference
                                            &rule->phi[q * n_], blocks);
   }
 
-  /// The outer rule of a pair whose integrand is smooth in x, of a degree that its error stays below
-  /// those of pairs that the circle cuts; none: it would be too high.
+  /// The outer rule of a pair whose integrand is smooth in x, of a degree that its error stays
+  /// below those of pairs that the circle cuts; none: it would be too high.
   const ShapeRule *PairQuadrature::smooth_rule(double between, std::size_t outer,
                                                std::size_t inner) const
   {
@@ -177,7 +98,7 @@ namespace plumbline::reference
     if (coefficient_) // any function: its error falls with each refinement
       degree += 2 * refinement_;
     const unsigned int i = degree / 2;
-    return i < n_whole_rules ? &tables_->whole[i] : nullptr;
+    return i < rules_->whole.size() ? &rules_->whole[i] : nullptr;
   }
 
   template <int n_entries, int n_shapes>
@@ -214,7 +135,7 @@ namespace plumbline::reference
         (3 * level >= refinement_ && kink == Kink::none))
     {
       const ShapeRule &rule =
-          kink == Kink::at_side ? tables_->graded[refinement_ - level] : tables_->refined;
+          kink == Kink::at_side ? rules_->graded[refinement_ - level] : rules_->refined;
       for (std::size_t q = 0; q < rule.unit.size(); ++q)
       {
         const Point<2> unit = part.point(rule.unit[q]);
@@ -290,8 +211,8 @@ namespace plumbline::reference
     for (unsigned int a = 0; a < n_; ++a)
       for (unsigned int b = 0; b < n_; ++b)
       {
-        blocks.outer[a * n_ + b] = blocks.inner[a * n_ + b] = c * tables_->mass[a * n_ + b];
-        blocks.cross[a * n_ + b] = c * tables_->integrals[a] * tables_->integrals[b];
+        blocks.outer[a * n_ + b] = blocks.inner[a * n_ + b] = c * rules_->mass[a * n_ + b];
+        blocks.cross[a * n_ + b] = c * rules_->integrals[a] * rules_->integrals[b];
       }
   }
 
@@ -356,8 +277,8 @@ namespace plumbline::reference
     const unsigned int p = 2 * space_.shapes().degree();
     const unsigned int degree = kernel_degree(kernel, distance, radius);
     if (const unsigned int i = (p + degree) / 2;
-        i < n_whole_rules && is_whole(ball, cell, distance + radius))
-      return add_whole<n_entries, n_shapes>(x, kernel, inner, tables_->whole[i]);
+        i < rules_->whole.size() && is_whole(ball, cell, distance + radius))
+      return add_whole<n_entries, n_shapes>(x, kernel, inner, rules_->whole[i]);
     const bool is_quad = space_.shapes().n_vertices() == 4;
     geometry::cut_rule(ball, cell, (is_quad ? 2 * p : p) + degree, rule_, backend_);
     add_points<n_entries, n_shapes>(x, kernel, inner, rule_);

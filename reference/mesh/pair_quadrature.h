@@ -4,6 +4,7 @@
 #include "reference/mesh/cells.h"
 #include "reference/mesh/kernel_entries.h"
 #include "reference/mesh/pair_blocks.h"
+#include "reference/mesh/shape_rules.h"
 #include "reference/mesh/space.h"
 
 #include <memory>
@@ -11,14 +12,6 @@
 
 namespace plumbline::reference
 {
-  /// A rule on the unit cell with the shape functions at its points.
-  struct ShapeRule
-  {
-    std::vector<Point<2>> unit;
-    std::vector<double> weight; ///< adds up to the area of the unit cell
-    std::vector<double> phi;    ///< shape (n_points, n_shapes)
-  };
-
   /// Blocks of any pair of cells by quadrature: outer points x on E, and on ball(x) ∩ E' a rule
   /// that is exact on the curved piece: few points on whole cells, a fan of curved triangles on cut
   /// ones, polar about x where the kernel has a kink or a singularity there. Zero row sums by
@@ -44,15 +37,6 @@ namespace plumbline::reference
     bool is_product(std::size_t outer, std::size_t inner) const;
 
   private:
-    struct Tables
-    {
-      ShapeRule outer;               ///< on all of E
-      ShapeRule refined;             ///< on parts of E, of higher degree
-      std::vector<ShapeRule> graded; ///< on parts at sides of E': index i is of size 2^i
-      std::vector<ShapeRule> whole;  ///< inner rules on whole cells: index i is exact to 2 i + 1
-      std::vector<double> integrals, mass; ///< of the shape functions over an affine cell's area
-    };
-
     const ShapeRule *smooth_rule(double between, std::size_t outer, std::size_t inner) const;
     template <int n_entries, int n_shapes>
     void integrate_as(std::size_t outer, std::size_t inner, PairBlocks &blocks);
@@ -109,7 +93,7 @@ namespace plumbline::reference
     unsigned int refinement_;
     double accuracy_; ///< of inner rules, relative
     geometry::Backend backend_;
-    std::shared_ptr<const Tables> tables_;
+    std::shared_ptr<const PairRules> rules_;
 
     unsigned int n_;                           ///< shape functions on a cell
     bool has_moments_;                         ///< a constant kernel on linear shape functions

@@ -50,7 +50,7 @@ namespace
     }
 
   private:
-    method::Field field(const scene::Scene &, const scene::Problem &) const override
+    method::Field field(const scene::Problem &) const override
     {
       if (n_solves == 2)
         fail_();
@@ -84,11 +84,11 @@ TEST(Statics, cases_together_have_the_solutions_that_they_have_alone)
     const auto scene = two_cases({{"Domain/mesh", mesh}});
     const auto problems = problems_of(scene);
     const auto method = method_of(name);
-    const auto together = analysis::solve(*method, scene, {&problems[0], &problems[1]});
+    const auto together = analysis::solve(*method, {&problems[0], &problems[1]});
     ASSERT_EQ(together.size(), 2u);
     for (unsigned int c = 0; c < 2; ++c)
     {
-      const auto alone = analysis::solve(*method, scene, problems[c]);
+      const auto alone = analysis::solve(*method, problems[c]);
       ASSERT_TRUE(together[c].solution) << name;
       EXPECT_EQ(together[c].solution->averages, alone.averages) << name << " on " << mesh;
       EXPECT_EQ(together[c].solution->nodal, alone.nodal) << name << " on " << mesh;
@@ -105,7 +105,7 @@ TEST(Statics, each_case_is_charged_the_setup_and_refined_as_far_as_it_needs)
                                 {"Quadrature/tolerance", "1e-6"},
                                 {"Quadrature/max refinements", "6"}});
   const auto problems = problems_of(scene);
-  const auto solved = analysis::solve(*method_of("P1"), scene, {&problems[0], &problems[1]});
+  const auto solved = analysis::solve(*method_of("P1"), {&problems[0], &problems[1]});
   ASSERT_TRUE(solved[0].solution && solved[1].solution);
   const auto &flat = *solved[0].solution, &wave = *solved[1].solution;
   EXPECT_EQ(flat.diagnostics.n_refinements, 1u);
@@ -119,7 +119,7 @@ TEST(Statics, what_one_case_fails_at_is_its_own)
   const auto scene = two_cases({});
   const auto problems = problems_of(scene);
   const auto solve = [&](const std::function<void()> &fail) {
-    return analysis::solve(Fragile(fail), scene, {&problems[0], &problems[1]});
+    return analysis::solve(Fragile(fail), {&problems[0], &problems[1]});
   };
   const auto numerical = solve([] { throw NumericalError("rank loss"); });
   EXPECT_TRUE(numerical[0].solution);

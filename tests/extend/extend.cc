@@ -44,7 +44,7 @@ namespace
   double error(const method::Method &method, const scene::Scene &scene, double h, double horizon)
   {
     const scene::Problem problem = scene::make_problem(scene, 0, {h, horizon});
-    const auto solution = analysis::solve(method, scene, problem);
+    const auto solution = analysis::solve(method, problem);
     double worst = 0;
     for (std::size_t i = 0; i < solution.nodes.size(); ++i)
       worst = std::max(worst,

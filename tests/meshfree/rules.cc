@@ -113,13 +113,13 @@ TEST(ImprovedPartialArea, error_has_its_closed_form)
     double found = 0;
     for (const auto &method : methods())
       if (method->name() == "IPA-AC")
-        found = study::errors(scene, problem, analysis::solve(*method, scene, problem), {})
+        found = study::errors(scene, problem, analysis::solve(*method, problem), {})
                     .at("nodal Linf | exact");
 
     const auto bonds = lattice_bonds(improved_partial_area(problem.kernel), problem.kernel, level.h,
                                      Backend::fast);
     const auto stencil = lattice_operator(problem.kernel, bonds);
-    const auto nodes = method::comparison_nodes(scene, *problem.lattice, 1);
+    const auto nodes = method::comparison_nodes(problem, 1);
     algebra::Vector inverse_of_one(nodes.size()), one(nodes.size());
     one = 1.;
     algebra::solve(*algebra::make_operator(stencil, nodes), inverse_of_one, one, 1e-14, 500);
@@ -339,7 +339,7 @@ TEST(LatticeMethods, fields_converge_at_rate_1_up_to_the_boundary)
           const auto error = [&](double size)
           {
             const auto problem = make_problem(scene, 0, {size, 3 * size});
-            return study::errors(scene, problem, analysis::solve(*method, scene, problem), {})
+            return study::errors(scene, problem, analysis::solve(*method, problem), {})
                 .at("field Linf | exact");
           };
           EXPECT_NEAR(std::log2(error(.0625) / error(.03125)), 1, .1) << nodes << ' ' << holes;
@@ -364,7 +364,7 @@ TEST(LatticeMethods, vertex_nodes_have_the_boundary_among_the_data)
       {
         const auto scene = scene::parse_scene("nodes.prm", text(nodes));
         const auto problem = make_problem(scene, 0, {size, .3});
-        const auto solution = analysis::solve(*method, scene, problem);
+        const auto solution = analysis::solve(*method, problem);
         const auto n =
             static_cast<std::size_t>(std::lround(1 / size)) - (nodes == "vertices" ? 1 : 0);
         EXPECT_EQ(solution.nodes.size(), n * n);

@@ -93,20 +93,19 @@ namespace
     return result;
   }
 
-  analysis::Solution solve(const std::string &name, const scene::Scene &scene,
-                           const scene::Problem &problem)
+  analysis::Solution solve(const std::string &name, const scene::Problem &problem)
   {
     const auto all = methods();
     return analysis::solve(**std::find_if(all.begin(), all.end(),
                                           [&](const auto &method)
                                           { return method->name() == name; }),
-                           scene, problem);
+                           problem);
   }
 
   double nodal_error(const std::string &name, const scene::Scene &scene, const scene::Level &level)
   {
     const auto problem = scene::make_problem(scene, 0, level);
-    return study::errors(scene, problem, solve(name, scene, problem), {}).at("nodal Linf | exact");
+    return study::errors(scene, problem, solve(name, problem), {}).at("nodal Linf | exact");
   }
 } // namespace
 
@@ -242,8 +241,8 @@ TEST(ScatteredMethods, solve_what_the_lattice_solves_where_nodes_are_not_moved)
     const auto lattice_problem = scene::make_problem(lattice_scene, 0, {.125, .375});
     for (const Rule &rule : rules())
     {
-      const auto solution = solve(rule.name, scene, problem);
-      const auto expected = solve(rule.name, lattice_scene, lattice_problem);
+      const auto solution = solve(rule.name, problem);
+      const auto expected = solve(rule.name, lattice_problem);
       ASSERT_EQ(solution.nodes.size(), 64u);
       for (std::size_t i = 0; i < 64; ++i)
         for (unsigned int c = 0; c < problem.n_components; ++c)
@@ -291,21 +290,21 @@ TEST(ScatteredMethods, say_how_many_weights_are_negative)
 {
   const auto scene = make_scene(.3, true, "x, y");
   const auto problem = scene::make_problem(scene, 0, {.125, .375});
-  const auto diagnostics = solve("IPA-AC-R4", scene, problem).diagnostics;
+  const auto diagnostics = solve("IPA-AC-R4", problem).diagnostics;
   EXPECT_LT(diagnostics.smallest_weight_ratio, 0);
   EXPECT_GT(diagnostics.n_negative_weights, 0u);
   ASSERT_EQ(diagnostics.notes.size(), 2u);
   EXPECT_NE(diagnostics.notes[0].find("of 64 families"), std::string::npos);
   EXPECT_NE(diagnostics.notes[1].find("no M-matrix"), std::string::npos);
   EXPECT_EQ(diagnostics.operator_backend, "sparse, direct");
-  EXPECT_TRUE(solve("IPA-AC-R2", scene, problem).diagnostics.notes.empty());
+  EXPECT_TRUE(solve("IPA-AC-R2", problem).diagnostics.notes.empty());
 }
 
 TEST(ScatteredMethods, fields_take_the_value_of_the_nearest_node)
 {
   const auto scene = make_scene(.3, true, "x, y");
   const auto problem = scene::make_problem(scene, 0, {.125, .375});
-  const auto solution = solve("IPA-AC-R2", scene, problem);
+  const auto solution = solve("IPA-AC-R2", problem);
   ASSERT_EQ(solution.nodes.size(), 64u);
   for (double x = 0; x <= 1; x += .0625)
     for (double y = 0; y <= 1; y += .0625)

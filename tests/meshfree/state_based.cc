@@ -266,7 +266,7 @@ TEST(ScatteredNodes, yields_the_same_with_its_dilatation_kept)
     const auto all = methods();
     const auto method =
         std::find_if(all.begin(), all.end(), [](const auto &one) { return one->name() == "OPT"; });
-    return analysis::solve(**method, scene, make_problem(scene, 0, {.1, .25}));
+    return analysis::solve(**method, make_problem(scene, 0, {.1, .25}));
   };
   const auto eliminated = solve("eliminated"), kept = solve("kept");
   EXPECT_LT(largest_difference(eliminated.nodal, kept.nodal), 1e-10 * largest(kept.nodal));
@@ -280,7 +280,7 @@ TEST(ScatteredNodes, yields_the_same_with_its_dilatation_kept)
 TEST(ScatteredNodes, has_no_symmetric_operator_for_conjugate_gradients)
 {
   const auto why_not = [](const scene::Scene &scene) {
-    return methods().front()->why_not(scene, make_problem(scene, 0, {.25, .5}));
+    return methods().front()->why_not(make_problem(scene, 0, {.25, .5}));
   };
   const scene::Override cg{"Solver/iteration", "cg"};
   EXPECT_EQ(why_not(solid_scene({})), "");

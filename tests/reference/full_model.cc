@@ -25,8 +25,7 @@ namespace
     for (const auto &methods : {reference::methods(), meshfree::methods()})
       for (const auto &method : methods)
         if (method->name() == name)
-          return analysis::solve(*method, scene,
-                                 make_problem(scene, 0, scene.study.series[0].levels[0]));
+          return analysis::solve(*method, make_problem(scene, 0, scene.study.series[0].levels[0]));
     throw std::logic_error(name);
   }
 

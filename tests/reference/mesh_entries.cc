@@ -55,14 +55,14 @@ namespace
   };
 
   Assembled assemble(const Mesh &mesh, const physics::Kernel<2> &kernel, bool is_continuous,
-                     unsigned int degree, unsigned int refinement, bool exact_rectangles = true,
+                     unsigned int degree, unsigned int refinement, bool is_exact = true,
                      const std::optional<physics::Coefficient> &coefficient = {})
   {
     const auto shared = std::make_shared<const Mesh>(mesh);
     auto space = std::make_shared<const MeshSpace>(shared, is_continuous, degree);
     const reference::MeshCells cells(mesh);
     return {space, reference::assemble(*space, cells, kernel, coefficient,
-                                       {refinement, exact_rectangles, geometry::Backend::fast},
+                                       {refinement, is_exact, geometry::Backend::fast},
                                        base::Team::alone())};
   }
 

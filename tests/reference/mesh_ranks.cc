@@ -45,10 +45,8 @@ TEST(Ranks, FindTheSolutionThatOneOfThemFindsAlone)
         const std::string cell = mesh == "squares" ? "Q" : "P";
         for (const std::string &name : {cell + "1", "DG" + cell + "2"})
         {
-          const auto together =
-              analysis::solve(*method_named(name), scene, problem, base::Team::all());
-          const auto alone =
-              analysis::solve(*method_named(name), scene, problem, base::Team::alone());
+          const auto together = analysis::solve(*method_named(name), problem, base::Team::all());
+          const auto alone = analysis::solve(*method_named(name), problem, base::Team::alone());
           ASSERT_EQ(together.nodal.size(), alone.nodal.size());
           double difference = 0;
           for (std::size_t i = 0; i < alone.nodal.size(); ++i)

@@ -49,7 +49,7 @@ namespace
                const std::string &norm = "field L2")
   {
     const auto problem = make_problem(scene, 0, {h, horizon});
-    return study::errors(scene, problem, analysis::solve(*method_named(name), scene, problem), {})
+    return study::errors(scene, problem, analysis::solve(*method_named(name), problem), {})
         .at(norm + " | exact");
   }
 } // namespace
@@ -76,8 +76,8 @@ TEST(MeshGalerkin, OnSquaresIsTheLatticeSolution)
     const auto on_mesh = make_scene("squares", wave), on_lattice = make_scene("lattice", wave);
     const auto mesh = make_problem(on_mesh, 0, {.125, .3}),
                lattice = make_problem(on_lattice, 0, {.125, .3});
-    const auto a = analysis::solve(*method_named(name), on_mesh, mesh),
-               b = analysis::solve(*method_named(name), on_lattice, lattice);
+    const auto a = analysis::solve(*method_named(name), mesh),
+               b = analysis::solve(*method_named(name), lattice);
     EXPECT_LT(study::averages_l2(lattice, a.averages, b.averages), 1e-11) << name;
   }
 }
@@ -116,26 +116,24 @@ TEST(MeshGalerkin, DegreeZeroStallsAtAFixedRatioAndDegreeOneDoesNot)
 
 TEST(MeshGalerkin, KnowsItsOuterError)
 {
-  const auto coarse = make_scene("triangles", wave, no_refinement);
-  const auto problem = make_problem(coarse, 0, {.125, .3});
-  const auto first = analysis::solve(*method_named("P1"), coarse, problem);
+  const auto solve = [](const std::string &quadrature)
+  {
+    const auto scene = make_scene("triangles", wave, quadrature);
+    return analysis::solve(*method_named("P1"), make_problem(scene, 0, {.125, .3}));
+  };
+  const auto first = solve(no_refinement);
   EXPECT_EQ(first.diagnostics.n_refinements, 0u);
   EXPECT_FALSE(first.diagnostics.is_outer_error_known);
 
-  const auto scene =
-      make_scene("triangles", wave, "subsection Quadrature\n set tolerance = 1e-6\nend\n");
-  const auto settled = analysis::solve(*method_named("P1"), scene, problem);
+  const auto settled = solve("subsection Quadrature\n set tolerance = 1e-6\nend\n");
   EXPECT_GT(settled.diagnostics.n_refinements, 0u);
   EXPECT_TRUE(settled.diagnostics.is_outer_error_known);
   EXPECT_LE(settled.diagnostics.outer_change, 1e-6);
   EXPECT_GT(settled.diagnostics.outer_change, 0);
 
-  const auto impossible =
-      make_scene("triangles", wave,
-                 "subsection Quadrature\n set tolerance = 1e-14\n set max refinements = 1\nend\n");
   try
   {
-    analysis::solve(*method_named("P1"), impossible, problem);
+    solve("subsection Quadrature\n set tolerance = 1e-14\n set max refinements = 1\nend\n");
     FAIL() << "a tolerance of 1e-14 was met";
   }
   catch (const NumericalError &failure)
@@ -228,7 +226,7 @@ TEST(LocalLimit, IsTheSolutionOfPoissonsAndNaviersEquation)
     const auto local_error = [&](double h)
     {
       const auto problem = make_problem(scene, 0, {h, h});
-      const auto solution = analysis::solve(*method_named("LOCAL"), scene, problem);
+      const auto solution = analysis::solve(*method_named("LOCAL"), problem);
       return study::errors(scene, problem, solution, {}).at("field L2 | exact");
     };
     return std::log2(local_error(.125) / local_error(.0625));
@@ -264,7 +262,7 @@ TEST(LocalLimit, HasTheDilatationOfASolid)
   for (const double h : {.125, .0625})
   {
     const auto problem = make_problem(scene, 0, {h, h});
-    const auto solution = analysis::solve(*method_named("LOCAL"), scene, problem);
+    const auto solution = analysis::solve(*method_named("LOCAL"), problem);
     errors.push_back(study::errors(scene, problem, solution, {}).at("field L2 | exact"));
   }
   EXPECT_NEAR(std::log2(errors[0] / errors[1]), 3, .2);
@@ -290,7 +288,7 @@ TEST(MeshMethods, WriteFieldsForEveryDegree)
     {
       const std::string name = (mesh == "squares" ? "Q" : "P") + degree;
       const auto file = std::filesystem::temp_directory_path() / ("plumbline_" + name + ".vtu");
-      analysis::solve(*method_named(name), scene, problem).write_vtu(file.string());
+      analysis::solve(*method_named(name), problem).write_vtu(file.string());
       std::ifstream written(file);
       std::string first;
       std::getline(written, first);
@@ -304,7 +302,7 @@ TEST(MeshGalerkin, DoesNotDependOnTheFirstVertexOfRectangles)
 {
   const auto scene = make_scene("squares", wave);
   auto problem = make_problem(scene, 0, {.25, .3});
-  const auto expected = analysis::solve(*method_named("Q2"), scene, problem).averages;
+  const auto expected = analysis::solve(*method_named("Q2"), problem).averages;
   for (unsigned int turn = 1; turn < 4; ++turn)
   {
     geometry::Mesh mesh = *problem.mesh;
@@ -312,18 +310,18 @@ TEST(MeshGalerkin, DoesNotDependOnTheFirstVertexOfRectangles)
       std::rotate(cell.vertex.begin(), cell.vertex.begin() + turn, cell.vertex.end());
     auto turned = problem;
     turned.mesh = std::make_shared<const geometry::Mesh>(mesh);
-    EXPECT_LT(study::averages_l2(
-                  problem, analysis::solve(*method_named("Q2"), scene, turned).averages, expected),
+    EXPECT_LT(study::averages_l2(problem, analysis::solve(*method_named("Q2"), turned).averages,
+                                 expected),
               1e-4)
         << turn;
   }
   // refined cells are rectangles like those they come from: entries stay exact
   auto fine = problem; // averaged over the same cells
   fine.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh));
-  const auto refined = analysis::solve(*method_named("Q2"), scene, fine);
+  const auto refined = analysis::solve(*method_named("Q2"), fine);
   EXPECT_EQ(refined.diagnostics.n_refinements, 0u);
   auto half = make_problem(scene, 0, {.125, .3});
   half.cells = problem.cells;
-  const auto direct = analysis::solve(*method_named("Q2"), scene, half);
+  const auto direct = analysis::solve(*method_named("Q2"), half);
   EXPECT_LT(study::averages_l2(problem, refined.averages, direct.averages), 1e-11);
 }

@@ -65,19 +65,19 @@ namespace
     return scene::parse_scene("test.prm", scene::scene_template("variational"), fixed + settings);
   }
 
-  Solution solve(const Scene &scene, const Problem &problem, const std::string &name)
+  Solution solve(const Problem &problem, const std::string &name)
   {
     for (const auto &methods : {reference::methods(), meshfree::methods()})
       for (const auto &method : methods)
         if (method->name() == name)
-          return analysis::solve(*method, scene, problem);
+          return analysis::solve(*method, problem);
     throw std::logic_error(name);
   }
 
   /// Of the field, against the exact solution.
   double l2_error(const Scene &scene, const Problem &problem, const std::string &name)
   {
-    return study::errors(scene, problem, solve(scene, problem, name), {}).at("field L2 | exact");
+    return study::errors(scene, problem, solve(problem, name), {}).at("field L2 | exact");
   }
 
   /// The L2 norm of cell averages.
@@ -110,10 +110,10 @@ namespace
     for (const double h : {.25, .125})
     {
       const Problem problem = make_problem(scene, 0, {h, 3 * h});
-      const auto exact = solve(scene, problem, "Q2").averages;
+      const auto exact = solve(problem, "Q2").averages;
       for (const std::string rule : {"OPT", "IPA-AC-R2", "IPA-AC"})
         differences[rule].push_back(
-            study::averages_l2(problem, solve(scene, problem, rule).averages, exact) /
+            study::averages_l2(problem, solve(problem, rule).averages, exact) /
             size(problem, exact));
     }
     for (const std::string rule : {"OPT", "IPA-AC-R2"})
@@ -128,23 +128,23 @@ namespace
   {
     const Scene scene =
         square(model, squares + settings + Settings{{"Solver/linear solver", "jacobi"}});
-    return solve(scene, make_problem(scene, 0, {.25, .3}), name).diagnostics.operator_backend;
+    return solve(make_problem(scene, 0, {.25, .3}), name).diagnostics.operator_backend;
   }
 } // namespace
 
 TEST(StateBasedGalerkin, OnSquaresApproachesTheLatticeSolution)
 {
   const scene::Level level{.25, .5};
-  const Scene on_lattice = square("LPS", {}), on_squares = square("LPS", squares);
-  const Problem lattice = make_problem(on_lattice, 0, level),
-                mesh = make_problem(on_squares, 0, level);
+  const Problem lattice = make_problem(square("LPS", {}), 0, level);
+  const auto on_squares = [&](const Settings &settings)
+  { return make_problem(square("LPS", squares + settings), 0, level); };
   for (const std::string name : {"Q1", "Q2", "DGQ1"})
   {
-    const auto expected = solve(on_lattice, lattice, name).averages;
+    const auto expected = solve(lattice, name).averages;
     std::vector<double> differences;
     for (const Settings &once : refined)
     {
-      const auto found = solve(square("LPS", squares + once), mesh, name);
+      const auto found = solve(on_squares(once), name);
       EXPECT_EQ(found.diagnostics.n_refinements, differences.size());
       differences.push_back(study::averages_l2(lattice, found.averages, expected) /
                             size(lattice, expected));
@@ -152,8 +152,8 @@ TEST(StateBasedGalerkin, OnSquaresApproachesTheLatticeSolution)
     EXPECT_LT(differences[0], 5e-5) << name;
     EXPECT_LT(differences[1], differences[0] / 4) << name;
   }
-  const Scene tight = square("LPS", squares + Settings{{"Quadrature/tolerance", "1e-5"}});
-  const auto found = solve(tight, mesh, "Q1"), expected = solve(on_lattice, lattice, "Q1");
+  const auto found = solve(on_squares({{"Quadrature/tolerance", "1e-5"}}), "Q1"),
+             expected = solve(lattice, "Q1");
   EXPECT_LT(study::averages_l2(lattice, found.averages, expected.averages),
             found.diagnostics.outer_change * size(lattice, expected.averages));
 }
@@ -193,8 +193,8 @@ TEST(StateBasedGalerkin, IsBondBasedWhereTheConstantsAreEqual)
   ASSERT_TRUE(full.dilatation);
   for (const std::string name : {"Q1", "Q2", "DGQ0", "FA", "IPA-AC-R2", "OPT"})
   {
-    const auto expected = solve(bonds, of_bonds, name).averages;
-    EXPECT_LT(study::averages_l2(of_bonds, solve(solid, full, name).averages, expected),
+    const auto expected = solve(of_bonds, name).averages;
+    EXPECT_LT(study::averages_l2(of_bonds, solve(full, name).averages, expected),
               1e-11 * size(of_bonds, expected))
         << name;
   }
@@ -220,14 +220,14 @@ TEST(FreeBody, RulesApproachTheExactModel)
     for (const double h : {.1, .05, .025})
     {
       const Problem problem = make_problem(scene, 0, {h, .1});
-      const auto exact = solve(scene, problem, "DGQ0").averages;
+      const auto exact = solve(problem, "DGQ0").averages;
       for (const std::string rule : {"PA-AC", "IPA-AC"})
         differences[rule].push_back(
-            study::averages_l2(problem, solve(scene, problem, rule).averages, exact) /
+            study::averages_l2(problem, solve(problem, rule).averages, exact) /
             size(problem, exact));
       if (h == .1)
         continue; // squares of neighbours can shear freely
-      EXPECT_LT(study::averages_l2(problem, solve(scene, problem, "FA").averages, exact),
+      EXPECT_LT(study::averages_l2(problem, solve(problem, "FA").averages, exact),
                 .25 * size(problem, exact));
     }
     for (const auto &[rule, all] : differences)
@@ -244,12 +244,12 @@ TEST(FreeBody, TurnedAndCutByItsMeshIsTheSame)
   const Settings cells = {{"Methods/load", "cells"}};
   const Scene upright = bar(cells);
   const Problem problem = make_problem(upright, 0, {.05, .1});
-  const Solution expected = solve(upright, problem, "PA-AC");
+  const Solution expected = solve(problem, "PA-AC");
   const auto compare = [&](const Settings &settings, const std::function<Point<2>(Point<2>)> &turn)
   {
     const Scene scene = bar(cells + Settings{{"Domain/mesh", "squares"}} + settings);
     const Problem turned = make_problem(scene, 0, {.05, .1});
-    const Solution found = solve(scene, turned, "PA-AC");
+    const Solution found = solve(turned, "PA-AC");
     ASSERT_EQ(found.nodes.size(), expected.nodes.size());
     double largest = 0, difference = 0;
     for (std::size_t i = 0; i < expected.nodes.size(); ++i)
@@ -287,8 +287,7 @@ TEST(FreeBody, SpacesApproachEachOther)
     const auto averages = [&](const Choice &choice)
     {
       const Scene scene = bar(refined[0] + Settings{{"Domain/mesh", choice.mesh}});
-      return solve(scene, make_problem(scene, 0, {level == 0 ? .1 : .05, .1}), choice.name)
-          .averages;
+      return solve(make_problem(scene, 0, {level == 0 ? .1 : .05, .1}), choice.name).averages;
     };
     const Problem problem = make_problem(bar({}), 0, {level == 0 ? .1 : .05, .1});
     const auto first = averages({"lattice", "Q1"});
@@ -312,7 +311,7 @@ TEST(FreeBody, StretchesAsYoungsModulusAndPoissonsRatioSay)
     const Scene scene = bar(refined[0] + Settings{{"Domain/boxes", "0, 0 : 3, 0.5"},
                                                   {"Problem/load", "100*(x > 2.9 - 1e-9), 0"},
                                                   {"Material/l", std::to_string(l)}});
-    const auto u = solve(scene, make_problem(scene, 0, {.05, .1}), "Q1").value;
+    const auto u = solve(make_problem(scene, 0, {.05, .1}), "Q1").value;
     const physics::Lame lame = physics::lame_from_bulk(k, l);
     const double stiffness = lame.lambda + 2 * lame.mu,
                  strain = force * stiffness / (4 * lame.mu * k);

@@ -40,14 +40,14 @@ namespace
                double h, double horizon)
   {
     const auto problem = make_problem(scene, 0, {h, horizon});
-    return study::errors(scene, problem, analysis::solve(*method_named(name), scene, problem), {})
+    return study::errors(scene, problem, analysis::solve(*method_named(name), problem), {})
         .at(norm + " | exact");
   }
 
   unsigned int n_iterations(const scene::Scene &scene, const std::string &name, double h,
                             double horizon)
   {
-    return analysis::solve(*method_named(name), scene, make_problem(scene, 0, {h, horizon}))
+    return analysis::solve(*method_named(name), make_problem(scene, 0, {h, horizon}))
         .cost.n_iterations;
   }
 
@@ -111,8 +111,8 @@ TEST(LatticeGalerkin, continuous_and_discontinuous_solutions_agree)
 {
   const auto scene = make_scene(tensor_kernel, trigonometric_vector);
   const auto problem = make_problem(scene, 0, {1. / 24, .2});
-  const auto q2 = analysis::solve(*method_named("Q2"), scene, problem),
-             dg2 = analysis::solve(*method_named("DGQ2"), scene, problem);
+  const auto q2 = analysis::solve(*method_named("Q2"), problem),
+             dg2 = analysis::solve(*method_named("DGQ2"), problem);
   EXPECT_LT(study::averages_l2(problem, q2.averages, dg2.averages), 1e-5);
 }
 
@@ -172,7 +172,7 @@ TEST(SmallestModel, stencil_and_assembled_matrix_give_the_same_solution)
                                  : make_scene(scalar_kernel, trigonometric, text(backend));
           const auto problem = make_problem(scene, 0, {.0625, .2});
           const auto solution =
-              analysis::solve(*method_named(is_continuous ? "Q2" : "DGQ1"), scene, problem);
+              analysis::solve(*method_named(is_continuous ? "Q2" : "DGQ1"), problem);
           if (averages.empty())
             averages = solution.averages;
           else
@@ -191,7 +191,7 @@ TEST(LatticeGalerkin, a_load_that_is_not_smooth_is_integrated_cell_by_cell)
         make_scene(scalar_kernel, "0*x",
                    "subsection Problem\n set load = " + load + "\n set constraint = 0\nend\n");
     const auto problem = make_problem(scene, 0, {.125, .25});
-    return analysis::solve(*method_named("Q1"), scene, problem).averages;
+    return analysis::solve(*method_named("Q1"), problem).averages;
   };
   const auto jump = solve("x < 0.5 ? 1 : 3"), constant = solve("1");
   double sum_jump = 0, sum_constant = 0;
@@ -216,7 +216,7 @@ TEST(LatticeGalerkin, loads_on_two_halves_add_up_to_the_load_on_both)
             "\n set constraint = 0\nend\nsubsection Solver\n set tolerance = 1e-13\nend\n");
     const auto problem = make_problem(scene, 0, {.125, .25});
     EXPECT_EQ(problem.load.series.has_value(), load.find('?') == std::string::npos);
-    return analysis::solve(*method_named("Q1"), scene, problem).nodal;
+    return analysis::solve(*method_named("Q1"), problem).nodal;
   };
   const auto both = solve("x^2*(1 + y^3)");
   const double largest = *std::max_element(both.begin(), both.end());

@@ -41,7 +41,7 @@ namespace plumbline::report
     {
       study::Run run;
       run.method = method;
-      run.family = "meshfree";
+      run.side = study::Side::meshfree;
       run.problem = "case";
       run.series = "series";
       run.level = level;
@@ -109,7 +109,7 @@ namespace plumbline::report
       results.decisive_error = "nodal Linf | exact";
       study::Trend trend;
       trend.method = "FA";
-      trend.family = "meshfree";
+      trend.side = study::Side::meshfree;
       trend.problem = "case";
       trend.series = "series";
       trend.error = results.decisive_error;
@@ -205,7 +205,7 @@ namespace plumbline::report
   TEST(ReportColumns, OfStabilityMeasuresAreNotMistakenForEachOther)
   {
     study::StabilityResults results;
-    study::StabilityRow row{"FA", "meshfree", "m = 3", .1, .3, {}, {}, {}};
+    study::StabilityRow row{"FA", study::Side::meshfree, "m = 3", .1, .3, {}, {}, {}};
     study::Stability &s = row.stability;
     s.n_unknowns = 11;
     s.smallest = 12;

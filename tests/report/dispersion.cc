@@ -38,7 +38,7 @@ namespace plumbline::report
       using physics::Polarisation;
       study::DispersionRow result;
       result.method = method;
-      result.family = "meshfree";
+      result.side = study::Side::meshfree;
       result.series = "m = 3";
       result.h = h;
       result.horizon = 3 * h;
@@ -56,7 +56,7 @@ namespace plumbline::report
     {
       study::Trend t;
       t.method = method;
-      t.family = "meshfree";
+      t.side = study::Side::meshfree;
       t.series = "m = 3";
       t.error = "phase speed | nonlocal";
       t.axis = study::Axis::mesh_size;
@@ -81,7 +81,7 @@ namespace plumbline::report
           r.rows.push_back(row(method, h, method == "good" ? h * h : .0275));
       study::DispersionRow none;
       none.method = "none";
-      none.family = "meshfree";
+      none.side = study::Side::meshfree;
       none.series = "m = 3";
       none.h = .2;
       none.horizon = .6;

@@ -109,7 +109,7 @@ namespace plumbline::report
   TEST(ReportPage, RanksByTheLargestErrorWhereNothingIsRefined)
   {
     study::Results results = fixture::results();
-    results.regime = "horizon";
+    results.regime = scene::Regime::horizon;
     for (study::Run &run : results.runs)
       run.errors[results.decisive_error] = run.method == "Q1" ? 1e-4 : 2e-3;
     results.runs.front().errors[results.decisive_error] = 3e-2; // of FA

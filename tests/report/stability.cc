@@ -16,7 +16,7 @@ namespace plumbline::report
   {
     study::StabilityRow row(const std::string &method, double h, bool is_free)
     {
-      study::StabilityRow result{method, "meshfree", "m = 3", h, 3 * h, {}, {}, {}};
+      study::StabilityRow result{method, study::Side::meshfree, "m = 3", h, 3 * h, {}, {}, {}};
       study::Stability &s = result.stability;
       s.n_unknowns = 2 * static_cast<std::size_t>(std::pow(std::round(1 / h), 2));
       s.smallest = is_free ? 0 : 8 - h;
@@ -56,7 +56,7 @@ namespace plumbline::report
       for (const double h : {.2, .1, .05})
         r.rows.push_back(row("free", h, true));
       r.rows.push_back({"none",
-                        "meshfree",
+                        study::Side::meshfree,
                         "m = 3",
                         .2,
                         .6,
@@ -65,7 +65,9 @@ namespace plumbline::report
                         std::string(40, 'x') + " " + std::string(90, 'y')});
       r.trends = study::stability_trends(r.rows);
       for (const char *method : {"sound", "free", "none"})
-        r.verdicts.push_back({method, std::string(method) == "sound" ? "stable" : "unstable",
+        r.verdicts.push_back({method,
+                              std::string(method) == "sound" ? study::StabilityAnswer::stable
+                                                             : study::StabilityAnswer::unstable,
                               std::string(method) == "sound" ? "m >= 2" : "",
                               "3 modes < 4 & more"});
       return r;

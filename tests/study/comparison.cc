@@ -31,16 +31,16 @@ namespace
         : GivenSolutions("fake"), rate_(rate), plateau_(plateau)
     {
     }
-    std::string why_not(const scene::Scene &, const scene::Problem &problem) const override
+    std::string why_not(const scene::Problem &problem) const override
     {
       return problem.lattice ? "" : "it is for lattices";
     }
 
   private:
-    method::Field field(const scene::Scene &scene, const scene::Problem &problem) const override
+    method::Field field(const scene::Problem &problem) const override
     {
       const double error = plateau_ + std::pow(problem.lattice->h(), rate_);
-      const auto cells = method::comparison_nodes(scene, *problem.lattice, problem.n_components);
+      const auto cells = method::comparison_nodes(problem, problem.n_components);
       method::Field solution;
       solution.nodes = method::free_points(*problem.lattice, cells);
       for (const auto &node : solution.nodes)
@@ -64,7 +64,7 @@ TEST(CellAverages, are_exact_for_polynomials_at_centres_and_vertices)
   {
     const auto scene = make_scene("subsection Methods\n set nodes = " + nodes + "\nend\n");
     const auto problem = make_problem(scene, 0, {.125, .25});
-    const auto cells = method::comparison_nodes(scene, *problem.lattice, 1);
+    const auto cells = method::comparison_nodes(problem, 1);
     const auto averages = cell_averages(*problem.solution, *problem.lattice, cells);
     std::size_t index = 0;
     const auto mean = [](int power, double a, double b)
@@ -86,7 +86,7 @@ TEST(CellAverages, without_a_series_agree_with_those_with_one)
 {
   const auto scene = make_scene();
   const auto problem = make_problem(scene, 0, {.25, .25});
-  const auto cells = method::comparison_nodes(scene, *problem.lattice, 1);
+  const auto cells = method::comparison_nodes(problem, 1);
   scene::Field pointwise = *problem.solution;
   pointwise.series.reset();
   const auto a = cell_averages(*problem.solution, *problem.lattice, cells);
@@ -103,8 +103,8 @@ TEST(CoarsenAverages, of_exact_fine_averages_are_exact_coarse_averages)
     const auto fine_scene = make_scene(holes);
     const auto coarse = make_problem(scene, 0, {.125, .25}),
                fine = make_problem(fine_scene, 0, {.0625, .25});
-    const auto cells = method::comparison_nodes(scene, *coarse.lattice, 1);
-    const auto fine_cells = method::comparison_nodes(fine_scene, *fine.lattice, 1);
+    const auto cells = method::comparison_nodes(coarse, 1);
+    const auto fine_cells = method::comparison_nodes(fine, 1);
     const auto coarsened = coarsen_averages(
         cell_averages(*fine.solution, *fine.lattice, fine_cells), fine_cells, cells);
     EXPECT_LT(
@@ -119,7 +119,7 @@ TEST(Errors, are_those_put_in)
       make_scene("subsection Study\n set norms = nodal Linf, nodal L2, averages Linf, averages "
                  "L2, field Linf, field L2\nend\n");
   const auto problem = make_problem(scene, 0, {.1, .3});
-  const auto solution = analysis::solve(FakeMethod(2), scene, problem);
+  const auto solution = analysis::solve(FakeMethod(2), problem);
   const auto reference = std::vector<double>(solution.averages.size(), 0.);
   const auto found = errors(scene, problem, solution, {reference, {}});
   for (const std::string norm :
@@ -175,7 +175,7 @@ TEST(ErrorMap, shows_each_error_in_its_block_and_nothing_outside)
     const auto scene = make_scene(
         holes + "subsection Study\n set h = 0.125\n set decisive error = " + decisive + "\nend\n");
     const auto problem = make_problem(scene, 0, {.125, .25});
-    auto solution = analysis::solve(FakeMethod(2), scene, problem);
+    auto solution = analysis::solve(FakeMethod(2), problem);
     const bool is_nodal = decisive[0] == 'n';
     (is_nodal ? solution.nodal : solution.averages)[8 + 2] += 7; // cell (2, 1)
     const auto map = error_map(scene, problem, solution, {});

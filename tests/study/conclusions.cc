@@ -33,7 +33,7 @@ namespace
   Results make_results(const scene::Scene &scene)
   {
     Results results;
-    results.regime = "delta";
+    results.regime = scene::Regime::delta;
     results.decisive_error = scene.study.decisive_error.text();
     results.is_complete = true;
     return results;
@@ -47,7 +47,7 @@ namespace
     {
       Run run;
       run.method = method;
-      run.family = "meshfree";
+      run.side = study::Side::meshfree;
       run.problem = problem;
       run.series = series;
       run.level = level;

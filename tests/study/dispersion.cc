@@ -33,7 +33,7 @@ namespace
   std::vector<DispersionRow> rows_of(const std::string &name, const scene::Scene &scene,
                                      const scene::Level &level, bool is_finest = false)
   {
-    return measure_waves(*method_of(name), scene, scene::make_problem(scene, 0, level), unit_square,
+    return measure_waves(*method_of(name), scene::make_problem(scene, 0, level), unit_square,
                          "series", is_finest);
   }
 
@@ -144,7 +144,7 @@ TEST(Dispersion, the_largest_eigenvalue_is_that_of_a_fine_grid_of_waves)
   // FA, J = 1, m = 4, in units of p / ε²: all waves of a grid of 200 on π/h along each axis
   const scene::Scene scene = scene::parse_scene("test.prm", bonds(false));
   const scene::Problem problem = scene::make_problem(scene, 0, {.05, .2});
-  const algebra::Symbol symbol(*method_of("FA")->discretise(scene, problem)->waves());
+  const algebra::Symbol symbol(*method_of("FA")->discretise(problem)->waves());
   constexpr int n = 200;
   double largest = 0;
   for (int j = 0; j <= n; ++j)

@@ -94,13 +94,13 @@ namespace
   class QuadratureFault : public GivenSolutions
   {
   public:
-    explicit QuadratureFault(double part) : GivenSolutions("fault", "reference"), part_(part) {}
+    explicit QuadratureFault(double part) : GivenSolutions("fault", Side::reference), part_(part) {}
 
   private:
-    method::Field field(const scene::Scene &scene, const scene::Problem &problem) const override
+    method::Field field(const scene::Problem &problem) const override
     {
       method::Field solution;
-      solution.averages = cell_averages(*problem.solution, scene, problem);
+      solution.averages = cell_averages(*problem.solution, problem);
       for (double &average : solution.averages)
         average *= 1 + part_;
       solution.value =
@@ -203,12 +203,12 @@ TEST(Estimates, of_a_mesh_file_hold_for_its_polygon_and_say_so)
   const auto scene = make_scene(with(rough, settings));
   const auto problem = make_problem(scene, 0, {.25, .25});
   const auto method = galerkin("DGQ0");
-  const Solution solution = analysis::solve(*method, scene, problem);
+  const Solution solution = analysis::solve(*method, problem);
   EXPECT_TRUE(estimate_error(scene, problem, 0, *method, solution, false).is_of_polygon);
   const auto boxes = make_scene(with(rough, {{"Domain/mesh", "squares"}}));
   const auto same = make_problem(boxes, 0, {.25, .25});
-  EXPECT_FALSE(estimate_error(boxes, same, 0, *method, analysis::solve(*method, boxes, same), false)
-                   .is_of_polygon);
+  EXPECT_FALSE(
+      estimate_error(boxes, same, 0, *method, analysis::solve(*method, same), false).is_of_polygon);
   std::filesystem::remove(file);
 }
 
@@ -263,8 +263,8 @@ TEST(Estimates, include_what_outer_quadrature_errs_whatever_the_size_of_the_solu
     const auto scene =
         make_scene({{"Problem/solution", size + "*(2 + x*y)"}, {"Problem/load", "1"}});
     const auto problem = make_problem(scene, 0, {.125, .25});
-    const Solution solution = analysis::solve(method, scene, problem);
-    const auto exact = cell_averages(*problem.solution, scene, problem);
+    const Solution solution = analysis::solve(method, problem);
+    const auto exact = cell_averages(*problem.solution, problem);
     const double error = averages_l2(problem, solution.averages, exact);
     const auto found = estimate_error(scene, problem, 0, method, solution, false);
     EXPECT_LE(error * (1 - 1e-10), found.estimate) << size;

@@ -9,39 +9,35 @@ namespace plumbline::study
   class GivenSolutions : public Method
   {
   public:
-    explicit GivenSolutions(std::string name, std::string family = "meshfree")
-        : name_(std::move(name)), family_(std::move(family))
+    explicit GivenSolutions(std::string name, Side side = Side::meshfree)
+        : name_(std::move(name)), side_(side)
     {
     }
     std::string name() const override { return name_; }
-    std::string family() const override { return family_; }
+    Side side() const override { return side_; }
     std::string help() const override { return ""; }
-    std::string why_not(const scene::Scene &, const scene::Problem &) const override { return {}; }
-    std::unique_ptr<method::Discretisation>
-    discretise(const scene::Scene &scene, const scene::Problem &, const base::Team &) const override
+    std::unique_ptr<method::Discretisation> discretise(const scene::Problem &,
+                                                       const base::Team &) const override
     {
-      return std::make_unique<Given>(*this, scene);
+      return std::make_unique<Given>(*this);
     }
 
     mutable unsigned int n_solves = 0;
 
   private:
-    virtual method::Field field(const scene::Scene &, const scene::Problem &) const = 0;
+    virtual method::Field field(const scene::Problem &) const = 0;
     virtual double outer_change() const { return 0; }
 
     class Given : public method::Discretisation
     {
     public:
-      Given(const GivenSolutions &method, const scene::Scene &scene)
-          : method_(method), scene_(scene)
-      {
-      }
+      explicit Given(const GivenSolutions &method) : method_(method) {}
       std::size_t n_unknowns() const override { return 1; }
       method::CaseData data(const scene::Problem &problem) const override
       {
         ++method_.n_solves;
         return {method::Vector(1),
-                [this, &problem](const method::Vector &) { return method_.field(scene_, problem); },
+                [this, &problem](const method::Vector &) { return method_.field(problem); },
                 {}};
       }
       std::unique_ptr<algebra::LinearSystem> tangent() const override
@@ -58,7 +54,6 @@ namespace plumbline::study
 
     private:
       const GivenSolutions &method_;
-      const scene::Scene &scene_;
     };
 
     class Identity : public algebra::LinearSystem
@@ -73,7 +68,8 @@ namespace plumbline::study
       }
     };
 
-    std::string name_, family_;
+    std::string name_;
+    Side side_;
   };
 
   /// Solutions as if each had cost so many CPU seconds; 1 is enough not to be repeated for its
@@ -82,10 +78,10 @@ namespace plumbline::study
                                   [](const scene::Problem &) { return 1; })
   {
     SweepControl control;
-    control.solve = [seconds](const Method &method, const scene::Scene &scene,
-                              const std::vector<const scene::Problem *> &cases)
+    control.solve =
+        [seconds](const Method &method, const std::vector<const scene::Problem *> &cases)
     {
-      auto outcomes = analysis::solve(method, scene, cases);
+      auto outcomes = analysis::solve(method, cases);
       for (std::size_t i = 0; i < cases.size(); ++i)
         if (outcomes[i].solution)
         {

@@ -31,8 +31,7 @@ namespace
   {
     const scene::Problem problem =
         make_problem(scene, 0, scene.study.series.front().levels.front());
-    return analysis::solve(*study::find_method(all(), name, "test"), scene, problem)
-        .diagnostics.limit;
+    return analysis::solve(*study::find_method(all(), name, "test"), problem).diagnostics.limit;
   }
 
   const std::string harmonic = "subsection Problem\n set solution = exp(x)*cos(y)\nend\n";
@@ -84,12 +83,12 @@ TEST(LimitProof, an_error_of_one_part_in_a_million_is_an_error)
   stencil(0, 0, 0, 0) = 4 * a;
   for (const auto &[i, j] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
     stencil(0, 0, i, j) = -a;
-  EXPECT_EQ(method::prove_by_moments(scene, problem, stencil, 1).answer, Answer::compatible);
+  EXPECT_EQ(method::prove_by_moments(problem, stencil, 1).answer, Answer::compatible);
   stencil(0, 0, 0, 1) *= 1 + 1e-6;
-  EXPECT_EQ(method::prove_by_moments(scene, problem, stencil, 1).answer, Answer::incompatible);
+  EXPECT_EQ(method::prove_by_moments(problem, stencil, 1).answer, Answer::incompatible);
   stencil(0, 0, 0, 1) /= 1 + 1e-6;
   stencil(0, 0, 0, 0) *= 1 + 1e-6; // a constant is no longer mapped to 0
-  EXPECT_EQ(method::prove_by_moments(scene, problem, stencil, 1).answer, Answer::incompatible);
+  EXPECT_EQ(method::prove_by_moments(problem, stencil, 1).answer, Answer::incompatible);
 }
 
 TEST(LimitProof, promises_nothing_where_no_theorem_applies)
@@ -141,9 +140,9 @@ TEST(RoundOff, grows_with_the_offset_and_size_does_not)
     const scene::Problem problem =
         make_problem(scene, 0, scene.study.series.front().levels.front());
     const auto method = study::find_method(all(), "FA", "test");
-    const analysis::Solution solution = analysis::solve(*method, scene, problem);
+    const analysis::Solution solution = analysis::solve(*method, problem);
     return std::pair(study::variation(problem, solution),
-                     study::round_off_error(scene, problem, solution));
+                     study::round_off_error(problem, solution));
   };
   const auto [size, noise] = make(0, false);
   const auto [size_far, noise_far] = make(1e6, false);
@@ -169,7 +168,7 @@ TEST(RoundOff, a_constant_on_a_lattice_costs_no_more_than_its_own_rounding)
     const scene::Problem problem =
         make_problem(scene, 0, scene.study.series.front().levels.front());
     const auto method = study::find_method(all(), name, "test");
-    return analysis::solve(*method, scene, problem).nodal;
+    return analysis::solve(*method, problem).nodal;
   };
   for (const char *name : {"FA", "Q1", "DGQ1"})
   {

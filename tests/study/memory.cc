@@ -23,6 +23,9 @@ namespace
     const scene::Problem problem = make_problem(scene, 0, level);
     method::ProblemSize size;
     size.level = level;
+    size.n_components = problem.n_components;
+    size.is_body = problem.body.has_value();
+    size.has_dilatation = problem.dilatation.has_value();
     if (problem.lattice)
       for (unsigned int d = 0; d < 2; ++d)
         size.extents[d] = problem.lattice->n_cells()[d];
@@ -35,10 +38,10 @@ namespace
     for (const std::string &name : scene.methods.names)
     {
       const auto method = find_method(available, name, "Methods/names");
-      (void)analysis::solve(*method, scene, problem); // libraries make their tables
-      const analysis::Solution solution = analysis::solve(*method, scene, problem);
+      (void)analysis::solve(*method, problem); // libraries make their tables
+      const analysis::Solution solution = analysis::solve(*method, problem);
       const double ratio =
-          method->expected_bytes(scene, size) / static_cast<double>(solution.cost.peak_bytes);
+          method->expected_bytes(size) / static_cast<double>(solution.cost.peak_bytes);
       EXPECT_GT(ratio, .5) << name << ", of " << solution.cost.peak_bytes;
       EXPECT_LT(ratio, 2) << name << ", of " << solution.cost.peak_bytes;
     }

@@ -92,7 +92,7 @@ TEST(Motions, manufactured_fields_that_methods_hold_are_exact_to_round_off)
     const auto results = run(wave("scalar", "(1 + x)*(2 - y)*sin(2*t) + x - y", with_mass));
     ASSERT_EQ(results.runs.size(), 5u);
     for (const MotionRun &motion : results.runs)
-      if (!is_lumped || motion.family == "meshfree")
+      if (!is_lumped || motion.side == Side::meshfree)
       {
         EXPECT_LT(motion.errors.at("nodal L2 | exact"), 1e-9) << motion.method;
         EXPECT_LT(motion.errors.at("velocity nodal L2 | exact"), 1e-8) << motion.method;

@@ -42,13 +42,13 @@ namespace plumbline::study
                                       const scene::Level &level)
   {
     const scene::Problem problem = scene::make_problem(scene, 0, level);
-    return method_of(name)->discretise(scene, problem)->matrix();
+    return method_of(name)->discretise(problem)->matrix();
   }
 
   inline method::Diagnostics diagnostics_of(const std::string &name, const scene::Scene &scene,
                                             const scene::Level &level)
   {
     const scene::Problem problem = scene::make_problem(scene, 0, level);
-    return method_of(name)->discretise(scene, problem)->diagnostics();
+    return method_of(name)->discretise(problem)->diagnostics();
   }
 } // namespace plumbline::study

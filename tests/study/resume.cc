@@ -95,10 +95,10 @@ namespace
     BrokenMethod() : GivenSolutions("broken") {}
 
   private:
-    method::Field field(const scene::Scene &scene, const scene::Problem &problem) const override
+    method::Field field(const scene::Problem &problem) const override
     {
       method::Field solution;
-      solution.averages.assign(comparison_points(scene, problem).size(),
+      solution.averages.assign(comparison_points(problem).size(),
                                std::numeric_limits<double>::quiet_NaN());
       return solution;
     }

@@ -64,7 +64,7 @@ namespace
 
   StabilityRow row(double m, double h, double smallest, unsigned int n_negative = 0)
   {
-    StabilityRow result{"rule", "meshfree", "m = " + std::to_string(m), h, m * h, {}, {}, {}};
+    StabilityRow result{"rule", Side::meshfree, "m = " + std::to_string(m), h, m * h, {}, {}, {}};
     result.stability.smallest = smallest;
     result.stability.largest = 100;
     result.stability.diagnostics.n_negative_weights = n_negative;
@@ -276,20 +276,20 @@ TEST(Stability, inverse_norm_of_no_m_matrix_is_that_of_its_worst_load)
 
 TEST(StabilityVerdict, names_the_condition_it_finds)
 {
-  EXPECT_EQ(judge({row(2, .1, 9), row(3, .1, 9)}).verdict, "stable");
-  EXPECT_EQ(judge({row(2, .1, -9), row(3, .1, -9)}).verdict, "unstable");
+  EXPECT_EQ(judge({row(2, .1, 9), row(3, .1, 9)}).verdict, StabilityAnswer::stable);
+  EXPECT_EQ(judge({row(2, .1, -9), row(3, .1, -9)}).verdict, StabilityAnswer::unstable);
 
   const StabilityVerdict bound = judge({row(2, .1, -9), row(2, .05, -9), row(3, .1, 9)});
-  EXPECT_EQ(bound.verdict, "conditionally stable");
+  EXPECT_EQ(bound.verdict, StabilityAnswer::conditional);
   EXPECT_EQ(bound.condition, "m >= 3");
   EXPECT_NE(bound.explanation.find("-9"), std::string::npos) << bound.explanation;
 
   const StabilityVerdict doubtful = judge({row(3, .1, 9, 4), row(3, .05, 9)});
-  EXPECT_EQ(doubtful.verdict, "conditionally stable");
+  EXPECT_EQ(doubtful.verdict, StabilityAnswer::conditional);
   EXPECT_NE(doubtful.explanation.find("4 negative weights"), std::string::npos);
 
   // a level that fails between others that do not
-  EXPECT_EQ(judge({row(3, .1, 9), row(3, .05, -9)}).verdict, "unstable");
+  EXPECT_EQ(judge({row(3, .1, 9), row(3, .05, -9)}).verdict, StabilityAnswer::unstable);
 }
 
 TEST(StabilityVerdict, names_lost_rank_and_separate_parts)
@@ -301,7 +301,7 @@ TEST(StabilityVerdict, names_lost_rank_and_separate_parts)
   for (const auto &[bad, words] : {std::pair{lost, "rank 5 of 6"}, {parted, "2 separate parts"}})
   {
     const StabilityVerdict verdict = judge({bad, row(3, .1, 9)});
-    EXPECT_EQ(verdict.verdict, "conditionally stable") << words;
+    EXPECT_EQ(verdict.verdict, StabilityAnswer::conditional) << words;
     EXPECT_EQ(verdict.condition, "m >= 3") << words;
     EXPECT_NE(verdict.explanation.find(words), std::string::npos) << verdict.explanation;
   }
@@ -310,9 +310,10 @@ TEST(StabilityVerdict, names_lost_rank_and_separate_parts)
 TEST(StabilityVerdict, sees_coercivity_fall)
 {
   const StabilityVerdict falls = judge({row(3, .1, 4), row(3, .05, 2), row(3, .025, 1)});
-  EXPECT_EQ(falls.verdict, "unstable");
+  EXPECT_EQ(falls.verdict, StabilityAnswer::unstable);
   EXPECT_NE(falls.explanation.find("h to the power 1"), std::string::npos) << falls.explanation;
-  EXPECT_EQ(judge({row(3, .1, 4), row(3, .05, 3.5), row(3, .025, 3.2)}).verdict, "stable");
+  EXPECT_EQ(judge({row(3, .1, 4), row(3, .05, 3.5), row(3, .025, 3.2)}).verdict,
+            StabilityAnswer::stable);
 }
 
 TEST(StabilityTrends, are_the_powers_at_the_finest_three_levels_of_each_series)

@@ -122,12 +122,12 @@ namespace
     explicit BackwardMethod(double defect) : GivenSolutions("backward"), defect_(defect) {}
 
   private:
-    method::Field field(const scene::Scene &scene, const scene::Problem &) const override
+    method::Field field(const scene::Problem &problem) const override
     {
       method::Field solution;
       solution.nodes = {{.25, .25}, {.75, .25}, {.25, .75}, {.75, .75}};
       solution.nodal = {1, 2, 3, 4};
-      if (scene.solver.is_full_model)
+      if (problem.settings.solver.is_full_model)
       {
         solution.nodal[1] += defect_;
         std::reverse(solution.nodes.begin(), solution.nodes.end());
@@ -148,7 +148,7 @@ TEST(SweepSavings, compare_values_at_the_same_place_in_whatever_order_nodes_come
   for (const double defect : {0., .5})
   {
     const BackwardMethod method(defect);
-    const Solution solution = analysis::solve(method, scene, scene::make_problem(scene, 0, level));
+    const Solution solution = analysis::solve(method, scene::make_problem(scene, 0, level));
     const auto saving = measure_saving(scene, 0, level, method, solution);
     ASSERT_TRUE(saving);
     EXPECT_EQ(saving->difference, defect / 4);
@@ -172,10 +172,10 @@ namespace
     DearMethod() : GivenSolutions("dear") {}
 
   private:
-    method::Field field(const scene::Scene &scene, const scene::Problem &problem) const override
+    method::Field field(const scene::Problem &problem) const override
     {
       method::Field solution;
-      solution.averages.assign(comparison_points(scene, problem).size(), 0.);
+      solution.averages.assign(comparison_points(problem).size(), 0.);
       return solution;
     }
   };

@@ -1,10 +1,9 @@
 #include "base/error.h"
+#include "base/text_file.h"
 #include "scene/keys.h"
 #include "scene/mesh_files.h"
 #include "scene/problem_sections.h"
 #include "scene/values.h"
-
-#include <filesystem>
 
 namespace plumbline::scene
 {
@@ -26,13 +25,18 @@ namespace plumbline::scene
 
   MeshKind MeshSource::kind() const
   {
-    const std::string ending = std::filesystem::path(name).extension().string();
     return base::from_word<MeshKind>(name).value_or(
-        ending == ".msh" || ending == ".geo" ? MeshKind::file : MeshKind::generator);
+        is_msh() || base::has_ending(name, ".geo") ? MeshKind::file : MeshKind::generator);
+  }
+
+  bool MeshSource::is_msh() const
+  {
+    return base::has_ending(name, ".msh");
   }
 
   void DomainSection::declare(Keys &keys)
   {
+    const auto &words = base::words<Boundary>;
     mesh_files = std::make_shared<MeshFiles>();
     keys.add(
         "boxes", "0, 0 : 1, 1", scene::boxes(),
@@ -71,11 +75,12 @@ namespace plumbline::scene
         "Width of the interaction collar where the volume constraint gives u: auto, or a width of "
         "at least the largest horizon. [length]");
     keys.add(
-        "boundary", "constrained", one_of({"constrained", "free", "periodic"}),
+        "boundary", "constrained", one_of({words.begin(), words.end()}),
         [this](const std::string &text)
         {
-          is_free_body = text == "free";
-          is_periodic = text == "periodic";
+          const auto boundary = base::from_word<Boundary>(text);
+          is_free_body = boundary == Boundary::free;
+          is_periodic = boundary == Boundary::periodic;
         },
         "constrained: u is given all around Omega, in its collar. free: no collar; families "
         "end at the boundary, and u is given in Domain/fixed (Material/model = variational). "

@@ -19,8 +19,9 @@ namespace plumbline::scene
     using physics::Expression;
     using physics::Lame;
 
-    const std::array<std::array<std::string, 2>, 3> pairs = {
-        {{"E", "nu"}, {"lambda", "mu"}, {"k", "l"}}};
+    using Pair = std::array<std::string, 2>;
+    const Pair young = {"E", "nu"}, lame_constants = {"lambda", "mu"}, bulk = {"k", "l"};
+    const std::array<Pair, 3> pairs = {young, lame_constants, bulk};
 
     Lame lame_from_lame(double lambda, double mu)
     {
@@ -37,9 +38,9 @@ namespace plumbline::scene
     Lame convert(const MaterialSection &material, double first, double second)
     {
       Lame lame{};
-      if (material.keys[0] == "E")
+      if (material.keys == young)
         lame = physics::lame_from_young(first, second, material.plane);
-      else if (material.keys[0] == "k")
+      else if (material.keys == bulk)
         lame = physics::lame_from_bulk(first, second);
       else
         lame = lame_from_lame(first, second);

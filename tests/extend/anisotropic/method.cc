@@ -33,10 +33,8 @@ namespace anisotropic
     class Discretisation : public method::LatticeDiscretisation
     {
     public:
-      Discretisation(const scene::Scene &scene, const scene::Problem &problem,
-                     const meshfree::Bonds &bonds, double a)
-          : LatticeDiscretisation(scene, problem,
-                                  method::comparison_nodes(scene, *problem.lattice, 1),
+      Discretisation(const scene::Problem &problem, const meshfree::Bonds &bonds, double a)
+          : LatticeDiscretisation(problem, method::comparison_nodes(problem, 1),
                                   make_stencil(problem, bonds, a), {1})
       {
       }
@@ -78,23 +76,24 @@ namespace anisotropic
       Fibres(meshfree::Rule rule, double a) : rule_(std::move(rule)), a_(a) {}
 
       std::string name() const override { return "fibres " + rule_.name; }
-      std::string family() const override { return "meshfree"; }
+      method::Side side() const override { return method::Side::meshfree; }
       std::string help() const override { return "fibres along x: " + rule_.help; }
       method::Capabilities can() const override
       {
         return {method::Capability::lattice, method::Capability::nonlocal};
       }
-      std::string why_not(const scene::Scene &scene, const scene::Problem &) const override
+      std::string why_not(const scene::Problem &problem) const override
       {
-        return scene.is_vector() ? "fibres are for scalar kernels; choose one (Kernel/type)" : "";
+        return problem.n_components > 1 ? "fibres are for scalar kernels; choose one (Kernel/type)"
+                                        : "";
       }
-      std::unique_ptr<method::Discretisation> discretise(const scene::Scene &scene,
-                                                         const scene::Problem &problem,
+      std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
                                                          const base::Team &) const override
       {
-        const auto bonds = meshfree::lattice_bonds(rule_.recipe(problem.kernel), problem.kernel,
-                                                   problem.lattice->h(), scene.geometry.backend);
-        return std::make_unique<Discretisation>(scene, problem, bonds, a_);
+        const auto bonds =
+            meshfree::lattice_bonds(rule_.recipe(problem.kernel), problem.kernel,
+                                    problem.lattice->h(), problem.settings.geometry.backend);
+        return std::make_unique<Discretisation>(problem, bonds, a_);
       }
 
     private:
