@@ -171,6 +171,28 @@ namespace plumbline::analysis
     return Statics(method, scene, cases, team).run();
   }
 
+  void settle_quadrature(Discretisation &discretisation, const scene::Scene &scene,
+                         const scene::Problem &problem)
+  {
+    if (!discretisation.has_quadrature_error() || scene.quadrature.tolerance == 0)
+      return;
+    Vector before;
+    for (unsigned int refinement = 0;; ++refinement)
+    {
+      const method::CaseData data = discretisation.data(problem);
+      Vector u(data.load.size());
+      discretisation.tangent()->solve(u, data.load,
+                                      {scene.solver.tolerance, scene.solver.max_iterations});
+      const double change = refinement == 0 ? 0 : data.relative_change(before, u);
+      if (refinement > 0 && change <= scene.quadrature.tolerance)
+        return;
+      if (refinement == scene.quadrature.max_refinements)
+        refuse_unsettled(scene, refinement, change);
+      before = u;
+      discretisation.refine_quadrature();
+    }
+  }
+
   Solution solve(const method::Method &method, const scene::Scene &scene,
                  const scene::Problem &problem, const base::Team &team)
   {

@@ -1,3 +1,4 @@
+#include "analysis/statics.h"
 #include "base/error.h"
 #include "base/number_text.h"
 #include "study/dynamics.h"
@@ -105,6 +106,7 @@ namespace plumbline::study
           const scene::Problem &first = problems.at(0);
           area_ = area_of(first);
           const auto discretisation = method.discretise(scene_, first, base::Team::alone());
+          settle(*discretisation, first);
           const auto equation = discretisation->motion(scene_.time.is_lumped);
           if (!equation)
             throw NumericalError("its motion is not there");
@@ -142,6 +144,18 @@ namespace plumbline::study
           finish(run);
         }
         return true;
+      }
+
+      /// Quadrature as fine as statics under a load of 1 needs it, whatever moves later. A body
+      /// that floats has no statics.
+      void settle(method::Discretisation &discretisation, const scene::Problem &first) const
+      {
+        if (scene_.domain.is_floating)
+          return;
+        scene::Problem pulled = first;
+        pulled.load = {[](const dealii::Point<2> &, unsigned int) { return 1.; }, {}};
+        pulled.constraint = {[](const dealii::Point<2> &, unsigned int) { return 0.; }, {}};
+        analysis::settle_quadrature(discretisation, scene_, pulled);
       }
 
       void progress(const MotionRun &run) const
