@@ -66,10 +66,14 @@ namespace plumbline::meshfree
                 scene, problem,
                 method::comparison_nodes(scene, *problem.lattice, problem.n_components),
                 make_stencil(problem, bonds), {1}),
-            move_well_(scene.material.is_double_well()
-                           ? MoveWell([&scene, &problem, bonds](double largest)
-                                      { return move_double_well(scene, problem, bonds, largest); })
-                           : MoveWell())
+            move_well_(
+                scene.material.is_double_well()
+                    ? MoveWell(
+                          [&scene, &problem, bonds](double largest,
+                                                    const dealii::Tensor<2, 2> &gradient)
+                          { return move_double_well(scene, problem, bonds, largest, gradient); })
+                    : MoveWell()),
+            is_torus_(scene.domain.is_periodic)
       {
         describe_weights(bonds.family, bonds.fit, diagnostics_);
         diagnostics_.notes = bonds.notes;
@@ -80,8 +84,16 @@ namespace plumbline::meshfree
 
       std::unique_ptr<method::EquationOfMotion> motion(bool is_lumped) const override
       {
-        return move_well_ ? move_well_(algebra::Symbol(*waves()).range().largest)
+        return move_well_ ? move_well_(algebra::Symbol(*waves()).range().largest, {})
                           : LatticeDiscretisation::motion(is_lumped);
+      }
+
+      std::unique_ptr<method::EquationOfMotion>
+      motion_about(const dealii::Tensor<2, 2> &gradient) const override
+      {
+        return move_well_ && is_torus_
+                   ? move_well_(algebra::Symbol(*waves()).range().largest, gradient)
+                   : nullptr;
       }
 
     private:
@@ -107,9 +119,10 @@ namespace plumbline::meshfree
         return result;
       }
 
-      using MoveWell =
-          std::function<std::unique_ptr<method::EquationOfMotion>(double largest_eigenvalue)>;
+      using MoveWell = std::function<std::unique_ptr<method::EquationOfMotion>(
+          double largest_eigenvalue, const dealii::Tensor<2, 2> &gradient)>;
       MoveWell move_well_; ///< of double wells, whose stencil is that of small strains
+      bool is_torus_;
       method::Diagnostics diagnostics_;
     };
   } // namespace

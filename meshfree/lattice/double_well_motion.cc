@@ -79,11 +79,13 @@ namespace plumbline::meshfree
     {
     public:
       DoubleWellMotion(const scene::Scene &scene, double h, double horizon, const Box &box,
-                       const std::vector<WellBond> &bonds, double largest_eigenvalue)
+                       const std::vector<WellBond> &bonds, double largest_eigenvalue,
+                       const dealii::Tensor<2, 2> &gradient)
           : cell_(h * h), largest_(largest_eigenvalue), toughness_(lattice_toughness(bonds, 2, h)),
             n_all_(box.places.size()),
             force_(bonds, h, box.n, scene.domain.is_periodic ? Exterior::periodic : Exterior::empty,
-                   boundary_function(scene, box, horizon)),
+                   boundary_function(scene, box, horizon),
+                   {{{gradient[0][0], gradient[0][1]}, {gradient[1][0], gradient[1][1]}}}),
             all_(2 * n_all_), other_(2 * n_all_)
       {
         for (std::size_t k = 0; k < n_all_; ++k)
@@ -195,10 +197,9 @@ namespace plumbline::meshfree
     };
   } // namespace
 
-  std::unique_ptr<method::EquationOfMotion> move_double_well(const scene::Scene &scene,
-                                                             const scene::Problem &problem,
-                                                             const Bonds &bonds,
-                                                             double largest_eigenvalue)
+  std::unique_ptr<method::EquationOfMotion>
+  move_double_well(const scene::Scene &scene, const scene::Problem &problem, const Bonds &bonds,
+                   double largest_eigenvalue, const dealii::Tensor<2, 2> &gradient)
   {
     const double horizon = problem.horizon();
     const auto wells = well_bonds(make_double_well(scene, horizon), bonds);
@@ -208,6 +209,6 @@ namespace plumbline::meshfree
             ? torus(scene, lattice)
             : with_margin(method::comparison_nodes(scene, lattice, 1), lattice, reach(wells));
     return std::make_unique<DoubleWellMotion>(scene, problem.h, horizon, box, wells,
-                                              largest_eigenvalue);
+                                              largest_eigenvalue, gradient);
   }
 } // namespace plumbline::meshfree

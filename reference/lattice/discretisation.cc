@@ -146,7 +146,7 @@ namespace plumbline::reference
             n_geometry_checks_(scene.geometry.n_checks), seed_(scene.geometry.seed),
             cells_(method::comparison_nodes(scene, lattice(), problem.n_components)),
             move_well_(
-                scene.material.is_double_well()
+                scene.material.is_double_well() && scene.domain.is_periodic
                     ? MoveWell([&scene, &problem](bool is_lumped, double largest)
                                { return move_q1_on_torus(scene, problem, is_lumped, largest); })
                     : MoveWell())
@@ -226,7 +226,8 @@ namespace plumbline::reference
       NodeSet cells_; ///< to compare over
       using MoveWell =
           std::function<std::unique_ptr<method::EquationOfMotion>(bool is_lumped, double largest)>;
-      MoveWell move_well_; ///< of double wells, whose stencil is that of small strains
+      /// Of double wells on a torus; the stencil is that of small strains.
+      MoveWell move_well_;
       method::LimitProof limit_;
     };
   } // namespace
