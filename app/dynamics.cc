@@ -9,13 +9,13 @@
 #include "report/dynamics_page.h"
 #include "report/formats.h"
 #include "report/frames.h"
+#include "report/motion_journal.h"
 #include "run_parts.h"
 #include "study/dynamics.h"
 #include "study/preflight.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 
@@ -77,26 +77,15 @@ namespace plumbline::app
       return check && !holds ? 1 : 0;
     }
 
-    /// A line for each motion, as it ends.
-    class MotionJournal
+    /// What a run that did not come to its end left, unless files that the scene names are newer.
+    study::DynamicResults earlier_motions(const fs::path &folder, const scene::Scene &scene,
+                                          unsigned int n_levels)
     {
-    public:
-      explicit MotionJournal(const fs::path &folder) : file_(folder / "dynamics.jsonl")
-      {
-        fs::remove(file_);
-      }
-      void append(const study::DynamicResults &results) const
-      {
-        std::ofstream out(file_, std::ios::app);
-        out << report::motion_line(results.runs.back());
-        if (!out.flush())
-          throw InputError("'" + file_.string() + "' cannot be written; free some space");
-      }
-      void remove() const { fs::remove(file_); }
-
-    private:
-      fs::path file_;
-    };
+      for (const std::string &name : {scene.domain.mesh.name, scene.methods.nodes.name})
+        if (is_newer(fs::path(scene.folder) / name, folder / "dynamics.jsonl"))
+          return study::begin_results(scene, n_levels);
+      return report::read_motions(folder, study::begin_results(scene, n_levels));
+    }
   } // namespace
 
   int run_motions(const RunOptions &options, const scene::Scene &scene)
@@ -110,8 +99,14 @@ namespace plumbline::app
     if (base::Team::all().rank() != 0)
       return 0; // motions are not shared among ranks: the first one does them
 
+    const study::DynamicResults earlier = earlier_motions(folder, scene, options.n_levels);
+    if (!earlier.runs.empty() && !options.quiet)
+      std::cerr << "continuing: " << earlier.runs.size() << " motions are in '" << folder.string()
+                << "' already\n";
     watch_interrupts();
-    const MotionJournal journal(folder);
+    report::MotionJournal journal(folder);
+    if (!earlier.runs.empty())
+      journal.append(earlier); // so that a kill before the next motion loses none
     std::map<std::string, std::vector<double>> frame_times; // of each motion
     study::DynamicResults results;
     {
@@ -130,7 +125,7 @@ namespace plumbline::app
       };
       try
       {
-        results = study::run_motions(scene, methods, control);
+        results = study::run_motions(scene, methods, control, earlier);
       }
       catch (...)
       {
@@ -142,7 +137,8 @@ namespace plumbline::app
     results.provenance = provenance();
     study::conclude(scene, results);
     report::write_dynamics(results, folder);
-    journal.remove();
+    if (results.is_complete)
+      journal.remove();
 
     if (options.json)
       std::cout << report::dynamics_json(results);

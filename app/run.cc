@@ -49,11 +49,6 @@ namespace plumbline::app
 
   namespace
   {
-    bool is_newer(const fs::path &file, const fs::path &than)
-    {
-      return fs::exists(file) && fs::last_write_time(file) > fs::last_write_time(than);
-    }
-
     /// Whether ranks do the same side by side: on lattices, and rules on free bodies.
     bool repeats_work(const scene::Scene &scene, const method::Methods &methods)
     {

@@ -58,6 +58,13 @@ namespace plumbline::app
             {"ranks", std::to_string(base::Team::all().n_ranks())}};
   }
 
+  bool is_newer(const std::filesystem::path &file, const std::filesystem::path &than)
+  {
+    namespace fs = std::filesystem;
+    return fs::exists(file) && fs::exists(than) &&
+           fs::last_write_time(file) > fs::last_write_time(than);
+  }
+
   void prepare_folder(const std::filesystem::path &folder)
   {
     bool is_writable = true;

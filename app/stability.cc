@@ -56,6 +56,8 @@ namespace plumbline::app
         row.stability = analysis::measure(matrix);
         row.stability.diagnostics = discretisation->diagnostics();
         row.consistency = analysis::check_consistency(matrix, problem);
+        row.steps =
+            study::critical_steps(*discretisation, problem, row.stability, scene.time.density);
       }
       catch (const NumericalError &error)
       {
@@ -64,10 +66,28 @@ namespace plumbline::app
       return row;
     }
 
-    /// Whether verdicts are as the scene expects; says which are not.
-    bool hold(const scene::Scene &scene, const std::vector<study::StabilityVerdict> &verdicts)
+    /// Waves on strains in all directions, by all methods.
+    void add_strains(const method::Methods &methods, const scene::Scene &scene,
+                     const scene::Problem &problem, const std::string &series,
+                     const scene::Level &level, std::vector<study::StrainGrowth> &strains)
     {
+      auto own = study::strain_growths(scene, series, level);
+      for (const auto &method : methods)
+        study::add_growth(*method, scene, problem, own);
+      std::move(own.begin(), own.end(), std::back_inserter(strains));
+    }
+
+    /// Whether verdicts are as the scene expects; says which are not.
+    bool hold(const scene::Scene &scene, const study::StabilityResults &results)
+    {
+      const std::vector<study::StabilityVerdict> &verdicts = results.verdicts;
       bool all_hold = true;
+      for (const study::Expectation &one : study::check_growth(scene, results.strains))
+        if (!one.holds)
+        {
+          all_hold = false;
+          std::cerr << "not as expected: " << one.subject << ": found " << one.found << '\n';
+        }
       for (const scene::Expected &expected : scene.expected.all)
       {
         if (expected.kind != scene::ExpectedKind::stability)
@@ -98,6 +118,7 @@ namespace plumbline::app
     report::write_file(folder / "stability.md", ""); // before the work: can it be written?
 
     std::vector<std::vector<StabilityRow>> rows(methods.size()); // of each method
+    std::vector<study::StrainGrowth> strains;
     for_each_level(scene, options.n_levels,
                    [&](const scene::Series &series, const scene::Level &level, bool is_finest)
                    {
@@ -108,8 +129,10 @@ namespace plumbline::app
                        if (is_finest)
                          write_modes(rows[i].back(), folder / "stability");
                      }
+                     if (is_finest && scene.material.is_double_well() && scene.domain.is_periodic)
+                       add_strains(methods, scene, problem, series.name, level, strains);
                    });
-    study::StabilityResults results{scene.name, scene.purpose, {}, {}, {}};
+    study::StabilityResults results{scene.name, scene.purpose, {}, {}, {}, std::move(strains)};
     for (auto &own : rows)
     {
       results.verdicts.push_back(study::judge(own));
@@ -123,6 +146,6 @@ namespace plumbline::app
     else if (!options.quiet)
       std::cout << report::stability_text(results)
                 << "\nwritten: " << (folder / "stability.html").string() << '\n';
-    return options.check && !hold(scene, results.verdicts) ? 1 : 0;
+    return options.check && !hold(scene, results) ? 1 : 0;
   }
 } // namespace plumbline::app

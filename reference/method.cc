@@ -37,11 +37,11 @@ namespace plumbline::reference
       {
         using method::Capability;
         method::Capabilities can = {Capability::free_boundary, Capability::heterogeneous,
-                                    Capability::nonlocal};
+                                    Capability::nonlocal, Capability::dynamic};
         if (n_vertices_ == 3)
           can.insert(Capability::triangles);
         else
-          can.insert({Capability::lattice, Capability::quadrilaterals, Capability::dynamic});
+          can.insert({Capability::lattice, Capability::quadrilaterals});
         if (n_vertices_ == 4 && is_continuous_ && degree_ == 1)
           can.insert({Capability::double_well, Capability::periodic});
         return can;

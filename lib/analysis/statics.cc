@@ -171,6 +171,28 @@ namespace plumbline::analysis
     return Statics(method, cases, team).run();
   }
 
+  void settle_quadrature(Discretisation &discretisation, const scene::Problem &problem)
+  {
+    if (!discretisation.has_quadrature_error() || problem.settings.quadrature.tolerance == 0)
+      return;
+    Vector before;
+    for (unsigned int refinement = 0;; ++refinement)
+    {
+      const method::CaseData data = discretisation.data(problem);
+      Vector u(data.load.size());
+      discretisation.tangent()->solve(
+          u, data.load,
+          {problem.settings.solver.tolerance, problem.settings.solver.max_iterations});
+      const double change = refinement == 0 ? 0 : data.relative_change(before, u);
+      if (refinement > 0 && change <= problem.settings.quadrature.tolerance)
+        return;
+      if (refinement == problem.settings.quadrature.max_refinements)
+        refuse_unsettled(problem.settings.quadrature.tolerance, refinement, change);
+      before = u;
+      discretisation.refine_quadrature();
+    }
+  }
+
   Solution solve(const method::Method &method, const scene::Problem &problem,
                  const base::Team &team)
   {

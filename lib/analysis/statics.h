@@ -31,6 +31,10 @@ namespace plumbline::analysis
                              const std::vector<const scene::Problem *> &cases,
                              const base::Team &team = base::Team::all());
 
+  /// Refine the quadrature of a discretisation as `solve` does for a problem.
+  /// @throws NumericalError  it does not settle, or there is no solution
+  void settle_quadrature(method::Discretisation &discretisation, const scene::Problem &problem);
+
   /// One case.
   /// @throws NumericalError  there is no solution
   Solution solve(const method::Method &method, const scene::Problem &problem,

@@ -28,7 +28,7 @@ namespace plumbline::analysis
       for (double &value : a)
         value /= density_;
     };
-    if (equation_.has_tangent())
+    if (equation_.has_tangent() && equation_.is_symmetric())
       motion.tangent = [this](const Vector &u, const Vector &v, Vector &out)
       {
         equation_.tangent(u, g_, v, out);

@@ -84,6 +84,15 @@ namespace plumbline::method
       return nullptr;
     }
 
+    /// What moves on a torus about a uniform gradient G of displacements: a state is u = G x and
+    /// what is periodic. Nothing where that is not there.
+    virtual std::unique_ptr<EquationOfMotion>
+    motion_about(const dealii::Tensor<2, 2> &gradient) const
+    {
+      (void)gradient;
+      return nullptr;
+    }
+
     /// Weights, moments, geometry: what does not depend on a solution.
     virtual Diagnostics diagnostics() const = 0;
 

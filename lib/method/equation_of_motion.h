@@ -34,10 +34,11 @@ namespace plumbline::method
     /// Overwrites a, of the same size.
     virtual void acceleration(const State &u, const std::vector<double> &g, State &a) const = 0;
 
-    /// ∂a/∂u v.
+    /// ∂a/∂u v; where that is not symmetric, its symmetric part.
     virtual void tangent(const State &u, const std::vector<double> &g, const State &v,
                          State &out) const = 0;
     virtual bool has_tangent() const { return true; }
+    virtual bool is_symmetric() const { return true; } ///< ∂a/∂u: implicit schemes need it
 
     /// max λ of -∂a/∂u at rest, where it is known in closed form.
     virtual std::optional<double> largest_eigenvalue() const { return {}; }

@@ -13,9 +13,6 @@ namespace plumbline::report
   /// Everything (schema.md).
   std::string dynamics_json(const study::DynamicResults &results);
 
-  /// One run as a line of dynamics.jsonl, in the form of dynamics.json.
-  std::string motion_line(const study::MotionRun &run);
-
   /// dynamics.json, .md and .html, and dynamics/ with charts and their numbers.
   /// @throws NumericalError  gnuplot is missing; the page says so, too
   /// @throws InputError      dir cannot be written

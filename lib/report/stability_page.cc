@@ -5,6 +5,7 @@
 #include "report/page_parts.h"
 #include "report/stability_pictures.h"
 #include "report/stability_tables.h"
+#include "report/strain_charts.h"
 #include "report/text_table.h"
 
 #include <nlohmann/json.hpp>
@@ -31,6 +32,11 @@ namespace plumbline::report
           {"measures", "Measures", measures_words, measures_table(results)},
           {"eigenvalues", "Eigenvalues where A is not symmetric", eigenvalues_words,
            eigenvalues_table(results)},
+          {"time-steps", "Critical time steps", time_steps_words, time_steps_table(results)},
+          {"strains", "Where waves on strains begin to grow", strain_thresholds_words,
+           strain_thresholds_table(results.strains)},
+          {"growth", "How fast they grow", strain_growth_words,
+           strain_growth_table(results.strains)},
           {"powers", "Over the sweep", powers_words, powers_table(results)},
           {"missing", "Levels without an operator", "", missing_operators_table(results)}};
       all.erase(std::remove_if(all.begin(), all.end(),
@@ -117,6 +123,15 @@ namespace plumbline::report
                               page::paragraph("Levels where a value is not positive, or not known, "
                                               "have no point.") +
                                   "<div class=\"grid\">\n" + charts + "</div>\n");
+      std::string growth;
+      unsigned int n_charts = 0;
+      for (const DataChart &chart : strain_charts(results.strains))
+        growth += page::figure(
+            dir / "strains" / chart.plot.file, "g" + std::to_string(n_charts++) + "-",
+            chart.caption, "Data: <code>strains/" + escape_html(chart.name) + ".csv</code>", false);
+      if (!growth.empty())
+        text += page::section("strain-charts", "Waves on uniform strains",
+                              "<div class=\"grid\">\n" + growth + "</div>\n");
       if (const std::string modes = pictures(all, true, dir); !modes.empty())
         text += page::section(
             "modes", "Modes",
@@ -126,6 +141,12 @@ namespace plumbline::report
                             "node to node, or sits at a few nodes, is the method's own.") +
                 modes + "<p class=\"soft\">The finest level: <code>stability/*.vtu</code></p>\n");
       return page::document(results.scene_name, "stability", header(results), text);
+    }
+
+    /// Null for 0: not known.
+    Json known_step(double value)
+    {
+      return value > 0 ? Json(value) : Json();
     }
 
     Json level_json(const study::StabilityRow &row)
@@ -166,7 +187,38 @@ namespace plumbline::report
               {"moment_singular_value", s.diagnostics.smallest_singular_value},
               {"inner_nodes", row.consistency.n_inner},
               {"exact_degree", row.consistency.degree},
+              {"critical_step", known_step(row.steps.own())},
+              {"critical_step_lumped", known_step(row.steps.lumped())},
+              {"largest_eigenvalue_in_motion", known_step(row.steps.largest)},
+              {"density", row.steps.density},
+              {"only_oscillates", row.steps.is_oscillating},
               {"notes", s.diagnostics.notes}};
+    }
+
+    Json strain_json(const study::StrainGrowth &growth)
+    {
+      Json json{{"series", growth.series},
+                {"strain", growth.name},
+                {"h", growth.h},
+                {"horizon", growth.horizon},
+                {"ellipticity_lost", growth.thresholds.ellipticity},
+                {"first_wave_of_torus", known_step(growth.first_wave)},
+                {"criterion_64", growth.thresholds.local},
+                {"samples", Json::array()},
+                {"methods", Json::array()}};
+      for (const study::StrainSample &sample : growth.samples)
+        json["samples"].push_back({{"amplitude", sample.amplitude},
+                                   {"strain", sample.strain},
+                                   {"wave", sample.wave},
+                                   {"symbol", sample.symbol},
+                                   {"local", sample.local}});
+      for (const study::MethodGrowth &one : growth.methods)
+        json["methods"].push_back({{"method", one.method},
+                                   {"linear", one.linear},
+                                   {"observed", one.observed},
+                                   {"difference", growth.difference(one)},
+                                   {"failure", one.failure}});
+      return json;
     }
   } // namespace
 
@@ -186,7 +238,10 @@ namespace plumbline::report
     Json json{{"scene", results.scene_name},
               {"levels", Json::array()},
               {"powers", Json::array()},
-              {"verdicts", Json::array()}};
+              {"verdicts", Json::array()},
+              {"strains", Json::array()}};
+    for (const study::StrainGrowth &growth : results.strains)
+      json["strains"].push_back(strain_json(growth));
     for (const study::StabilityRow &row : results.rows)
       json["levels"].push_back(level_json(row));
     for (const study::StabilityTrend &t : results.trends)
@@ -209,7 +264,12 @@ namespace plumbline::report
     write_file(dir / "stability.json", stability_json(results));
     write_file(dir / "stability.md", markdown(results));
     write_with_pictures(
-        dir / "stability.html", [&] { write_pictures(results, dir); },
+        dir / "stability.html",
+        [&]
+        {
+          write_pictures(results, dir);
+          write_charts(strain_charts(results.strains), dir / "strains");
+        },
         [&] { return page_of(results, dir); });
   }
 } // namespace plumbline::report

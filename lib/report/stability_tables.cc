@@ -80,6 +80,31 @@ namespace plumbline::report
     return without_empty_columns(table);
   }
 
+  const char *const time_steps_words =
+      "dt: the longest stable time step of central differences, 2 / sqrt(lambda / rho), lambda the "
+      "largest eigenvalue of small motions about rest; of Galerkin methods with the mass matrix, "
+      "and with lumped masses. grows: eigenvalues that are complex or negative let waves grow at "
+      "any step.";
+
+  Table time_steps_table(const study::StabilityResults &results)
+  {
+    Table table;
+    table.columns = {"method",         "m",          "h",    "density", "lambda", "dt",
+                     "lambda, lumped", "dt, lumped", "grows"};
+    for (const study::StabilityRow &row : results.rows)
+    {
+      const study::CriticalSteps &steps = row.steps;
+      if (steps.largest > 0)
+        table.rows.push_back({text_cell(row.method), number_cell(row.m()), number_cell(row.h),
+                              number_cell(steps.density), number_cell(steps.largest),
+                              number_cell(steps.own()),
+                              known(steps.largest_lumped > 0, number_cell(steps.largest_lumped)),
+                              known(steps.largest_lumped > 0, number_cell(steps.lumped())),
+                              known(!steps.is_oscillating, text_cell("yes"))});
+    }
+    return without_empty_columns(table);
+  }
+
   Table powers_table(const study::StabilityResults &results)
   {
     Table table;

@@ -16,6 +16,10 @@ namespace plumbline::report
   /// One row for each method and series that has a trend.
   Table powers_table(const study::StabilityResults &results);
 
+  /// One row for each level whose critical time steps are known.
+  Table time_steps_table(const study::StabilityResults &results);
+  extern const char *const time_steps_words;
+
   /// One row for each method.
   Table stability_verdicts_table(const study::StabilityResults &results);
 

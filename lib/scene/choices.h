@@ -125,7 +125,8 @@ namespace plumbline::scene
     monotone,
     jitter,
     stability,
-    orders ///< in time
+    orders, ///< in time
+    growth  ///< of waves on strains
   };
 } // namespace plumbline::scene
 
@@ -160,6 +161,7 @@ namespace plumbline::base
   inline constexpr auto words<scene::Estimate> =
       std::array{"automatic", "every", "reference", "none"};
   template <>
-  inline constexpr auto words<scene::ExpectedKind> = std::array{
-      "verdicts", "errors", "rates", "bounds", "monotone", "jitter", "stability", "orders"};
+  inline constexpr auto words<scene::ExpectedKind> =
+      std::array{"verdicts", "errors",    "rates",  "bounds", "monotone",
+                 "jitter",   "stability", "orders", "growth"};
 } // namespace plumbline::base

@@ -134,10 +134,8 @@ namespace plumbline::scene
     if (!time.is_dynamic())
       return;
     const std::string moving = "Time/final time = " + short_number(time.final_time) + " needs ";
-    require(scene.domain.mesh.is_lattice() && !scene.domain.is_free_body,
-            moving +
-                "Domain/mesh = lattice and a boundary that is constrained or periodic: motions "
-                "of meshes and free bodies are not there yet");
+    require(!scene.solver.is_mixed,
+            moving + "Solver/dilatation = eliminated: a dilatation that is kept has no mass");
     require(!scene.problem.solutions.empty() || !scene.problem.loads.empty() ||
                 !time.initial_displacement.empty() || !time.initial_velocity.empty(),
             moving + "something that moves; give Problem/solution, Problem/load, Time/initial "

@@ -203,29 +203,43 @@ namespace plumbline::scene
       problem.settings = method_settings(scene);
       return problem;
     }
+
+    /// On its lattice, or on a mesh with the cells of its nodes.
+    void put_in_place(const Scene &scene, const Level &level, Problem &problem)
+    {
+      if (scene.domain.is_free_body)
+      {
+        const geometry::VertexCells body = make_body(scene, level);
+        problem.body = body.lattice;
+        problem.cells = body.cells;
+        problem.mesh = body.mesh;
+      }
+      else if (scene.domain.mesh.is_lattice())
+        problem.lattice.emplace(scene.domain.boxes, level.h);
+      else
+      {
+        problem.mesh = std::make_shared<const geometry::Mesh>(make_mesh(scene, level));
+        problem.cells = std::make_shared<const geometry::NodeCells>(
+            make_node_cells(scene, level, *problem.mesh));
+      }
+    }
   } // namespace
 
   Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level, double t,
-                       const Field *known_load)
+                       const Field *known_load, const Problem *same_place)
   {
     const physics::Kernel<2> kernel = make_kernel(scene, level.horizon);
     const unsigned int n_components = kernel.n_components();
     Problem problem = without_data(scene, level, kernel);
-    if (scene.domain.is_free_body)
+    if (same_place != nullptr)
     {
-      const geometry::VertexCells body = make_body(scene, level);
-      problem.body = body.lattice;
-      problem.cells = body.cells;
-      problem.mesh = body.mesh;
+      problem.lattice = same_place->lattice;
+      problem.mesh = same_place->mesh;
+      problem.cells = same_place->cells;
+      problem.body = same_place->body;
     }
-    else if (scene.domain.mesh.is_lattice())
-      problem.lattice.emplace(scene.domain.boxes, level.h);
     else
-    {
-      problem.mesh = std::make_shared<const geometry::Mesh>(make_mesh(scene, level));
-      problem.cells =
-          std::make_shared<const geometry::NodeCells>(make_node_cells(scene, level, *problem.mesh));
-    }
+      put_in_place(scene, level, problem);
     if (problem.mesh)
       problem.coefficient = make_coefficient(scene, *problem.mesh);
     const Extent omega = problem.lattice ? extent(*problem.lattice) : extent(*problem.mesh);

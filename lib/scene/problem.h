@@ -81,8 +81,11 @@ namespace plumbline::scene
   /// @param t           of a scene that moves: its state at this time, the load being the static
   /// one, -F(u) of a manufactured u
   /// @param known_load  of the same case, horizon and time on another level, dear to make again
+  /// @param same_place  a problem of the same level: its mesh, nodes and cells are taken, which
+  /// would come out the same
   /// @throws InputError  an expression that is not finite somewhere in Ω or its collar, a mesh or
   /// nodes that cannot be used
   Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level,
-                       double t = 0, const Field *known_load = nullptr);
+                       double t = 0, const Field *known_load = nullptr,
+                       const Problem *same_place = nullptr);
 } // namespace plumbline::scene

@@ -68,7 +68,11 @@ namespace plumbline::study
     std::vector<Omission> omissions;
     std::vector<Expectation> expectations;
     bool is_complete = false;
+    unsigned int n_levels = 0; ///< that were asked for, the first so many; 0: all
   };
+
+  /// What results of a scene begin with: all but what is run.
+  DynamicResults begin_results(const scene::Scene &scene, unsigned int n_levels);
 
   /// A state to show.
   struct Frame
@@ -97,9 +101,10 @@ namespace plumbline::study
   void check_motions(const scene::Scene &scene, const Methods &methods, unsigned int n_levels);
 
   /// Run all methods, schemes and steps over all cases, series and levels.
+  /// @param earlier  motions of the same scene that are taken over, bit by bit as they would be
   /// @throws InputError  as analysis::integrate and TimeSeries::resolve
   DynamicResults run_motions(const scene::Scene &scene, const Methods &methods,
-                             const MotionControl &control);
+                             const MotionControl &control, const DynamicResults &earlier = {});
 
   /// Trends, orders and expectations of the runs.
   void conclude(const scene::Scene &scene, DynamicResults &results);

@@ -33,8 +33,11 @@ namespace plumbline::study
       const base::CpuTimer timer;
       const std::tuple key(case_index_, level_.horizon, t);
       const auto known = loads_.find(key);
-      problem = std::make_unique<const scene::Problem>(make_problem(
-          scene_, case_index_, level_, t, known == loads_.end() ? nullptr : &known->second));
+      problem = std::make_unique<const scene::Problem>(
+          make_problem(scene_, case_index_, level_, t,
+                       known == loads_.end() ? nullptr : &known->second, first_.get()));
+      if (!first_)
+        first_ = std::make_unique<const scene::Problem>(*problem);
       if (known == loads_.end() && problem->load.series) // a series stands on the box, not on h
         loads_.emplace(key, problem->load);
       seconds_ += timer.seconds();

@@ -32,6 +32,7 @@ namespace plumbline::study
     scene::Level level_;
     Loads &loads_;
     std::map<double, std::unique_ptr<const scene::Problem>> problems_;
+    std::unique_ptr<const scene::Problem> first_; ///< whose place all others take
     double seconds_ = 0;
   };
 

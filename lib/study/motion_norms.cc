@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace plumbline::study
 {
@@ -25,6 +26,10 @@ namespace plumbline::study
 
   double area_of(const scene::Problem &problem)
   {
+    if (problem.cells)
+      return std::accumulate(
+          problem.cells->area.begin(),
+          problem.cells->area.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free), 0.);
     const geometry::Lattice &lattice = *problem.lattice;
     double n = 0;
     for (int j = 0; j < lattice.n_cells()[1]; ++j)

@@ -51,14 +51,17 @@ namespace plumbline::study
         return; // a finding of the run
       }
       const auto equation = discretisation->motion(scene.time.is_lumped);
+      if (!equation)
+        throw InputError("Time/final time = " + base::to_text(scene.time.final_time, 4) + ": " +
+                         method.name() + " has no motion here; leave it out, or write 0");
       const Transient transient(*equation, analysis::TimeSeries(equation->drive(problem)),
                                 scene.time.density, scene.time.damping);
       for (const std::string &name : scene.time.schemes)
       {
         const Scheme &scheme = analysis::scheme(name);
-        if (scheme.is_implicit() && !equation->has_tangent())
-          throw InputError("Time/schemes: '" + name + "' needs the tangent of forces, which " +
-                           method.name() +
+        if (scheme.is_implicit() && !(equation->has_tangent() && equation->is_symmetric()))
+          throw InputError("Time/schemes: '" + name +
+                           "' needs a symmetric tangent of forces, which " + method.name() +
                            " does not have here; take explicit ones, or leave the method out");
         const double critical = transient.critical_step(scheme);
         for (const StepRule &rule : step_rules(scene.time))

@@ -1,3 +1,4 @@
+#include "analysis/statics.h"
 #include "base/error.h"
 #include "base/number_text.h"
 #include "study/dynamics.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <new>
 #include <utility>
 
@@ -28,21 +30,11 @@ namespace plumbline::study
     class MotionSweep
     {
     public:
-      MotionSweep(const scene::Scene &scene, const Methods &methods, const MotionControl &control)
-          : scene_(scene), methods_(methods), control_(control)
+      MotionSweep(const scene::Scene &scene, const Methods &methods, const MotionControl &control,
+                  const DynamicResults &earlier)
+          : scene_(scene), methods_(methods), control_(control), earlier_(earlier),
+            results_(begin_results(scene, control.n_levels))
       {
-        results_.scene_name = scene.name;
-        results_.purpose = scene.purpose;
-        results_.regime = base::word(scene.study.regime);
-        results_.scene_text = scene.text;
-        const bool is_known =
-            scene.reference.method || (!scene.problem.solutions.empty() &&
-                                       scene.study.decisive_error.target == scene::Target::exact);
-        results_.decisive_error = is_known ? scene.study.decisive_error.text() : "";
-        results_.final_time = scene.time.final_time;
-        results_.density = scene.time.density;
-        results_.damping = scene.time.damping;
-        results_.shows_blow_up = scene.time.shows_blow_up;
       }
 
       DynamicResults run()
@@ -95,9 +87,48 @@ namespace plumbline::study
           control_.on_result(results_);
       }
 
+      /// The same of an earlier run; null: there is none.
+      /// @param n_before  that are called the same, steps being shown rounded
+      const MotionRun *known(const MotionRun &run, std::ptrdiff_t n_before) const
+      {
+        for (const MotionRun &one : earlier_.runs)
+          if (one.method == run.method && one.problem == run.problem && one.series == run.series &&
+              one.level == run.level && one.scheme == run.scheme && one.steps == run.steps &&
+              n_before-- == 0)
+            return &one;
+        return nullptr;
+      }
+
+      /// All motions of a method at one level as an earlier run has them, null where it has none.
+      std::vector<const MotionRun *> known_motions(MotionRun run) const
+      {
+        if (const MotionRun *failed = known(run, 0)) // before any scheme
+          return {failed};
+        std::vector<const MotionRun *> all;
+        for (const std::string &name : scene_.time.schemes)
+        {
+          std::map<std::string, std::ptrdiff_t> n_before;
+          for (const StepRule &rule : step_rules(scene_.time))
+          {
+            run.scheme = name;
+            run.steps = rule.text();
+            all.push_back(known(run, n_before[run.steps]++));
+          }
+        }
+        return all;
+      }
+
       /// @return whether to go on
       bool run_method(const Method &method, ProblemsInTime &problems, MotionRun run)
       {
+        const std::vector<const MotionRun *> motions = known_motions(run);
+        if (std::find(motions.begin(), motions.end(), nullptr) == motions.end())
+        {
+          take_torus(run);
+          for (const MotionRun *one : motions)
+            finish(*one);
+          return true;
+        }
         const base::CpuTimer timer;
         try
         {
@@ -105,6 +136,7 @@ namespace plumbline::study
           const scene::Problem &first = problems.at(0);
           area_ = area_of(first);
           const auto discretisation = method.discretise(first, base::Team::alone());
+          settle(*discretisation, first);
           const auto equation = discretisation->motion(scene_.time.is_lumped);
           if (!equation)
             throw NumericalError("its motion is not there");
@@ -116,6 +148,7 @@ namespace plumbline::study
           const auto torus = torus_of(run, problems);
           const auto rules = step_rules(scene_.time);
           const auto in_time = exact_in_time(*equation, transient, data, rules.size());
+          std::size_t n_done = 0;
           for (const std::string &name : scene_.time.schemes)
             for (const StepRule &rule : rules)
             {
@@ -124,6 +157,11 @@ namespace plumbline::study
               const Scheme &scheme = analysis::scheme(name);
               run.scheme = name;
               run.steps = rule.text();
+              if (const MotionRun *one = motions[n_done++])
+              {
+                finish(*one);
+                continue;
+              }
               run.critical_step = transient.critical_step(scheme);
               run.step = step_of(rule, transient, scheme);
               progress(run);
@@ -142,6 +180,18 @@ namespace plumbline::study
           finish(run);
         }
         return true;
+      }
+
+      /// Quadrature as fine as statics under a load of 1 needs it, whatever moves later. A body
+      /// that floats has no statics.
+      void settle(method::Discretisation &discretisation, const scene::Problem &first) const
+      {
+        if (scene_.domain.is_floating)
+          return;
+        scene::Problem pulled = first;
+        pulled.load = {[](const dealii::Point<2> &, unsigned int) { return 1.; }, {}};
+        pulled.constraint = {[](const dealii::Point<2> &, unsigned int) { return 0.; }, {}};
+        analysis::settle_quadrature(discretisation, pulled);
       }
 
       void progress(const MotionRun &run) const
@@ -260,6 +310,18 @@ namespace plumbline::study
               error_of(equation, difference(u, equation.nodal(in_time->u)), scene::Norm::nodal_l2);
       }
 
+      /// What an earlier run says of its torus.
+      void take_torus(const MotionRun &run)
+      {
+        const auto is_same = [&](const TorusEstimate &one)
+        { return one.problem == run.problem && one.horizon == run.horizon; };
+        const auto found =
+            std::find_if(earlier_.references.begin(), earlier_.references.end(), is_same);
+        if (found != earlier_.references.end() &&
+            std::none_of(results_.references.begin(), results_.references.end(), is_same))
+          results_.references.push_back(*found);
+      }
+
       /// Of the run's case and horizon; the last one is kept.
       const Torus *torus_of(const MotionRun &run, ProblemsInTime &problems)
       {
@@ -270,7 +332,11 @@ namespace plumbline::study
           auto solution = solve_torus(scene_, control_, run.problem, run.horizon, problems);
           torus_ = std::move(solution.torus);
           torus_nodes_.clear();
-          results_.references.push_back(solution.estimate);
+          take_torus(run);
+          if (std::none_of(results_.references.begin(), results_.references.end(),
+                           [&](const TorusEstimate &one)
+                           { return one.problem == run.problem && one.horizon == run.horizon; }))
+            results_.references.push_back(solution.estimate);
         }
         torus_key_ = {run.problem, run.horizon};
         return &*torus_;
@@ -279,6 +345,7 @@ namespace plumbline::study
       const scene::Scene &scene_;
       const Methods &methods_;
       const MotionControl &control_;
+      const DynamicResults &earlier_;
       DynamicResults results_;
       ProblemsInTime::Loads loads_;
       bool is_finest_ = false;
@@ -291,9 +358,28 @@ namespace plumbline::study
 
   } // namespace
 
-  DynamicResults run_motions(const scene::Scene &scene, const Methods &methods,
-                             const MotionControl &control)
+  DynamicResults begin_results(const scene::Scene &scene, unsigned int n_levels)
   {
-    return MotionSweep(scene, methods, control).run();
+    DynamicResults results;
+    results.scene_name = scene.name;
+    results.purpose = scene.purpose;
+    results.regime = base::word(scene.study.regime);
+    results.scene_text = scene.text;
+    const bool is_known =
+        scene.reference.method || (!scene.problem.solutions.empty() &&
+                                   scene.study.decisive_error.target == scene::Target::exact);
+    results.decisive_error = is_known ? scene.study.decisive_error.text() : "";
+    results.final_time = scene.time.final_time;
+    results.density = scene.time.density;
+    results.damping = scene.time.damping;
+    results.shows_blow_up = scene.time.shows_blow_up;
+    results.n_levels = n_levels;
+    return results;
+  }
+
+  DynamicResults run_motions(const scene::Scene &scene, const Methods &methods,
+                             const MotionControl &control, const DynamicResults &earlier)
+  {
+    return MotionSweep(scene, methods, control, earlier).run();
   }
 } // namespace plumbline::study

@@ -223,8 +223,9 @@ namespace plumbline::study
       {
         leave_out("Newton's method and new tangents", "the model is linear",
                   "one linear solve a step of implicit schemes");
-        leave_out("the stencil of each node", "the lattice's nodes are alike",
-                  "all but one family of bonds");
+        if (scene.domain.mesh.is_lattice() && !scene.domain.is_free_body)
+          leave_out("the stencil of each node", "the lattice's nodes are alike",
+                    "all but one family of bonds");
       }
       if (scene.material.is_state_based() && !scene.has_dilatation())
         leave_out("the dilatation", "lambda = mu: the bonds are all",

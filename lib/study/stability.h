@@ -3,6 +3,9 @@
 #include "analysis/stability.h"
 #include "method/side.h"
 #include "study/axis.h"
+#include "study/strain_growth.h"
+
+#include <cmath>
 
 namespace plumbline::study
 {
@@ -10,6 +13,30 @@ namespace plumbline::study
   using analysis::Modes;
   using analysis::Stability;
   using method::Side;
+
+  /// The longest time steps of central differences, 2/√(λ/ρ) with λ the largest eigenvalue of small
+  /// motions about rest; where the operator is not symmetric, its largest in modulus.
+  struct CriticalSteps
+  {
+    double density = 1;
+    double largest = 0;         ///< λ with the method's own masses; 0: not known
+    double largest_lumped = 0;  ///< of Galerkin methods by lumped masses; 0: these are its own
+    bool is_oscillating = true; ///< λ are real and not negative; else motions grow at any step
+
+    double own() const { return of(largest); } ///< [time]; 0: not known
+    double lumped() const { return of(largest_lumped); }
+
+  private:
+    double of(double eigenvalue) const
+    {
+      return eigenvalue > 0 ? 2 * std::sqrt(density / eigenvalue) : 0;
+    }
+  };
+
+  /// @param stability  of its matrix, whose masses are lumped
+  CriticalSteps critical_steps(const method::Discretisation &discretisation,
+                               const scene::Problem &problem, const Stability &stability,
+                               double density);
 
   /// One method at one level of a scene.
   struct StabilityRow
@@ -21,6 +48,7 @@ namespace plumbline::study
     Stability stability;
     Consistency consistency;
     std::string failure; ///< empty, or why there is no operator
+    CriticalSteps steps = {};
 
     double m() const { return horizon / h; }
   };
@@ -70,6 +98,7 @@ namespace plumbline::study
     std::vector<StabilityRow> rows; ///< method by method, coarse to fine in each series
     std::vector<StabilityTrend> trends;
     std::vector<StabilityVerdict> verdicts;
+    std::vector<StrainGrowth> strains = {}; ///< of double wells on a torus
   };
 } // namespace plumbline::study
 

@@ -2,6 +2,7 @@
 #include "meshfree/discretisations.h"
 #include "meshfree/rules/family_statistics.h"
 #include "meshfree/scattered/field.h"
+#include "method/linear_motion.h"
 
 #include <sstream>
 
@@ -120,6 +121,40 @@ namespace plumbline::meshfree
       }
       method::DiscreteOperator matrix() const override { return show(matrix_); }
       method::Diagnostics diagnostics() const override { return diagnostics_; }
+
+      /// Masses are the cells' parts in the body, lumped.
+      std::unique_ptr<method::EquationOfMotion> motion(bool) const override
+      {
+        const method::DiscreteOperator shown = matrix();
+        std::vector<double> masses;
+        for (const double mass : shown.mass)
+          masses.insert(masses.end(), 2, mass);
+        const auto at_free = [this](const scene::Problem &instant)
+        {
+          const algebra::Vector load = data(instant).load;
+          const VariationalBody &body = matrix_->body();
+          std::vector<double> result;
+          for (std::size_t i = 0; i < body.size(); ++i)
+            if (body.V[i] > 0 && body.is_fixed[i] == 0)
+              for (unsigned int c = 0; c < 2; ++c)
+                result.push_back(load[c * body.size() + i]);
+          return result;
+        };
+        const auto inertia = [this, at_free](const scene::Problem &instant)
+        {
+          scene::Problem of_solution = instant;
+          of_solution.load = *instant.solution;
+          return at_free(of_solution);
+        };
+        return method::move_linear({shown.nodes,
+                                    2,
+                                    method::MassRoot(std::move(masses)),
+                                    shown.action,
+                                    {},
+                                    at_free,
+                                    inertia,
+                                    1});
+      }
 
     private:
       method::Field field(const algebra::Vector &u) const

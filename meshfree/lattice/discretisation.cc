@@ -64,10 +64,13 @@ namespace plumbline::meshfree
       RuleOnLattice(const scene::Problem &problem, const Bonds &bonds)
           : LatticeDiscretisation(problem, method::comparison_nodes(problem, problem.n_components),
                                   make_stencil(problem, bonds), {1}),
-            move_well_(problem.double_well
-                           ? MoveWell([&problem, bonds](double largest)
-                                      { return move_double_well(problem, bonds, largest); })
-                           : MoveWell())
+            move_well_(
+                problem.double_well
+                    ? MoveWell(
+                          [&problem, bonds](double largest, const dealii::Tensor<2, 2> &gradient)
+                          { return move_double_well(problem, bonds, largest, gradient); })
+                    : MoveWell()),
+            is_torus_(problem.is_periodic)
       {
         describe_weights(bonds.family, bonds.fit, diagnostics_);
         diagnostics_.notes = bonds.notes;
@@ -78,8 +81,16 @@ namespace plumbline::meshfree
 
       std::unique_ptr<method::EquationOfMotion> motion(bool is_lumped) const override
       {
-        return move_well_ ? move_well_(algebra::Symbol(*waves()).range().largest)
+        return move_well_ ? move_well_(algebra::Symbol(*waves()).range().largest, {})
                           : LatticeDiscretisation::motion(is_lumped);
+      }
+
+      std::unique_ptr<method::EquationOfMotion>
+      motion_about(const dealii::Tensor<2, 2> &gradient) const override
+      {
+        return move_well_ && is_torus_
+                   ? move_well_(algebra::Symbol(*waves()).range().largest, gradient)
+                   : nullptr;
       }
 
     private:
@@ -105,9 +116,10 @@ namespace plumbline::meshfree
         return result;
       }
 
-      using MoveWell =
-          std::function<std::unique_ptr<method::EquationOfMotion>(double largest_eigenvalue)>;
+      using MoveWell = std::function<std::unique_ptr<method::EquationOfMotion>(
+          double largest_eigenvalue, const dealii::Tensor<2, 2> &gradient)>;
       MoveWell move_well_; ///< of double wells, whose stencil is that of small strains
+      bool is_torus_;
       method::Diagnostics diagnostics_;
     };
   } // namespace

@@ -73,12 +73,14 @@ namespace plumbline::meshfree
     {
     public:
       DoubleWellMotion(const scene::Problem &problem, const Box &box,
-                       const std::vector<WellBond> &bonds, double largest_eigenvalue)
+                       const std::vector<WellBond> &bonds, double largest_eigenvalue,
+                       const dealii::Tensor<2, 2> &gradient)
           : cell_(problem.h * problem.h), largest_(largest_eigenvalue),
             toughness_(lattice_toughness(bonds, 2, problem.h)), n_all_(box.places.size()),
             force_(bonds, problem.h, box.n,
                    problem.is_periodic ? Exterior::periodic : Exterior::empty,
-                   boundary_function(problem, box)),
+                   boundary_function(problem, box),
+                   {{{gradient[0][0], gradient[0][1]}, {gradient[1][0], gradient[1][1]}}}),
             all_(2 * n_all_), other_(2 * n_all_)
       {
         for (std::size_t k = 0; k < n_all_; ++k)
@@ -191,12 +193,13 @@ namespace plumbline::meshfree
   } // namespace
 
   std::unique_ptr<method::EquationOfMotion>
-  move_double_well(const scene::Problem &problem, const Bonds &bonds, double largest_eigenvalue)
+  move_double_well(const scene::Problem &problem, const Bonds &bonds, double largest_eigenvalue,
+                   const dealii::Tensor<2, 2> &gradient)
   {
     const auto wells = well_bonds(*problem.double_well, bonds);
     const Box box = problem.is_periodic ? torus(problem)
                                         : with_margin(method::comparison_nodes(problem, 1),
                                                       *problem.lattice, reach(wells));
-    return std::make_unique<DoubleWellMotion>(problem, box, wells, largest_eigenvalue);
+    return std::make_unique<DoubleWellMotion>(problem, box, wells, largest_eigenvalue, gradient);
   }
 } // namespace plumbline::meshfree

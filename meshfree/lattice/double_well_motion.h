@@ -10,8 +10,10 @@ namespace plumbline::meshfree
   /// DoubleWellForce.
   /// @param largest_eigenvalue  of the rule's stencil of small strains on the unbounded lattice,
   /// which is that of a torus, and bounds that of other boxes from above
+  /// @param gradient  G of a torus: states are G x and what is periodic
   /// @throws NumericalError  weights that differ between mirror images
-  /// @pre problem.double_well, problem.lattice
+  /// @pre problem.double_well, problem.lattice; a torus where G is not 0
   std::unique_ptr<method::EquationOfMotion>
-  move_double_well(const scene::Problem &problem, const Bonds &bonds, double largest_eigenvalue);
+  move_double_well(const scene::Problem &problem, const Bonds &bonds, double largest_eigenvalue,
+                   const dealii::Tensor<2, 2> &gradient = {});
 } // namespace plumbline::meshfree

@@ -2,6 +2,7 @@
 #include "meshfree/scattered/field.h"
 #include "meshfree/scattered/state_based_operator.h"
 #include "method/lattice_discretisation.h"
+#include "method/sparse_motion.h"
 #include "scene/damage.h"
 
 #include <cmath>
@@ -31,7 +32,8 @@ namespace plumbline::meshfree
     public:
       RuleOnNodes(const scene::Problem &problem, const base::Team &team, ScatteredOperator matrix)
           : SparseDiscretisation(problem.settings.solver, solver_options(problem), team),
-            cells_(problem.cells), n_components_(problem.n_components)
+            cells_(problem.cells), n_components_(problem.n_components),
+            is_mixed_(problem.settings.solver.is_mixed)
       {
         const auto n =
             static_cast<std::size_t>(team.largest(static_cast<double>(matrix.rows.free.n_rows())));
@@ -57,16 +59,37 @@ namespace plumbline::meshfree
 
       method::DiscreteOperator matrix() const override
       {
-        const auto n = static_cast<std::ptrdiff_t>(cells_->n_free);
         method::DiscreteOperator result;
         result.n_components = n_components_;
-        result.nodes.assign(cells_->nodes.begin(), cells_->nodes.begin() + n);
-        result.mass.assign(cells_->area.begin(), cells_->area.begin() + n);
-        result.rows = free();
-        for (std::size_t i = 0; i < result.rows.n_rows(); ++i)
-          for (std::size_t k = result.rows.start[i]; k < result.rows.start[i + 1]; ++k)
-            result.rows.value[k] *= result.mass[i / n_components_];
+        result.nodes = free_nodes();
+        result.mass = masses();
+        result.rows = by_volumes(free());
         return result;
+      }
+
+      /// Equations are stated at nodes; by volumes they are the balance of forces on cells.
+      std::unique_ptr<method::EquationOfMotion> motion(bool) const override
+      {
+        if (is_mixed_)
+          return nullptr;
+        if (moving_.free.start.empty())
+          moving_ = {by_volumes(free()), by_volumes(held())};
+        return method::move_by_rows({free_nodes(),
+                                     n_components_,
+                                     moving_.free,
+                                     moving_.held,
+                                     masses(),
+                                     {},
+                                     [this](const scene::Problem &instant)
+                                     {
+                                       Vector load(static_cast<unsigned int>(n_unknowns()));
+                                       add_load(instant, load);
+                                       for (std::size_t i = 0; i < load.size(); ++i)
+                                         load[i] *= cells_->area[i / n_components_];
+                                       return load;
+                                     },
+                                     [this](const scene::Problem &instant)
+                                     { return collar(instant); }});
       }
 
       method::Diagnostics diagnostics() const override { return diagnostics_; }
@@ -75,18 +98,48 @@ namespace plumbline::meshfree
       /// This rank's share of the load, and what its rows take from the collar.
       void add_data(const scene::Problem &problem, Vector &load) const
       {
+        add_load(problem, load);
+        method::subtract_held(held(), collar(problem), load);
+      }
+
+      void add_load(const scene::Problem &problem, Vector &load) const
+      {
         const auto [first, last] = team().share(cells_->n_free);
         const scene::Field &b = problem.load;
         for (std::size_t i = first; i < last; ++i)
           for (unsigned int c = 0; c < n_components_; ++c)
             load[i * n_components_ + c] = b(cells_->nodes[i], c);
-        std::vector<double> collar;
+      }
+
+      std::vector<double> collar(const scene::Problem &problem) const
+      {
+        std::vector<double> values;
         for (std::size_t i = cells_->n_free; i < cells_->size(); ++i)
           for (unsigned int c = 0; c < n_components_; ++c)
-            collar.push_back(!is_ghost_.empty() && is_ghost_[i] != 0
+            values.push_back(!is_ghost_.empty() && is_ghost_[i] != 0
                                  ? 0
                                  : problem.constraint.value(cells_->nodes[i], c));
-        method::subtract_held(held(), collar, load);
+        return values;
+      }
+
+      std::vector<Point<2>> free_nodes() const
+      {
+        const auto n = static_cast<std::ptrdiff_t>(cells_->n_free);
+        return {cells_->nodes.begin(), cells_->nodes.begin() + n};
+      }
+
+      std::vector<double> masses() const
+      {
+        const auto n = static_cast<std::ptrdiff_t>(cells_->n_free);
+        return {cells_->area.begin(), cells_->area.begin() + n};
+      }
+
+      algebra::Rows by_volumes(algebra::Rows rows) const
+      {
+        for (std::size_t i = 0; i < rows.n_rows(); ++i)
+          for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+            rows.value[k] *= cells_->area[i / n_components_];
+        return rows;
       }
 
       method::Field field(const Vector &u) const
@@ -105,7 +158,9 @@ namespace plumbline::meshfree
 
       std::shared_ptr<const geometry::NodeCells> cells_;
       unsigned int n_components_;
-      std::vector<char> is_ghost_; ///< of each node, or empty
+      bool is_mixed_;
+      mutable method::PartedRows moving_; ///< rows by volumes, once there is a motion
+      std::vector<char> is_ghost_;        ///< of each node, or empty
       method::Diagnostics diagnostics_;
     };
 

@@ -143,7 +143,7 @@ namespace plumbline::reference
             n_geometry_checks_(problem.settings.geometry.n_checks),
             seed_(problem.settings.geometry.seed),
             cells_(method::comparison_nodes(problem, problem.n_components)),
-            move_well_(problem.double_well
+            move_well_(problem.double_well && problem.is_periodic
                            ? MoveWell([&problem](bool is_lumped, double largest)
                                       { return move_q1_on_torus(problem, is_lumped, largest); })
                            : MoveWell())
@@ -223,7 +223,8 @@ namespace plumbline::reference
       NodeSet cells_; ///< to compare over
       using MoveWell =
           std::function<std::unique_ptr<method::EquationOfMotion>(bool is_lumped, double largest)>;
-      MoveWell move_well_; ///< of double wells, whose stencil is that of small strains
+      /// Of double wells on a torus; the stencil is that of small strains.
+      MoveWell move_well_;
       method::LimitProof limit_;
     };
   } // namespace

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "method/limit_proof.h"
-#include "method/sparse_discretisation.h"
+#include "method/sparse_motion.h"
 #include "reference/geometry_check.h"
 #include "reference/mesh/assembly.h"
 #include "reference/mesh/dilatation.h"
@@ -12,6 +12,7 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace plumbline::reference
@@ -129,13 +130,50 @@ namespace plumbline::reference
       return options;
     }
 
+    /// Exact for products of two shape functions on triangles and parallelograms.
+    dealii::Quadrature<2> mass_rule(const CellShapes &shapes)
+    {
+      if (shapes.n_vertices() == 3)
+        return dealii::QWitherdenVincentSimplex<2>(std::min(7u, shapes.degree() + 2));
+      return dealii::QGauss<2>(shapes.degree() + 2);
+    }
+
+    /// ∫_Ω φ_i φ_j of the free unknowns by all unknowns, components interleaved.
+    algebra::Rows mass_rows(const MeshSpace &space, unsigned int n_components)
+    {
+      const CellShapes &shapes = space.shapes();
+      const dealii::Quadrature<2> gauss = mass_rule(shapes);
+      std::vector<std::map<unsigned int, double>> entries(space.n_free());
+      std::vector<double> phi(shapes.size());
+      for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
+        for (unsigned int q = 0; q < gauss.size() && space.mesh().cells[cell].is_inside; ++q)
+        {
+          const double weight = gauss.weight(q) * space.map(cell).determinant(gauss.point(q));
+          shapes.values(gauss.point(q), phi.data());
+          for (unsigned int a = 0; a < shapes.size(); ++a)
+            for (unsigned int b = 0; b < shapes.size() && space.dofs(cell)[a] < space.n_free(); ++b)
+              entries[space.dofs(cell)[a]][space.dofs(cell)[b]] += weight * phi[a] * phi[b];
+        }
+      algebra::Rows rows;
+      rows.start.assign(1, 0);
+      for (const auto &row : entries)
+        for (unsigned int c = 0; c < n_components; ++c)
+        {
+          for (const auto &[dof, value] : row)
+          {
+            rows.column.push_back(dof * n_components + c);
+            rows.value.push_back(value);
+          }
+          rows.start.push_back(rows.column.size());
+        }
+      return rows;
+    }
+
     /// The diagonal of the mass matrix, scaled to the area of each cell.
     std::vector<double> lumped_masses(const MeshSpace &space)
     {
       const CellShapes &shapes = space.shapes();
-      dealii::Quadrature<2> gauss = dealii::QGauss<2>(shapes.degree() + 2);
-      if (shapes.n_vertices() == 3)
-        gauss = dealii::QWitherdenVincentSimplex<2>(std::min(7u, shapes.degree() + 2));
+      const dealii::Quadrature<2> gauss = mass_rule(shapes);
       std::vector<double> masses(space.n_dofs()), squares, phi(shapes.size());
       for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
       {
@@ -211,6 +249,23 @@ namespace plumbline::reference
         result.mass = lumped_masses(*space_);
         result.rows = free();
         return result;
+      }
+
+      std::unique_ptr<method::EquationOfMotion> motion(bool is_lumped) const override
+      {
+        std::vector<Point<2>> nodes;
+        for (std::size_t dof = 0; dof < space_->n_free(); ++dof)
+          nodes.push_back(space_->support(dof));
+        method::PartedRows mass;
+        if (!is_lumped)
+          mass = method::part(mass_rows(*space_, problem_.n_components),
+                              space_->n_free() * problem_.n_components);
+        return method::move_by_rows(
+            {nodes, problem_.n_components, free(), held(),
+             is_lumped ? lumped_masses(*space_) : std::vector<double>(), std::move(mass),
+             [this](const scene::Problem &instant)
+             { return load_vector(instant, *space_, team()); },
+             [this](const scene::Problem &instant) { return held_values(instant, *space_); }});
       }
 
       method::Diagnostics diagnostics() const override

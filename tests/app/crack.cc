@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <sys/resource.h>
+
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -149,6 +151,19 @@ TEST(CrackCommand, refuses_frames_that_would_fill_the_disk)
   expect_refused(strip + "Study/h=0.001 --set Time/frames=100000 --set Crack/samples=100000",
                  "Time/frames = 100000: 100000 frames and a checkpoint of");
   expect_refused(strip + "Study/h=0.1 --set Time/frames=101", "is more than Crack/samples = 100");
+}
+
+TEST(CrackCommand, refuses_strips_that_do_not_fit_into_memory)
+{
+  rlimit before{};
+  getrlimit(RLIMIT_AS, &before);
+  const rlimit little{rlim_t{8} << 30, before.rlim_max}; // whatever this machine has
+  setrlimit(RLIMIT_AS, &little);
+  expect_refused("crack " + scene("speed") +
+                     " --quiet --levels 1 --set Study/m=2 --set Study/h=0.0003 --set "
+                     "Crack/notch=0.6 --set 'Domain/boxes=0, 0 : 3, 3'",
+                 "a strip of 1e+08 nodes: needs some 25 GB of memory");
+  setrlimit(RLIMIT_AS, &before);
 }
 
 TEST(CrackCommand, refuses_a_checkpoint_that_is_none)

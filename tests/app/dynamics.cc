@@ -97,6 +97,58 @@ TEST(DynamicsCommand, interrupted_keeps_what_is_finished)
   expect_found(read(folder / "dynamics.html"), "interrupted: what was finished");
 }
 
+namespace
+{
+  /// All numbers of dynamics.json but CPU seconds.
+  nlohmann::json untimed(const fs::path &folder)
+  {
+    auto json = nlohmann::json::parse(read(folder / "dynamics.json"));
+    json.erase("provenance");
+    for (auto &run : json["runs"])
+    {
+      run.erase("setup_seconds");
+      run.erase("solve_seconds");
+    }
+    for (auto &torus : json["references"])
+      torus.erase("seconds");
+    return json;
+  }
+} // namespace
+
+TEST(DynamicsCommand, goes_on_after_a_kill_to_the_same_bits)
+{
+  const fs::path whole = temporary("whole"), killed = temporary("killed");
+  const std::string scene = std::string(PLUMBLINE_SCENES) + "/dynamics/double_well.prm";
+  const std::string command = "run " + scene + " " + set("Methods/names", "FA, IPA-AC-R2") +
+                              set("Study/h", "0.1, 0.05, 0.025") + set("Expected/verdicts", "") +
+                              set("Expected/bounds", "") + "-o ";
+  ASSERT_EQ(run(command + whole.string()).exit_code, 0);
+  const std::string journal = (killed / "dynamics.jsonl").string();
+  // as soon as two motions are there
+  const int status = std::system((std::string(PLUMBLINE_COMMAND) + " " + command + killed.string() +
+                                  " >/dev/null 2>&1 & pid=$!; for i in $(seq 3000); do [ $(grep -c "
+                                  "energy_imbalance " +
+                                  journal +
+                                  " 2>/dev/null || echo 0) -ge 2 ] && break; sleep 0.02; "
+                                  "done; kill -9 $pid; wait $pid")
+                                     .c_str());
+  ASSERT_EQ(WEXITSTATUS(status), 137) << "it had ended";
+  std::ofstream(journal, std::ios::app)
+      << "{\"method\": \"FA\", \"cut of"; // as a kill may leave it
+  ASSERT_FALSE(fs::exists(killed / "dynamics.json"));
+  const Outcome resumed = run(command + killed.string());
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  expect_found(resumed.err, " motions are in '");
+  EXPECT_EQ(untimed(killed), untimed(whole));
+  EXPECT_FALSE(fs::exists(journal));
+
+  // what was left by another scene is not taken over
+  fs::remove(killed / "dynamics.json");
+  std::ofstream(journal) << "{\"version\": 1, \"scene\": \"other\"}\n";
+  EXPECT_EQ(run(command + killed.string()).err.find("continuing"), std::string::npos);
+  EXPECT_EQ(untimed(killed), untimed(whole));
+}
+
 TEST(DynamicsCommand, refuses_what_cannot_move)
 {
   expect_refused(set("Time/steps", "0"), "Time/steps = 0 must be positive");

@@ -2,6 +2,7 @@
 #include "report/stability_page.h"
 #include "report/stability_pictures.h"
 #include "report/stability_tables.h"
+#include "report/strain_charts.h"
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
@@ -146,5 +147,56 @@ namespace plumbline::report
     EXPECT_NE(fixture::read(folder.path() / "stability/coercivity_m-3.csv")
                   .find("free,m = 3,0.20000000000000001,0.60000000000000009,\n"),
               std::string::npos);
+  }
+
+  TEST(StabilityReport, gives_critical_steps_with_the_density_and_says_what_grows)
+  {
+    study::StabilityResults r = results();
+    r.rows[0].steps = {4, 64, 16, true};
+    r.rows[1].steps = {4, 100, 0, false};
+    const Table table = time_steps_table(r);
+    ASSERT_EQ(table.rows.size(), 2u);
+    const auto json = nlohmann::json::parse(stability_json(r));
+    EXPECT_EQ(json["levels"][0]["critical_step"], .5); // 2 / √(64/4)
+    EXPECT_EQ(json["levels"][0]["critical_step_lumped"], 1);
+    EXPECT_EQ(json["levels"][1]["critical_step"], .4);
+    EXPECT_TRUE(json["levels"][1]["critical_step_lumped"].is_null());
+    EXPECT_FALSE(json["levels"][1]["only_oscillates"]);
+    EXPECT_TRUE(json["levels"][2]["critical_step"].is_null()); // not known
+    EXPECT_NE(stability_text(r).find("dt, lumped"), std::string::npos);
+  }
+
+  TEST(StabilityReport, charts_growth_on_strains_beside_the_symbol_and_the_local_criterion)
+  {
+    study::StrainGrowth growth{"delta = 0.2", "shear", .05, .2, {1, 2.5}, 1.1, {}, {}};
+    for (int i = 1; i <= 3; ++i)
+      growth.samples.push_back({1. * i, 2. * i, {3, 4}, i > 1 ? 5. * i : 0, i > 2 ? 7. : 0});
+    growth.methods = {{"FA", "meshfree", {0, 10, 15}, {0, 10.5, 12}, ""},
+                      {"none", "meshfree", {}, {}, "no <weights>"}};
+    const auto charts = strain_charts({growth});
+    ASSERT_EQ(charts.size(), 1u);
+    EXPECT_EQ(charts[0].name, "growth_shear_delta-0.2");
+    const Plot &plot = charts[0].plot;
+    ASSERT_EQ(plot.frontier.size(), 3u); // from where it begins
+    EXPECT_EQ(plot.frontier[0].x, 1.1);
+    EXPECT_EQ(plot.frontier[2].y, 15);
+    ASSERT_EQ(plot.lines.size(), 2u);
+    EXPECT_EQ(plot.lines[0].points[2].y, 12);
+    EXPECT_EQ(plot.lines[1].label, "criterion (64)");
+    EXPECT_EQ(plot.lines[1].points[0].x, 2.5);
+    EXPECT_EQ(plot.lines[1].points[1].y, 7);
+    EXPECT_EQ(charts[0].data.rows.size(), 3u);
+
+    const Table table = strain_growth_table({growth});
+    EXPECT_EQ(table.rows[0][4].text, "2"); // first seen
+    EXPECT_EQ(table.rows[0][5].text, rounded_error(.2));
+    EXPECT_EQ(table.rows[0][6].text, rounded_error(.2));
+    EXPECT_EQ(table.rows[1][7].text, "no <weights>");
+    EXPECT_EQ(strain_thresholds_table({growth}).rows[0][5].text, "2.5");
+    study::StabilityResults r = results();
+    r.strains = {growth};
+    const auto json = nlohmann::json::parse(stability_json(r));
+    EXPECT_EQ(json["strains"][0]["criterion_64"], 2.5);
+    EXPECT_EQ(json["strains"][0]["methods"][0]["observed"][2], 12);
   }
 } // namespace plumbline::report

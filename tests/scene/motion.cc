@@ -96,5 +96,32 @@ TEST(Motion, refuses_by_key_value_and_remedy)
   expect_refused({{"Study/norms", "averages L2"}}, "compared at nodes");
   expect_refused({{"Reference/method", "Q2"}}, "motions take torus");
   expect_refused({{"Domain/boundary", "periodic"}}, "Material/model = double well", false);
-  expect_refused({{"Domain/mesh", "squares"}}, "Domain/mesh = lattice", false);
+}
+
+TEST(Motion, of_meshes_has_no_room_for_a_dilatation_without_mass)
+{
+  EXPECT_NO_THROW((void)wave({{"Domain/mesh", "squares"}}));
+  const auto solid = [](const std::string &dilatation)
+  {
+    return parse_scene("t.prm", scene_template("LPS"),
+                       {{"Domain/mesh", "squares"},
+                        {"Solver/dilatation", dilatation},
+                        {"Methods/names", "IPA-AC"},
+                        {"Reference/method", "none"},
+                        {"Time/final time", "1"},
+                        {"Study/norms", "nodal L2"},
+                        {"Study/decisive error", "nodal L2 | exact"}});
+  };
+  EXPECT_NO_THROW((void)solid("eliminated"));
+  try
+  {
+    (void)solid("kept");
+    ADD_FAILURE() << "not refused";
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("a dilatation that is kept has no mass"),
+              std::string::npos)
+        << error.what();
+  }
 }

@@ -226,5 +226,6 @@ TEST(Motions, refuse_steps_beyond_the_critical_one_with_its_number)
   expect_refused(with({{"Time/critical fractions", "1.1"}}), "1.1 of critical with the scheme");
   expect_refused(with({{"Time/schemes", "explicit Euler"}}), "unstable at any step");
   expect_refused(with({{"Time/schemes", "leapfrog"}}), "Time/schemes: time-stepping scheme");
-  expect_refused(with({{"Methods/names", "Q1"}, {"Time/schemes", "trapezoidal"}}), "the tangent");
+  expect_refused(with({{"Methods/names", "Q1"}, {"Time/schemes", "trapezoidal"}}),
+                 "a symmetric tangent");
 }

@@ -104,6 +104,9 @@ namespace plumbline::scene
              "branches; unknown: nothing is expected.");
     add(ExpectedKind::stability,
         "'method: stable', 'conditionally stable' or 'unstable', of 'plumbline stability'.");
+    add(ExpectedKind::growth,
+        "'method: d': growth rates that 'plumbline stability' observes on strained double wells "
+        "differ from the symbol's by no more than d of the largest.");
   }
 
   void ExpectedSection::complete(const std::vector<std::string> &cases) const

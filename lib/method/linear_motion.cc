@@ -1,0 +1,111 @@
+#include "method/linear_motion.h"
+
+#include "base/error.h"
+
+#include <cmath>
+#include <utility>
+
+namespace plumbline::method
+{
+  namespace
+  {
+    class LinearMotion : public EquationOfMotion
+    {
+    public:
+      explicit LinearMotion(LinearParts parts)
+          : parts_(std::move(parts)), n_(parts_.nodes.size() * parts_.n_components)
+      {
+      }
+
+      std::size_t size() const override { return n_; }
+
+      std::vector<double> drive(const scene::Problem &instant) const override
+      {
+        return parts_.mass.of_force(parts_.load(instant));
+      }
+
+      std::vector<double> inertia(const scene::Problem &instant) const override
+      {
+        return parts_.mass.of_force(parts_.inertia(instant));
+      }
+
+      State state(const scene::Field &field) const override
+      {
+        State u;
+        for (const auto &node : parts_.nodes)
+          for (unsigned int c = 0; c < parts_.n_components; ++c)
+            u.push_back(field.value(node, c));
+        return parts_.mass.to_state(u);
+      }
+
+      void acceleration(const State &u, const std::vector<double> &g, State &a) const override
+      {
+        apply(parts_.stiffness, u, a);
+        for (std::size_t i = 0; i < a.size(); ++i)
+          a[i] = g[i] - a[i];
+      }
+
+      void tangent(const State &, const std::vector<double> &, const State &v,
+                   State &out) const override
+      {
+        apply(parts_.stiffness, v, out);
+        if (parts_.transposed)
+        {
+          State other;
+          apply(parts_.transposed, v, other);
+          for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = .5 * (out[i] + other[i]);
+        }
+        for (double &value : out)
+          value = -value;
+      }
+
+      bool is_symmetric() const override { return !parts_.transposed; }
+
+      double product(const State &u, const State &v) const override
+      {
+        double sum = 0;
+        for (std::size_t i = 0; i < u.size(); ++i)
+          sum += u[i] * v[i];
+        return parts_.unit * sum;
+      }
+
+      double energy(const State &u, const std::vector<double> &) const override
+      {
+        State force;
+        apply(parts_.stiffness, u, force);
+        return .5 * product(u, force);
+      }
+
+      double power(const State &, const State &v, const std::vector<double> &g,
+                   const std::vector<double> &) const override
+      {
+        return product(g, v);
+      }
+
+      unsigned int n_components() const override { return parts_.n_components; }
+      const std::vector<dealii::Point<2>> &nodes() const override { return parts_.nodes; }
+      std::vector<double> nodal(const State &u) const override
+      {
+        return parts_.mass.to_unknowns(u);
+      }
+
+    private:
+      /// S⁻¹ A S⁻ᵀ x
+      void apply(const algebra::Action &action, const State &x, State &out) const
+      {
+        State force(n_);
+        action(parts_.mass.to_unknowns(x), force);
+        out = parts_.mass.of_force(force);
+      }
+
+      LinearParts parts_;
+      std::size_t n_;
+    };
+  } // namespace
+
+  std::unique_ptr<EquationOfMotion> move_linear(LinearParts parts)
+  {
+    return std::make_unique<LinearMotion>(std::move(parts));
+  }
+} // namespace plumbline::method

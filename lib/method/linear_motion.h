@@ -1,0 +1,32 @@
+#pragma once
+
+#include "algebra/spectrum.h"
+#include "method/equation_of_motion.h"
+#include "method/mass_root.h"
+
+#include <functional>
+
+namespace plumbline::method
+{
+  /// What moves by a matrix: M ü = load - A u.
+  struct LinearParts
+  {
+    using State = EquationOfMotion::State;
+    using Driven = std::function<State(const scene::Problem &)>;
+
+    std::vector<dealii::Point<2>> nodes; ///< that are free; unknowns are numbered node by node
+    unsigned int n_components = 1;
+    MassRoot mass;
+    algebra::Action stiffness;       ///< A
+    algebra::Action transposed = {}; ///< Aᵀ where A is not symmetric
+    Driven load;                     ///< M b, less what held nodes add to A u
+    Driven inertia;                  ///< M u of the solution and of held nodes: u stands for ü
+    double unit = 1;                 ///< that masses are counted in [length^2]
+  };
+
+  /// States are Sᵀ u with M = S Sᵀ, so that the tangent of a symmetric A is symmetric.
+  /// Where A is not symmetric the tangent is that of its symmetric part, whose largest eigenvalue
+  /// bounds the real parts of A's; the energy is that part's too, and the rest disturbs its
+  /// balance.
+  std::unique_ptr<EquationOfMotion> move_linear(LinearParts parts);
+} // namespace plumbline::method

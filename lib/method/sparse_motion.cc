@@ -1,0 +1,91 @@
+#include "method/sparse_motion.h"
+
+#include "algebra/spectrum.h"
+
+#include <deal.II/base/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace plumbline::method
+{
+  namespace
+  {
+    using State = EquationOfMotion::State;
+
+    algebra::Action action_of(const algebra::Rows &rows)
+    {
+      return [&rows](const State &x, State &y)
+      {
+        constexpr unsigned int grain = 512; // rows, worth a thread's while
+        y.resize(rows.n_rows());
+        dealii::parallel::apply_to_subranges(
+            static_cast<std::size_t>(0), rows.n_rows(),
+            [&](std::size_t from, std::size_t to)
+            {
+              for (std::size_t i = from; i < to; ++i)
+              {
+                double sum = 0;
+                for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+                  sum += rows.value[k] * x[rows.column[k]];
+                y[i] = sum;
+              }
+            },
+            grain);
+      };
+    }
+
+    /// Rows of another matrix with a life of their own.
+    algebra::Action action_of(algebra::Rows &&rows)
+    {
+      const auto own = std::make_shared<const algebra::Rows>(std::move(rows));
+      return [own, act = action_of(*own)](const State &x, State &y) { act(x, y); };
+    }
+
+    bool is_symmetric(const SparseParts &parts)
+    {
+      constexpr double rounding = 1e-12;
+      return algebra::check_signs(parts.stiffness).asymmetry <= rounding;
+    }
+
+    MassRoot mass_root(const SparseParts &parts)
+    {
+      if (parts.masses.empty())
+        return MassRoot(parts.mass.free);
+      std::vector<double> masses;
+      for (const double mass : parts.masses)
+        masses.insert(masses.end(), parts.n_components, mass);
+      return MassRoot(std::move(masses));
+    }
+
+    State values(const Vector &x)
+    {
+      return {x.begin(), x.end()};
+    }
+  } // namespace
+
+  std::unique_ptr<EquationOfMotion> move_by_rows(SparseParts given)
+  {
+    const auto parts = std::make_shared<const SparseParts>(std::move(given));
+    const auto load = [parts](const scene::Problem &instant)
+    {
+      Vector load = parts->load(instant);
+      subtract_held(parts->held, parts->around(instant), load);
+      return values(load);
+    };
+    const auto inertia = [parts](const scene::Problem &instant)
+    {
+      scene::Problem of_solution = instant;
+      of_solution.load = *instant.solution;
+      Vector load = parts->load(of_solution);
+      if (parts->masses.empty())
+        subtract_held(parts->mass.held, parts->around(instant), load);
+      return values(load);
+    };
+    return move_linear(
+        {parts->nodes, parts->n_components, mass_root(*parts), action_of(parts->stiffness),
+         is_symmetric(*parts) ? algebra::Action() : action_of(algebra::transpose(parts->stiffness)),
+         load, inertia, 1});
+  }
+} // namespace plumbline::method

@@ -1,0 +1,41 @@
+#include "analysis/transient.h"
+#include "study/stability.h"
+
+namespace plumbline::study
+{
+  namespace
+  {
+    /// Of small motions of unit density about rest.
+    double largest_eigenvalue(const method::EquationOfMotion &equation,
+                              const scene::Problem &problem)
+    {
+      const analysis::Transient transient(equation, analysis::TimeSeries(equation.drive(problem)),
+                                          1, 0);
+      const double step = transient.critical_step(analysis::scheme("velocity Verlet"));
+      return 4 / (step * step);
+    }
+  } // namespace
+
+  CriticalSteps critical_steps(const method::Discretisation &discretisation,
+                               const scene::Problem &problem, const Stability &stability,
+                               double density)
+  {
+    constexpr double rounding = 1e-8; // of the largest: accuracy of eigenvalues
+    CriticalSteps steps{density};
+    if (!stability.is_symmetric())
+    {
+      const algebra::Eigenvalues &e = stability.eigenvalues;
+      steps.largest = e.n_computed > 0 ? e.largest_modulus : 0;
+      steps.is_oscillating = e.largest_imaginary <= rounding * e.largest_modulus &&
+                             e.smallest_real >= -rounding * e.largest_modulus;
+      return steps;
+    }
+    steps.is_oscillating = stability.smallest >= -rounding * stability.largest;
+    const auto own = discretisation.motion(false);
+    steps.largest = own ? largest_eigenvalue(*own, problem) : stability.largest;
+    if (!discretisation.matrix().is_collocated && own)
+      if (const auto lumped = discretisation.motion(true))
+        steps.largest_lumped = largest_eigenvalue(*lumped, problem);
+    return steps;
+  }
+} // namespace plumbline::study

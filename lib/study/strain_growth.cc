@@ -1,0 +1,229 @@
+#include "study/strain_growth.h"
+
+#include "analysis/wave_growth.h"
+#include "base/error.h"
+#include "base/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace plumbline::study
+{
+  namespace
+  {
+    using physics::SymmetricMatrix;
+    using Wave = std::array<double, 2>;
+
+    struct Direction
+    {
+      const char *name;
+      SymmetricMatrix strain;
+    };
+    const Direction directions[] = {
+        {"uniaxial", {1, 0, 0}}, {"biaxial", {1, 0, 1}}, {"shear", {0, 1, 0}}};
+
+    SymmetricMatrix times(double g, const SymmetricMatrix &strain)
+    {
+      return {g * strain.xx, g * strain.xy, g * strain.yy};
+    }
+
+    /// Those of a torus, one of each pair ±k, no shorter than four cells, since lattices
+    /// carry shorter ones badly, nor than half a bond, beyond which symbols are near their limit.
+    std::vector<Wave> waves_of(const geometry::Box &box, const scene::Level &level)
+    {
+      const double largest = std::min(4 * M_PI / level.horizon, M_PI / (2 * level.h)) * (1 + 1e-9);
+      std::array<double, 2> first{};
+      std::array<int, 2> n{};
+      for (unsigned int a = 0; a < 2; ++a)
+      {
+        first[a] = 2 * M_PI / (box.upper[a] - box.lower[a]);
+        n[a] = static_cast<int>(largest / first[a]);
+      }
+      std::vector<Wave> waves;
+      for (int j = 0; j <= n[1]; ++j)
+        for (int i = j == 0 ? 1 : -n[0]; i <= n[0]; ++i)
+          if (std::hypot(i * first[0], j * first[1]) <= largest)
+            waves.push_back({i * first[0], j * first[1]});
+      return waves;
+    }
+
+    /// The least eigenvalue over waves, and whose it is.
+    std::pair<double, Wave> least(const physics::DoubleWell &law, const SymmetricMatrix &strain,
+                                  const std::vector<Wave> &waves)
+    {
+      std::pair<double, Wave> result{};
+      bool is_first = true;
+      for (const Wave &wave : waves)
+      {
+        const double value = wave_symbol(law, strain, wave).eigenvalues()[0];
+        if (is_first || value < result.first)
+          result = {value, wave};
+        is_first = false;
+      }
+      return result;
+    }
+
+    /// The X at which one of the waves begins to grow, to 1e-6.
+    double first_wave(const physics::DoubleWell &law, const SymmetricMatrix &direction,
+                      const std::vector<Wave> &waves, double lower, double upper)
+    {
+      const auto grows = [&](double x)
+      {
+        const double g = std::sqrt(x / (law.beta() * law.horizon()));
+        return least(law, times(g, direction), waves).first < 0;
+      };
+      if (!grows(upper))
+        return 0;
+      while (upper - lower > 1e-6)
+      {
+        const double middle = .5 * (lower + upper);
+        (grows(middle) ? upper : lower) = middle;
+      }
+      return upper;
+    }
+
+    double rate(double eigenvalue, double density)
+    {
+      return eigenvalue < 0 ? std::sqrt(-eigenvalue / density) : 0;
+    }
+
+    double largest_difference(const StrainGrowth &growth, const std::vector<double> &a,
+                              const std::function<double(std::size_t)> &b)
+    {
+      double largest = 0, size = 0;
+      for (std::size_t i = 0; i < a.size(); ++i)
+      {
+        largest = std::max(largest, std::abs(a[i] - b(i)));
+        size = std::max(size, growth.samples[i].symbol);
+      }
+      return size > 0 ? largest / size : largest;
+    }
+  } // namespace
+
+  double StrainGrowth::difference(const MethodGrowth &of) const
+  {
+    return largest_difference(*this, of.observed, [&](std::size_t i) { return samples[i].symbol; });
+  }
+
+  double StrainGrowth::own_difference(const MethodGrowth &of) const
+  {
+    return largest_difference(*this, of.observed, [&](std::size_t i) { return of.linear[i]; });
+  }
+
+  std::vector<StrainGrowth> strain_growths(const scene::Scene &scene, const std::string &series,
+                                           const scene::Level &level)
+  {
+    constexpr int n_samples = 12;
+    constexpr double beyond = 1.25; // of where (64) fails
+    const physics::DoubleWell law = make_double_well(scene, level.horizon);
+    const double density = scene.time.density, horizon = level.horizon;
+    const auto waves = waves_of(scene.domain.boxes.include.front(), level);
+    std::vector<StrainGrowth> growths;
+    for (const Direction &direction : directions)
+    {
+      StrainGrowth growth{series, direction.name, level.h, horizon, {}, 0, {}, {}};
+      growth.thresholds = stability_thresholds(law, direction.strain);
+      const double end = beyond * growth.thresholds.local;
+      for (int i = 1; i <= n_samples; ++i)
+      {
+        StrainSample sample;
+        sample.amplitude = end * i / n_samples;
+        sample.strain = std::sqrt(sample.amplitude / (law.beta() * horizon));
+        const SymmetricMatrix strain = times(sample.strain, direction.strain);
+        const auto [value, wave] = least(law, strain, waves);
+        sample.wave = wave;
+        sample.symbol = rate(value, density);
+        sample.local =
+            rate(4 / (horizon * horizon) * local_stability(law, strain).eigenvalues()[0], density);
+        growth.samples.push_back(sample);
+      }
+      growth.first_wave =
+          first_wave(law, direction.strain, waves, growth.thresholds.ellipticity, end);
+      growths.push_back(growth);
+    }
+    return growths;
+  }
+
+  void add_growth(const method::Method &method, const scene::Scene &scene,
+                  const scene::Problem &problem, std::vector<StrainGrowth> &growths)
+  {
+    constexpr double longest_time = 400; // in horizons over the speed of a bond, √(p/ρ)
+    const physics::DoubleWell law = make_double_well(scene, problem.horizon());
+    MethodGrowth result{method.name(), method.side(), {}, {}, {}};
+    std::unique_ptr<method::Discretisation> discretisation;
+    try
+    {
+      discretisation = method.discretise(problem, base::Team::alone());
+    }
+    catch (const NumericalError &error)
+    {
+      result.failure = error.what();
+      for (StrainGrowth &growth : growths)
+        growth.methods.push_back(result);
+      return;
+    }
+    const double density = scene.time.density;
+    for (std::size_t d = 0; d < growths.size(); ++d)
+    {
+      StrainGrowth &growth = growths[d];
+      MethodGrowth one = result;
+      for (const StrainSample &sample : growth.samples)
+      {
+        const SymmetricMatrix strain = times(sample.strain, directions[d].strain);
+        const dealii::Tensor<2, 2> gradient({{strain.xx, strain.xy}, {strain.xy, strain.yy}});
+        const auto equation = discretisation->motion_about(gradient);
+        if (!equation)
+          return;
+        const analysis::Vector drive(equation->drive(problem).size());
+        const analysis::Transient transient(*equation, analysis::TimeSeries(drive), density, 0);
+        const scene::Field stretched{[&](const dealii::Point<2> &x, unsigned int c)
+                                     { return gradient[c][0] * x[0] + gradient[c][1] * x[1]; },
+                                     {}};
+        try
+        {
+          const auto found = analysis::observe_growth(
+              *equation, transient, equation->state(stretched), sample.wave, growth.horizon,
+              longest_time * growth.horizon * std::sqrt(density / law.stiffness()));
+          one.linear.push_back(found.linear);
+          one.observed.push_back(found.observed);
+        }
+        catch (const NumericalError &error)
+        {
+          one.failure = error.what();
+          break;
+        }
+      }
+      growth.methods.push_back(one);
+    }
+  }
+
+  std::vector<Expectation> check_growth(const scene::Scene &scene,
+                                        const std::vector<StrainGrowth> &growths)
+  {
+    std::vector<Expectation> results;
+    for (const scene::Expected &expected : scene.expected.all)
+    {
+      if (expected.kind != scene::ExpectedKind::growth)
+        continue;
+      double worst = 0;
+      bool is_found = false;
+      std::string failure;
+      for (const StrainGrowth &growth : growths)
+        for (const MethodGrowth &one : growth.methods)
+          if (one.method == expected.method)
+          {
+            is_found = true;
+            failure += one.failure;
+            worst = std::max(worst, growth.difference(one));
+          }
+      results.push_back({"Expected/growth: " + expected.text,
+                         "<= " + base::to_text(expected.values.front(), 4),
+                         !is_found          ? "no such method on a torus of double wells"
+                         : !failure.empty() ? failure
+                                            : base::to_text(worst, 4),
+                         is_found && failure.empty() && worst <= expected.values.front()});
+    }
+    return results;
+  }
+} // namespace plumbline::study

@@ -1,0 +1,258 @@
+// Motions of scattered nodes, meshes and free bodies: the same equations as on lattices.
+
+#include "analysis/transient.h"
+#include "meshfree/method.h"
+#include "reference/method.h"
+#include "study/dynamics.h"
+#include "study/motion_data.h"
+#include "study/preflight.h"
+
+#include "base/error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace plumbline;
+using namespace plumbline::study;
+
+namespace
+{
+  using Settings = std::vector<scene::Override>;
+
+  scene::Scene scene_of(const std::string &model, const Settings &settings)
+  {
+    Settings all = {{"Time/final time", "0.5"},
+                    {"Study/regime", "delta"},
+                    {"Study/h", "0.2, 0.1, 0.05"},
+                    {"Study/norms", "nodal L2"},
+                    {"Study/decisive error", "nodal L2 | exact"}};
+    all.insert(all.end(), settings.begin(), settings.end());
+    return scene::parse_scene("t.prm", model.empty() ? "" : scene::scene_template(model), all);
+  }
+
+  Methods methods_of(const scene::Scene &scene)
+  {
+    Methods all = meshfree::methods();
+    for (const auto &method : reference::methods())
+      all.push_back(method);
+    return choose_methods(scene, all);
+  }
+
+  DynamicResults run(const scene::Scene &scene)
+  {
+    const Methods methods = methods_of(scene);
+    check_motions(scene, methods, 0);
+    DynamicResults results = run_motions(scene, methods, {});
+    conclude(scene, results);
+    for (const MotionRun &motion : results.runs)
+      EXPECT_EQ(motion.failure, "") << motion.method;
+    return results;
+  }
+
+  /// Where nodes are, and u there.
+  using Places = std::vector<std::pair<std::array<double, 2>, std::vector<double>>>;
+
+  /// The state at the end of the coarsest level, nodes sorted by place.
+  Places end_of(const scene::Scene &scene)
+  {
+    ProblemsInTime::Loads loads;
+    ProblemsInTime problems(scene, 0, scene.study.series[0].levels[0], loads);
+    const auto discretisation = methods_of(scene)[0]->discretise(problems.at(0));
+    const auto equation = discretisation->motion(scene.time.is_lumped);
+    const MotionData data = motion_data(scene, *equation, problems);
+    const analysis::Transient transient(*equation, data.drive, scene.time.density,
+                                        scene.time.damping);
+    analysis::State state = data.start;
+    analysis::integrate(transient.motion(), analysis::scheme("velocity Verlet"), {.01},
+                        scene.time.final_time, state);
+    const auto u = equation->nodal(state.u);
+    const unsigned int n = equation->n_components();
+    Places places;
+    for (std::size_t i = 0; i < equation->nodes().size(); ++i)
+    {
+      const auto &x = equation->nodes()[i];
+      places.push_back({{std::round(x[1] * 1e6), std::round(x[0] * 1e6)}, {}});
+      for (unsigned int c = 0; c < n; ++c)
+        places.back().second.push_back(u[i * n + c]);
+    }
+    std::sort(places.begin(), places.end());
+    return places;
+  }
+
+  std::vector<double> errors(const DynamicResults &results, const std::string &method)
+  {
+    for (const MotionTrend &trend : results.trends)
+      if (trend.method == method && trend.error == results.decisive_error)
+        return trend.values;
+    throw InputError("no such trend: " + method);
+  }
+
+  double last_error(const DynamicResults &results, const std::string &method)
+  {
+    return errors(results, method).back();
+  }
+
+  double last_rate(const DynamicResults &results, const std::string &method)
+  {
+    const auto of_method = errors(results, method);
+    return std::log2(of_method[of_method.size() - 2] / of_method.back());
+  }
+} // namespace
+
+namespace
+{
+  /// How far a method moves nodes of a lattice elsewhere on squares than on the lattice.
+  void expect_alike(const std::string &model, const std::string &method, const std::string &mass)
+  {
+    // loads of Galerkin methods on meshes are quadrature, and masses are factored
+    const double tolerance = method == "Q1" || method == "DGQ1" ? 2e-11 : 1e-12;
+    Places ends[2];
+    for (const bool is_mesh : {false, true})
+      ends[is_mesh ? 1 : 0] =
+          end_of(scene_of(model, {{"Methods/names", method},
+                                  {"Domain/mesh", is_mesh ? "squares" : "lattice"},
+                                  {"Problem/solution",
+                                   model.empty() ? "sin(2*x + y - 3*t)" : "x*y*sin(t), x*cos(t)"},
+                                  {"Study/m", "2.5"},
+                                  {"Time/mass", mass},
+                                  {"Time/density", "2"},
+                                  {"Time/damping", "0.3"},
+                                  {"Reference/method", "none"}}));
+    ASSERT_EQ(ends[0].size(), ends[1].size()) << method;
+    double difference = 0, size = 0;
+    for (std::size_t i = 0; i < ends[0].size(); ++i)
+      for (std::size_t c = 0; c < ends[0][i].second.size(); ++c)
+      {
+        EXPECT_EQ(ends[0][i].first, ends[1][i].first);
+        // nodes of discontinuous methods share a place: their values are sorted
+        difference = std::max(difference, std::abs(ends[0][i].second[c] - ends[1][i].second[c]));
+        size = std::max(size, std::abs(ends[0][i].second[c]));
+      }
+    EXPECT_GT(size, .2);
+    EXPECT_LT(difference, tolerance) << method << ' ' << mass << ' ' << model;
+  }
+} // namespace
+
+TEST(MovingNodes, of_a_lattice_move_as_the_lattice_does)
+{
+  for (const std::string method : {"FA", "PA-AC", "IPA-AC-R2"})
+    for (const std::string model : {"", "tensor"})
+      expect_alike(model, method, "consistent");
+  for (const std::string mass : {"consistent", "lumped"})
+    expect_alike("", "Q1", mass);
+  expect_alike("", "DGQ1", "consistent");
+}
+
+TEST(MovingNodes, hold_manufactured_fields_that_their_rule_maps_exactly)
+{
+  // degree 2 on moved nodes: errors are those of time and of rounding
+  const auto results = run(scene_of("", {{"Methods/names", "IPA-AC-R2"},
+                                         {"Methods/perturbation", "0.3"},
+                                         {"Domain/mesh", "squares"},
+                                         {"Problem/solution", "(1 + x)*(2 - y)*sin(2*t) + x^2"},
+                                         {"Study/h", "0.1"},
+                                         {"Study/m", "3"},
+                                         {"Time/density", "1.7"},
+                                         {"Time/damping", "0.6"},
+                                         {"Time/schemes", "Runge-Kutta"}}));
+  ASSERT_EQ(results.runs.size(), 1u);
+  EXPECT_LT(results.runs[0].errors.at("nodal L2 | exact"), 1e-9);
+  EXPECT_LT(results.runs[0].errors.at("velocity nodal L2 | exact"), 1e-8);
+}
+
+TEST(MovingNodes, converge_as_in_statics)
+{
+  const std::string solution = "sin(2*x + y - 3*t)";
+  const auto moved = run(scene_of("", {{"Methods/names", "FA, IPA-AC-R2"},
+                                       {"Methods/perturbation", "0.3"},
+                                       {"Domain/mesh", "squares"},
+                                       {"Problem/solution", solution},
+                                       {"Study/m", "3"},
+                                       {"Time/critical fractions", "0.5"}}));
+  EXPECT_NEAR(last_rate(moved, "IPA-AC-R2"), 2, .4);
+  EXPECT_LT(last_error(moved, "IPA-AC-R2"), .6 * last_error(moved, "FA"));
+  const auto triangles = run(scene_of("", {{"Methods/names", "P1"},
+                                           {"Domain/mesh", "triangles"},
+                                           {"Problem/solution", solution},
+                                           {"Quadrature/tolerance", "1e-2"},
+                                           {"Study/m", "2"}}));
+  EXPECT_NEAR(last_rate(triangles, "P1"), 2, .4);
+}
+
+TEST(MovingNodes, keep_energy_where_their_operator_is_symmetric)
+{
+  const Settings free_motion = {{"Methods/perturbation", "0.3"},
+                                {"Domain/mesh", "squares"},
+                                {"Problem/solution", ""},
+                                {"Problem/load", "0, 0"},
+                                {"Problem/constraint", "0, 0"},
+                                {"Problem/local solution", "none"},
+                                {"Time/initial displacement", "sin(pi*x)*sin(pi*y), 0"},
+                                {"Time/final time", "20"},
+                                {"Time/critical fractions", "0.5, 0.25"},
+                                {"Reference/method", "none"},
+                                {"Study/h", "0.1"},
+                                {"Study/m", "2.5"}};
+  const auto swing = [](const MotionRun &motion, double from, double to)
+  {
+    const auto stored = [](const analysis::Energies &e) { return e.kinetic + e.bond; };
+    double largest = 0;
+    for (const analysis::Energies &now : motion.energies)
+      if (now.t >= from && now.t <= to)
+        largest = std::max(largest, std::abs(stored(now) / stored(motion.energies[0]) - 1));
+    return largest;
+  };
+  Settings settings = free_motion;
+  settings.push_back({"Methods/names", "FA"});
+  const auto results = run(scene_of("tensor", settings));
+  ASSERT_EQ(results.runs.size(), 2u);
+  const double coarse = swing(results.runs[0], 0, 20), fine = swing(results.runs[1], 0, 20);
+  EXPECT_LT(coarse, .05);
+  EXPECT_NEAR(coarse / fine, 4, 1); // second order
+  EXPECT_LT(swing(results.runs[1], 10, 20), 1.2 * swing(results.runs[1], 0, 10) + 1e-6); // no drift
+
+  // two weights a bond: no tangent that is symmetric
+  settings.back().value = "PA-AC";
+  settings.push_back({"Time/schemes", "trapezoidal"});
+  try
+  {
+    (void)run(scene_of("tensor", settings));
+    ADD_FAILURE() << "not refused";
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("needs a symmetric tangent of forces, which PA-AC"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(MovingNodes, of_a_body_that_floats_go_on_as_they_begin)
+{
+  // no force on a rigid translation, whatever the shape
+  const auto results = run(scene_of("variational", {{"Domain/boundary", "free"},
+                                                    {"Domain/fixed", "none"},
+                                                    {"Domain/boxes", "0, 0 : 1, 1"},
+                                                    {"Domain/mesh", "lattice"},
+                                                    {"Methods/nodes", "vertices"},
+                                                    {"Methods/names", "FA, DGQ0"},
+                                                    {"Problem/solution", ""},
+                                                    {"Problem/load", "0, 0"},
+                                                    {"Problem/constraint", "0, 0"},
+                                                    {"Problem/local solution", "none"},
+                                                    {"Reference/method", "none"},
+                                                    {"Study/h", "0.1"},
+                                                    {"Study/m", "2"},
+                                                    {"Time/initial velocity", "0.25, -0.5"},
+                                                    {"Time/density", "3"}}));
+  ASSERT_EQ(results.runs.size(), 2u);
+  for (const MotionRun &motion : results.runs)
+  {
+    EXPECT_LT(motion.size, 1e-12) << motion.method; // u is the same everywhere
+    EXPECT_NEAR(motion.energies.back().kinetic, .5 * 3 * (.25 * .25 + .5 * .5), 1e-9)
+        << motion.method;
+    EXPECT_LT(motion.energies.back().bond, 1e-12) << motion.method;
+  }
+}

@@ -1,0 +1,144 @@
+// Waves on strained double wells: the symbol, the local criterion and motions; critical time steps.
+
+#include "study/strain_growth.h"
+
+#include "meshfree/method.h"
+#include "reference/method.h"
+#include "study/preflight.h"
+#include "study/stability.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace plumbline;
+using namespace plumbline::study;
+
+namespace
+{
+  scene::Scene torus(const std::vector<scene::Override> &settings)
+  {
+    std::vector<scene::Override> all = {{"Kernel/type", "constant"}, {"Study/h", "0.05"}};
+    all.insert(all.end(), settings.begin(), settings.end());
+    return scene::parse_scene("t.prm", scene::scene_template("double-well"), all);
+  }
+
+  Methods methods_of(const scene::Scene &scene)
+  {
+    Methods all = meshfree::methods();
+    for (const auto &method : reference::methods())
+      all.push_back(method);
+    return choose_methods(scene, all);
+  }
+
+  std::vector<StrainGrowth> growths_of(const scene::Scene &scene)
+  {
+    const scene::Level level = scene.study.series[0].levels.back();
+    auto growths = strain_growths(scene, "s", level);
+    const scene::Problem problem = scene::make_problem(scene, 0, level);
+    for (const auto &method : methods_of(scene))
+      add_growth(*method, scene, problem, growths);
+    return growths;
+  }
+} // namespace
+
+TEST(StrainGrowth, is_seen_at_the_rate_of_the_symbol_long_before_the_local_criterion)
+{
+  const auto growths = growths_of(torus({{"Methods/names", "IPA-AC-R2, Q1"}}));
+  ASSERT_EQ(growths.size(), 3u);
+  // J = 1, see tests/physics/double_well_stability.cc
+  const double elliptic[] = {.977, .692, .994}, local[] = {1.621, .807, 3.090};
+  for (std::size_t d = 0; d < 3; ++d)
+  {
+    const StrainGrowth &growth = growths[d];
+    EXPECT_NEAR(growth.thresholds.ellipticity, elliptic[d], 1e-3) << growth.name;
+    EXPECT_NEAR(growth.thresholds.local, local[d], 1e-3) << growth.name;
+    EXPECT_GT(growth.first_wave, growth.thresholds.ellipticity) << growth.name;
+    EXPECT_LT(growth.first_wave, growth.thresholds.local) << growth.name;
+    ASSERT_EQ(growth.methods.size(), 1u); // Galerkin forces know no strain of the whole torus
+    const MethodGrowth &rule = growth.methods[0];
+    ASSERT_EQ(rule.observed.size(), growth.samples.size());
+    for (std::size_t i = 0; i < growth.samples.size(); ++i)
+    {
+      const StrainSample &sample = growth.samples[i];
+      EXPECT_EQ(sample.symbol > 0, sample.amplitude > growth.first_wave) << sample.amplitude;
+      EXPECT_EQ(sample.local > 0, sample.amplitude > growth.thresholds.local) << sample.amplitude;
+      if (rule.linear[i] > .1) // slower than that is not waited for
+      {
+        EXPECT_NEAR(rule.observed[i], rule.linear[i], .01 * rule.linear[i]) << sample.amplitude;
+      }
+      else
+        EXPECT_LT(rule.observed[i], .2) << sample.amplitude;
+    }
+    EXPECT_GT(rule.observed.back(), 1) << growth.name;
+    EXPECT_LT(growth.difference(rule), .12) << growth.name; // h = 1/20; a third of it at 1/40
+    EXPECT_LT(growth.own_difference(rule), .01) << growth.name;
+  }
+}
+
+TEST(StrainGrowth, rates_fall_with_the_root_of_the_density)
+{
+  const auto light = growths_of(torus({{"Methods/names", "FA"}, {"Study/h", "0.1"}})),
+             heavy = growths_of(
+                 torus({{"Methods/names", "FA"}, {"Study/h", "0.1"}, {"Time/density", "4"}}));
+  const StrainSample &a = light[0].samples.back(), &b = heavy[0].samples.back();
+  EXPECT_NEAR(a.symbol / b.symbol, 2, 1e-12);
+  EXPECT_NEAR(a.local / b.local, 2, 1e-12);
+  EXPECT_NEAR(light[0].methods[0].observed.back() / heavy[0].methods[0].observed.back(), 2, 1e-3);
+}
+
+TEST(StrainGrowth, expected_is_checked_for_every_direction)
+{
+  const auto check = [](const std::string &expected)
+  {
+    const auto scene = torus({{"Methods/names", "FA"}, {"Expected/growth", expected}});
+    std::vector<StrainGrowth> growths(2);
+    for (std::size_t d = 0; d < 2; ++d)
+    {
+      growths[d].samples.resize(1);
+      growths[d].samples[0].symbol = 2;
+      growths[d].methods = {{"FA", "meshfree", {2}, {d == 0 ? 2.02 : 2.2}, ""}};
+    }
+    return check_growth(scene, growths).at(0).holds;
+  };
+  EXPECT_TRUE(check("FA: 0.11"));
+  EXPECT_FALSE(check("FA: 0.09")); // the second one is off by a tenth
+  EXPECT_FALSE(check("PA-AC: 1"));
+}
+
+TEST(CriticalSteps, are_those_of_the_symbol_and_of_both_masses)
+{
+  const auto steps_of = [](const std::string &name, const scene::Scene &scene)
+  {
+    const scene::Level level = scene.study.series[0].levels.back();
+    const scene::Problem problem = scene::make_problem(scene, 0, level);
+    const auto discretisation = methods_of(scene)[0]->discretise(problem);
+    EXPECT_EQ(methods_of(scene)[0]->name(), name);
+    return critical_steps(*discretisation, problem, analysis::measure(discretisation->matrix()),
+                          scene.time.density);
+  };
+  // Δt_c √p/ε of FA at m = 4, see tests/meshfree/double_well_dynamics.cc
+  const auto fa = steps_of("FA", torus({{"Methods/names", "FA"}}));
+  EXPECT_NEAR(fa.own() / .2, .9467, 5e-4);
+  EXPECT_EQ(fa.lumped(), 0);
+  EXPECT_TRUE(fa.is_oscillating);
+  const auto heavy = steps_of("FA", torus({{"Methods/names", "FA"}, {"Time/density", "9"}}));
+  EXPECT_NEAR(heavy.own(), 3 * fa.own(), 1e-12);
+
+  const auto line = [](const std::string &method, const std::string &mesh)
+  {
+    return scene::parse_scene("t.prm", "",
+                              {{"Problem/solution", "x^2 + y"},
+                               {"Domain/mesh", mesh},
+                               {"Study/m", "2"},
+                               {"Study/h", "0.125"},
+                               {"Methods/names", method}});
+  };
+  // a mass matrix is smaller for short waves than its lumped one
+  const auto q1 = steps_of("Q1", line("Q1", "lattice")),
+             on_mesh = steps_of("Q1", line("Q1", "squares"));
+  EXPECT_LT(q1.own(), .8 * q1.lumped());
+  EXPECT_GT(q1.own(), .2 * q1.lumped());
+  EXPECT_NEAR(on_mesh.own(), q1.own(), 1e-3 * q1.own());
+  EXPECT_NEAR(on_mesh.lumped(), q1.lumped(), 1e-3 * q1.lumped());
+}
