@@ -6,7 +6,6 @@
 #include "base/memory.h"
 #include "base/number_text.h"
 #include "meshfree/lattice/crack_strip.h"
-#include "meshfree/rules/rules.h"
 #include "report/crack_page.h"
 #include "report/formats.h"
 #include "report/frames.h"
@@ -27,21 +26,6 @@ namespace plumbline::app
 
   namespace
   {
-    meshfree::Rule find_rule(const std::string &name)
-    {
-      std::string known;
-      for (const meshfree::Rule &rule : meshfree::rules())
-      {
-        if (rule.name == name)
-          return rule;
-        known += (known.empty() ? "" : ", ") + rule.name;
-      }
-      throw InputError("Methods/names = '" + name +
-                       "' is no meshfree rule, but cracks are open to those alone (Galerkin "
-                       "fields would need jumps); take one of " +
-                       known);
-    }
-
     dealii::Tensor<1, 2> sides(const scene::Scene &scene)
     {
       const geometry::Box &strip = scene.domain.boxes.include.front();

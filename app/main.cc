@@ -6,6 +6,7 @@
 #include "check.h"
 #include "crack.h"
 #include "dispersion.h"
+#include "grow.h"
 #include "requirements.h"
 #include "run.h"
 #include "stability.h"
@@ -64,7 +65,7 @@ namespace
         3);
   }
 
-  /// What `stability`, `dispersion` and `crack` take.
+  /// What `stability`, `dispersion`, `crack` and `grow` take.
   void add_options(CLI::App &command, plumbline::app::MeasureOptions &options,
                    std::vector<std::string> &settings)
   {
@@ -130,9 +131,14 @@ int main(int argc, char **argv)
       ->allow_extra_args(false);
 
   plumbline::app::CrackOptions strip;
-  auto *crack = app.add_subcommand("crack", "How a crack moves through a strip");
+  auto *crack = app.add_subcommand("crack", "How a crack moves through a strip, in time");
   add_options(*crack, strip, settings);
   crack->add_flag("--check", strip.check, "Exit with 1 if Expected/crack fails");
+
+  plumbline::app::GrowOptions body;
+  auto *grow = app.add_subcommand("grow", "How a crack grows in equilibrium, bond by bond");
+  add_options(*grow, body, settings);
+  grow->add_flag("--check", body.check, "Exit with 1 if Expected/growth fails");
 
   std::string folder, subject, model, key;
   auto *report = app.add_subcommand(
@@ -174,7 +180,7 @@ int main(int argc, char **argv)
   const auto command = [&]
   {
     options.overrides = weights.overrides = measures.overrides = waves.overrides = strip.overrides =
-        to_overrides(settings);
+        body.overrides = to_overrides(settings);
     if (*run)
       exit_code = plumbline::app::run(options);
     else if (*check)
@@ -187,6 +193,8 @@ int main(int argc, char **argv)
       plumbline::app::dispersion(waves);
     else if (*crack)
       exit_code = plumbline::app::crack(strip);
+    else if (*grow)
+      exit_code = plumbline::app::grow(body);
     else if (*report)
       exit_code = plumbline::app::rebuild_report(folder);
     else if (*list)

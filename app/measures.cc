@@ -1,5 +1,7 @@
 #include "measures.h"
 
+#include "base/error.h"
+
 #include <algorithm>
 
 namespace plumbline::app
@@ -19,6 +21,21 @@ namespace plumbline::app
   {
     return options.output.empty() ? std::filesystem::path("results") / scene.name
                                   : std::filesystem::path(options.output);
+  }
+
+  meshfree::Rule find_rule(const std::string &name)
+  {
+    std::string known;
+    for (const meshfree::Rule &rule : meshfree::rules())
+    {
+      if (rule.name == name)
+        return rule;
+      known += (known.empty() ? "" : ", ") + rule.name;
+    }
+    throw InputError("Methods/names = '" + name +
+                     "' is no meshfree rule, but cracks are open to those alone (Galerkin "
+                     "fields would need jumps); take one of " +
+                     known);
   }
 
   void for_each_level(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshfree/rules/rules.h"
 #include "scene/scene.h"
 
 #include <filesystem>
@@ -21,6 +22,9 @@ namespace plumbline::app
   scene::Scene read_alone(const MeasureOptions &options);
 
   std::filesystem::path output_folder(const MeasureOptions &options, const scene::Scene &scene);
+
+  /// @throws InputError  no meshfree rule; cracks are open to those alone
+  meshfree::Rule find_rule(const std::string &name);
 
   /// The first n_levels of each series, coarse to fine; 0: all.
   void for_each_level(const scene::Scene &scene, unsigned int n_levels,

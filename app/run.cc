@@ -191,6 +191,10 @@ namespace plumbline::app
     if (scene.crack.is_there())
       throw InputError("scene '" + scene.name + "': Crack/notch is for 'plumbline crack', which " +
                        "follows a crack; write that, or Crack/notch = 0");
+    if (scene.fracture.is_there())
+      throw InputError("scene '" + scene.name +
+                       "': Fracture/toughness is for 'plumbline grow', which breaks bonds; write "
+                       "that, or clear it");
     if (scene.time.is_dynamic())
       return run_motions(options, scene);
     const method::Methods available = all_methods();

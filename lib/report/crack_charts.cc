@@ -1,13 +1,10 @@
 #include "report/crack_charts.h"
 
-#include "report/maps.h"
-#include "report/panels.h"
+#include "report/damage_maps.h"
 #include "report/plot.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 namespace plumbline::report
@@ -107,50 +104,14 @@ namespace plumbline::report
       return chart("energies.svg", "Energies", "energy", "0", curves);
     }
 
-    /// Blocks of nodes, the largest damage of each: a thin crack is seen at any size.
-    std::string blocks(const study::CrackMoment &moment, const std::array<int, 2> &n, int size)
-    {
-      std::ostringstream out;
-      for (int j = 0; j < n[1]; j += size)
-      {
-        for (int i = 0; i < n[0]; i += size)
-        {
-          double largest = 0;
-          for (int b = j; b < std::min(n[1], j + size); ++b)
-            for (int a = i; a < std::min(n[0], i + size); ++a)
-              largest = std::max(largest, moment.damage[static_cast<std::size_t>(b) * n[0] + a]);
-          out << (i > 0 ? " " : "") << rounded(largest);
-        }
-        out << "\n";
-      }
-      return out.str();
-    }
-
     std::string moments_picture(const CrackResults &results)
     {
-      constexpr int most_columns = 300;
-      const auto &moments = results.history.moments;
+      std::vector<DamageMap> maps;
+      for (const study::CrackMoment &moment : results.history.moments)
+        maps.push_back({"t = " + rounded(moment.t), moment.damage});
       const double h = results.h();
-      const std::array<double, 2> lower = {results.lower[0] - .5 * h, results.lower[1] - .5 * h},
-                                  upper = {lower[0] + h * results.n[0],
-                                           lower[1] + h * results.n[1]};
-      const Panels panels(moments.size(), 2, lower, upper);
-      const int size = (results.n[0] + most_columns - 1) / most_columns;
-      std::ostringstream out;
-      out << "\nreset\n";
-      for (std::size_t i = 0; i < moments.size(); ++i)
-        out << "$m" << i << " << EOD\n" << blocks(moments[i], results.n, size) << "EOD\n";
-      out << panels.begin("moments.svg", "Where bonds are soft", "part of a node's bonds")
-          << "set palette defined (0 '#ffffff', 1 '#fde0c8', 2 '#f4a268', 4 '#D55E00', 8 "
-             "'#3a1a00')\nset cbrange [0:1]\nset cbtics .2\n";
-      for (std::size_t i = 0; i < moments.size(); ++i)
-        out << panels.panel(i, "t = " + rounded(moments[i].t)) << "set ylabel offset 1.5,0\nplot $m"
-            << i << " matrix using (" << exact(lower[0]) << " + ($1 + .5)*" << exact(size * h)
-            << "):(" << exact(lower[1]) << " + ($2 + .5)*" << exact(size * h)
-            << "):3 with image notitle\n"
-            << Panels::next();
-      out << Panels::end();
-      return out.str();
+      return damage_script(maps, "moments.svg", "Where bonds are soft",
+                           {results.lower[0] - .5 * h, results.lower[1] - .5 * h}, h, results.n);
     }
   } // namespace
 
@@ -191,8 +152,6 @@ namespace plumbline::report
     for (const CrackPicture &picture : crack_pictures())
       files.push_back(picture.name + ".svg");
     run_gnuplot(folder, "charts.gp", files);
-    std::ifstream in(folder / "moments.svg", std::ios::binary);
-    const std::string svg((std::istreambuf_iterator<char>(in)), {});
-    write_file(folder / "moments.svg", with_sharp_blocks(svg));
+    sharpen(folder / "moments.svg");
   }
 } // namespace plumbline::report

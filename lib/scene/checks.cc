@@ -141,8 +141,9 @@ namespace plumbline::scene
         check("Time/initial velocity", scene.time.initial_velocity);
 
       const std::size_t n_solutions = problem.solutions.size(), n_loads = problem.loads.size();
-      if ((scene.time.is_dynamic() || scene.crack.is_there()) && n_solutions == 0)
-        return; // a free motion, see check_motion
+      if ((scene.time.is_dynamic() || scene.crack.is_there() || scene.fracture.is_there()) &&
+          n_solutions == 0)
+        return; // a free motion or growth, see check_motion and check_fracture
       require(n_solutions + n_loads > 0,
               "Problem/load = manufactured needs Problem/solution; give the solution, or the load "
               "itself");
@@ -242,6 +243,8 @@ namespace plumbline::scene
     /// Where u is given, and what is free.
     void check_boundary(const Scene &scene)
     {
+      if (scene.fracture.is_there())
+        return check_fracture(scene);
       const DomainSection &domain = scene.domain;
       if (domain.is_free_body)
         check_free_body(scene);
@@ -320,8 +323,8 @@ namespace plumbline::scene
 
   void check_norms(const Scene &scene)
   {
-    if (scene.time.is_dynamic() || scene.crack.is_there())
-      return; // see check_motion
+    if (scene.time.is_dynamic() || scene.crack.is_there() || scene.fracture.is_there())
+      return; // see check_motion and check_fracture
     const StudySection &study = scene.study;
     const ReferenceSection &reference = scene.reference;
     const auto [norm, target] = study.decisive_error;

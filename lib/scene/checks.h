@@ -25,6 +25,9 @@ namespace plumbline::scene
   /// A strip with a notch, and nothing else that would move it.
   void check_crack(const Scene &scene);
 
+  /// A body with a notch and grips whose bonds break in equilibrium.
+  void check_fracture(const Scene &scene);
+
   /// Solver/iteration and Solver/dilatation fit the rest.
   void check_solver(const Scene &scene);
 } // namespace plumbline::scene

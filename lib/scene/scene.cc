@@ -31,6 +31,7 @@ namespace plumbline::scene
       section("Study", scene.study);
       section("Time", scene.time);
       section("Crack", scene.crack);
+      section("Fracture", scene.fracture);
       section("Reference", scene.reference);
       section("Quadrature", scene.quadrature);
       section("Geometry", scene.geometry);
@@ -46,6 +47,7 @@ namespace plumbline::scene
       scene.material.complete();
       scene.time.complete();
       scene.crack.complete();
+      scene.fracture.complete();
       if (scene.solver.is_full_model)
         scene = full_model(std::move(scene));
       check_kernel_and_problem(scene);

@@ -2,6 +2,7 @@
 
 #include "physics/double_well.h"
 #include "scene/crack_section.h"
+#include "scene/fracture_section.h"
 #include "scene/problem_sections.h"
 #include "scene/study_sections.h"
 #include "scene/time_section.h"
@@ -25,6 +26,7 @@ namespace plumbline::scene
     StudySection study;
     TimeSection time;
     CrackSection crack;
+    FractureSection fracture;
     ReferenceSection reference;
     QuadratureSection quadrature;
     GeometrySection geometry;

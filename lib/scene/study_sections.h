@@ -4,7 +4,9 @@
 #include "geometry/ball_cell.h"
 #include "scene/choices.h"
 #include "scene/crack_section.h"
+#include "scene/fracture_section.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -131,6 +133,8 @@ namespace plumbline::scene
     std::vector<Expected> all; ///< kind by kind
     double error_tolerance = 5e-4, rate_tolerance = .1;
     CrackOutcome crack = CrackOutcome::unknown; ///< of 'plumbline crack'
+    std::map<std::string, double> growth;       ///< of 'plumbline grow', by the name of a quantity
+    GrowthEnd growth_end = GrowthEnd::unknown;
 
     void declare(Keys &keys);
     /// @param cases  that there are

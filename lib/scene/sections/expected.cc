@@ -5,6 +5,7 @@
 #include "scene/values.h"
 
 #include <algorithm>
+#include <map>
 
 namespace plumbline::scene
 {
@@ -64,6 +65,29 @@ namespace plumbline::scene
                          join(allowed, ", "));
       return expected;
     }
+    std::string growth_words()
+    {
+      return join({growth_quantities.begin(), growth_quantities.end()}, ", ");
+    }
+
+    std::map<std::string, double> to_growth(const std::string &text)
+    {
+      std::map<std::string, double> values;
+      for (const std::string &part : split_outside_brackets(text, ';'))
+      {
+        if (part.empty())
+          continue;
+        const auto colon = part.rfind(':');
+        const std::string name = trim(part.substr(0, colon));
+        if (colon == std::string::npos ||
+            std::find(growth_quantities.begin(), growth_quantities.end(), name) ==
+                growth_quantities.end())
+          throw InputError("'" + part + "' must be 'quantity: value', the quantity one of " +
+                           growth_words());
+        values[name] = to_number(part.substr(colon + 1));
+      }
+      return values;
+    }
   } // namespace
 
   void ExpectedSection::declare(Keys &keys)
@@ -102,6 +126,14 @@ namespace plumbline::scene
     keys.add("crack", crack,
              "What becomes of the crack of 'plumbline crack': it arrests, runs or "
              "branches; unknown: nothing is expected.");
+    keys.add(
+        "growth", "", any_text(), [this](const std::string &text) { growth = to_growth(text); },
+        "'quantity: value' separated by ';', of 'plumbline grow': " + growth_words() +
+            ", to Expected/error tolerance.");
+    keys.add("growth ends", growth_end,
+             "Of 'plumbline grow': parted, no path of bonds joins two grips; unloaded, at "
+             "Fracture/least reaction; loaded, at Fracture/largest load; whole, no bond is left "
+             "that can break; unknown: nothing is expected.");
     add(ExpectedKind::stability,
         "'method: stable', 'conditionally stable' or 'unstable', of 'plumbline stability'.");
     add(ExpectedKind::growth,

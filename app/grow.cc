@@ -1,0 +1,162 @@
+#include "grow.h"
+
+#include "base/cost.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/number_text.h"
+#include "meshfree/fracture/breaking_network.h"
+#include "physics/expression.h"
+#include "report/formats.h"
+#include "report/growth_page.h"
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+
+namespace plumbline::app
+{
+  namespace fs = std::filesystem;
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    meshfree::BreakingSolid make_solid(const scene::Scene &scene, double horizon)
+    {
+      meshfree::BreakingSolid solid;
+      solid.domain = scene.domain.boxes;
+      solid.grips = scene.domain.fixed;
+      solid.unbreaking = scene.fracture.unbreaking;
+      solid.notch = scene.domain.cracks;
+      const physics::Expression held("Problem/constraint", *scene.problem.constraint,
+                                     scene.constants(horizon)),
+          toughness("Fracture/toughness", scene.fracture.toughness, scene.constants(horizon));
+      solid.held = [held](const Point<2> &x)
+      {
+        Tensor<1, 2> u;
+        for (unsigned int d = 0; d < 2; ++d)
+          u[d] = held(x, d);
+        return u;
+      };
+      solid.material = scene.material.lame();
+      solid.toughness = [toughness](const Point<2> &x) { return toughness(x); };
+      return solid;
+    }
+
+    /// Nothing is made before its memory is there.
+    void check_size(const scene::Scene &scene, const scene::Level &level)
+    {
+      const double m = level.horizon / level.h;
+      double n_nodes = 0;
+      for (const geometry::Box &box : scene.domain.boxes.include)
+        n_nodes +=
+            (box.upper[0] - box.lower[0]) * (box.upper[1] - box.lower[1]) / (level.h * level.h);
+      // bonds with their books, entries of the matrix while it is made, and of its factor, which
+      // grows with the logarithm of n (nested dissection)
+      const double n_bonds = .5 * M_PI * m * m * n_nodes,
+                   n_factor = 31 * 2 * n_nodes * m * std::log2(std::max(2., n_nodes)) / 10 * m;
+      base::require_memory(400 * n_bonds + 16 * n_factor,
+                           "a body of " + base::to_text(n_nodes, 3) + " nodes",
+                           "choose a larger h (Study/h)");
+    }
+
+    study::GrowthModel make_model(meshfree::BreakingNetwork &body, const Point<2> &notch_tip)
+    {
+      study::GrowthModel model;
+      const meshfree::BondNetwork &network = body.network();
+      model.body = &body;
+      model.h = network.h;
+      model.nodes = network.nodes;
+      for (const meshfree::BondNetwork::Bond &bond : network.bonds)
+        model.bonds.push_back({bond.from, bond.to});
+      model.cut = network.cut;
+      model.notch_tip = notch_tip;
+      model.damage = [&network](const std::vector<std::size_t> &broken)
+      { return network.damage(broken); };
+      return model;
+    }
+
+    /// y in the middle of the body.
+    double middle(const scene::Scene &scene)
+    {
+      double lower = scene.domain.boxes.include.front().lower[1], upper = lower;
+      for (const geometry::Box &box : scene.domain.boxes.include)
+      {
+        lower = std::min(lower, box.lower[1]);
+        upper = std::max(upper, box.upper[1]);
+      }
+      return .5 * (lower + upper);
+    }
+
+    study::GrowthResults run(const scene::Scene &scene, const scene::Level &level,
+                             const fs::path &folder)
+    {
+      const auto influence = physics::influence_function(scene.kernel.profile, level.horizon);
+      const meshfree::Rule rule = find_rule(scene.methods.names.front());
+      const meshfree::Recipe recipe = rule.recipe(physics::deviatoric_kernel(influence, 1));
+      meshfree::BreakingNetwork body(make_bond_network(make_solid(scene, level.horizon), recipe,
+                                                       influence, level.h, scene.geometry.backend),
+                                     scene.fracture.stretch);
+      report::write_file(folder / "grow.md", ""); // before the work: can it be written?
+      const study::GrowthModel model = make_model(body, scene.domain.cracks.front().back());
+      const base::CpuTimer timer;
+      study::GrowthResults results;
+      results.growth = study::run_growth(
+          model, {scene.fracture, "plumbline grow\n" + scene.text, folder / "checkpoint.h5"});
+      results.seconds = timer.seconds();
+      results.scene_name = scene.name;
+      results.purpose = scene.purpose;
+      results.method = rule.name;
+      results.model = body.network().dilatation.empty()
+                          ? "bond-based, for lambda = mu leaves the solid its bonds alone"
+                          : "LPS without surface terms";
+      results.rules = scene.fracture;
+      results.h = level.h;
+      results.horizon = level.horizon;
+      results.lattice_toughness =
+          lattice_toughness(recipe, influence, level.h, scene.geometry.backend);
+      results.nodes = model.nodes;
+      results.notch_tip = model.notch_tip;
+      results.n_bonds = body.n_bonds();
+      results.n_unknowns = body.n_unknowns();
+      results.work = body.work();
+      results.path = find_path(model, results.growth.events);
+      results.moments = growth_moments(model, results.growth.events);
+      std::vector<std::size_t> broken;
+      for (const analysis::Event &event : results.growth.events)
+        broken.insert(broken.end(), event.bonds.begin(), event.bonds.end());
+      results.n_unpaired = n_unpaired(model, broken, middle(scene));
+      return results;
+    }
+  } // namespace
+
+  int grow(const GrowOptions &options)
+  {
+    const scene::Scene scene = read_alone(options);
+    if (!scene.fracture.is_there())
+      throw InputError("scene '" + scene.name +
+                       "': Fracture/toughness is empty, so that nothing breaks; give it, or use "
+                       "'plumbline run' ('plumbline crack' where Crack/notch is given)");
+    const scene::Level &level = scene.study.series.front().levels.front();
+    check_size(scene, level);
+    const fs::path folder = output_folder(options, scene);
+    const study::GrowthResults results = run(scene, level, folder);
+    if (!options.quiet && results.growth.n_resumed > 0)
+      std::cerr << "continued from event " << results.growth.n_resumed << " of '"
+                << (folder / "checkpoint.h5").string() << "'\n";
+    const std::vector<std::string> faults = growth_faults(results, scene.expected);
+    report::write_growth(results, faults, folder);
+    std::error_code code;
+    fs::remove(folder / "checkpoint.h5", code); // what is complete is done again, as its user asks
+    if (options.json)
+      std::cout << report::growth_json(results);
+    else if (!options.quiet)
+      std::cout << report::growth_text(results) << "\nwritten: " << (folder / "grow.html").string()
+                << '\n';
+    if (!options.check || faults.empty())
+      return 0;
+    for (const std::string &fault : faults)
+      std::cerr << fault << '\n';
+    return 1;
+  }
+} // namespace plumbline::app

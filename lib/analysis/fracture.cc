@@ -1,0 +1,151 @@
+#include "analysis/fracture.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace plumbline::analysis
+{
+  namespace
+  {
+    using method::BreakingBody;
+    using scene::BreakMode;
+    using scene::FractureSection;
+    using scene::GrowthEnd;
+
+    constexpr double worst_imbalance = 1e-8; ///< beyond rounding of sums of 1e6 bonds
+
+    double square(double x)
+    {
+      return x * x;
+    }
+
+    /// The load at which bonds break that can at `critical` or before.
+    double breaking_load(const FractureSection &rules, double critical, double load)
+    {
+      if (rules.breaking != BreakMode::steps || critical <= load * (1 + rules.tie_tolerance))
+        return std::max(load, critical);
+      return rules.load_step * std::ceil(critical / rules.load_step * (1 - rules.tie_tolerance));
+    }
+
+    std::vector<std::size_t> bonds_up_to(double limit, const std::vector<double> &critical_loads)
+    {
+      std::vector<std::size_t> bonds;
+      for (std::size_t b = 0; b < critical_loads.size(); ++b)
+        if (critical_loads[b] <= limit)
+          bonds.push_back(b);
+      return bonds;
+    }
+
+    /// Break them, and keep the books.
+    void carry_out(BreakingBody &body, const Event *before, Event &event)
+    {
+      const BreakingBody::Response first = body.response();
+      const double from = before ? before->load : 0;
+      event.reaction_before = first.reaction * event.load;
+      event.work =
+          (before ? before->work : 0) + .5 * first.reaction * (square(event.load) - square(from));
+      const BreakingBody::Release release = body.break_bonds(event.bonds);
+      double at_limits = 0;
+      for (std::size_t i = 0; i < event.bonds.size(); ++i)
+        at_limits += release.single[i] * square(first.critical_loads[event.bonds[i]]);
+      const BreakingBody::Response &after = body.response();
+      event.in_bonds = (before ? before->in_bonds : 0) + at_limits;
+      event.released = (before ? before->released : 0) +
+                       (release.bonds + release.relaxing) * square(event.load) - at_limits;
+      event.stored = after.energy * square(event.load);
+      event.reaction = after.reaction * event.load;
+      event.residual = after.residual;
+      event.is_factored = release.is_factored;
+      if (!(event.imbalance() <= worst_imbalance))
+        throw NumericalError("the audit of energy is wrong by " +
+                             std::to_string(event.imbalance()) +
+                             " of the work; the equations are not solved well enough");
+    }
+
+    /// The body as it was after these events: from the last one that factored, as they went on.
+    void go_back_to(BreakingBody &body, const std::vector<Event> &events)
+    {
+      std::size_t first = events.size();
+      while (first > 0 && !events[first - 1].is_factored)
+        --first;
+      std::vector<std::size_t> broken;
+      for (std::size_t i = 0; i < first; ++i)
+        broken.insert(broken.end(), events[i].bonds.begin(), events[i].bonds.end());
+      if (first > 0)
+        body.restart(broken);
+      for (std::size_t i = first; i < events.size(); ++i)
+        body.break_bonds(events[i].bonds);
+    }
+
+    double largest_reaction(const std::vector<Event> &events)
+    {
+      double largest = 0;
+      for (const Event &event : events)
+        largest = std::max({largest, event.reaction_before, event.reaction});
+      return largest;
+    }
+
+    /// Whether it has come to its end by what was broken.
+    GrowthEnd end_of(const BreakingBody &body, const FractureSection &rules,
+                     const std::vector<Event> &events)
+    {
+      if (body.is_parted())
+        return GrowthEnd::parted;
+      constexpr double nothing = 1e-9; // of the largest reaction: rounding, on a mechanism
+      if (!events.empty() && events.back().reaction <= std::max(nothing, rules.least_reaction) *
+                                                           largest_reaction(events))
+        return GrowthEnd::unloaded;
+      return GrowthEnd::unknown;
+    }
+  } // namespace
+
+  double Event::imbalance() const
+  {
+    return std::abs(work - stored - in_bonds - released) / work;
+  }
+
+  Growth grow(BreakingBody &body, const FractureSection &rules, std::vector<Event> earlier,
+              const EventObserver &observe)
+  {
+    Growth growth;
+    growth.first_stiffness = body.response().reaction;
+    growth.events = std::move(earlier);
+    growth.n_resumed = growth.events.size();
+    go_back_to(body, growth.events);
+    growth.end = end_of(body, rules, growth.events);
+    while (growth.end == GrowthEnd::unknown)
+    {
+      const Event *const before = growth.events.empty() ? nullptr : &growth.events.back();
+      const std::vector<double> &loads = body.response().critical_loads;
+      Event event;
+      event.critical = *std::min_element(loads.begin(), loads.end());
+      if (!std::isfinite(event.critical))
+      {
+        growth.end = GrowthEnd::whole;
+        break;
+      }
+      event.load = breaking_load(rules, event.critical, before ? before->load : 0);
+      if (event.load > rules.largest_load)
+      {
+        growth.end = GrowthEnd::loaded;
+        break;
+      }
+      event.bonds =
+          bonds_up_to((rules.breaking == BreakMode::events ? event.critical : event.load) *
+                          (1 + rules.tie_tolerance),
+                      loads);
+      carry_out(body, before, event);
+      growth.events.push_back(std::move(event));
+      growth.end = end_of(body, rules, growth.events);
+      if (observe)
+        observe(growth);
+    }
+    growth.last_load = growth.events.empty() ? 0 : growth.events.back().load;
+    if (growth.end == GrowthEnd::loaded)
+      growth.last_load = rules.largest_load;
+    return growth;
+  }
+} // namespace plumbline::analysis

@@ -1,0 +1,68 @@
+#include "report/damage_maps.h"
+
+#include "report/formats.h"
+#include "report/maps.h"
+#include "report/panels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <sstream>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    std::string blocks(const std::vector<double> &damage, const std::array<int, 2> &n, int size)
+    {
+      std::ostringstream out;
+      for (int j = 0; j < n[1]; j += size)
+      {
+        for (int i = 0; i < n[0]; i += size)
+        {
+          double largest = -std::numeric_limits<double>::infinity();
+          for (int b = j; b < std::min(n[1], j + size); ++b)
+            for (int a = i; a < std::min(n[0], i + size); ++a)
+              if (const double value = damage[static_cast<std::size_t>(b) * n[0] + a];
+                  value > largest)
+                largest = value;
+          out << (i > 0 ? " " : "") << (std::isfinite(largest) ? rounded(largest) : "NaN");
+        }
+        out << "\n";
+      }
+      return out.str();
+    }
+  } // namespace
+
+  std::string damage_script(const std::vector<DamageMap> &maps, const std::string &file,
+                            const std::string &title, const std::array<double, 2> &lower, double h,
+                            const std::array<int, 2> &n)
+  {
+    constexpr int most_columns = 300;
+    const Panels panels(maps.size(), 2, lower, {lower[0] + h * n[0], lower[1] + h * n[1]});
+    const int size = (n[0] + most_columns - 1) / most_columns;
+    std::ostringstream out;
+    out << "\nreset\n";
+    for (std::size_t i = 0; i < maps.size(); ++i)
+      out << "$m" << i << " << EOD\n" << blocks(maps[i].values, n, size) << "EOD\n";
+    out << panels.begin(file, title, "part of a node's bonds")
+        << "set palette defined (0 '#ffffff', 1 '#fde0c8', 2 '#f4a268', 4 '#D55E00', 8 "
+           "'#3a1a00')\nset cbrange [0:1]\nset cbtics .2\n";
+    for (std::size_t i = 0; i < maps.size(); ++i)
+      out << panels.panel(i, maps[i].title) << "set ylabel offset 1.5,0\nplot $m" << i
+          << " matrix using (" << exact(lower[0]) << " + ($1 + .5)*" << exact(size * h) << "):("
+          << exact(lower[1]) << " + ($2 + .5)*" << exact(size * h) << "):3 with image notitle\n"
+          << Panels::next();
+    out << Panels::end();
+    return out.str();
+  }
+
+  void sharpen(const std::filesystem::path &picture)
+  {
+    std::ifstream in(picture, std::ios::binary);
+    const std::string svg((std::istreambuf_iterator<char>(in)), {});
+    write_file(picture, with_sharp_blocks(svg));
+  }
+} // namespace plumbline::report

@@ -1,0 +1,189 @@
+#include "report/growth_charts.h"
+
+#include "report/damage_maps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    using analysis::Event;
+    using study::GrowthResults;
+
+    DataChart chart(const std::string &name, const std::string &title, const std::string &x_label,
+                    const std::string &y_label, const std::string &caption)
+    {
+      DataChart result;
+      result.name = name;
+      result.caption = caption;
+      result.plot.file = name + ".svg";
+      result.plot.title = title;
+      result.plot.x_label = x_label;
+      result.plot.y_label = y_label;
+      result.plot.is_x_log = result.plot.is_y_log = false;
+      return result;
+    }
+
+    /// A line with few symbols.
+    Line line(const std::string &label, unsigned int style, std::vector<Vertex> points)
+    {
+      const auto interval = static_cast<unsigned int>(points.size() / 12 + 1);
+      return {label, style_of(style, false), 1.8, std::move(points), interval};
+    }
+
+    /// Of what is stored, the rest of the work; straight between events.
+    DataChart load_chart(const GrowthResults &results)
+    {
+      DataChart result =
+          chart("load", "Reaction over load", "load", "reaction [force]",
+                "Under a load that never falls a break lets the reaction fall at once. Dashed: "
+                "the same bonds at loads at which each event would just begin, equilibria that a "
+                "load that follows would pass through.");
+      std::vector<Vertex> path = {{0, 0}}, critical = {{0, 0}};
+      result.data.columns = {"event",    "load",          "reaction before",
+                             "reaction", "critical load", "reaction there"};
+      std::size_t i = 0;
+      for (const Event &e : results.growth.events)
+      {
+        const double there = e.reaction_before * e.critical / e.load;
+        path.push_back({e.load, e.reaction_before});
+        path.push_back({e.load, e.reaction});
+        critical.push_back({e.critical, there});
+        result.data.rows.push_back({count_cell(i++), number_cell(e.load),
+                                    number_cell(e.reaction_before), number_cell(e.reaction),
+                                    number_cell(e.critical), number_cell(there)});
+      }
+      Line begins = line("where events begin", 1, std::move(critical));
+      begins.style = style_of(1, true);
+      result.plot.lines = {line("load that never falls", 0, std::move(path)), begins};
+      return result;
+    }
+
+    DataChart energy_chart(const GrowthResults &results)
+    {
+      DataChart result = chart(
+          "energies", "Where the work goes", "load", "energy [force]",
+          "What grips do is stored, or was in bonds when they reached their limit, or is released "
+          "where growth is unstable: the largest difference, over the work, is " +
+              rounded(results.largest_imbalance()) + ".");
+      std::vector<Vertex> work = {{0, 0}}, stored = {{0, 0}}, bonds = {{0, 0}}, released = {{0, 0}};
+      result.data.columns = {"event", "load", "work", "stored", "in bonds", "released"};
+      std::size_t i = 0;
+      for (const Event &e : results.growth.events)
+      {
+        work.push_back({e.load, e.work});
+        stored.push_back({e.load, e.stored});
+        bonds.push_back({e.load, e.in_bonds});
+        released.push_back({e.load, e.released});
+        result.data.rows.push_back({count_cell(i++), number_cell(e.load), number_cell(e.work),
+                                    number_cell(e.stored), number_cell(e.in_bonds),
+                                    number_cell(e.released)});
+      }
+      result.plot.lines = {line("work", 0, std::move(work)), line("stored", 1, std::move(stored)),
+                           line("in broken bonds", 2, std::move(bonds)),
+                           line("released", 3, std::move(released))};
+      return result;
+    }
+
+    DataChart tip_chart(const GrowthResults &results)
+    {
+      DataChart result =
+          chart("tip", "How far the crack has come", "load", "tip's way from the notch [length]",
+                "The crack is where next neighbours have parted; its tip the end of these sides "
+                "that is farthest from the notch's tip.");
+      std::vector<Vertex> points = {{0, 0}};
+      result.data.columns = {"event", "load", "tip x", "tip y", "way"};
+      for (std::size_t i = 0; i < results.growth.events.size(); ++i)
+      {
+        const dealii::Point<2> &tip = results.path.tips[i];
+        const double way = tip.distance(results.notch_tip), load = results.growth.events[i].load;
+        points.push_back({load, points.back().y});
+        points.push_back({load, way});
+        result.data.rows.push_back({count_cell(i), number_cell(load), number_cell(tip[0]),
+                                    number_cell(tip[1]), number_cell(way)});
+      }
+      result.plot.lines = {line("", 0, std::move(points))};
+      return result;
+    }
+
+    std::string moments_picture(const GrowthResults &results)
+    {
+      std::array<double, 2> lower{}, upper{};
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const auto [first, last] =
+            std::minmax_element(results.nodes.begin(), results.nodes.end(),
+                                [d](const auto &a, const auto &b) { return a[d] < b[d]; });
+        lower[d] = (*first)[d] - .5 * results.h;
+        upper[d] = (*last)[d] + .5 * results.h;
+      }
+      const std::array<int, 2> n = {
+          static_cast<int>(std::lround((upper[0] - lower[0]) / results.h)),
+          static_cast<int>(std::lround((upper[1] - lower[1]) / results.h))};
+      std::vector<DamageMap> maps;
+      for (const study::GrowthMoment &moment : results.moments)
+      {
+        DamageMap map{"load " + rounded(moment.load) + ", " + std::to_string(moment.n_events) +
+                          " events",
+                      std::vector<double>(static_cast<std::size_t>(n[0]) * n[1],
+                                          std::numeric_limits<double>::quiet_NaN())};
+        for (std::size_t i = 0; i < results.nodes.size(); ++i)
+        {
+          const auto column = std::lround((results.nodes[i][0] - lower[0]) / results.h - .5),
+                     row = std::lround((results.nodes[i][1] - lower[1]) / results.h - .5);
+          map.values[static_cast<std::size_t>(row * n[0] + column)] = moment.damage[i];
+        }
+        maps.push_back(std::move(map));
+      }
+      return damage_script(maps, "moments.svg", "Where bonds are broken", lower, results.h, n);
+    }
+
+    Table sides_table(const GrowthResults &results)
+    {
+      Table table;
+      table.columns = {"event", "x0", "y0", "x1", "y1", "joined"};
+      for (const study::CrackSide &side : results.path.sides)
+        table.rows.push_back({count_cell(side.event), number_cell(side.ends[0][0]),
+                              number_cell(side.ends[0][1]), number_cell(side.ends[1][0]),
+                              number_cell(side.ends[1][1]), count_cell(side.is_joined ? 1 : 0)});
+      return table;
+    }
+  } // namespace
+
+  std::vector<DataChart> growth_charts(const GrowthResults &results)
+  {
+    if (results.growth.events.empty())
+      return {};
+    return {load_chart(results), energy_chart(results), tip_chart(results)};
+  }
+
+  Table growth_events_table(const GrowthResults &results)
+  {
+    Table table;
+    table.columns = {"event",           "critical load", "load",     "bonds",
+                     "reaction before", "reaction",      "work",     "stored",
+                     "in bonds",        "released",      "residual", "factored"};
+    std::size_t i = 0;
+    for (const Event &e : results.growth.events)
+      table.rows.push_back({count_cell(i++), number_cell(e.critical), number_cell(e.load),
+                            count_cell(e.bonds.size()), number_cell(e.reaction_before),
+                            number_cell(e.reaction), number_cell(e.work), number_cell(e.stored),
+                            number_cell(e.in_bonds), number_cell(e.released),
+                            error_cell(e.residual), count_cell(e.is_factored ? 1 : 0)});
+    return table;
+  }
+
+  void write_growth_pictures(const GrowthResults &results, const std::filesystem::path &dir)
+  {
+    const std::filesystem::path folder = dir / "grow";
+    write_file(folder / "events.csv", to_csv(growth_events_table(results)));
+    write_file(folder / "sides.csv", to_csv(sides_table(results)));
+    write_charts(growth_charts(results), folder);
+    write_file(folder / "moments.gp", moments_picture(results));
+    run_gnuplot(folder, "moments.gp", {"moments.svg"});
+    sharpen(folder / "moments.svg");
+  }
+} // namespace plumbline::report

@@ -1,0 +1,220 @@
+#include "report/growth_page.h"
+
+#include "report/growth_charts.h"
+#include "report/page_parts.h"
+#include "report/text_table.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    using analysis::Event;
+    using study::GrowthResults;
+    using Json = nlohmann::ordered_json;
+
+    Table facts_table(const GrowthResults &r)
+    {
+      Table table;
+      table.columns = {"quantity", "value", "meaning"};
+      const auto add = [&](const std::string &name, double value, const std::string &words) {
+        table.rows.push_back({text_cell(name), number_cell(value), text_cell(words)});
+      };
+      const auto &work = r.work;
+      for (const char *const name : scene::growth_quantities)
+        add(name, r.quantity(name),
+            std::string(name) == "peak load"       ? "where the reaction is largest"
+            : std::string(name) == "peak reaction" ? "of the grips on what they do [force]"
+            : std::string(name) == "advance"       ? "of the tip, from the notch's [length]"
+            : std::string(name) == "events"        ? "at each a bond and its ties, or a batch"
+                                                   : "the notch's not counted");
+      add("path", r.path.length, "sides of cells that the crack parts, L1 [length]");
+      add("apart", static_cast<double>(r.path.n_elsewhere),
+          "sides that parted elsewhere, not joined to the notch");
+      add("bond energy / path", r.bond_energy_per_length(),
+          "of broken bonds at their limits, for a length of the path [force/length]");
+      add("energy / path", r.energy_per_length(), "the same with what was released");
+      add("G_h / G", r.lattice_toughness,
+          "all bonds across a straight line of the lattice at their limits");
+      add("unpaired", static_cast<double>(r.n_unpaired),
+          "broken bonds whose mirror image about the middle is whole");
+      add("imbalance", r.largest_imbalance(), "of energy, over the work");
+      add("residual", r.largest_residual(), "force on a node over a bond's at the beginning");
+      add("unknowns", static_cast<double>(r.n_unknowns), "displacements");
+      add("bonds", static_cast<double>(r.n_bonds), "whole at the beginning");
+      add("factorisations", static_cast<double>(work.n_factorisations),
+          "of the equations; " + rounded_seconds(work.factor_seconds) + " in all");
+      add("updates", static_cast<double>(work.n_updates),
+          "events without one, up to rank " + std::to_string(work.largest_rank) + "; " +
+              rounded_seconds(work.update_seconds) + " in all");
+      return table;
+    }
+
+    std::string ending(const GrowthResults &r)
+    {
+      switch (r.growth.end)
+      {
+      case scene::GrowthEnd::parted:
+        return "until no path of bonds joins the grips";
+      case scene::GrowthEnd::unloaded:
+        return "until the reaction is " + rounded(r.rules.least_reaction) +
+               " of its largest (Fracture/least reaction)";
+      case scene::GrowthEnd::loaded:
+        return "until the largest load, " + rounded(r.rules.largest_load);
+      case scene::GrowthEnd::whole:
+        return "until no bond is left that can break";
+      default:
+        return "";
+      }
+    }
+
+    std::string verdict(const GrowthResults &r, const std::vector<std::string> &faults)
+    {
+      std::string text;
+      if (r.growth.events.empty())
+        text = "No bond breaks up to load " + rounded(r.growth.last_load);
+      else
+        text = std::to_string(r.n_broken()) + " bonds break at " +
+               std::to_string(r.growth.events.size()) + " events from load " +
+               rounded(r.growth.events.front().load) + " on, " + ending(r) +
+               ". The reaction is largest, " + rounded(r.quantity("peak reaction")) + ", at load " +
+               rounded(r.quantity("peak load")) + "; the crack advances by " + rounded(r.advance());
+      if (r.path.n_elsewhere > 0)
+        text += "; bonds also part elsewhere, " + std::to_string(r.path.n_elsewhere) +
+                " sides that do not join the notch";
+      for (const std::string &fault : faults)
+        text += ". EXPECTED: " + fault;
+      return text + ".";
+    }
+
+    std::string left_out()
+    {
+      std::string text;
+      for (const std::string &one : study::left_out_of_growth())
+        text += "<li>" + escape_html(one) + "</li>\n";
+      return "<ul>\n" + text + "</ul>\n";
+    }
+
+    std::string model_words(const GrowthResults &r)
+    {
+      return "Model: " + r.model +
+             ". A bond breaks at the stretch s0, s0² = πG/(3δ(λ + μ)), at which all bonds across a "
+             "straight cut of the continuum hold G (Fan et al. 2022, eq. (2.25); exact where λ = "
+             "μ). On this lattice they hold " +
+             rounded(r.lattice_toughness) +
+             " G, and a crack needs more than that to pass from one row of nodes to the next.";
+    }
+
+    std::string page_of(const GrowthResults &r, const std::vector<std::string> &faults,
+                        const std::filesystem::path &dir)
+    {
+      const std::string header = page::plain_header(
+          r.scene_name, "grow", r.purpose,
+          {r.method + ", m = " + rounded(r.horizon / r.h), base::word(r.rules.breaking),
+           (faults.empty() ? "✓ " : "✗ ") + base::word(r.growth.end)});
+      std::string small;
+      for (const DataChart &chart : growth_charts(r))
+        small +=
+            page::figure(dir / "grow" / chart.plot.file, chart.name + "-", chart.plot.title,
+                         chart.caption + " Data: <code>grow/" + chart.name + ".csv</code>", false);
+      const std::string large = page::figure(
+          dir / "grow/moments.svg", "moments-", "Where bonds are broken",
+          "The part of each node's bonds that is broken or cut, on the body at rest, after even "
+          "parts of all broken bonds. Beside a straight crack at m = 3 it is 11/28, 6/28 and 1/28.",
+          true);
+      return page::document(r.scene_name, "grow", header,
+                            page::section("picture", "What happens",
+                                          "<p class=\"answer\">" + escape_html(verdict(r, faults)) +
+                                              "</p>\n" + large + "<div class=\"grid\">\n" + small +
+                                              "</div>\n") +
+                                page::section("numbers", "Numbers", to_html(facts_table(r))) +
+                                page::section("model", "The model, and what was left out of it",
+                                              page::paragraph(model_words(r)) + left_out()));
+    }
+
+    std::string markdown(const GrowthResults &r, const std::vector<std::string> &faults)
+    {
+      std::string text = "# Growth: " + r.scene_name + "\n\n" + verdict(r, faults) + "\n\n" +
+                         to_markdown(facts_table(r)) + "\n" + model_words(r) +
+                         "\n\n## What was left out of the model\n\n";
+      for (const std::string &one : study::left_out_of_growth())
+        text += "- " + one + "\n";
+      return text;
+    }
+
+    Json known_number(double value)
+    {
+      return std::isfinite(value) ? Json(value) : Json();
+    }
+
+    Json to_json(const Event &e, const dealii::Point<2> &tip)
+    {
+      return {{"critical_load", e.critical},
+              {"load", e.load},
+              {"bonds", e.bonds},
+              {"reaction_before", e.reaction_before},
+              {"reaction", e.reaction},
+              {"work", e.work},
+              {"stored", e.stored},
+              {"in_bonds", e.in_bonds},
+              {"released", e.released},
+              {"tip", {tip[0], tip[1]}}};
+    }
+  } // namespace
+
+  std::string growth_text(const GrowthResults &r)
+  {
+    return r.scene_name + "\n\n" + to_text(facts_table(r)) + "\n" + wrapped(model_words(r), 120) +
+           "\n\n" + wrapped(verdict(r, {}), 120) + "\n";
+  }
+
+  std::string growth_json(const GrowthResults &r)
+  {
+    Json json{{"scene", r.scene_name},
+              {"method", r.method},
+              {"model", r.model},
+              {"h", r.h},
+              {"horizon", r.horizon},
+              {"breaking", base::word(r.rules.breaking)},
+              {"stretch", base::word(r.rules.stretch)},
+              {"lattice_toughness", r.lattice_toughness},
+              {"n_unknowns", r.n_unknowns},
+              {"n_bonds", r.n_bonds},
+              {"n_broken", r.n_broken()},
+              {"end", base::word(r.growth.end)},
+              {"last_load", known_number(r.growth.last_load)},
+              {"first_stiffness", r.growth.first_stiffness},
+              {"peak_load", r.quantity("peak load")},
+              {"peak_reaction", r.quantity("peak reaction")},
+              {"advance", r.advance()},
+              {"path", r.path.length},
+              {"n_apart", r.path.n_elsewhere},
+              {"bond_energy_per_length", known_number(r.bond_energy_per_length())},
+              {"energy_per_length", known_number(r.energy_per_length())},
+              {"n_unpaired", r.n_unpaired},
+              {"energy_imbalance", r.largest_imbalance()},
+              {"residual", r.largest_residual()},
+              {"n_factorisations", r.work.n_factorisations},
+              {"n_updates", r.work.n_updates},
+              {"largest_rank", r.work.largest_rank},
+              {"seconds", r.seconds},
+              {"n_resumed", r.growth.n_resumed},
+              {"events", Json::array()}};
+    for (std::size_t i = 0; i < r.growth.events.size(); ++i)
+      json["events"].push_back(to_json(r.growth.events[i], r.path.tips[i]));
+    return json.dump(2) + "\n";
+  }
+
+  void write_growth(const GrowthResults &results, const std::vector<std::string> &faults,
+                    const std::filesystem::path &dir)
+  {
+    write_file(dir / "grow.json", growth_json(results));
+    write_file(dir / "grow.md", markdown(results, faults));
+    write_with_pictures(
+        dir / "grow.html", [&] { write_growth_pictures(results, dir); },
+        [&] { return page_of(results, faults, dir); });
+  }
+} // namespace plumbline::report

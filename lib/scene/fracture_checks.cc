@@ -1,0 +1,44 @@
+#include "base/error.h"
+#include "physics/expression.h"
+#include "scene/checks.h"
+#include "scene/values.h"
+
+namespace plumbline::scene
+{
+  void check_fracture(const Scene &scene)
+  {
+    const FractureSection &fracture = scene.fracture;
+    const DomainSection &domain = scene.domain;
+    const std::string given = "Fracture/toughness = " + fracture.toughness;
+    const auto needs = [&](bool is_good, const std::string &what)
+    {
+      if (!is_good)
+        throw InputError(given + " needs " + what);
+    };
+    const physics::Expression toughness("Fracture/toughness", fracture.toughness);
+    needs(toughness.n_components() == 1, "one component");
+    if (toughness.is_constant() && !(toughness({}) > 0))
+      throw InputError(given + " must be positive: it is the energy that a crack takes for its "
+                               "area");
+    needs(!scene.crack.is_there() && !scene.time.is_dynamic(),
+          "Crack/notch = 0 and Time/final time = 0: 'plumbline grow' follows equilibria");
+    needs(scene.material.model == Model::lps,
+          "Material/model = LPS (with nu = 1/4 in plane strain it is bond-based)");
+    needs(scene.kernel.type == "1/r",
+          "Kernel/type = 1/r: the critical stretch is known for that influence function");
+    needs(domain.mesh.is_lattice(), "Domain/mesh = lattice");
+    needs(domain.is_free_body && !domain.is_floating && !domain.fixed.empty(),
+          "Domain/boundary = free and Domain/fixed, the grips");
+    needs(domain.outside.empty() && !domain.collar,
+          "Domain/outside empty and Domain/collar = auto");
+    needs(scene.problem.solutions.empty() && scene.problem.loads.empty() &&
+              scene.problem.constraint.has_value(),
+          "Problem/constraint, what the grips do at load 1, and neither solution nor load");
+    needs(scene.methods.names.size() == 1 && scene.methods.nodes.kind() == NodeKind::centres,
+          "one meshfree method (Methods/names) on centres (Methods/nodes)");
+    needs(!domain.cracks.empty(),
+          "a notch that the crack grows from, Domain/cracks, from its mouth to its tip");
+    needs(scene.study.series.size() == 1 && scene.study.series.front().levels.size() == 1,
+          "one Study/h and one Study/m (or Study/horizon)");
+  }
+} // namespace plumbline::scene

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "base/choice.h"
+#include "geometry/lattice.h"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace plumbline::scene
+{
+  class Keys;
+
+  /// Which bonds break together.
+  enum class BreakMode
+  {
+    events,  ///< the next one and its ties: between two events the response is linear, so that its
+             ///< load is known exactly and there are no load steps
+    batches, ///< all that are over-stretched at an event's load
+    steps    ///< the same at given loads, however far beyond their limit they are
+  };
+
+  enum class Stretch
+  {
+    linear, ///< ξ·Δu / |ξ|²
+    finite  ///< |ξ + Δu| / |ξ| - 1
+  };
+
+  /// Why a growth came to its end.
+  enum class GrowthEnd
+  {
+    unknown,
+    parted,   ///< no path of bonds joins two grips
+    unloaded, ///< the reaction fell below Fracture/least reaction
+    loaded,   ///< the largest load is reached
+    whole     ///< no bond is left that can break
+  };
+
+  /// What can be expected of a growth, see study/growth.h.
+  inline constexpr std::array growth_quantities = {"broken bonds", "events", "peak load",
+                                                   "peak reaction", "advance"};
+
+  /// What the section Fracture of a scene file says: how bonds break in equilibrium, for
+  /// `plumbline grow`. Domain, its cracks (the notch) and its fixed parts (the grips), Material and
+  /// Problem/constraint (what the grips do) say of what body.
+  struct FractureSection
+  {
+    std::string toughness; ///< G, an expression in x and y; empty: nothing breaks [force/length]
+    BreakMode breaking = BreakMode::events;
+    Stretch stretch = Stretch::linear;
+    double load_step = 0; ///< of steps
+    double largest_load = std::numeric_limits<double>::infinity();
+    double least_reaction = .002;          ///< where a growth ends, over the largest so far
+    double tie_tolerance = 1e-6;           ///< relative, of loads at which bonds break together
+    std::vector<geometry::Box> unbreaking; ///< boxes whose bonds do not break
+    unsigned int interval = 50;            ///< of checkpoints [events]
+
+    bool is_there() const { return !toughness.empty(); }
+
+    void declare(Keys &keys);
+    /// @throws InputError  a number that is out of range
+    void complete() const;
+  };
+} // namespace plumbline::scene
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<scene::BreakMode> = std::array{"events", "batches", "steps"};
+  template <>
+  inline constexpr auto words<scene::Stretch> = std::array{"linear", "finite"};
+  template <>
+  inline constexpr auto words<scene::GrowthEnd> =
+      std::array{"unknown", "parted", "unloaded", "loaded", "whole"};
+} // namespace plumbline::base

@@ -1,0 +1,65 @@
+#include "base/error.h"
+#include "scene/fracture_section.h"
+#include "scene/keys.h"
+#include "scene/values.h"
+
+#include <cmath>
+
+namespace plumbline::scene
+{
+  void FractureSection::declare(Keys &keys)
+  {
+    keys.add("toughness", toughness,
+             "G > 0, the energy that a crack takes for its area, an expression in x and y; a bond "
+             "between two materials has the mean of both. It says at which stretch a bond breaks, "
+             "s0^2 = pi G / (3 delta (lambda + mu)) for the influence function 1/r. 'plumbline "
+             "grow' runs the scene. Empty: nothing breaks. [force/length]");
+    keys.add("breaking", breaking,
+             "events: the bond that is next and its ties, at its exact load; there is no load "
+             "step. batches: all that are over-stretched at the load of an event. steps: the same "
+             "at multiples of Fracture/load step.");
+    keys.add("stretch", stretch, "linear: xi.du/|xi|^2. finite: |xi + du|/|xi| - 1.");
+    keys.add("load step", load_step, any_number(),
+             "Of breaking = steps: by how much the load grows. The load is the factor of "
+             "Problem/constraint, which says what the grips do at 1.");
+    keys.add(
+        "largest load", "none", any_text(),
+        [this](const std::string &text) {
+          largest_load = text == "none" ? std::numeric_limits<double>::infinity() : to_number(text);
+        },
+        "Where growth ends, or none: it goes on.");
+    keys.add("least reaction", least_reaction, between(0, 1),
+             "Growth ends where the grips' reaction falls below so much of the largest so far.");
+    keys.add("ties", tie_tolerance, between(0, .1),
+             "Bonds whose loads differ by so little, relatively, break together: mirror images "
+             "do, whatever rounding says of them.");
+    keys.add(
+        "unbreaking", "", scene::boxes(),
+        [this](const std::string &text)
+        {
+          unbreaking.clear();
+          for (const auto &corners : to_lines(text, scene::boxes()))
+            unbreaking.push_back({corners[0], corners[1]});
+        },
+        "Boxes, written like Domain/boxes: bonds with an end in them do not break. Near grips "
+        "stresses are high, and bonds would break there first. [length]");
+    keys.add("checkpoint interval", interval, count(1, 100000),
+             "Events between checkpoints; a run that was killed goes on from the last one.");
+  }
+
+  void FractureSection::complete() const
+  {
+    const auto require =
+        [](bool is_good, const std::string &key, double value, const std::string &otherwise)
+    {
+      if (!is_good)
+        throw InputError("Fracture/" + key + " = " + short_number(value) + " " + otherwise);
+    };
+    require(breaking != BreakMode::steps || (load_step > 0 && std::isfinite(load_step)),
+            "load step", load_step,
+            "must be positive where Fracture/breaking = steps; give the growth of the load, or "
+            "write events, which need none");
+    require(largest_load > 0, "largest load", largest_load,
+            "must be positive; none: growth goes on");
+  }
+} // namespace plumbline::scene

@@ -1,0 +1,130 @@
+#include "study/growth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace plumbline::study
+{
+  using analysis::Event;
+  using dealii::Point;
+
+  namespace
+  {
+    using Place = std::array<long, 2>; ///< in half mesh sizes from the first node
+
+    constexpr double nearest = 1.01; // mesh sizes, of next neighbours
+
+    Place place_of(const GrowthModel &model, const Point<2> &x)
+    {
+      const auto step = [&](unsigned int d)
+      { return std::lround(2 * (x[d] - model.nodes.front()[d]) / model.h); };
+      return {step(0), step(1)};
+    }
+
+    bool are_next(const GrowthModel &model, const std::array<unsigned int, 2> &bond)
+    {
+      return model.nodes[bond[0]].distance(model.nodes[bond[1]]) < nearest * model.h;
+    }
+
+    /// The side that the cells of two next neighbours share.
+    std::array<Point<2>, 2> side_between(const GrowthModel &model,
+                                         const std::array<unsigned int, 2> &bond)
+    {
+      const Point<2> &a = model.nodes[bond[0]], &b = model.nodes[bond[1]];
+      dealii::Tensor<1, 2> half;
+      half[0] = -.5 * (b[1] - a[1]);
+      half[1] = .5 * (b[0] - a[0]);
+      const Point<2> middle = a + .5 * (b - a);
+      return {middle - half, middle + half};
+    }
+
+    /// Ends of sides that hang together with the notch.
+    class Joined
+    {
+    public:
+      Joined(const GrowthModel &model) : model_(&model)
+      {
+        for (const auto &bond : model.cut)
+          if (are_next(model, bond))
+            for (const Point<2> &end : side_between(model, bond))
+              places_.insert(place_of(model, end));
+      }
+
+      bool holds(const Point<2> &x) const { return places_.count(place_of(*model_, x)) > 0; }
+
+      /// Take in a side that touches them, and all that it reaches of those that do not yet.
+      void grow(std::vector<CrackSide> &sides)
+      {
+        for (bool is_growing = true; is_growing;)
+        {
+          is_growing = false;
+          for (CrackSide &side : sides)
+            if (!side.is_joined && (holds(side.ends[0]) || holds(side.ends[1])))
+            {
+              side.is_joined = is_growing = true;
+              for (const Point<2> &end : side.ends)
+                places_.insert(place_of(*model_, end));
+            }
+        }
+      }
+
+    private:
+      const GrowthModel *model_;
+      std::set<Place> places_;
+    };
+  } // namespace
+
+  CrackPath find_path(const GrowthModel &model, const std::vector<Event> &events)
+  {
+    CrackPath path;
+    Joined joined(model);
+    Point<2> tip = model.notch_tip;
+    for (std::size_t e = 0; e < events.size(); ++e)
+    {
+      const std::size_t before = path.sides.size();
+      for (const std::size_t b : events[e].bonds)
+        if (are_next(model, model.bonds[b]))
+          path.sides.push_back({side_between(model, model.bonds[b]), e, false});
+      if (path.sides.size() > before)
+        joined.grow(path.sides);
+      for (const CrackSide &side : path.sides)
+        for (const Point<2> &end : side.ends)
+          if (side.is_joined && end.distance(model.notch_tip) > tip.distance(model.notch_tip))
+            tip = end;
+      path.tips.push_back(tip);
+    }
+    for (const CrackSide &side : path.sides)
+    {
+      path.length += side.is_joined ? model.h : 0;
+      path.n_elsewhere += side.is_joined ? 0 : 1;
+    }
+    return path;
+  }
+
+  std::size_t n_unpaired(const GrowthModel &model, const std::vector<std::size_t> &broken,
+                         double middle)
+  {
+    using Key = std::array<Place, 2>;
+    const auto key = [&](std::size_t bond, bool is_mirrored)
+    {
+      Key ends{};
+      for (unsigned int i = 0; i < 2; ++i)
+      {
+        Point<2> x = model.nodes[model.bonds[bond][i]];
+        if (is_mirrored)
+          x[1] = 2 * middle - x[1];
+        ends[i] = place_of(model, x);
+      }
+      std::sort(ends.begin(), ends.end());
+      return ends;
+    };
+    std::set<Key> all;
+    for (const std::size_t bond : broken)
+      all.insert(key(bond, false));
+    return static_cast<std::size_t>(std::count_if(broken.begin(), broken.end(),
+                                                  [&](std::size_t bond)
+                                                  { return all.count(key(bond, true)) == 0; }));
+  }
+} // namespace plumbline::study

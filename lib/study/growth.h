@@ -1,0 +1,110 @@
+#pragma once
+
+#include "analysis/fracture.h"
+#include "scene/scene.h"
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+// How a crack grows in equilibrium: run, found out and held against what is expected.
+namespace plumbline::study
+{
+  /// A body as one side makes it.
+  struct GrowthModel
+  {
+    method::BreakingBody *body = nullptr;
+    double h = 0; ///< of the lattice [length]
+    std::vector<dealii::Point<2>> nodes;
+    std::vector<std::array<unsigned int, 2>> bonds, cut; ///< their nodes; of those the notch cuts
+    dealii::Point<2> notch_tip;
+    /// The part of each node's bonds that is broken or cut.
+    std::function<std::vector<double>(const std::vector<std::size_t> &broken)> damage;
+  };
+
+  struct GrowthPlan
+  {
+    scene::FractureSection rules;
+    std::string subject;              ///< of checkpoints: what grows
+    std::filesystem::path checkpoint; ///< its file
+  };
+
+  /// Let it grow, from the plan's checkpoint if there is one of the same subject, and write
+  /// checkpoints on the way: the result has the same bits wherever it was stopped.
+  /// @throws InputError  a checkpoint that cannot be read or written
+  /// @throws NumericalError  as analysis::grow
+  analysis::Growth run_growth(const GrowthModel &model, const GrowthPlan &plan);
+
+  /// A side between the cells of two next neighbours whose bond broke.
+  struct CrackSide
+  {
+    std::array<dealii::Point<2>, 2> ends;
+    std::size_t event = 0;
+    bool is_joined = false; ///< to the notch, by others in the end
+  };
+
+  /// Where a crack went. It is where next neighbours have parted: sides of cells that hang together
+  /// with the notch.
+  struct CrackPath
+  {
+    std::vector<CrackSide> sides;       ///< as they broke
+    std::vector<dealii::Point<2>> tips; ///< after each event: the end that is farthest from the
+                                        ///< notch's tip, or that tip
+    std::size_t n_elsewhere = 0;        ///< sides apart from the crack
+    double length = 0;                  ///< of the sides that hang together, L1
+  };
+  CrackPath find_path(const GrowthModel &model, const std::vector<analysis::Event> &events);
+
+  /// Bonds that broke whose mirror images about y = `middle` did not, or are none.
+  std::size_t n_unpaired(const GrowthModel &model, const std::vector<std::size_t> &broken,
+                         double middle);
+
+  /// A picture of the body, after so many events.
+  struct GrowthMoment
+  {
+    std::size_t n_events = 0;
+    double load = 0;
+    std::vector<double> damage;
+  };
+
+  constexpr std::size_t n_growth_moments = 6;
+
+  /// After even parts of all broken bonds, from none to all.
+  std::vector<GrowthMoment> growth_moments(const GrowthModel &model,
+                                           const std::vector<analysis::Event> &events);
+
+  struct GrowthResults
+  {
+    std::string scene_name, purpose, method, model; ///< model: bond-based, or LPS
+    scene::FractureSection rules;
+    double h = 0, horizon = 0;
+    double lattice_toughness = 0; ///< energy of all bonds across a straight line, over G
+    std::vector<dealii::Point<2>> nodes;
+    dealii::Point<2> notch_tip;
+    std::size_t n_bonds = 0, n_unknowns = 0;
+    analysis::Growth growth;
+    method::BreakingBody::Work work;
+    double seconds = 0; ///< CPU time since it was taken up
+    CrackPath path;
+    std::vector<GrowthMoment> moments;
+    std::size_t n_unpaired = 0;
+
+    std::size_t n_broken() const;
+    double advance() const; ///< of the tip, from the notch's
+    /// The event with the largest reaction before it; 0 where there is none.
+    std::size_t peak() const;
+    double largest_imbalance() const, largest_residual() const;
+    /// Of broken bonds, and of all that was released, per length of the path.
+    double bond_energy_per_length() const, energy_per_length() const;
+    /// One of scene::growth_quantities.
+    double quantity(const std::string &name) const;
+  };
+
+  /// What does not hold of a scene's expectations, and of the audit: work = stored + in bonds +
+  /// released to 1e-10. One sentence each.
+  std::vector<std::string> growth_faults(const GrowthResults &results,
+                                         const scene::ExpectedSection &expected);
+
+  /// What is not in the model, for reports.
+  std::vector<std::string> left_out_of_growth();
+} // namespace plumbline::study

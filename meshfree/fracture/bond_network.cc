@@ -1,0 +1,250 @@
+#include "meshfree/fracture/bond_network.h"
+
+#include "base/error.h"
+#include "meshfree/scattered/damage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    using NetworkBond = BondNetwork::Bond;
+
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    constexpr double on_side = 1e-9; // of h: a node counts as in a box up to there
+
+    /// A bond of every node of the lattice; of two that are opposite, one.
+    struct Half
+    {
+      std::array<int, 2> k{};
+      Tensor<1, 2> xi, way;
+      double weight = 0; ///< w K
+    };
+
+    std::vector<Half> half_family(const Recipe &recipe, const Kernel<2> &influence, double h,
+                                  Backend backend)
+    {
+      const Bonds all = lattice_bonds(recipe, physics::deviatoric_kernel(influence, 1), h, backend);
+      std::vector<Half> result;
+      for (const Bond &bond : all.family)
+      {
+        const int k1 = static_cast<int>(std::lround(bond.xi[0] / h)),
+                  k2 = static_cast<int>(std::lround(bond.xi[1] / h));
+        const double weight = bond.weight * radial_value(influence, bond);
+        if ((k2 > 0 || (k2 == 0 && k1 > 0)) && weight != 0)
+          result.push_back(
+              {{k1, k2}, bond.xi, bond.kernel_point / bond.kernel_point.norm(), weight});
+      }
+      return result;
+    }
+
+    /// β = ∫K r⁴ dr of K = 3/(πδ³r).
+    double beta(const Kernel<2> &influence)
+    {
+      return .75 / M_PI * influence.horizon();
+    }
+
+    int box_of(const std::vector<geometry::Box> &boxes, const Point<2> &x, double h)
+    {
+      for (std::size_t i = 0; i < boxes.size(); ++i)
+        if (x[0] > boxes[i].lower[0] - on_side * h && x[0] < boxes[i].upper[0] + on_side * h &&
+            x[1] > boxes[i].lower[1] - on_side * h && x[1] < boxes[i].upper[1] + on_side * h)
+          return static_cast<int>(i);
+      return -1;
+    }
+
+    /// Nodes, by cells of the lattice: shape (n[1], n[0]), -1 where there is none.
+    std::vector<int> place_nodes(const BreakingSolid &solid, const geometry::Lattice &lattice,
+                                 BondNetwork &network)
+    {
+      const auto [n1, n2] = lattice.n_cells();
+      std::vector<int> number(static_cast<std::size_t>(n1) * n2, -1);
+      for (int j = 0; j < n2; ++j)
+        for (int i = 0; i < n1; ++i)
+          if (lattice.is_inside(i, j))
+          {
+            const Point<2> x = lattice.point(i + .5, j + .5);
+            number[static_cast<std::size_t>(j) * n1 + i] = static_cast<int>(network.nodes.size());
+            network.nodes.push_back(x);
+            network.grip.push_back(box_of(solid.grips, x, network.h));
+            network.held.push_back(network.grip.back() < 0 ? Tensor<1, 2>() : solid.held(x));
+          }
+      for (std::size_t g = 0; g < solid.grips.size(); ++g)
+        if (std::find(network.grip.begin(), network.grip.end(), static_cast<int>(g)) ==
+            network.grip.end())
+          throw InputError("Domain/fixed: grip " + std::to_string(g) +
+                           " holds no node; give a box in the body (Domain/boxes) that is thicker "
+                           "than a mesh size");
+      if (std::find(network.grip.begin(), network.grip.end(), -1) == network.grip.end())
+        throw InputError("Domain/fixed holds all nodes; leave some of them free");
+      return number;
+    }
+
+    /// Tells which bonds a notch cuts.
+    class Notch
+    {
+    public:
+      Notch(const BreakingSolid &solid, const BondNetwork &network)
+          : broken_({solid.notch, {}, false}, cells(network), network.horizon)
+      {
+      }
+
+      bool cuts(std::size_t from, const Tensor<1, 2> &xi, unsigned int to)
+      {
+        one_.neighbours = {to};
+        one_.bonds.resize(1);
+        one_.bonds[0].xi = Point<2>(xi);
+        return !broken_.find(from, one_, is_intact_);
+      }
+
+    private:
+      const geometry::NodeCells &cells(const BondNetwork &network)
+      {
+        cells_.nodes = network.nodes;
+        cells_.n_free = network.nodes.size();
+        for (std::size_t i = 0; i < network.nodes.size(); ++i)
+          cells_.source.push_back(i);
+        return cells_;
+      }
+
+      geometry::NodeCells cells_; // before what is made of them
+      BrokenBonds broken_;
+      Family one_;
+      std::vector<char> is_intact_;
+    };
+
+    /// What two nodes have in common.
+    struct Materials
+    {
+      std::vector<physics::Lame> lame;
+      std::vector<double> toughness;
+
+      Materials(const BreakingSolid &solid, const std::vector<Point<2>> &nodes)
+      {
+        for (const Point<2> &x : nodes)
+        {
+          lame.push_back(solid.material(x));
+          toughness.push_back(solid.toughness(x));
+          if (!(toughness.back() > 0))
+          {
+            std::ostringstream message;
+            message << "Fracture/toughness = " << toughness.back() << " at (" << x
+                    << ") must be positive: it is the energy that a crack takes for its area";
+            throw InputError(message.str());
+          }
+        }
+      }
+
+      physics::Lame mean(std::size_t i, std::size_t j) const
+      {
+        using physics::Mean;
+        return {physics::mean(Mean::harmonic, lame[i].lambda, lame[j].lambda),
+                physics::mean(Mean::harmonic, lame[i].mu, lame[j].mu)};
+      }
+    };
+
+    /// τ; λ = μ to rounding counts as that.
+    std::vector<double> dilatations(const std::vector<physics::Lame> &lame, double V)
+    {
+      constexpr double rounding = 1e-12;
+      const auto is_bonds = [](const physics::Lame &one)
+      { return std::abs(one.lambda - one.mu) <= rounding * one.mu; };
+      if (std::all_of(lame.begin(), lame.end(), is_bonds))
+        return {};
+      const physics::Lame first = lame.front();
+      if (!std::all_of(lame.begin(), lame.end(),
+                       [&](const physics::Lame &one)
+                       { return one.lambda == first.lambda && one.mu == first.mu; }))
+        throw InputError("Material: lambda != mu that vary in space make a solid without energy "
+                         "(harmonic means of both ends), whose cracks cannot be audited; write "
+                         "Material/nu = 1/4 in plane strain (lambda = mu), or constants");
+      return std::vector<double>(lame.size(), V * (first.lambda - first.mu));
+    }
+  } // namespace
+
+  BondNetwork make_bond_network(const BreakingSolid &solid, const Recipe &recipe,
+                                const Kernel<2> &influence, double h, Backend backend)
+  {
+    BondNetwork network;
+    network.h = h;
+    network.horizon = influence.horizon();
+    const geometry::Lattice lattice(solid.domain, h);
+    const std::vector<int> number = place_nodes(solid, lattice, network);
+    const Materials materials(solid, network.nodes);
+    network.dilatation = dilatations(materials.lame, h * h);
+    Notch notch(solid, network);
+    const std::vector<Half> family = half_family(recipe, influence, h, backend);
+    const auto [n1, n2] = lattice.n_cells();
+    for (int j = 0; j < n2; ++j)
+      for (int i = 0; i < n1; ++i)
+        for (const Half &half : family)
+        {
+          const int to_i = i + half.k[0], to_j = j + half.k[1];
+          if (to_i < 0 || to_i >= n1 || to_j >= n2)
+            continue;
+          const int from = number[static_cast<std::size_t>(j) * n1 + i],
+                    to = number[static_cast<std::size_t>(to_j) * n1 + to_i];
+          if (from < 0 || to < 0)
+            continue;
+          const auto a = static_cast<unsigned int>(from), b = static_cast<unsigned int>(to);
+          if (notch.cuts(a, half.xi, b))
+          {
+            network.cut.push_back({a, b});
+            continue;
+          }
+          const physics::Lame lame = materials.mean(a, b);
+          const double G = .5 * (materials.toughness[a] + materials.toughness[b]);
+          const bool never = (network.grip[a] >= 0 && network.grip[b] >= 0) ||
+                             box_of(solid.unbreaking, network.nodes[a], h) >= 0 ||
+                             box_of(solid.unbreaking, network.nodes[b], h) >= 0;
+          network.bonds.push_back(
+              {a, b, half.xi, half.way, h * h * 8 * lame.mu * half.weight, half.weight,
+               never ? endless : std::sqrt(G / (4 * beta(influence) * (lame.lambda + lame.mu)))});
+        }
+    if (!solid.notch.empty() && network.cut.empty())
+      throw InputError("Domain/cracks cuts no bond: the notch lies outside of the body "
+                       "(Domain/boxes); give a line in it, from its mouth to its tip");
+    return network;
+  }
+
+  std::vector<double> BondNetwork::damage(const std::vector<std::size_t> &broken) const
+  {
+    std::vector<double> all(nodes.size()), lost(nodes.size());
+    for (const auto &ends : cut)
+      for (const unsigned int node : ends)
+      {
+        ++all[node];
+        ++lost[node];
+      }
+    for (const Bond &bond : bonds)
+    {
+      ++all[bond.from];
+      ++all[bond.to];
+    }
+    for (const std::size_t b : broken)
+    {
+      ++lost[bonds[b].from];
+      ++lost[bonds[b].to];
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      lost[i] = all[i] > 0 ? lost[i] / all[i] : 0;
+    return lost;
+  }
+
+  double lattice_toughness(const Recipe &recipe, const Kernel<2> &influence, double h,
+                           Backend backend)
+  {
+    // for λ = μ = 1 and s0² = 1/(8β); of each kind of bond ξ_y/h cross the line in a length h
+    double sum = 0;
+    for (const Half &half : half_family(recipe, influence, h, backend))
+    {
+      const double stretch = (half.way * half.xi) * (half.way * half.xi) / (8 * beta(influence));
+      sum += .5 * h * h * 8 * half.weight * stretch * half.xi[1] / (h * h);
+    }
+    return sum;
+  }
+} // namespace plumbline::meshfree

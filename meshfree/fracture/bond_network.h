@@ -1,0 +1,74 @@
+#pragma once
+
+#include "geometry/cracks.h"
+#include "meshfree/rules/recipe.h"
+#include "physics/state_based.h"
+
+#include <functional>
+#include <vector>
+
+namespace plumbline::meshfree
+{
+  using dealii::Tensor;
+
+  /// What a body whose bonds break is made of.
+  struct BreakingSolid
+  {
+    geometry::Domain domain;                            ///< with its grips
+    std::vector<geometry::Box> grips;                   ///< nodes in them are held
+    std::vector<geometry::Box> unbreaking;              ///< bonds with an end in them do not break
+    std::vector<geometry::Polyline> notch;              ///< what it is cut by from the beginning
+    std::function<Tensor<1, 2>(const Point<2> &)> held; ///< u in the grips at load 1
+    std::function<physics::Lame(const Point<2> &)> material;
+    std::function<double(const Point<2> &)> toughness; ///< G [force/length]
+  };
+
+  /// A solid on the nodes of a lattice, cell centres, as bonds: its energy is
+  ///   E = Σ_bonds k/2 (way·Δu)² + Σ_nodes τ/2 θ²,  θ = Σ_bonds share ξ·Δu,  Δu = u_to - u_from,
+  /// with k = V w 8μK, share = w K, τ = V (λ - μ), K the influence function of ∫K|ξ|² = 2. That is
+  /// the linear peridynamic solid whose bonds end at free surfaces and cracks, without the
+  /// correction M of its dilatation and without the terms that free surfaces of traction add
+  /// (Fan et al. 2022, eq. (3.19), doi:10.1016/j.cma.2022.115340), which would make it
+  /// unsymmetric. λ = μ, plane strain of ν = 1/4, leaves the bonds alone.
+  struct BondNetwork
+  {
+    struct Bond
+    {
+      unsigned int from = 0, to = 0;
+      Tensor<1, 2> xi;      ///< from node to node [length]
+      Tensor<1, 2> way;     ///< along which it pulls, of length 1
+      double stiffness = 0; ///< k [force/length^2]
+      double share = 0;     ///< of dilatations [1/length^2]
+      double critical = 0;  ///< the stretch at which it breaks; infinite: never
+    };
+
+    double h = 0, horizon = 0; ///< [length]
+    std::vector<Point<2>> nodes;
+    std::vector<int> grip;                        ///< of each node, -1: free
+    std::vector<Tensor<1, 2>> held;               ///< u of each node at load 1, 0 where it is free
+    std::vector<Bond> bonds;                      ///< that are whole at the beginning, each once
+    std::vector<std::array<unsigned int, 2>> cut; ///< nodes of bonds that the notch has cut
+    std::vector<double> dilatation;               ///< τ of each node; empty where λ = μ
+
+    /// The part of each node's bonds that is broken or cut, shape (n_nodes).
+    std::vector<double> damage(const std::vector<std::size_t> &broken) const;
+  };
+
+  /// Critical stretches by G: with s0² = G / (4β (λ + μ)), β = ∫K r⁴ dr, the energy of all bonds
+  /// across a straight cut of a continuum is G where dilatations are twice the stretch, which is
+  /// exact for bonds (λ = μ). On the lattice itself it is .9158 G for m = 3, see lattice_toughness.
+  /// Bonds between two materials have harmonic means of λ and μ, and the mean of G.
+  /// @param recipe     of a rule, with the deviatoric kernel of μ = 1
+  /// @param influence  1/r, ∫K|ξ|² = 2
+  /// @throws InputError  h that does not fit the boxes; grips that hold no node, or one grip alone;
+  /// G <= 0 at a bond; a notch through a node, or that cuts no bond; λ != μ that vary in space
+  /// Source: Fan et al. 2022, eqs. (2.24)-(2.26); Silling & Askari 2005 for λ = μ,
+  /// doi:10.1016/j.compstruc.2004.11.026.
+  BondNetwork make_bond_network(const BreakingSolid &solid, const Recipe &recipe,
+                                const Kernel<2> &influence, double h, Backend backend);
+
+  /// Energy of all bonds across an endless line along an axis, each at its limit s0 of G = 1, on a
+  /// homogeneous lattice with λ = μ, per length.
+  double lattice_toughness(const Recipe &recipe, const Kernel<2> &influence, double h,
+                           Backend backend);
+} // namespace plumbline::meshfree

@@ -1,0 +1,197 @@
+#include "meshfree/fracture/breaking_network.h"
+
+#include "base/cost.h"
+#include "base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    /// Of forces on free nodes: more than 1e5 sums of 1e2 forces make.
+    constexpr double worst_residual = 1e-10;
+
+    double square(double x)
+    {
+      return x * x;
+    }
+  } // namespace
+
+  BreakingNetwork::BreakingNetwork(BondNetwork network, scene::Stretch stretch, Refactor refactor)
+      : network_(std::move(network)), stretch_(stretch), refactor_(refactor)
+  {
+    factor();
+    if (is_parted())
+      throw InputError("Domain/fixed: no path of bonds joins the grips; let the notch "
+                       "(Domain/cracks) end in the body, or mend Domain/boxes");
+  }
+
+  void BreakingNetwork::factor()
+  {
+    const base::CpuTimer timer;
+    connections_ = std::make_unique<Connections>(network_);
+    connections_->break_bonds(broken_);
+    equations_ = std::make_unique<NetworkEquations>(network_, *connections_);
+    seconds_ = equations_->factor_seconds();
+    n_events_ = 1;
+    u_ = *equations_->solve(); // nothing has changed yet
+    ++work_.n_factorisations;
+    work_.factor_seconds += timer.seconds();
+    evaluate();
+  }
+
+  void BreakingNetwork::restart(const std::vector<std::size_t> &broken)
+  {
+    broken_ = broken;
+    std::sort(broken_.begin(), broken_.end());
+    factor();
+  }
+
+  /// Without factoring; false if that would be cheaper, or is needed.
+  bool BreakingNetwork::update(const std::vector<std::size_t> &bonds)
+  {
+    const double cost = equations_->update_seconds(bonds.size());
+    if (refactor_ == Refactor::always || cost * static_cast<double>(n_events_) > seconds_)
+      return false;
+    const base::CpuTimer timer;
+    connections_->break_bonds(bonds);
+    equations_->take_out(bonds, *connections_);
+    auto u = equations_->solve();
+    if (!u)
+      return false;
+    u_ = std::move(*u);
+    seconds_ += cost;
+    ++n_events_;
+    ++work_.n_updates;
+    work_.largest_rank = std::max<std::uint64_t>(work_.largest_rank, equations_->rank());
+    evaluate();
+    work_.update_seconds += timer.seconds();
+    return response_.residual <= worst_residual;
+  }
+
+  BreakingNetwork::Release BreakingNetwork::break_bonds(const std::vector<std::size_t> &bonds)
+  {
+    Release result = release(bonds);
+    const std::vector<double> pull = pull_;
+    std::vector<double> theta = theta_;
+    for (const std::size_t b : bonds) // of what stays whole
+      if (!theta.empty())
+        for (const unsigned int node : {network_.bonds[b].from, network_.bonds[b].to})
+          theta[node] -=
+              network_.bonds[b].share *
+              (network_.bonds[b].xi * (u_[network_.bonds[b].to] - u_[network_.bonds[b].from]));
+    broken_.insert(broken_.end(), bonds.begin(), bonds.end());
+    result.is_factored = !update(bonds);
+    if (result.is_factored)
+      restart(broken_);
+    for (std::size_t b = 0; b < network_.bonds.size(); ++b)
+      if (connections_->is_whole(b))
+        result.relaxing += .5 * network_.bonds[b].stiffness * square(pull_[b] - pull[b]);
+    for (std::size_t i = 0; i < theta.size(); ++i)
+      result.relaxing += .5 * network_.dilatation[i] * square(theta_[i] - theta[i]);
+    return result;
+  }
+
+  BreakingNetwork::Release BreakingNetwork::release(const std::vector<std::size_t> &bonds) const
+  {
+    Release result;
+    std::vector<double> theta = theta_;
+    for (const std::size_t b : bonds)
+    {
+      const BondNetwork::Bond &bond = network_.bonds[b];
+      const double own = .5 * bond.stiffness * square(pull_[b]),
+                   dilation = bond.share * (bond.xi * (u_[bond.to] - u_[bond.from]));
+      result.single.push_back(own);
+      result.bonds += own;
+      if (theta.empty())
+        continue;
+      for (const unsigned int node : {bond.from, bond.to})
+      {
+        const double half_tau = .5 * network_.dilatation[node];
+        result.single.back() += half_tau * (square(theta_[node]) - square(theta_[node] - dilation));
+        result.bonds += half_tau * (square(theta[node]) - square(theta[node] - dilation));
+        theta[node] -= dilation;
+      }
+    }
+    return result;
+  }
+
+  double BreakingNetwork::critical_load(const BondNetwork::Bond &bond) const
+  {
+    const Tensor<1, 2> du = u_[bond.to] - u_[bond.from];
+    const double b = bond.xi * du, c = bond.critical * bond.xi.norm_square();
+    if (stretch_ == scene::Stretch::linear)
+      return b > 0 ? c / b : endless;
+    if (connections_->is_loose(bond.from) || connections_->is_loose(bond.to))
+      return endless; // where they are says nothing
+    // the positive root of q λ² + 2 b λ = s0 (2 + s0) r²
+    const double q = du.norm_square(), right = c * (2 + bond.critical),
+                 sum = b + std::sqrt(b * b + q * right);
+    return sum > 0 ? right / sum : endless;
+  }
+
+  void BreakingNetwork::evaluate()
+  {
+    const std::vector<BondNetwork::Bond> &bonds = network_.bonds;
+    pull_.assign(bonds.size(), 0);
+    theta_.assign(network_.dilatation.size(), 0);
+    response_ = {0, 0, 0, std::vector<double>(bonds.size(), endless)};
+    for (std::size_t b = 0; b < bonds.size(); ++b)
+    {
+      if (!connections_->is_whole(b))
+        continue;
+      const BondNetwork::Bond &bond = bonds[b];
+      const Tensor<1, 2> du = u_[bond.to] - u_[bond.from];
+      pull_[b] = bond.way * du;
+      response_.energy += .5 * bond.stiffness * square(pull_[b]);
+      response_.reaction += bond.stiffness * pull_[b] *
+                            (bond.way * (network_.held[bond.to] - network_.held[bond.from]));
+      if (std::isfinite(bond.critical))
+        response_.critical_loads[b] = critical_load(bond);
+      if (theta_.empty())
+        continue;
+      theta_[bond.from] += bond.share * (bond.xi * du);
+      theta_[bond.to] += bond.share * (bond.xi * du);
+    }
+    for (std::size_t i = 0; i < theta_.size(); ++i)
+      response_.energy += .5 * network_.dilatation[i] * square(theta_[i]);
+    for (std::size_t b = 0; b < bonds.size() && !theta_.empty(); ++b)
+      if (connections_->is_whole(b))
+        response_.reaction +=
+            (network_.dilatation[bonds[b].from] * theta_[bonds[b].from] +
+             network_.dilatation[bonds[b].to] * theta_[bonds[b].to]) *
+            bonds[b].share *
+            (bonds[b].xi * (network_.held[bonds[b].to] - network_.held[bonds[b].from]));
+    response_.residual = residual();
+  }
+
+  double BreakingNetwork::residual()
+  {
+    std::vector<Tensor<1, 2>> force(network_.nodes.size());
+    double largest = 0, of_bonds = 0;
+    for (std::size_t b = 0; b < network_.bonds.size(); ++b)
+    {
+      if (!connections_->is_whole(b))
+        continue;
+      const BondNetwork::Bond &bond = network_.bonds[b];
+      Tensor<1, 2> f = bond.stiffness * pull_[b] * bond.way;
+      if (!theta_.empty())
+        f += (network_.dilatation[bond.from] * theta_[bond.from] +
+              network_.dilatation[bond.to] * theta_[bond.to]) *
+             bond.share * bond.xi;
+      force[bond.from] += f;
+      force[bond.to] -= f;
+      of_bonds = std::max(of_bonds, f.norm_square());
+    }
+    for (std::size_t i = 0; i < force.size(); ++i)
+      if (network_.grip[i] < 0)
+        largest = std::max(largest, force[i].norm_square());
+    if (force_scale_ == 0)
+      force_scale_ = std::sqrt(of_bonds);
+    return std::sqrt(largest) / force_scale_;
+  }
+} // namespace plumbline::meshfree

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "meshfree/fracture/equations.h"
+#include "method/breaking_body.h"
+#include "scene/fracture_section.h"
+
+#include <memory>
+
+namespace plumbline::meshfree
+{
+  /// When the equations of a network are factored anew.
+  enum class Refactor
+  {
+    when_cheaper, ///< once an event would cost more than the mean of those since the last
+                  ///< factorisation, that one included, by the estimates of UpdatedCholesky
+    always        ///< at every event, to compare with
+  };
+
+  /// A bond network in equilibrium while its bonds break. What hangs loose (see Connections)
+  /// carries no force.
+  class BreakingNetwork : public method::BreakingBody
+  {
+  public:
+    /// @throws InputError  no path of bonds joins the grips from the beginning
+    /// @throws NumericalError  the body is a mechanism
+    BreakingNetwork(BondNetwork network, scene::Stretch stretch,
+                    Refactor refactor = Refactor::when_cheaper);
+
+    std::size_t n_bonds() const override { return network_.bonds.size(); }
+    const Response &response() const override { return response_; }
+    Release break_bonds(const std::vector<std::size_t> &bonds) override;
+    void restart(const std::vector<std::size_t> &broken) override;
+    bool is_parted() const override { return connections_->is_parted(); }
+    const Work &work() const override { return work_; }
+
+    const BondNetwork &network() const { return network_; }
+    std::size_t n_unknowns() const { return equations_->n_unknowns(); }
+    /// u of all nodes at load 1.
+    const std::vector<Tensor<1, 2>> &displacements() const { return u_; }
+
+  private:
+    void factor();
+    bool update(const std::vector<std::size_t> &bonds);
+    void evaluate();
+    double residual();
+    double critical_load(const BondNetwork::Bond &bond) const;
+    Release release(const std::vector<std::size_t> &bonds) const;
+
+    BondNetwork network_;
+    scene::Stretch stretch_;
+    Refactor refactor_;
+    std::vector<std::size_t> broken_;
+    std::unique_ptr<Connections> connections_;
+    std::unique_ptr<NetworkEquations> equations_;
+    double seconds_ = 0; ///< estimated, since they were factored
+    std::size_t n_events_ = 0;
+
+    std::vector<Tensor<1, 2>> u_;
+    std::vector<double> pull_;  ///< way·Δu of each bond
+    std::vector<double> theta_; ///< of each node, or empty
+    double force_scale_ = 0;    ///< largest force of a bond when all were whole
+    Response response_;
+    Work work_;
+  };
+} // namespace plumbline::meshfree

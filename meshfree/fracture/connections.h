@@ -1,0 +1,60 @@
+#pragma once
+
+#include "meshfree/fracture/bond_network.h"
+
+#include <vector>
+
+namespace plumbline::meshfree
+{
+  /// Which bonds of a network are whole, and what hangs loose in it: free nodes without bonds or
+  /// with bonds on one line, and pieces that no grip holds. Equilibrium says nothing of where they
+  /// are; held in these directions they stay somewhere, which costs no force.
+  /// Other mechanisms, such as pieces on a hinge, are not seen here: they leave the equations
+  /// singular, and are held when that is found.
+  class Connections
+  {
+  public:
+    explicit Connections(const BondNetwork &network);
+
+    void break_bonds(const std::vector<std::size_t> &bonds);
+
+    bool is_whole(std::size_t bond) const { return is_whole_[bond] != 0; }
+    /// Bonds at a node, broken ones too.
+    std::pair<const unsigned int *, const unsigned int *> bonds_of(std::size_t node) const
+    {
+      return {incident_.data() + first_[node], incident_.data() + first_[node + 1]};
+    }
+
+    /// A direction, of length 1, in which nothing holds a free node.
+    struct Hold
+    {
+      std::size_t node = 0;
+      Tensor<1, 2> direction;
+    };
+    const std::vector<Hold> &holds() const { return holds_; } ///< as they came about
+    bool is_loose(std::size_t node) const { return is_loose_[node] != 0; }
+
+    /// Hold a mechanism where it moves most.
+    /// @param mode  displacements that strain no bond, shape (n_nodes)
+    void hold(const std::vector<Tensor<1, 2>> &mode);
+
+    /// No path of whole bonds joins all grips.
+    bool is_parted() const { return is_parted_; }
+
+  private:
+    bool carries(std::size_t bond) const { return is_whole_[bond] != 0 && is_idle_[bond] == 0; }
+    void look_at(std::vector<std::size_t> nodes);
+    void find_pieces();
+    void hold_across(std::size_t node, const Tensor<1, 2> &way);
+    void hold_both(std::size_t node);
+
+    const BondNetwork *network_;
+    std::vector<std::size_t> first_; ///< of each node in incident_, shape (n_nodes + 1)
+    std::vector<unsigned int> incident_;
+    std::vector<char> is_whole_;
+    std::vector<char> is_idle_; ///< the bond is the last one of a node, and carries no force
+    std::vector<Hold> holds_;
+    std::vector<char> n_holds_, is_loose_;
+    bool is_parted_ = false;
+  };
+} // namespace plumbline::meshfree

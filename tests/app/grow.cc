@@ -1,0 +1,140 @@
+// `plumbline grow`: what it says of cracks that grow in equilibrium, that it goes on after a kill,
+// and what it refuses.
+
+#include "command.h"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+namespace
+{
+  using namespace plumbline::app;
+
+  std::string plate()
+  {
+    return std::string(PLUMBLINE_SCENES) + "/fracture/plate.prm";
+  }
+
+  void expect_refused(const std::string &arguments, const std::string &message)
+  {
+    const fs::path folder = temporary("grow");
+    const Outcome outcome = run(arguments + " -o " + folder.string());
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << '\n' << outcome.err;
+    expect_found(outcome.err, message);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_FALSE(fs::exists(folder)) << arguments;
+  }
+
+  nlohmann::json results(const fs::path &folder)
+  {
+    return nlohmann::json::parse(read(folder / "grow.json"));
+  }
+} // namespace
+
+TEST(GrowCommand, tells_what_breaks_and_draws_it)
+{
+  const fs::path folder = temporary("grow");
+  const Outcome outcome = run("grow " + plate() + " --check -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "bonds break at");
+  const auto json = results(folder);
+  EXPECT_LT(json["energy_imbalance"], 1e-10);
+  EXPECT_EQ(json["n_unpaired"], 0);
+  EXPECT_NEAR(json["lattice_toughness"], .9158, 5e-5);
+  EXPECT_LT(json["n_factorisations"].get<double>(), .2 * json["events"].size());
+  const std::string page = read(folder / "grow.html");
+  expect_found(page, "<svg");
+  expect_found(page, "what was left out");
+  for (const char *const name : {"moments.svg", "load.svg", "energies.svg", "tip.svg", "events.csv",
+                                 "sides.csv", "load.csv"})
+    EXPECT_TRUE(fs::exists(folder / "grow" / name)) << name;
+  EXPECT_FALSE(fs::exists(folder / "checkpoint.h5"));
+  fs::remove_all(folder);
+}
+
+TEST(GrowCommand, says_what_is_not_as_expected)
+{
+  const fs::path folder = temporary("grow");
+  const Outcome outcome =
+      run("grow " + plate() +
+          " --check --quiet --set Study/h=0.05 --set 'Domain/fixed=0, 0.35 : 2, 0.5; 0, -0.5 : 2, "
+          "-0.35' --set 'Expected/growth=broken bonds: 1' -o " +
+          folder.string());
+  EXPECT_EQ(outcome.exit_code, 1);
+  expect_found(outcome.err, "Expected/growth = 'broken bonds: 1', but it is");
+  expect_found(read(folder / "grow.html"), "EXPECTED");
+  fs::remove_all(folder);
+}
+
+TEST(GrowCommand, goes_on_after_it_was_killed_to_the_same_bits)
+{
+  const fs::path whole = temporary("whole"), killed = temporary("killed");
+  const std::string command =
+      "grow " + plate() + " --quiet --set 'Fracture/checkpoint interval=7' -o ";
+  std::thread first([&] { (void)run(command + whole.string()); });
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    const std::string shell =
+        "exec " + std::string(PLUMBLINE_COMMAND) + " " + command + killed.string() + " 2>/dev/null";
+    execl("/bin/sh", "sh", "-c", shell.c_str(), static_cast<char *>(nullptr));
+    _exit(127);
+  }
+  using namespace std::chrono_literals;
+  for (int i = 0; i < 6000 && !fs::exists(killed / "checkpoint.h5"); ++i)
+    std::this_thread::sleep_for(5ms);
+  std::this_thread::sleep_for(200ms);
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status)) << "the run had ended before it was killed";
+  EXPECT_FALSE(fs::exists(killed / "grow.json"));
+  const Outcome resumed = run(command + killed.string());
+  first.join();
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_GT(results(killed)["n_resumed"], 0);
+  EXPECT_EQ(results(whole)["n_resumed"], 0);
+  EXPECT_TRUE(results(killed)["events"] == results(whole)["events"]);
+  for (const char *const name : {"grow/events.csv", "grow/sides.csv", "grow/moments.gp"})
+    EXPECT_TRUE(read(killed / name) == read(whole / name)) << name;
+  fs::remove_all(whole);
+  fs::remove_all(killed);
+}
+
+TEST(GrowCommand, refuses_what_cannot_grow)
+{
+  const std::string body = "grow " + plate() + " --quiet ";
+  const auto set = [&](const std::string &setting) { return body + "--set '" + setting + "'"; };
+  expect_refused("grow " + std::string(PLUMBLINE_SCENES) + "/griffith/run.prm",
+                 "Fracture/toughness is empty, so that nothing breaks");
+  expect_refused("run " + plate(), "Fracture/toughness is for 'plumbline grow'");
+  expect_refused("crack " + plate(), "Crack/notch = 0");
+  expect_refused(set("Fracture/toughness=-1"), "Fracture/toughness = -1 must be positive");
+  expect_refused(set("Fracture/toughness=x - 1"), "Fracture/toughness = -0.9875 at (0.0125");
+  expect_refused(set("Fracture/toughness=x, y"), "one component");
+  expect_refused(set("Domain/cracks="), "a notch that the crack grows from");
+  expect_refused(set("Domain/cracks=-1, 0 : -0.5, 0"), "the notch lies outside of the body");
+  expect_refused(set("Domain/cracks=-0.1, 0.0125 : 0.5, 0.0125"), "goes through node");
+  expect_refused(set("Domain/cracks=-0.1, 0 : 3, 0"), "no path of bonds joins the grips");
+  expect_refused(set("Domain/fixed="), "Domain/fixed, the grips");
+  expect_refused(set("Domain/fixed=0, 5 : 1, 6"), "grip 0 holds no node");
+  expect_refused(set("Domain/fixed=0, -0.5 : 2, 0.5"), "holds all nodes");
+  expect_refused(set("Domain/boundary=constrained"), "Domain/boundary = free");
+  expect_refused(set("Problem/constraint=solution"), "what the grips do at load 1");
+  expect_refused(set("Problem/load=1, 0"), "neither solution nor load");
+  expect_refused(set("Material/nu=0.6"), "nu");
+  expect_refused(set("Material/E=1 + x") + " --set Material/nu=0.3", "vary in space");
+  expect_refused(set("Material/model=variational"), "Material/model = LPS");
+  expect_refused(set("Kernel/type=constant"), "Kernel/type = 1/r");
+  expect_refused(set("Study/h=0.05, 0.025"), "one Study/h");
+  expect_refused(set("Study/h=0.03"), "mesh size h = 0.03 does not divide");
+  expect_refused(set("Fracture/breaking=steps"), "Fracture/load step = 0 must be positive");
+  expect_refused(set("Fracture/breaking=often"), "Fracture/breaking");
+  expect_refused(set("Fracture/largest load=0"), "Fracture/largest load = 0 must be positive");
+  expect_refused(set("Fracture/ties=-1"), "Fracture/ties");
+  expect_refused(set("Expected/growth=holes: 3"), "the quantity one of broken bonds");
+  expect_refused(body + "--methods Q1", "'Q1' is no meshfree rule");
+}

@@ -1,0 +1,397 @@
+// Bonds that break in equilibrium: against brute force, the audit of energy, mirror images, damage
+// beside a crack, what hangs loose, and going on.
+
+#include "analysis/fracture.h"
+#include "base/error.h"
+#include "meshfree/fracture/breaking_network.h"
+#include "meshfree/rules/rules.h"
+#include "scene/scene.h"
+
+#include <Eigen/SparseCholesky>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace
+{
+  using namespace plumbline;
+  using analysis::Event;
+  using analysis::grow;
+  using analysis::Growth;
+  using dealii::Point;
+  using dealii::Tensor;
+  using meshfree::BondNetwork;
+  using meshfree::BreakingNetwork;
+  using meshfree::BreakingSolid;
+
+  constexpr double h = .05;
+  const double inf = std::numeric_limits<double>::infinity();
+
+  /// A plate of n1 × n2 nodes about y = 0 with a notch from the left, its upper and lower rows held
+  /// and pulled apart by 1 at load 1.
+  BreakingSolid plate(int n1, int n2, double notch, double nu, int m = 3)
+  {
+    const double length = n1 * h, half = .5 * n2 * h, grip = m * h;
+    BreakingSolid solid;
+    solid.domain.include = {{{0, -half}, {length, half}}};
+    solid.grips = {{{0, half - grip}, {length, half}}, {{0, -half}, {length, grip - half}}};
+    if (notch > 0)
+      solid.notch = {{{-h, 0}, {notch, 0}}};
+    solid.held = [](const Point<2> &x)
+    {
+      Tensor<1, 2> u;
+      u[1] = x[1] > 0 ? .5 : -.5;
+      return u;
+    };
+    solid.material = [nu](const Point<2> &)
+    { return physics::lame_from_young(1, nu, physics::PlaneState::strain); };
+    solid.toughness = [](const Point<2> &) { return 1.; };
+    return solid;
+  }
+
+  physics::Kernel<2> influence(double horizon)
+  {
+    return physics::influence_function(physics::kernel_type("1/r").profile, horizon);
+  }
+
+  BondNetwork network(const BreakingSolid &solid, int m = 3)
+  {
+    const auto K = influence(m * h);
+    return make_bond_network(solid, meshfree::full_area(physics::deviatoric_kernel(K, 1)), K, h,
+                             geometry::Backend::fast);
+  }
+
+  scene::FractureSection rules(scene::BreakMode breaking = scene::BreakMode::events)
+  {
+    scene::FractureSection result;
+    result.breaking = breaking;
+    result.least_reaction = 0; // until it has parted
+    return result;
+  }
+
+  /// The same by a factorisation at every event, written without the library.
+  std::vector<Event> by_brute_force(const BondNetwork &net, std::size_t n_events)
+  {
+    using Sparse = Eigen::SparseMatrix<double>;
+    std::vector<int> unknown;
+    int n = 0;
+    for (const int grip : net.grip)
+    {
+      unknown.push_back(grip < 0 ? n : -1);
+      n += grip < 0 ? 2 : 0;
+    }
+    std::vector<char> is_whole(net.bonds.size(), 1);
+    std::vector<Event> events;
+    while (events.size() < n_events)
+    {
+      Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
+      std::vector<Eigen::Triplet<double>> entries;
+      // k (c·u + o)² of a linear form c over nodes
+      const auto add = [&](double k, const std::map<unsigned int, Tensor<1, 2>> &form)
+      {
+        double o = 0;
+        for (const auto &[node, c] : form)
+          o += c * net.held[node];
+        for (const auto &[i, ci] : form)
+          for (unsigned int d = 0; d < 2 && unknown[i] >= 0; ++d)
+          {
+            b[unknown[i] + static_cast<int>(d)] -= k * o * ci[d];
+            for (const auto &[j, cj] : form)
+              for (unsigned int e = 0; e < 2 && unknown[j] >= 0; ++e)
+                entries.emplace_back(unknown[i] + static_cast<int>(d),
+                                     unknown[j] + static_cast<int>(e), k * ci[d] * cj[e]);
+          }
+      };
+      std::vector<std::map<unsigned int, Tensor<1, 2>>> dilatation(net.dilatation.size());
+      for (std::size_t i = 0; i < net.bonds.size(); ++i)
+        if (is_whole[i])
+        {
+          const auto &bond = net.bonds[i];
+          add(bond.stiffness, {{bond.from, -bond.way}, {bond.to, bond.way}});
+          if (!dilatation.empty())
+            for (const unsigned int node : {bond.from, bond.to})
+            {
+              dilatation[node][bond.from] -= bond.share * bond.xi;
+              dilatation[node][bond.to] += bond.share * bond.xi;
+            }
+        }
+      for (std::size_t i = 0; i < dilatation.size(); ++i)
+        add(net.dilatation[i], dilatation[i]);
+      Sparse A(n, n);
+      A.setFromTriplets(entries.begin(), entries.end());
+      const Eigen::SimplicialLDLT<Sparse> cholesky(A);
+      const Eigen::VectorXd x = cholesky.solve(b);
+      const auto u = [&](unsigned int node)
+      {
+        Tensor<1, 2> result = net.held[node];
+        for (unsigned int d = 0; d < 2 && unknown[node] >= 0; ++d)
+          result[d] = x[unknown[node] + static_cast<int>(d)];
+        return result;
+      };
+      std::vector<double> loads(net.bonds.size(), inf);
+      for (std::size_t i = 0; i < net.bonds.size(); ++i)
+        if (const auto &bond = net.bonds[i]; is_whole[i])
+        {
+          const double s = bond.xi * (u(bond.to) - u(bond.from)) / bond.xi.norm_square();
+          loads[i] = s > 0 ? bond.critical / s : inf;
+        }
+      Event event;
+      event.critical = *std::min_element(loads.begin(), loads.end());
+      for (std::size_t i = 0; i < loads.size(); ++i)
+        if (loads[i] <= event.critical * (1 + 1e-6))
+        {
+          event.bonds.push_back(i);
+          is_whole[i] = 0;
+        }
+      events.push_back(event);
+    }
+    return events;
+  }
+
+  std::vector<std::size_t> all_broken(const Growth &growth)
+  {
+    std::vector<std::size_t> result;
+    for (const Event &event : growth.events)
+      result.insert(result.end(), event.bonds.begin(), event.bonds.end());
+    return result;
+  }
+
+  void expect_same_as_brute_force(double nu, std::size_t n_events)
+  {
+    const BondNetwork net = network(plate(40, 20, 20 * h, nu));
+    BreakingNetwork body(net, scene::Stretch::linear);
+    const Growth growth = grow(body, rules());
+    ASSERT_GE(growth.events.size(), n_events);
+    EXPECT_LT(body.work().n_factorisations, growth.events.size() / 5);
+    const std::vector<Event> expected = by_brute_force(net, n_events);
+    for (std::size_t i = 0; i < n_events; ++i)
+    {
+      ASSERT_EQ(growth.events[i].bonds, expected[i].bonds) << i;
+      EXPECT_NEAR(growth.events[i].critical / expected[i].critical, 1, 1e-9) << i;
+    }
+  }
+} // namespace
+
+TEST(Fracture, events_are_those_of_brute_force_on_a_plate_of_bonds)
+{
+  expect_same_as_brute_force(.25, 200);
+}
+
+TEST(Fracture, events_are_those_of_brute_force_on_a_plate_with_dilatations)
+{
+  expect_same_as_brute_force(.35, 60);
+  expect_same_as_brute_force(.1, 30);
+}
+
+TEST(Fracture, every_event_accounts_for_the_energy)
+{
+  for (const double nu : {.25, .35})
+    for (const auto breaking : {scene::BreakMode::events, scene::BreakMode::batches})
+    {
+      BreakingNetwork body(network(plate(30, 20, 10 * h, nu)), scene::Stretch::linear);
+      const Growth growth = grow(body, rules(breaking));
+      EXPECT_TRUE(growth.end == scene::GrowthEnd::parted ||
+                  growth.events.back().reaction < 1e-9 * growth.events.front().reaction);
+      for (const Event &event : growth.events)
+      {
+        EXPECT_LT(event.imbalance(), 1e-10);
+        EXPECT_LT(event.residual, 1e-11);
+        EXPECT_GE(event.released, 0);
+      }
+      // grips that are rigid leave nothing stored in halves that have parted
+      EXPECT_LT(std::abs(growth.events.back().stored), 1e-12 * growth.events.back().work);
+    }
+}
+
+TEST(Fracture, mirror_images_break_together_if_ties_do)
+{
+  const BondNetwork net = network(plate(30, 20, 10 * h, .25));
+  const auto asymmetry = [&](double ties)
+  {
+    std::map<std::array<long, 4>, std::size_t> place;
+    const auto key = [&](Point<2> a, Point<2> b, double sign)
+    {
+      std::array<std::array<long, 2>, 2> ends{};
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        ends[0][d] = std::lround(a[d] * (d == 1 ? sign : 1) / h * 2);
+        ends[1][d] = std::lround(b[d] * (d == 1 ? sign : 1) / h * 2);
+      }
+      std::sort(ends.begin(), ends.end());
+      return std::array<long, 4>{ends[0][0], ends[0][1], ends[1][0], ends[1][1]};
+    };
+    for (std::size_t b = 0; b < net.bonds.size(); ++b)
+      place[key(net.nodes[net.bonds[b].from], net.nodes[net.bonds[b].to], 1)] = b;
+    auto events = rules();
+    events.tie_tolerance = ties;
+    BreakingNetwork body(net, scene::Stretch::linear);
+    std::size_t n_alone = 0;
+    for (const Event &event : grow(body, events).events)
+      for (const std::size_t b : event.bonds)
+        if (std::find(event.bonds.begin(), event.bonds.end(),
+                      place.at(key(net.nodes[net.bonds[b].from], net.nodes[net.bonds[b].to],
+                                   -1))) == event.bonds.end())
+          ++n_alone;
+    return n_alone;
+  };
+  EXPECT_EQ(asymmetry(1e-6), 0u);
+  EXPECT_GT(asymmetry(0), 0u);
+}
+
+TEST(Fracture, damage_beside_a_straight_crack_counts_its_bonds)
+{
+  const BondNetwork net = network(plate(30, 20, 20 * h, .25));
+  const std::vector<double> damage = net.damage({});
+  for (std::size_t i = 0; i < net.nodes.size(); ++i)
+    if (const Point<2> &x = net.nodes[i]; x[0] > 5 * h && x[0] < 15 * h)
+    {
+      const auto row = static_cast<int>(std::lround(std::abs(x[1]) / h - .5));
+      const double expected = row == 0 ? 11. / 28 : row == 1 ? 6. / 28 : row == 2 ? 1. / 28 : 0;
+      if (net.grip[i] < 0)
+      {
+        EXPECT_NEAR(damage[i], expected, 1e-15) << x;
+      }
+    }
+}
+
+TEST(Fracture, toughness_of_lattices_tends_to_that_of_the_law)
+{
+  // of a straight cut with the optimisation-based rule, by m
+  const std::map<int, double> expected = {{2, .7854}, {3, .9158}, {4, .9445},
+                                          {5, .9855}, {6, .9890}, {8, .9973}};
+  for (const auto &[m, value] : expected)
+  {
+    const auto K = influence(m * h);
+    const auto recipe = meshfree::optimisation_based(physics::deviatoric_kernel(K, 1));
+    EXPECT_NEAR(lattice_toughness(recipe, K, h, geometry::Backend::fast), value, 5e-5) << m;
+  }
+}
+
+TEST(Fracture, goes_on_from_any_event_to_the_same_bits)
+{
+  const BondNetwork net = network(plate(40, 20, 20 * h, .25));
+  BreakingNetwork whole(net, scene::Stretch::finite);
+  const Growth expected = grow(whole, rules());
+  ASSERT_GT(whole.work().n_factorisations, 3u);
+  for (const std::size_t n :
+       {std::size_t{1}, expected.events.size() / 2, expected.events.size() - 2})
+  {
+    BreakingNetwork body(net, scene::Stretch::finite);
+    const auto begin = expected.events.begin();
+    const Growth growth = grow(body, rules(), {begin, begin + static_cast<std::ptrdiff_t>(n)});
+    EXPECT_EQ(growth.n_resumed, n);
+    ASSERT_EQ(growth.events.size(), expected.events.size());
+    for (std::size_t i = 0; i < growth.events.size(); ++i)
+    {
+      const Event &a = growth.events[i], &b = expected.events[i];
+      EXPECT_TRUE(a.bonds == b.bonds && a.load == b.load && a.critical == b.critical &&
+                  a.stored == b.stored && a.work == b.work && a.released == b.released)
+          << i;
+    }
+  }
+}
+
+TEST(Fracture, what_hangs_loose_carries_no_force)
+{
+  const BondNetwork net = network(plate(20, 16, 5 * h, .25));
+  // a free node, and one beside it
+  std::size_t node = 0;
+  while (net.grip[node] >= 0 || net.nodes[node][0] < 10 * h || net.nodes[node][1] < 0)
+    ++node;
+  std::vector<std::size_t> own, row;
+  for (std::size_t b = 0; b < net.bonds.size(); ++b)
+    if (net.bonds[b].from == node || net.bonds[b].to == node)
+      (std::abs(net.bonds[b].xi[1]) > 1e-12 ? own : row).push_back(b);
+  for (const bool is_at_once : {true, false})
+  {
+    BreakingNetwork body(net, scene::Stretch::linear);
+    (void)body.break_bonds(own); // its bonds lie on a line
+    EXPECT_LT(body.response().residual, 1e-12);
+    if (is_at_once)
+      (void)body.break_bonds(row);
+    else
+      for (const std::size_t b : row)
+        (void)body.break_bonds({b});
+    EXPECT_LT(body.response().residual, 1e-12);
+    EXPECT_NEAR(body.response().reaction, 2 * body.response().energy,
+                1e-12 * body.response().reaction);
+    EXPECT_FALSE(body.is_parted());
+  }
+}
+
+TEST(Fracture, a_piece_that_no_grip_holds_carries_no_force)
+{
+  const BondNetwork net = network(plate(20, 16, 5 * h, .25));
+  const auto is_in = [&](unsigned int node) {
+    return net.nodes[node].distance({10 * h, 0}) < 2.2 * h;
+  };
+  std::vector<std::size_t> around;
+  for (std::size_t b = 0; b < net.bonds.size(); ++b)
+    if (is_in(net.bonds[b].from) != is_in(net.bonds[b].to))
+      around.push_back(b);
+  BreakingNetwork body(net, scene::Stretch::linear);
+  (void)body.break_bonds(around);
+  EXPECT_LT(body.response().residual, 1e-12);
+  for (std::size_t b = 0; b < net.bonds.size(); ++b)
+    if (is_in(net.bonds[b].from) && is_in(net.bonds[b].to))
+    {
+      EXPECT_EQ(body.response().critical_loads[b], inf);
+    }
+}
+
+TEST(Fracture, ends_where_it_is_told_to)
+{
+  const auto end = [](const std::function<void(scene::FractureSection &)> &change)
+  {
+    scene::FractureSection section = rules();
+    change(section);
+    BreakingNetwork body(network(plate(20, 16, 10 * h, .25)), scene::Stretch::linear);
+    return grow(body, section);
+  };
+  const Growth whole = end([](auto &) {});
+  EXPECT_NE(whole.end, scene::GrowthEnd::loaded);
+  const Growth unloaded = end([](auto &section) { section.least_reaction = .5; });
+  EXPECT_EQ(unloaded.end, scene::GrowthEnd::unloaded);
+  EXPECT_LT(unloaded.events.size(), whole.events.size());
+  const double first = whole.events.front().load;
+  const Growth loaded = end([&](auto &section) { section.largest_load = .5 * first; });
+  EXPECT_EQ(loaded.end, scene::GrowthEnd::loaded);
+  EXPECT_TRUE(loaded.events.empty());
+}
+
+TEST(Fracture, load_steps_break_more_bonds_than_events)
+{
+  const auto n_broken = [](scene::BreakMode breaking, double step)
+  {
+    scene::FractureSection section = rules(breaking);
+    section.load_step = step;
+    BreakingNetwork body(network(plate(40, 20, 20 * h, .25)), scene::Stretch::linear);
+    return all_broken(grow(body, section)).size();
+  };
+  const std::size_t events = n_broken(scene::BreakMode::events, 0);
+  EXPECT_GT(n_broken(scene::BreakMode::batches, 0), events);
+  EXPECT_GT(n_broken(scene::BreakMode::steps, 1), 1.2 * static_cast<double>(events));
+}
+
+TEST(Fracture, refuses_bodies_that_cannot_be_pulled_apart)
+{
+  const auto refused = [](const std::function<void(BreakingSolid &)> &change)
+  {
+    BreakingSolid solid = plate(20, 16, 10 * h, .25);
+    change(solid);
+    EXPECT_THROW(BreakingNetwork(network(solid), scene::Stretch::linear), InputError);
+  };
+  refused([](auto &solid) { solid.toughness = [](const Point<2> &x) { return x[0] - .5; }; });
+  refused([](auto &solid) { solid.notch = {{{-1, .3 * h}, {-.5, .3 * h}}}; });
+  refused([](auto &solid) { solid.notch = {{{-h, .5 * h}, {10 * h, .5 * h}}}; });
+  refused([](auto &solid) { solid.notch = {{{-h, 0}, {30 * h, 0}}}; });
+  refused([](auto &solid) { solid.grips[1] = {{0, 5}, {1, 6}}; });
+  refused([](auto &solid)
+          { solid.material = [](const Point<2> &x) {
+              return physics::Lame{1 + x[0], 1};
+            }; });
+}

@@ -1,0 +1,161 @@
+// What is found out of a growth: its path, mirror images, moments, what is expected; checkpoints.
+
+#include "study/growth.h"
+
+#include "analysis/checkpoint.h"
+#include "base/error.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace
+{
+  using namespace plumbline;
+  using analysis::Event;
+  using study::GrowthModel;
+  using study::GrowthResults;
+
+  /// Rows at y = -1.5, -.5, .5, 1.5 of so many columns, bonds between next neighbours along y; the
+  /// notch cuts those of the first three columns.
+  GrowthModel comb(unsigned int n_columns)
+  {
+    GrowthModel model;
+    model.h = 1;
+    for (int j = 0; j < 4; ++j)
+      for (unsigned int i = 0; i < n_columns; ++i)
+        model.nodes.push_back({i + .5, j - 1.5});
+    for (unsigned int j = 0; j < 3; ++j)
+      for (unsigned int i = 0; i < n_columns; ++i)
+        (j == 1 && i < 3 ? model.cut : model.bonds)
+            .push_back({j * n_columns + i, (j + 1) * n_columns + i});
+    model.notch_tip = {3, 0};
+    model.damage = [n = model.nodes.size()](const std::vector<std::size_t> &broken)
+    { return std::vector<double>(n, static_cast<double>(broken.size())); };
+    return model;
+  }
+
+  /// The bond of a column between two rows.
+  std::size_t bond(const GrowthModel &model, double x, double y)
+  {
+    for (std::size_t b = 0; b < model.bonds.size(); ++b)
+    {
+      const auto middle = model.nodes[model.bonds[b][0]] +
+                          .5 * (model.nodes[model.bonds[b][1]] - model.nodes[model.bonds[b][0]]);
+      if (middle.distance({x, y}) < 1e-9)
+        return b;
+    }
+    throw InputError("no such bond");
+  }
+
+  Event event(const std::vector<std::size_t> &bonds, double load = 1)
+  {
+    Event result;
+    result.bonds = bonds;
+    result.critical = result.load = load;
+    return result;
+  }
+} // namespace
+
+TEST(Growth, a_path_hangs_together_with_the_notch)
+{
+  const GrowthModel model = comb(8);
+  // one that is joined later, one apart, and one on the notch's line
+  const std::vector<Event> events = {event({bond(model, 4.5, 0)}), event({bond(model, 7.5, 1)}),
+                                     event({bond(model, 3.5, 0)})};
+  const study::CrackPath path = find_path(model, events);
+  ASSERT_EQ(path.tips.size(), 3u);
+  EXPECT_LT(path.tips[0].distance({3, 0}), 1e-12);
+  EXPECT_LT(path.tips[1].distance({3, 0}), 1e-12);
+  EXPECT_LT(path.tips[2].distance({5, 0}), 1e-12);
+  EXPECT_EQ(path.length, 2);
+  EXPECT_EQ(path.n_elsewhere, 1u);
+  EXPECT_EQ(path.sides[2].event, 2u);
+}
+
+TEST(Growth, mirror_images_are_paired)
+{
+  const GrowthModel model = comb(8);
+  EXPECT_EQ(n_unpaired(model, {bond(model, 4.5, 0)}, 0), 0u);
+  EXPECT_EQ(n_unpaired(model, {bond(model, 4.5, 1), bond(model, 4.5, -1)}, 0), 0u);
+  EXPECT_EQ(n_unpaired(model, {bond(model, 4.5, 1), bond(model, 5.5, -1)}, 0), 2u);
+}
+
+TEST(Growth, moments_are_even_parts_of_what_breaks)
+{
+  const GrowthModel model = comb(8);
+  std::vector<Event> events;
+  for (std::size_t b = 0; b < 10; ++b)
+    events.push_back(event({b}));
+  const auto moments = growth_moments(model, events);
+  ASSERT_EQ(moments.size(), study::n_growth_moments);
+  for (std::size_t i = 0; i < moments.size(); ++i)
+  {
+    EXPECT_EQ(moments[i].n_events, 2 * i);
+    EXPECT_EQ(moments[i].damage.front(), 2. * static_cast<double>(i));
+  }
+  EXPECT_EQ(growth_moments(model, {}).size(), 1u);
+}
+
+TEST(Growth, expectations_and_the_audit_are_held_against_it)
+{
+  GrowthResults results;
+  results.growth.end = scene::GrowthEnd::parted;
+  results.growth.events = {event({1, 2}, 2), event({3}, 3)};
+  for (Event &one : results.growth.events)
+  {
+    one.work = 2;
+    one.stored = one.in_bonds = 1;
+    one.reaction_before = 5 - one.load;
+  }
+  scene::ExpectedSection expected;
+  EXPECT_TRUE(growth_faults(results, expected).empty());
+  expected.growth = {{"broken bonds", 3}, {"events", 2}, {"peak load", 2}, {"peak reaction", 3}};
+  expected.growth_end = scene::GrowthEnd::parted;
+  EXPECT_TRUE(growth_faults(results, expected).empty());
+  expected.growth["peak load"] = 2.1;
+  expected.growth_end = scene::GrowthEnd::loaded;
+  EXPECT_EQ(growth_faults(results, expected).size(), 2u);
+  results.growth.events[1].released = 1e-9; // which nobody did
+  EXPECT_EQ(growth_faults(results, expected).size(), 3u);
+}
+
+TEST(Growth, a_checkpoint_that_is_not_its_own_is_refused)
+{
+  class Body : public method::BreakingBody
+  {
+  public:
+    Body() { response_.critical_loads.assign(4, std::numeric_limits<double>::infinity()); }
+    std::size_t n_bonds() const override { return 4; }
+    const Response &response() const override { return response_; }
+    Release break_bonds(const std::vector<std::size_t> &) override { return {}; }
+    void restart(const std::vector<std::size_t> &) override {}
+    bool is_parted() const override { return false; }
+    const Work &work() const override { return work_; }
+
+  private:
+    Response response_;
+    Work work_;
+  };
+  Body body;
+  GrowthModel model;
+  model.body = &body;
+  const auto file = std::filesystem::temp_directory_path() / "plumbline_growth.h5";
+  const study::GrowthPlan plan{{}, "body", file};
+  const auto grown_from = [&](const std::string &subject, const std::vector<double> &records)
+  {
+    analysis::write_checkpoint(file.string(), {subject, {}, records});
+    return run_growth(model, plan).n_resumed;
+  };
+  const std::vector<double> one = {1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 2, 3, 1};
+  EXPECT_EQ(grown_from("body", one), 1u);
+  EXPECT_EQ(grown_from("another body", one), 0u);
+  for (const std::vector<double> &wrong : std::vector<std::vector<double>>{
+           {1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 2, 3},    // too short
+           {1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 2, 3, 4}, // no such bond
+           {1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 2, 3, 3}, // one that broke already
+           {1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0},       // no bond
+           {1, 1, 1, 1, 1, 1, 0, 0, 0, 0, -1, 3}})
+    EXPECT_THROW(grown_from("body", wrong), InputError);
+  std::filesystem::remove(file);
+}
