@@ -42,7 +42,7 @@ namespace plumbline::app
     }
 
     StabilityRow measure_level(const method::Method &method, const scene::Problem &problem,
-                               const std::string &series, const scene::Level &level)
+                               const std::string &series, const scene::Level &level, double density)
     {
       StabilityRow row{method.name(), method.side(), series, level.h, level.horizon, {}, {}, {}};
       try
@@ -56,8 +56,7 @@ namespace plumbline::app
         row.stability = analysis::measure(matrix);
         row.stability.diagnostics = discretisation->diagnostics();
         row.consistency = analysis::check_consistency(matrix, problem);
-        row.steps =
-            study::critical_steps(*discretisation, problem, row.stability, scene.time.density);
+        row.steps = study::critical_steps(*discretisation, problem, row.stability, density);
       }
       catch (const NumericalError &error)
       {
@@ -125,7 +124,8 @@ namespace plumbline::app
                      const scene::Problem problem = scene::make_problem(scene, 0, level);
                      for (std::size_t i = 0; i < methods.size(); ++i)
                      {
-                       rows[i].push_back(measure_level(*methods[i], problem, series.name, level));
+                       rows[i].push_back(measure_level(*methods[i], problem, series.name, level,
+                                                       scene.time.density));
                        if (is_finest)
                          write_modes(rows[i].back(), folder / "stability");
                      }

@@ -97,7 +97,7 @@ TEST(StrainGrowth, expected_is_checked_for_every_direction)
     {
       growths[d].samples.resize(1);
       growths[d].samples[0].symbol = 2;
-      growths[d].methods = {{"FA", "meshfree", {2}, {d == 0 ? 2.02 : 2.2}, ""}};
+      growths[d].methods = {{"FA", Side::meshfree, {2}, {d == 0 ? 2.02 : 2.2}, ""}};
     }
     return check_growth(scene, growths).at(0).holds;
   };
