@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -23,6 +24,29 @@ namespace plumbline::physics
         if (text[i] == '=' && !is_one_of(i + 1, "=") && !(i > 0 && is_one_of(i - 1, "=<>!")))
           return true;
       return false;
+    }
+
+    /// Σ_{k=0}^{n} 2^(-γk) cos(2π 2^k x + 1.3 k²), averaged over a width about x: of Hölder
+    /// exponent γ up to waves of 2^-n. Not a number for γ <= 0 or an n that is none of 0 ... 30.
+    double weierstrass_mean(double x, double gamma, double n, double width)
+    {
+      constexpr double most_terms = 30;
+      if (!(gamma > 0) || !(n >= 0 && n <= most_terms) || n != std::floor(n))
+        return std::numeric_limits<double>::quiet_NaN();
+      double sum = 0, size = 1, wave = 2 * M_PI;
+      for (int k = 0; k <= static_cast<int>(n); ++k)
+      {
+        const double half = .5 * wave * width, mean = half == 0 ? 1 : std::sin(half) / half;
+        sum += size * mean * std::cos(wave * x + 1.3 * k * k);
+        size *= std::exp2(-gamma);
+        wave *= 2;
+      }
+      return sum;
+    }
+
+    double weierstrass(double x, double gamma, double n)
+    {
+      return weierstrass_mean(x, gamma, n, 0);
     }
 
     /// What muParser does not understand, in our words.
@@ -99,6 +123,8 @@ namespace plumbline::physics
         parser.DefineVar("x", &parsers_->x);
         parser.DefineVar("y", &parsers_->y);
         parser.DefineConst("pi", M_PI);
+        parser.DefineFun("weierstrass", weierstrass);
+        parser.DefineFun("weierstrass_mean", weierstrass_mean);
         for (const auto &[name, value] : constants_)
           parser.DefineConst(name, value);
         parser.SetExpr(part);

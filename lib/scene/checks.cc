@@ -135,10 +135,15 @@ namespace plumbline::scene
         check("Problem/constraint", *problem.constraint);
       if (problem.local_solution == LocalSolution::expression)
         check("Problem/local solution", problem.local_expression);
-      if (!scene.time.initial_displacement.empty())
-        check("Time/initial displacement", scene.time.initial_displacement);
-      if (!scene.time.initial_velocity.empty())
-        check("Time/initial velocity", scene.time.initial_velocity);
+      const auto check_start = [&](const std::string &key, const std::string &text)
+      {
+        auto constants = scene.constants(1);
+        constants["h"] = 1; // of the level
+        if (!text.empty())
+          check_components(key, text, scene.is_vector() ? 2 : 1, needed_by, constants);
+      };
+      check_start("Time/initial displacement", scene.time.initial_displacement);
+      check_start("Time/initial velocity", scene.time.initial_velocity);
 
       const std::size_t n_solutions = problem.solutions.size(), n_loads = problem.loads.size();
       if ((scene.time.is_dynamic() || scene.crack.is_there() || scene.fracture.is_there()) &&

@@ -13,9 +13,11 @@ namespace plumbline::study
     using analysis::Vector;
 
     scene::Field given(const std::string &key, const std::string &text, const scene::Scene &scene,
-                       double horizon)
+                       const scene::Problem &problem)
     {
-      const physics::Expression u(key, text, scene.constants(horizon));
+      auto constants = scene.constants(problem.horizon());
+      constants["h"] = problem.h; // for averages over cells
+      const physics::Expression u(key, text, constants);
       return {[u](const dealii::Point<2> &x, unsigned int c) { return u(x, c); }, {}};
     }
 
@@ -80,15 +82,14 @@ namespace plumbline::study
       data.exact = series("Problem/solution", [&](const scene::Problem &instant)
                           { return equation.state(*instant.solution); });
 
-    const double horizon = first.horizon();
     data.start.u = !time.initial_displacement.empty()
                        ? equation.state(given("Time/initial displacement",
-                                              time.initial_displacement, scene, horizon))
+                                              time.initial_displacement, scene, first))
                    : data.exact ? data.exact->at(0)
                                 : Vector(equation.size());
     data.start.v =
         !time.initial_velocity.empty()
-            ? equation.state(given("Time/initial velocity", time.initial_velocity, scene, horizon))
+            ? equation.state(given("Time/initial velocity", time.initial_velocity, scene, first))
         : data.exact && !is_steady ? data.exact->derivative().at(0)
                                    : Vector(equation.size());
     return data;

@@ -5,6 +5,8 @@
 #include "base/error.h"
 #include "meshfree/lattice/double_well_force.h"
 #include "meshfree/rules/rules.h"
+#include "physics/double_well_stability.h"
+#include "physics/expression.h"
 #include "reference/lattice/torus_force.h"
 
 #include <gtest/gtest.h>
@@ -248,4 +250,59 @@ TEST(DoubleWellDynamics, rules_on_one_axis_converge_at_their_rates)
   const double first = error(constant, "FA", 80), last = error(constant, "FA", 320);
   EXPECT_NEAR(std::log2(first / last) / 2, 1, .1);
   EXPECT_NEAR(std::log2(error(constant, "PA-AC", 80) / error(constant, "PA-AC", 320)) / 2, 2, .1);
+}
+
+namespace
+{
+  /// ‖u - u_h‖ in L2 at T = .5, ε = .1, of a small wave of Hölder exponent γ that starts from cell
+  /// averages; u_h is constant on cells, and u the closed sum of its waves.
+  /// @param frequencies  ω of waves of length 2^-k
+  double error_of_rough_data(const std::vector<PowerTerm> &influence, const std::string &rule,
+                             const Vector &frequencies, double gamma, int n)
+  {
+    constexpr int n_fine = 1 << 14; // four points on the shortest wave
+    const auto n_terms = static_cast<int>(frequencies.size()) - 1;
+    constexpr double amplitude = 1e-7, end = .5; // what is left of nonlinearity is its square
+    const double h = 1. / n;
+    const DoubleWell law = well(1, .1, influence);
+    const auto force = ring(law, n, rule);
+    State state{Vector(n), Vector(n), 0};
+    const physics::Expression start(
+        "u", "weierstrass_mean(x, gamma, " + std::to_string(n_terms) + ", h)",
+        {{"gamma", gamma}, {"h", h}});
+    for (int i = 0; i < n; ++i)
+      state.u[i] = amplitude * start({i * h, 0});
+    analysis::integrate(motion_of(force), scheme("velocity Verlet"), {end / 400}, end, state);
+    double sum = 0;
+    for (int i = 0; i < n_fine; ++i)
+    {
+      const double x = (i + .5) / n_fine;
+      double u = 0;
+      for (int k = 0; k <= n_terms; ++k)
+        u += std::exp2(-gamma * k) * std::cos(frequencies[k] * end) *
+             std::cos(2 * M_PI * std::exp2(k) * x + 1.3 * k * k);
+      const double difference = u - state.u[std::lround(x / h) % n] / amplitude;
+      sum += difference * difference / n_fine;
+    }
+    return std::sqrt(sum);
+  }
+} // namespace
+
+TEST(DoubleWellDynamics, rough_data_converge_at_their_hoelder_exponent)
+{
+  // Jha & Lipton 2018, doi:10.1137/17M1112236, theorem 3: h^γ. Where J does not vanish at the end,
+  // the last bond counts half: half its cell is in reach
+  for (const auto &[influence, rule] : {std::pair{decaying, "FA"}, std::pair{constant, "PA-AC"}})
+  {
+    Vector frequencies;
+    for (int k = 0; k <= 12; ++k)
+      frequencies.push_back(
+          std::sqrt(wave_symbol(well(1, .1, influence), {}, {2 * M_PI * std::exp2(k), 0}).xx));
+    for (const double gamma : {.25, .5, .75, 1.})
+    {
+      const auto error = [&, of = influence, by = std::string(rule)](int n)
+      { return error_of_rough_data(of, by, frequencies, gamma, n); };
+      EXPECT_NEAR(std::log2(error(160) / error(1280)) / 3, gamma, .1) << rule;
+    }
+  }
 }

@@ -201,6 +201,35 @@ TEST(Motions, of_double_wells_take_data_in_a_collar)
     EXPECT_LT(motion.imbalance, 1e-3);
 }
 
+TEST(Motions, that_are_taken_over_stand_for_their_own_step)
+{
+  // both steps are shown as 0.02
+  const auto scene = wave("scalar", "sin(2*x + y)",
+                          {{"Methods/names", "FA, IPA-AC"},
+                           {"Study/h", "0.2"},
+                           {"Time/initial displacement", "x"},
+                           {"Time/steps", "0.0200004, 0.02"}});
+  const Methods methods = choose_methods(scene, meshfree::methods());
+  const auto whole = run_motions(scene, methods, {});
+  ASSERT_EQ(whole.runs.size(), 4u);
+  ASSERT_EQ(whole.runs[0].steps, whole.runs[1].steps);
+  for (std::size_t n_done = 0; n_done <= 4; ++n_done)
+  {
+    DynamicResults earlier = whole;
+    earlier.runs.resize(n_done);
+    for (MotionRun &motion : earlier.runs)
+      motion.cost.solve_seconds = 77; // known again
+    const auto resumed = run_motions(scene, methods, {}, earlier);
+    ASSERT_EQ(resumed.runs.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      EXPECT_EQ(resumed.runs[i].step, whole.runs[i].step);
+      EXPECT_EQ(resumed.runs[i].errors, whole.runs[i].errors);
+      EXPECT_EQ(resumed.runs[i].cost.solve_seconds == 77, i < n_done);
+    }
+  }
+}
+
 TEST(Motions, refuse_steps_beyond_the_critical_one_with_its_number)
 {
   const auto expect_refused = [](const Settings &settings, const std::string &fragment)

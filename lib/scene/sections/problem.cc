@@ -11,7 +11,8 @@ namespace plumbline::scene
         "solution", "", any_text(), [this](const std::string &text) { solutions = to_cases(text); },
         "The exact nonlocal solution: a muParser expression in x, y and delta (the horizon), "
         "and t where the scene moves (Time/final time), components separated by ','; several cases "
-        "as 'name: expression; name: expression'. "
+        "as 'name: expression; name: expression'. weierstrass(x, gamma, n) is a sum of n + 1 waves "
+        "of Hoelder exponent gamma, weierstrass_mean(x, gamma, n, width) its average about x. "
         "Empty: not known.");
     keys.add(
         "load", manufactured, any_text(),

@@ -27,9 +27,10 @@ namespace plumbline::scene
     keys.add("density", density, any_number(), "rho > 0. [mass/length^2]");
     keys.add("damping", damping, any_number(), "eta >= 0. [1/time]");
     keys.add("initial displacement", initial_displacement,
-             "u at t = 0, expressions in x and y. Empty: of Problem/solution.");
+             "u at t = 0, expressions in x, y, delta and h (the mesh size). Empty: of "
+             "Problem/solution.");
     keys.add("initial velocity", initial_velocity,
-             "u' at t = 0, expressions in x and y. Empty: of Problem/solution, or 0.");
+             "u' at t = 0, expressions in x, y, delta and h. Empty: of Problem/solution, or 0.");
     keys.add("show blow-up", shows_blow_up, yes_or_no(),
              "Take steps of explicit schemes that are longer than the critical one, and show what "
              "becomes of it; else they are refused.");

@@ -1,0 +1,48 @@
+// Functions that expressions have besides muParser's own.
+
+#include "physics/expression.h"
+
+#include "base/error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace plumbline;
+using physics::Expression;
+
+TEST(Weierstrass, is_a_sum_of_waves_twice_as_short_each)
+{
+  const Expression u("u", "weierstrass(x, 0.5, 2)");
+  for (const double x : {0., .1, -.37, 2.3})
+    EXPECT_NEAR(u({x, 0}),
+                std::cos(2 * M_PI * x) + std::cos(4 * M_PI * x + 1.3) / std::sqrt(2) +
+                    std::cos(8 * M_PI * x + 5.2) / 2,
+                1e-13);
+}
+
+TEST(Weierstrass, means_are_those_over_the_width)
+{
+  const double width = .3;
+  const Expression u("u", "weierstrass(x, 0.25, 4)"),
+      mean("u", "weierstrass_mean(x, 0.25, 4, width)", {{"width", width}}),
+      of_point("u", "weierstrass_mean(x, 0.25, 4, 0)");
+  constexpr int n = 20000;
+  for (const double x : {0., .23})
+  {
+    double sum = 0;
+    for (int i = 0; i < n; ++i)
+      sum += u({x + width * ((i + .5) / n - .5), 0}) / n;
+    EXPECT_NEAR(mean({x, 0}), sum, 1e-6);
+    EXPECT_EQ(of_point({x, 0}), u({x, 0}));
+  }
+}
+
+TEST(Weierstrass, refuses_exponents_and_numbers_of_waves_that_are_none)
+{
+  for (const std::string text :
+       {"weierstrass(x, 0, 3)", "weierstrass(x, -1, 3)", "weierstrass(x, 1, 2.5)",
+        "weierstrass(x, 1, 31)", "weierstrass(x, 1, -1)"})
+    EXPECT_THROW((void)Expression("u", text)({.1, 0}), InputError) << text;
+  EXPECT_THROW(Expression("u", "weierstrass(x, 1)"), InputError);
+}
