@@ -5,9 +5,11 @@
 #include "base/memory.h"
 #include "base/number_text.h"
 #include "meshfree/fracture/breaking_network.h"
+#include "meshfree/fracture/strip.h"
 #include "physics/expression.h"
 #include "report/formats.h"
 #include "report/growth_page.h"
+#include "study/strip_growth.h"
 
 #include <cmath>
 #include <filesystem>
@@ -21,7 +23,8 @@ namespace plumbline::app
 
   namespace
   {
-    meshfree::BreakingSolid make_solid(const scene::Scene &scene, double horizon)
+    /// @param trapping  G is divided by it
+    meshfree::BreakingSolid make_solid(const scene::Scene &scene, double horizon, double trapping)
     {
       meshfree::BreakingSolid solid;
       solid.domain = scene.domain.boxes;
@@ -39,7 +42,8 @@ namespace plumbline::app
         return u;
       };
       solid.material = scene.material.lame();
-      solid.toughness = [toughness](const Point<2> &x) { return toughness(x); };
+      solid.toughness = [toughness, trapping](const Point<2> &x)
+      { return toughness(x) / trapping; };
       return solid;
     }
 
@@ -51,10 +55,12 @@ namespace plumbline::app
       for (const geometry::Box &box : scene.domain.boxes.include)
         n_nodes +=
             (box.upper[0] - box.lower[0]) * (box.upper[1] - box.lower[1]) / (level.h * level.h);
-      // bonds with their books, entries of the matrix while it is made, and of its factor, which
-      // grows with the logarithm of n (nested dissection)
+      // bonds with their books and entries of the matrix while it is made; the factor's grow with
+      // the logarithm of n (nested dissection), and are more with dilatations, of twice the reach
+      const physics::Lame lame = scene.material.lame()(scene.domain.cracks.front().back());
       const double n_bonds = .5 * M_PI * m * m * n_nodes,
-                   n_factor = 31 * 2 * n_nodes * m * std::log2(std::max(2., n_nodes)) / 10 * m;
+                   n_factor = (std::abs(lame.lambda - lame.mu) <= 1e-12 * lame.mu ? 6 : 18) * m *
+                              m * n_nodes * std::log2(std::max(2., n_nodes));
       base::require_memory(400 * n_bonds + 16 * n_factor,
                            "a body of " + base::to_text(n_nodes, 3) + " nodes",
                            "choose a larger h (Study/h)");
@@ -76,6 +82,28 @@ namespace plumbline::app
       return model;
     }
 
+    /// By what G is to be divided for a crack to go on at G in this lattice: the largest energy,
+    /// over G, that one needs in a strip whose height is eight horizons.
+    double find_trapping(const scene::Scene &scene, const meshfree::Recipe &recipe,
+                         const physics::Kernel<2> &influence, double h)
+    {
+      const int m = static_cast<int>(std::ceil(influence.horizon() / h - 1e-9)), height = 8 * m;
+      const physics::Lame lame = scene.material.lame()(scene.domain.cracks.front().back());
+      const auto make = [&](int n_crack)
+      {
+        const auto solid =
+            meshfree::make_strip({height, 5 * height, n_crack, h}, lame, influence.horizon());
+        return meshfree::BreakingNetwork(
+            make_bond_network(solid, recipe, influence, h, scene.geometry.backend),
+            scene::Stretch::linear);
+      };
+      const int n_crack = 2 * height; // as far from the left end, farther from the right one
+      meshfree::BreakingNetwork strip = make(n_crack);
+      const double W1 = (strip.response().energy - make(n_crack + 1).response().energy) / h;
+      const double tip = n_crack * h;
+      return measure_strip(make_model(strip, {tip, 0}), W1, tip + 2 * h, tip + 6 * h).peak;
+    }
+
     /// y in the middle of the body.
     double middle(const scene::Scene &scene)
     {
@@ -94,8 +122,12 @@ namespace plumbline::app
       const auto influence = physics::influence_function(scene.kernel.profile, level.horizon);
       const meshfree::Rule rule = find_rule(scene.methods.names.front());
       const meshfree::Recipe recipe = rule.recipe(physics::deviatoric_kernel(influence, 1));
-      meshfree::BreakingNetwork body(make_bond_network(make_solid(scene, level.horizon), recipe,
-                                                       influence, level.h, scene.geometry.backend),
+      const double trapping = scene.fracture.criterion == scene::Criterion::calibrated
+                                  ? find_trapping(scene, recipe, influence, level.h)
+                                  : 1;
+      meshfree::BreakingNetwork body(make_bond_network(make_solid(scene, level.horizon, trapping),
+                                                       recipe, influence, level.h,
+                                                       scene.geometry.backend),
                                      scene.fracture.stretch);
       report::write_file(folder / "grow.md", ""); // before the work: can it be written?
       const study::GrowthModel model = make_model(body, scene.domain.cracks.front().back());
@@ -115,6 +147,7 @@ namespace plumbline::app
       results.horizon = level.horizon;
       results.lattice_toughness =
           lattice_toughness(recipe, influence, level.h, scene.geometry.backend);
+      results.trapping = trapping;
       results.nodes = model.nodes;
       results.notch_tip = model.notch_tip;
       results.n_bonds = body.n_bonds();

@@ -14,7 +14,9 @@ target_link_options(plumbline_dealii INTERFACE -fuse-ld=gold)
 
 # Half of a compiler's time goes into these headers. Sources include what they use all the same:
 # cmake -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without
-file(WRITE ${PROJECT_BINARY_DIR}/precompiled.cc "")
+if(NOT EXISTS ${PROJECT_BINARY_DIR}/precompiled.cc) # touched, it would be compiled again, and all else
+  file(WRITE ${PROJECT_BINARY_DIR}/precompiled.cc "")
+endif()
 add_library(plumbline_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cc)
 target_link_libraries(plumbline_precompiled PRIVATE plumbline_dealii)
 target_precompile_headers(plumbline_precompiled PRIVATE

@@ -1,5 +1,5 @@
 # A scene that the command must refuse: with an exit code, saying why, and leaving nothing behind.
-# usage: cmake -DPLUMBLINE=... -DSCENE=... -DOUTPUT=... -P refused.cmake
+# usage: cmake -DPLUMBLINE=... -DCOMMAND=run -DSCENE=... -DOUTPUT=... -P refused.cmake
 # The scene has a line '# Refused: CODE, TEXT', the TEXT being part of what is said.
 file(STRINGS ${SCENE} refused REGEX "^# Refused: " LIMIT_COUNT 1)
 if(NOT refused MATCHES "^# Refused: ([0-9]+), (.+)$")
@@ -9,7 +9,7 @@ set(code ${CMAKE_MATCH_1})
 set(text ${CMAKE_MATCH_2})
 
 file(REMOVE_RECURSE ${OUTPUT})
-execute_process(COMMAND ${PLUMBLINE} run ${SCENE} --quiet -o ${OUTPUT}
+execute_process(COMMAND ${PLUMBLINE} ${COMMAND} ${SCENE} --quiet -o ${OUTPUT}
                 RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE said)
 if(NOT result EQUAL code)
   message(FATAL_ERROR "exit code ${result} instead of ${code}: ${said}")

@@ -145,8 +145,12 @@ namespace plumbline::algebra
     Vector known(r);
     for (Eigen::Index i = 0; i < r; ++i)
       known[i] = f.dot(static_cast<std::size_t>(i), x0.data()) + o[static_cast<std::size_t>(i)];
-    const Eigen::PartialPivLU<Dense> small(Dense::Identity(r, r) + s * f.C.topLeftCorner(r, r));
-    if (!(small.rcond() > least_condition))
+    const Dense matrix = Dense::Identity(r, r) + s * f.C.topLeftCorner(r, r);
+    const Eigen::PartialPivLU<Dense> small(matrix);
+    // of what it was as well, which is I: a matrix of one entry is never far from singular by
+    // itself
+    const double norm = matrix.cwiseAbs().colwise().sum().maxCoeff();
+    if (!(small.rcond() * std::min(1., norm) > least_condition))
       return {};
     const Vector w = small.solve(s * known);
     return to_vector(view(x0) - f.Z.leftCols(r) * w);

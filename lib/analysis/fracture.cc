@@ -95,8 +95,8 @@ namespace plumbline::analysis
       if (body.is_parted())
         return GrowthEnd::parted;
       constexpr double nothing = 1e-9; // of the largest reaction: rounding, on a mechanism
-      if (!events.empty() && events.back().reaction <= std::max(nothing, rules.least_reaction) *
-                                                           largest_reaction(events))
+      if (!events.empty() && events.back().reaction <=
+                                 std::max(nothing, rules.least_reaction) * largest_reaction(events))
         return GrowthEnd::unloaded;
       return GrowthEnd::unknown;
     }
@@ -140,8 +140,8 @@ namespace plumbline::analysis
       carry_out(body, before, event);
       growth.events.push_back(std::move(event));
       growth.end = end_of(body, rules, growth.events);
-      if (observe)
-        observe(growth);
+      if (observe && !observe(growth))
+        break;
     }
     growth.last_load = growth.events.empty() ? 0 : growth.events.back().load;
     if (growth.end == GrowthEnd::loaded)

@@ -38,8 +38,8 @@ namespace plumbline::analysis
     std::size_t n_resumed = 0;  ///< events that were there already
   };
 
-  /// Called after each event.
-  using EventObserver = std::function<void(const Growth &)>;
+  /// Called after each event; false: it is enough.
+  using EventObserver = std::function<bool(const Growth &)>;
 
   /// Raise the load, and let bonds break as they reach their limits: one after the other with their
   /// ties (events), those together that are over-stretched (batches), or at load steps. Between two

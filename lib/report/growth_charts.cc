@@ -34,7 +34,6 @@ namespace plumbline::report
       return {label, style_of(style, false), 1.8, std::move(points), interval};
     }
 
-    /// Of what is stored, the rest of the work; straight between events.
     DataChart load_chart(const GrowthResults &results)
     {
       DataChart result =
@@ -58,29 +57,33 @@ namespace plumbline::report
       }
       Line begins = line("where events begin", 1, std::move(critical));
       begins.style = style_of(1, true);
-      result.plot.lines = {line("load that never falls", 0, std::move(path)), begins};
+      begins.width = 1;
+      result.plot.lines = {begins, line("load that never falls", 0, std::move(path))};
       return result;
     }
 
     DataChart energy_chart(const GrowthResults &results)
     {
       DataChart result = chart(
-          "energies", "Where the work goes", "load", "energy [force]",
+          "energies", "Where the work goes", "broken bonds", "energy [force]",
           "What grips do is stored, or was in bonds when they reached their limit, or is released "
           "where growth is unstable: the largest difference, over the work, is " +
               rounded(results.largest_imbalance()) + ".");
-      std::vector<Vertex> work = {{0, 0}}, stored = {{0, 0}}, bonds = {{0, 0}}, released = {{0, 0}};
-      result.data.columns = {"event", "load", "work", "stored", "in bonds", "released"};
-      std::size_t i = 0;
+      std::vector<Vertex> work, stored, bonds, released;
+      result.data.columns = {"event",  "load",     "broken bonds", "work",
+                             "stored", "in bonds", "released"};
+      std::size_t i = 0, n = 0;
       for (const Event &e : results.growth.events)
       {
-        work.push_back({e.load, e.work});
-        stored.push_back({e.load, e.stored});
-        bonds.push_back({e.load, e.in_bonds});
-        released.push_back({e.load, e.released});
-        result.data.rows.push_back({count_cell(i++), number_cell(e.load), number_cell(e.work),
-                                    number_cell(e.stored), number_cell(e.in_bonds),
-                                    number_cell(e.released)});
+        n += e.bonds.size();
+        const auto x = static_cast<double>(n);
+        work.push_back({x, e.work});
+        stored.push_back({x, e.stored});
+        bonds.push_back({x, e.in_bonds});
+        released.push_back({x, e.released});
+        result.data.rows.push_back({count_cell(i++), number_cell(e.load), count_cell(n),
+                                    number_cell(e.work), number_cell(e.stored),
+                                    number_cell(e.in_bonds), number_cell(e.released)});
       }
       result.plot.lines = {line("work", 0, std::move(work)), line("stored", 1, std::move(stored)),
                            line("in broken bonds", 2, std::move(bonds)),
@@ -91,19 +94,22 @@ namespace plumbline::report
     DataChart tip_chart(const GrowthResults &results)
     {
       DataChart result =
-          chart("tip", "How far the crack has come", "load", "tip's way from the notch [length]",
+          chart("tip", "What load the crack needs", "tip's way from the notch [length]",
+                "load at which an event begins",
                 "The crack is where next neighbours have parted; its tip the end of these sides "
-                "that is farthest from the notch's tip.");
-      std::vector<Vertex> points = {{0, 0}};
-      result.data.columns = {"event", "load", "tip x", "tip y", "way"};
+                "that is farthest from the notch's tip. From column to column the lattice traps "
+                "it, and lets it go at a lower load.");
+      std::vector<Vertex> points;
+      result.data.columns = {"event", "critical load", "load", "tip x", "tip y", "way"};
+      double way = 0;
       for (std::size_t i = 0; i < results.growth.events.size(); ++i)
       {
+        const Event &e = results.growth.events[i];
+        points.push_back({way, e.critical});
         const dealii::Point<2> &tip = results.path.tips[i];
-        const double way = tip.distance(results.notch_tip), load = results.growth.events[i].load;
-        points.push_back({load, points.back().y});
-        points.push_back({load, way});
-        result.data.rows.push_back({count_cell(i), number_cell(load), number_cell(tip[0]),
-                                    number_cell(tip[1]), number_cell(way)});
+        way = tip.distance(results.notch_tip);
+        result.data.rows.push_back({count_cell(i), number_cell(e.critical), number_cell(e.load),
+                                    number_cell(tip[0]), number_cell(tip[1]), number_cell(way)});
       }
       result.plot.lines = {line("", 0, std::move(points))};
       return result;

@@ -39,6 +39,9 @@ namespace plumbline::report
       add("energy / path", r.energy_per_length(), "the same with what was released");
       add("G_h / G", r.lattice_toughness,
           "all bonds across a straight line of the lattice at their limits");
+      if (r.rules.criterion == scene::Criterion::calibrated)
+        add("G_peak / G", r.trapping,
+            "at which a crack goes on in a strip of this lattice; G was divided by it");
       add("unpaired", static_cast<double>(r.n_unpaired),
           "broken bonds whose mirror image about the middle is whole");
       add("imbalance", r.largest_imbalance(), "of energy, over the work");
@@ -105,7 +108,12 @@ namespace plumbline::report
              "straight cut of the continuum hold G (Fan et al. 2022, eq. (2.25); exact where λ = "
              "μ). On this lattice they hold " +
              rounded(r.lattice_toughness) +
-             " G, and a crack needs more than that to pass from one row of nodes to the next.";
+             " G, and a crack needs more than that to pass from one column of nodes to the next" +
+             (r.rules.criterion == scene::Criterion::calibrated
+                  ? ": " + rounded(r.trapping) +
+                        " G, as a strip shows, by the root of which s0 was lowered (Fracture/"
+                        "criterion = calibrated)."
+                  : ".");
     }
 
     std::string page_of(const GrowthResults &r, const std::vector<std::string> &faults,
@@ -180,7 +188,9 @@ namespace plumbline::report
               {"horizon", r.horizon},
               {"breaking", base::word(r.rules.breaking)},
               {"stretch", base::word(r.rules.stretch)},
+              {"criterion", base::word(r.rules.criterion)},
               {"lattice_toughness", r.lattice_toughness},
+              {"trapping", r.trapping},
               {"n_unknowns", r.n_unknowns},
               {"n_bonds", r.n_bonds},
               {"n_broken", r.n_broken()},

@@ -20,6 +20,13 @@ namespace plumbline::scene
     steps    ///< the same at given loads, however far beyond their limit they are
   };
 
+  /// Which stretch breaks a bond.
+  enum class Criterion
+  {
+    toughness, ///< that of G in the continuum
+    calibrated ///< less, so that a crack in this lattice goes on at G, as one in a strip shows
+  };
+
   enum class Stretch
   {
     linear, ///< ξ·Δu / |ξ|²
@@ -46,6 +53,7 @@ namespace plumbline::scene
   struct FractureSection
   {
     std::string toughness; ///< G, an expression in x and y; empty: nothing breaks [force/length]
+    Criterion criterion = Criterion::toughness;
     BreakMode breaking = BreakMode::events;
     Stretch stretch = Stretch::linear;
     double load_step = 0; ///< of steps
@@ -65,6 +73,8 @@ namespace plumbline::scene
 
 namespace plumbline::base
 {
+  template <>
+  inline constexpr auto words<scene::Criterion> = std::array{"toughness", "calibrated"};
   template <>
   inline constexpr auto words<scene::BreakMode> = std::array{"events", "batches", "steps"};
   template <>

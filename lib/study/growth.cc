@@ -78,6 +78,7 @@ namespace plumbline::study
         analysis::write_checkpoint(
             plan.checkpoint.string(),
             {plan.subject, {{}, {}, growth.events.back().load}, to_records(growth.events)});
+      return true;
     };
     return analysis::grow(*model.body, plan.rules, std::move(earlier), save);
   }

@@ -79,6 +79,7 @@ namespace plumbline::study
     scene::FractureSection rules;
     double h = 0, horizon = 0;
     double lattice_toughness = 0; ///< energy of all bonds across a straight line, over G
+    double trapping = 1;          ///< G was divided by this, see scene::Criterion
     std::vector<dealii::Point<2>> nodes;
     dealii::Point<2> notch_tip;
     std::size_t n_bonds = 0, n_unknowns = 0;

@@ -26,6 +26,9 @@ namespace plumbline::meshfree
     BreakingNetwork(BondNetwork network, scene::Stretch stretch,
                     Refactor refactor = Refactor::when_cheaper);
 
+    BreakingNetwork(const BreakingNetwork &) = delete; // its equations point to its network
+    BreakingNetwork &operator=(const BreakingNetwork &) = delete;
+
     std::size_t n_bonds() const override { return network_.bonds.size(); }
     const Response &response() const override { return response_; }
     Release break_bonds(const std::vector<std::size_t> &bonds) override;

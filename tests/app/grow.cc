@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <thread>
 
@@ -52,6 +53,21 @@ TEST(GrowCommand, tells_what_breaks_and_draws_it)
                                  "sides.csv", "load.csv"})
     EXPECT_TRUE(fs::exists(folder / "grow" / name)) << name;
   EXPECT_FALSE(fs::exists(folder / "checkpoint.h5"));
+  fs::remove_all(folder);
+}
+
+TEST(GrowCommand, calibrates_the_critical_stretch)
+{
+  const fs::path folder = temporary("grow");
+  const std::string command = "grow " + plate() + " --quiet -o " + folder.string();
+  ASSERT_EQ(run(command).exit_code, 0);
+  const double load = results(folder)["events"][0]["load"];
+  ASSERT_EQ(run(command + " --set Fracture/criterion=calibrated").exit_code, 0);
+  const auto json = results(folder);
+  const double trapping = json["trapping"];
+  EXPECT_NEAR(trapping, 1.3165, 5e-4);
+  EXPECT_NEAR(json["events"][0]["load"].get<double>() / load, 1 / std::sqrt(trapping), 1e-9);
+  expect_found(read(folder / "grow.html"), "criterion = calibrated");
   fs::remove_all(folder);
 }
 
@@ -131,6 +147,7 @@ TEST(GrowCommand, refuses_what_cannot_grow)
   expect_refused(set("Kernel/type=constant"), "Kernel/type = 1/r");
   expect_refused(set("Study/h=0.05, 0.025"), "one Study/h");
   expect_refused(set("Study/h=0.03"), "mesh size h = 0.03 does not divide");
+  expect_refused(set("Study/h=0.0005"), "a body of 8e+06 nodes");
   expect_refused(set("Fracture/breaking=steps"), "Fracture/load step = 0 must be positive");
   expect_refused(set("Fracture/breaking=often"), "Fracture/breaking");
   expect_refused(set("Fracture/largest load=0"), "Fracture/largest load = 0 must be positive");

@@ -14,6 +14,11 @@ namespace plumbline::scene
              "between two materials has the mean of both. It says at which stretch a bond breaks, "
              "s0^2 = pi G / (3 delta (lambda + mu)) for the influence function 1/r. 'plumbline "
              "grow' runs the scene. Empty: nothing breaks. [force/length]");
+    keys.add("criterion", criterion,
+             "toughness: the stretch s0 of G in the continuum. On a lattice a crack is trapped "
+             "between rows, and needs more (1.32 G for OPT and m = 3). calibrated: s0 over the "
+             "square root of that, found by one growth in a strip of eight horizons with the same "
+             "rule and m, so that a crack goes on at G.");
     keys.add("breaking", breaking,
              "events: the bond that is next and its ties, at its exact load; there is no load "
              "step. batches: all that are over-stretched at the load of an event. steps: the same "
