@@ -171,8 +171,8 @@ namespace plumbline::report
     study::StrainGrowth growth{"delta = 0.2", "shear", .05, .2, {1, 2.5}, 1.1, {}, {}};
     for (int i = 1; i <= 3; ++i)
       growth.samples.push_back({1. * i, 2. * i, {3, 4}, i > 1 ? 5. * i : 0, i > 2 ? 7. : 0});
-    growth.methods = {{"FA", "meshfree", {0, 10, 15}, {0, 10.5, 12}, ""},
-                      {"none", "meshfree", {}, {}, "no <weights>"}};
+    growth.methods = {{"FA", study::Side::meshfree, {0, 10, 15}, {0, 10.5, 12}, ""},
+                      {"none", study::Side::meshfree, {}, {}, "no <weights>"}};
     const auto charts = strain_charts({growth});
     ASSERT_EQ(charts.size(), 1u);
     EXPECT_EQ(charts[0].name, "growth_shear_delta-0.2");
