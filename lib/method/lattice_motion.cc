@@ -4,6 +4,7 @@
 #include "method/lattice_discretisation.h"
 #include "method/linear_motion.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -16,17 +17,40 @@ namespace plumbline::method
       return stencil.n_entries() == stencil.n_blocks();
     }
 
-    MassRoot mass_root(const algebra::Stencil &mass, const geometry::NodeSet &nodes)
+    /// @param positions  of the unknowns; those of a matrix are numbered node by node
+    MassRoot mass_root(const algebra::Stencil &mass, const geometry::NodeSet &nodes,
+                       const std::vector<std::size_t> &positions)
     {
       if (!is_diagonal(mass))
         return MassRoot(algebra::assemble(mass, nodes));
       std::vector<double> masses;
-      for (const std::size_t position : algebra::free_positions(nodes))
+      for (const std::size_t position : positions)
       {
         const auto s = static_cast<unsigned int>(position / nodes.n_positions());
         masses.push_back(mass(s, s, 0, 0));
       }
       return MassRoot(masses);
+    }
+
+    /// The stencil on unknowns that stand at some positions, ascending ones without a detour.
+    algebra::Action action_at(std::unique_ptr<algebra::Operator> matrix, std::size_t n,
+                              const std::vector<std::size_t> &positions)
+    {
+      if (positions.size() != n || !std::is_sorted(positions.begin(), positions.end()))
+        return algebra::restrict(std::move(matrix), n, positions);
+      struct Work
+      {
+        std::unique_ptr<algebra::Operator> matrix;
+        algebra::Vector in, out; ///< made once: memory that is given back costs more than sums
+      };
+      const auto work =
+          std::make_shared<Work>(Work{std::move(matrix), algebra::Vector(n), algebra::Vector(n)});
+      return [work](const std::vector<double> &x, std::vector<double> &y)
+      {
+        std::copy(x.begin(), x.end(), work->in.begin());
+        work->matrix->vmult(work->out, work->in);
+        std::copy(work->out.begin(), work->out.end(), y.begin());
+      };
     }
 
     /// What the collar adds to a stencil's action.
@@ -40,7 +64,17 @@ namespace plumbline::method
   std::unique_ptr<EquationOfMotion> move_on_lattice(LatticeParts given)
   {
     const auto parts = std::make_shared<const LatticeParts>(std::move(given));
-    const auto positions = algebra::free_positions(parts->nodes);
+    auto positions = algebra::free_positions(parts->nodes);
+    std::vector<std::size_t> place;
+    if (is_diagonal(parts->mass)) // component by component, as sums go
+    {
+      std::vector<std::size_t> sorted = positions;
+      std::sort(sorted.begin(), sorted.end());
+      for (const std::size_t position : positions)
+        place.push_back(static_cast<std::size_t>(
+            std::lower_bound(sorted.begin(), sorted.end(), position) - sorted.begin()));
+      positions = sorted;
+    }
     const auto unknowns = [positions](const algebra::Vector &over_nodes)
     {
       std::vector<double> u;
@@ -66,9 +100,10 @@ namespace plumbline::method
     return move_linear(
         {free_points(parts->lattice, parts->nodes),
          parts->nodes.n_components,
-         mass_root(parts->mass, parts->nodes),
-         algebra::restrict(algebra::make_operator(parts->stiffness, parts->nodes, parts->backend),
-                           parts->nodes.size(), positions),
+         place,
+         mass_root(parts->mass, parts->nodes, positions),
+         action_at(algebra::make_operator(parts->stiffness, parts->nodes, parts->backend),
+                   parts->nodes.size(), positions),
          {},
          load,
          inertia,

@@ -31,10 +31,11 @@ namespace plumbline::method
 
       State state(const scene::Field &field) const override
       {
-        State u;
+        State u(n_);
+        std::size_t k = 0;
         for (const auto &node : parts_.nodes)
-          for (unsigned int c = 0; c < parts_.n_components; ++c)
-            u.push_back(field.value(node, c));
+          for (unsigned int c = 0; c < parts_.n_components; ++c, ++k)
+            u[place(k)] = field.value(node, c);
         return parts_.mass.to_state(u);
       }
 
@@ -87,17 +88,28 @@ namespace plumbline::method
       const std::vector<dealii::Point<2>> &nodes() const override { return parts_.nodes; }
       std::vector<double> nodal(const State &u) const override
       {
-        return parts_.mass.to_unknowns(u);
+        const State unknowns = parts_.mass.to_unknowns(u);
+        if (parts_.place.empty())
+          return unknowns;
+        std::vector<double> values(n_);
+        for (std::size_t k = 0; k < n_; ++k)
+          values[k] = unknowns[place(k)];
+        return values;
       }
 
     private:
       /// S⁻¹ A S⁻ᵀ x
       void apply(const algebra::Action &action, const State &x, State &out) const
       {
+        out.resize(n_);
+        if (parts_.mass.is_one())
+          return action(x, out);
         State force(n_);
         action(parts_.mass.to_unknowns(x), force);
         out = parts_.mass.of_force(force);
       }
+
+      std::size_t place(std::size_t k) const { return parts_.place.empty() ? k : parts_.place[k]; }
 
       LinearParts parts_;
       std::size_t n_;

@@ -14,8 +14,9 @@ namespace plumbline::method
     using State = EquationOfMotion::State;
     using Driven = std::function<State(const scene::Problem &)>;
 
-    std::vector<dealii::Point<2>> nodes; ///< that are free; unknowns are numbered node by node
+    std::vector<dealii::Point<2>> nodes; ///< that are free
     unsigned int n_components = 1;
+    std::vector<std::size_t> place; ///< of values counted node by node; empty: unknowns are, too
     MassRoot mass;
     algebra::Action stiffness;       ///< A
     algebra::Action transposed = {}; ///< Aᵀ where A is not symmetric

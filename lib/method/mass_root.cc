@@ -4,6 +4,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -47,6 +48,7 @@ namespace plumbline::method
   {
     for (double &root : roots_)
       root = std::sqrt(root);
+    is_one_ = std::all_of(roots_.begin(), roots_.end(), [](double root) { return root == 1; });
   }
 
   MassRoot::MassRoot(const algebra::Rows &matrix) : factor_(std::make_unique<Factor>())

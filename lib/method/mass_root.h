@@ -26,10 +26,12 @@ namespace plumbline::method
     State to_state(const State &u) const;    ///< Sᵀ u
     State to_unknowns(const State &x) const; ///< S⁻ᵀ x
     State of_force(const State &f) const;    ///< S⁻¹ f
+    bool is_one() const { return is_one_; }  ///< states are unknowns
 
   private:
     struct Factor;
     std::vector<double> roots_;      ///< of masses
+    bool is_one_ = false;            ///< all of them
     std::unique_ptr<Factor> factor_; ///< of a matrix; empty: there are roots
   };
 } // namespace plumbline::method

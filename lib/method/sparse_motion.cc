@@ -84,8 +84,14 @@ namespace plumbline::method
       return values(load);
     };
     return move_linear(
-        {parts->nodes, parts->n_components, mass_root(*parts), action_of(parts->stiffness),
+        {parts->nodes,
+         parts->n_components,
+         {},
+         mass_root(*parts),
+         action_of(parts->stiffness),
          is_symmetric(*parts) ? algebra::Action() : action_of(algebra::transpose(parts->stiffness)),
-         load, inertia, 1});
+         load,
+         inertia,
+         1});
   }
 } // namespace plumbline::method

@@ -148,6 +148,7 @@ namespace plumbline::meshfree
         };
         return method::move_linear({shown.nodes,
                                     2,
+                                    {},
                                     method::MassRoot(std::move(masses)),
                                     shown.action,
                                     {},
