@@ -125,16 +125,6 @@ namespace plumbline::app
       return result;
     }
 
-    void refuse_what_is_not_checked(const scene::Scene &scene)
-    {
-      if (scene.domain.is_free_body)
-        throw InputError("Domain/boundary = free: weights are checked on domains with data in a "
-                         "collar; write Domain/boundary = constrained");
-      if (scene.has_dilatation())
-        throw InputError("Material/model = " + base::word(scene.material.model) +
-                         ": weights of bonds alone are checked; write Material/model = bond-based");
-    }
-
     /// A volume that is out of line, by what is expected of it: were it left as it is, the weights
     /// to that node would seem out of line as well, though they may be right.
     std::vector<double> mended(std::vector<double> volumes, const std::vector<Outlier> &outliers)
@@ -179,7 +169,7 @@ namespace plumbline::app
 
   Findings find(scene::Scene scene, const CheckOptions &options)
   {
-    refuse_what_is_not_checked(scene);
+    check_analysis(scene, scene::Analysis::check);
     Findings found;
     found.scene_name = scene.name;
     found.purpose = scene.purpose;

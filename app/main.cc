@@ -145,8 +145,8 @@ int main(int argc, char **argv)
       "report",
       "Rebuild tables, charts and page from the numbers of a run, also of one that was killed");
   report->add_option("DIR", folder, "Output folder of a run")->required();
-  auto *list = app.add_subcommand("list", "List methods, kernels or scenes");
-  list->add_option("WHAT", subject, "methods, kernels or scenes")->required();
+  auto *list = app.add_subcommand("list", "List methods, models, analyses, kernels or scenes");
+  list->add_option("WHAT", subject, "methods, models, analyses, kernels or scenes")->required();
   bool as_matrix = false;
   list->add_flag("--matrix", as_matrix, "Methods by what they can do, as a table");
   auto *make_template =

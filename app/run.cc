@@ -31,6 +31,8 @@ namespace plumbline::app
     enum class Listed
     {
       methods,
+      models,
+      analyses,
       kernels,
       scenes
     };
@@ -40,7 +42,8 @@ namespace plumbline::app
 namespace plumbline::base
 {
   template <>
-  inline constexpr auto words<app::Listed> = std::array{"methods", "kernels", "scenes"};
+  inline constexpr auto words<app::Listed> =
+      std::array{"methods", "models", "analyses", "kernels", "scenes"};
 } // namespace plumbline::base
 
 namespace plumbline::app
@@ -188,15 +191,15 @@ namespace plumbline::app
     if (!options.model.empty())
       overrides.push_back({"Solver/model", options.model});
     const scene::Scene scene = scene::read_scene(options.scene_file, overrides);
-    if (scene.crack.is_there())
-      throw InputError("scene '" + scene.name + "': Crack/notch is for 'plumbline crack', which " +
-                       "follows a crack; write that, or Crack/notch = 0");
     if (scene.fracture.is_there())
       throw InputError("scene '" + scene.name +
                        "': Fracture/toughness is for 'plumbline grow', which breaks bonds; write "
                        "that, or clear it");
     if (scene.time.is_dynamic())
+    {
+      check_analysis(scene, scene::Analysis::motion);
       return run_motions(options, scene);
+    }
     const method::Methods available = all_methods();
     const method::Methods methods = study::choose_methods(scene, available);
     study::check_memory(scene, methods, available, options.n_levels);
@@ -337,11 +340,17 @@ namespace plumbline::app
       std::cout << study::capability_table(all_methods());
     else if (listed == Listed::methods)
       list_methods();
+    else if (listed == Listed::models)
+      std::cout << scene::capability_table(subject, scene::models());
+    else if (listed == Listed::analyses)
+      std::cout << scene::capability_table(subject, scene::analyses());
     else if (listed == Listed::kernels)
       list_kernels();
     else if (listed == Listed::scenes)
       list_scenes();
     else
-      throw InputError("list: '" + subject + "' is not known; choose methods, kernels or scenes");
+      throw InputError("list: '" + subject +
+                       "' is not known; choose methods, models, analyses, kernels or "
+                       "scenes");
   }
 } // namespace plumbline::app

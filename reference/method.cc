@@ -36,8 +36,10 @@ namespace plumbline::reference
       method::Capabilities can() const override
       {
         using method::Capability;
-        method::Capabilities can = {Capability::free_boundary, Capability::heterogeneous,
-                                    Capability::nonlocal, Capability::dynamic};
+        method::Capabilities can = {Capability::meshes,     Capability::free_boundary,
+                                    Capability::floating,   Capability::heterogeneous,
+                                    Capability::dilatation, Capability::nonlocal,
+                                    Capability::dynamic};
         if (n_vertices_ == 3)
           can.insert(Capability::triangles);
         else
@@ -51,8 +53,8 @@ namespace plumbline::reference
         if (problem.body && !problem.is_floating &&
             std::all_of(problem.mesh->cells.begin(), problem.mesh->cells.end(),
                         [](const geometry::MeshCell &cell) { return cell.is_inside; }))
-          return "no cell of Domain/mesh has its centroid in Domain/fixed, so that nothing holds "
-                 "the body; give smaller "
+          return "no cell of Domain/mesh = " + problem.mesh_name +
+                 " has its centroid in Domain/fixed, so that nothing holds the body; give smaller "
                  "cells there, or take meshfree methods alone";
         if (problem.settings.solver.iteration == base::Iteration::cg && problem.dilatation &&
             !problem.dilatation->is_symmetric())
@@ -100,8 +102,10 @@ namespace plumbline::reference
       method::Capabilities can() const override
       {
         using method::Capability;
-        return {Capability::quadrilaterals, Capability::triangles, Capability::heterogeneous,
-                Capability::zero_dilatation, Capability::mixed_dilatation};
+        return {Capability::meshes,          Capability::quadrilaterals,
+                Capability::triangles,       Capability::heterogeneous,
+                Capability::dilatation,      Capability::zero_dilatation,
+                Capability::mixed_dilatation};
       }
       std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
                                                          const base::Team &) const override

@@ -174,7 +174,6 @@ namespace plumbline::scene
     {
       const auto needs = [](bool is_good, const std::string &what)
       { require(is_good, "Domain/boundary = free needs " + what); };
-      needs(scene.material.model == Model::variational, "Material/model = variational");
       needs(!scene.domain.mesh.is_lattice() ||
                 (scene.domain.boxes.include.size() == 1 && scene.domain.boxes.exclude.empty()),
             "one box (Domain/boxes) without holes where Domain/mesh = lattice; write squares or "
@@ -265,10 +264,6 @@ namespace plumbline::scene
               "Material/collar dilatation = zero needs a state-based solid with lambda != mu on "
               "scattered nodes with a collar; write from data, or Material/model = LPS with "
               "Domain/mesh = squares");
-      require(
-          !domain.is_damaged() || scene.material.model == Model::lps,
-          "Domain/cracks and Domain/outside need Material/model = LPS, whose free surfaces they "
-          "make; choose it, or clear them");
       require(!domain.is_damaged() || !domain.mesh.is_lattice(),
               "Domain/cracks or Domain/outside is given with Domain/mesh = lattice: " +
                   mesh_remedy);

@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "scene/capabilities.h"
 #include "scene/checks.h"
 #include "scene/values.h"
 
@@ -47,18 +48,16 @@ namespace plumbline::scene
       if (!is_good)
         throw InputError(given + what);
     };
+    check_analysis(scene, Analysis::crack);
     const DomainSection &domain = scene.domain;
     const ProblemSection &problem = scene.problem;
     const TimeSection &time = scene.time;
-    needs(scene.material.is_double_well(), "Material/model = double well");
     needs(scene.material.boundary_function == BoundaryFunction::one,
           "Material/boundary function = one: the strip's ends are free, its edges held");
     needs(time.is_dynamic(), "Time/final time > 0");
     needs(domain.boxes.include.size() == 1 && domain.boxes.exclude.empty(),
           "one box (Domain/boxes) without holes, the strip");
-    needs(!domain.is_free_body && !domain.is_periodic && !domain.collar && !domain.is_damaged(),
-          "Domain/boundary = constrained and Domain/collar = auto, without Domain/cracks and "
-          "outside: the notch is Crack/notch, and grips hold what is above and below the strip");
+    needs(!domain.collar, "Domain/collar = auto: grips hold what is above and below the strip");
     needs(problem.solutions.empty() && problem.loads.empty() && !problem.constraint &&
               time.initial_displacement.empty() && time.initial_velocity.empty(),
           "Problem/solution, load and constraint, Time/initial displacement and initial velocity "

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "physics/expression.h"
+#include "scene/capabilities.h"
 #include "scene/checks.h"
 #include "scene/values.h"
 
@@ -21,7 +22,6 @@ namespace plumbline::scene
       const DomainSection &domain = scene.domain;
       const auto needs = [](bool is_good, const std::string &what)
       { require(is_good, "Domain/boundary = periodic needs " + what); };
-      needs(scene.material.is_double_well(), "Material/model = double well");
       needs(domain.boxes.include.size() == 1 && domain.boxes.exclude.empty(),
             "one box (Domain/boxes) without holes");
       needs(!domain.collar, "Domain/collar = auto: there is none");
@@ -74,9 +74,6 @@ namespace plumbline::scene
       positive("beta", material.beta,
                "bonds soften at strains 1/sqrt(2 beta r), take for example 1");
       (void)make_double_well(scene, 1);
-      require(scene.domain.mesh.is_lattice(),
-              "Material/model = double well with Domain/mesh = " + scene.domain.mesh.name +
-                  ": it moves on lattices; write lattice");
       require(material.boundary_function == BoundaryFunction::one ||
                   scene.problem.solutions.empty() || !scene.problem.loads.empty(),
               "Problem/load = manufactured with Material/boundary function = smoothstep: its kinks "
@@ -133,13 +130,15 @@ namespace plumbline::scene
             torus + " is for motions; give Time/final time, or a Galerkin method");
     if (!time.is_dynamic())
       return;
-    const std::string moving = "Time/final time = " + short_number(time.final_time) + " needs ";
+    check_analysis(scene, Analysis::motion);
     require(!scene.solver.is_mixed,
-            moving + "Solver/dilatation = eliminated: a dilatation that is kept has no mass");
+            "Time/final time = " + short_number(time.final_time) +
+                " needs Solver/dilatation = eliminated: a dilatation that is kept has no mass");
     require(!scene.problem.solutions.empty() || !scene.problem.loads.empty() ||
                 !time.initial_displacement.empty() || !time.initial_velocity.empty(),
-            moving + "something that moves; give Problem/solution, Problem/load, Time/initial "
-                     "displacement or Time/initial velocity");
+            "Time/final time = " + short_number(time.final_time) +
+                " needs something that moves; give Problem/solution, Problem/load, Time/initial "
+                "displacement or Time/initial velocity");
     check_targets(scene);
   }
 } // namespace plumbline::scene

@@ -173,10 +173,12 @@ namespace plumbline::scene
     /// What does not follow from cells or fields.
     Problem without_data(const Scene &scene, const Level &level, const physics::Kernel<2> &kernel)
     {
+      const std::string &mesh = scene.domain.mesh.name;
       Problem problem{{},
                       {},
                       {},
                       {},
+                      mesh,
                       level.h,
                       kernel,
                       {},

@@ -54,7 +54,8 @@ namespace plumbline::scene
     std::shared_ptr<const geometry::NodeCells> cells; ///< of the nodes; empty on a lattice
     /// Of a body with a free boundary: the lattice of its nodes, which `cells` number by `source`.
     std::optional<geometry::NodeLattice> body;
-    double h = 0; ///< of the level [length]
+    std::string mesh_name; ///< as the scene has it, for messages
+    double h = 0;          ///< of the level [length]
     physics::Kernel<2> kernel;
     std::optional<physics::Coefficient> coefficient; ///< of the bonds; empty: homogeneous
     std::optional<physics::Dilatation> dilatation;   ///< empty: bonds are all

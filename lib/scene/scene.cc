@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/text_file.h"
 #include "physics/expression.h"
+#include "scene/capabilities.h"
 #include "scene/checks.h"
 #include "scene/keys.h"
 #include "scene/scene_file.h"
@@ -53,6 +54,7 @@ namespace plumbline::scene
       check_kernel_and_problem(scene);
       scene.methods.complete();
       scene.study.complete();
+      check_model(scene);
       check_levels(scene);
       check_norms(scene);
       check_mesh_and_nodes(scene);

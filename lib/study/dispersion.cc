@@ -190,20 +190,10 @@ namespace plumbline::study
       if (!is_good)
         throw InputError("scene '" + scene.name + "': " + what);
     };
-    const std::string alike = ", but waves are those of nodes that are all alike; ";
     needs(!scene.solver.is_full_model,
-          "Solver/model = full puts the nodes on a mesh" + alike + "write smallest");
-    needs(!scene.domain.is_free_body, "Domain/boundary = free" + alike + "write constrained");
-    needs(scene.domain.mesh.is_lattice(),
-          "Domain/mesh = " + scene.domain.mesh.name + alike + "write Domain/mesh = lattice");
-    needs(scene.domain.cracks.empty(), "Domain/cracks break bonds" + alike + "clear them");
-    needs(scene.domain.outside.empty(), "Domain/outside = '" + scene.domain.outside +
-                                            "' makes a free surface" + alike + "clear it");
-    needs(scene.kernel.coefficient.empty() && scene.kernel.materials.empty(),
-          "Kernel/coefficient or Kernel/materials vary in space" + alike + "clear them");
-    needs(scene.material.is_homogeneous, "Material/" + scene.material.keys[0] + " or " +
-                                             scene.material.keys[1] + " varies in space" + alike +
-                                             "give numbers");
+          "Solver/model = full puts the nodes on a mesh, but waves are those of nodes that are all "
+          "alike; write smallest");
+    check_analysis(scene, scene::Analysis::dispersion);
     const physics::LocalLimit limit = make_kernel(scene, 1).limit();
     needs(limit.diffusion > 0 || limit.mu > 0,
           "Kernel/coefficients and Kernel/constant make a local limit of " +

@@ -148,15 +148,7 @@ namespace plumbline::study
 
   void check_data(const scene::Scene &scene)
   {
-    if (scene.time.is_dynamic())
-      throw InputError("Time/final time > 0: the scene moves, and this is statics; write 0");
-    if (scene.material.is_double_well())
-      throw InputError("Material/model = double well has no statics here; give Time/final time > "
-                       "0, damped by Time/damping, or Material/model = bond-based");
-    if (scene.domain.is_floating)
-      throw InputError("Domain/fixed = none: the body can move as a whole (3 rigid modes in the "
-                       "plane) and there is no one solution; give Domain/fixed ('plumbline "
-                       "stability' measures the body as it is)");
+    check_analysis(scene, scene::Analysis::statics);
     if (!scene.domain.mesh.is_lattice() || scene.domain.is_free_body)
       check_meshes(scene);
     const auto names = scene.problem.case_names();

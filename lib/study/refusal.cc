@@ -1,7 +1,6 @@
 #include "study/refusal.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 namespace plumbline::study
@@ -9,7 +8,6 @@ namespace plumbline::study
   namespace
   {
     using method::Capabilities;
-    using method::Capability;
 
     bool can_do(const Method &method, const Capabilities &needed)
     {
@@ -17,7 +15,7 @@ namespace plumbline::study
       return std::includes(can.begin(), can.end(), needed.begin(), needed.end());
     }
 
-    /// The first few; those of the same family, if there are any.
+    /// The first few; those of the same side, if there are any.
     std::string others(const Method &method, const Capabilities &needed, const Methods &available)
     {
       constexpr std::size_t n_shown = 3;
@@ -42,46 +40,17 @@ namespace plumbline::study
   std::string refusal(const Method &method, const scene::Scene &scene,
                       const scene::Problem &problem, const Methods &available)
   {
-    const Capabilities needed = method::needs(scene, problem), can = method.can();
-    for (const Capability capability : needed)
-      if (can.count(capability) == 0)
-      {
-        const method::Need need = method::describe(capability, scene);
-        const std::string names = others(method, needed, available);
-        const std::string take = names.empty() ? "" : "take " + names;
-        return need.text + "; " + take + (take.empty() || need.remedy.empty() ? "" : ", or ") +
-               need.remedy;
-      }
-    return method.why_not(problem);
+    const Capabilities needed = method::needs(scene, problem);
+    const std::string why =
+        scene::refusal(scene, needed, method.can(), others(method, needed, available));
+    return why.empty() ? method.why_not(problem) : why;
   }
 
   std::string capability_table(const Methods &methods)
   {
-    std::vector<std::pair<Capabilities, std::string>> rows;
+    std::vector<scene::Capable> all;
     for (const auto &method : methods)
-    {
-      const auto row =
-          std::find_if(rows.begin(), rows.end(),
-                       [can = method->can()](const auto &one) { return one.first == can; });
-      if (row == rows.end())
-        rows.emplace_back(method->can(), method->name());
-      else
-        row->second += ", " + method->name();
-    }
-    const Capabilities all = method::all_capabilities();
-    std::string head = "| methods |", rule = "|---|", text;
-    for (const Capability capability : all)
-    {
-      head += " " + base::word(capability) + " |";
-      rule += "---|";
-    }
-    for (const auto &[can, names] : rows)
-    {
-      text += "| " + names + " |";
-      for (const Capability capability : all)
-        text += can.count(capability) > 0 ? " yes |" : " - |";
-      text += "\n";
-    }
-    return head + "\n" + rule + "\n" + text;
+      all.push_back({method->name(), method->can()});
+    return scene::capability_table("methods", all);
   }
 } // namespace plumbline::study

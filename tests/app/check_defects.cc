@@ -373,8 +373,8 @@ TEST(Check, writes_a_page_unless_told_not_to)
 TEST(Check, refuses_scenes_of_which_bonds_are_not_all)
 {
   for (const auto &[model, text] :
-       {std::pair{"LPS", "Material/model = LPS: weights of bonds alone are checked; write"},
-        std::pair{"variational", "checked"}})
+       {std::pair{"LPS", "Material/model = LPS with its dilatation; write"},
+        std::pair{"variational", "Domain/boundary = free; write"}})
   {
     const std::string scene = write("solid.prm", run(std::string("template ") + model).out);
     const Outcome outcome =

@@ -251,7 +251,7 @@ TEST(Command, lists_templates_and_descriptions_help_a_newcomer)
 TEST(Command, the_table_of_what_methods_can_do_is_that_of_the_readme)
 {
   const std::string table = run("list methods --matrix").out;
-  expect_found(table, "| lattice | quadrilaterals | triangles |");
+  expect_found(table, "| lattice | meshes | quadrilaterals |");
   expect_found(read(PLUMBLINE_README), table);
   EXPECT_EQ(run("list kernels --matrix").exit_code, 2);
 }

@@ -134,14 +134,14 @@ TEST(CrackCommand, refuses_what_is_no_notched_strip)
   expect_refused(set("Material/beta=-1"), "Material/beta = -1 must be positive");
   expect_refused(set("Material/c=0"), "Material/c = 0 must be positive");
   expect_refused(set("Material/model=bond-based") + " --set Kernel/type=bond-tensor",
-                 "needs Material/model = double well");
+                 "take double well");
   expect_refused(set("Domain/boxes=0, 0 : 3, 1 : 0, 0"), "Domain/boxes");
   expect_refused(set("Domain/boxes=0, 0 : 3, 0.975"), "even number of mesh sizes");
   expect_refused(set("Domain/boxes=0, 0 : 3, 0.3"), "less than four horizons");
   expect_refused(set("Problem/solution=x, y"), "Problem/solution, load and constraint");
   expect_refused(strip + "--methods Q1", "'Q1' is no meshfree rule");
   expect_refused(strip + "--methods FA,PA-AC", "one meshfree method");
-  expect_refused("run " + scene("speed"), "Crack/notch is for 'plumbline crack'");
+  expect_refused("run " + scene("speed"), "'plumbline crack' follows it");
 }
 
 TEST(CrackCommand, refuses_frames_that_would_fill_the_disk)

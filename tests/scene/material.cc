@@ -156,7 +156,7 @@ TEST(FreeBody, IsAVariationalBoxThatIsHeldSomewhere)
   EXPECT_EQ(problem.cells->n_free, 38u * 21u);
 
   expect_bar_error({{"Domain/fixed", ""}}, "3 rigid modes");
-  expect_bar_error({{"Material/model", "LPS"}}, "needs Material/model = variational");
+  expect_bar_error({{"Material/model", "LPS"}}, "Domain/boundary = free; take variational");
   expect_bar_error({{"Methods/nodes", "centres"}}, "needs Methods/nodes = vertices");
   expect_bar_error({{"Domain/holes", "1, .5 : 1.1, .6"}}, "one box");
   expect_bar_error({{"Domain/boxes", "0, 0 : 1, 1; 1, 0 : 2, 0.5"}}, "write squares or triangles");

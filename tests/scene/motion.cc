@@ -92,10 +92,13 @@ TEST(Motion, refuses_by_key_value_and_remedy)
   expect_refused({{"Material/boundary function", "smoothstep"}}, "there is no boundary");
   expect_refused({{"Domain/boxes", "0, 0 : 2, 1"}}, "needs a square");
   expect_refused({{"Domain/boundary", "constrained"}}, "needs Domain/boundary = periodic");
-  expect_refused({{"Domain/mesh", "squares"}}, "it moves on lattices");
+  expect_refused(
+      {{"Domain/mesh", "squares"}},
+      "double well cannot do this scene: Domain/mesh = squares; write Domain/mesh = lattice");
   expect_refused({{"Study/norms", "averages L2"}}, "compared at nodes");
   expect_refused({{"Reference/method", "Q2"}}, "motions take torus");
-  expect_refused({{"Domain/boundary", "periodic"}}, "Material/model = double well", false);
+  expect_refused({{"Domain/boundary", "periodic"}}, "take double well, or write constrained",
+                 false);
 }
 
 TEST(Motion, of_meshes_has_no_room_for_a_dilatation_without_mass)

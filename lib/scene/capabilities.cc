@@ -1,0 +1,240 @@
+#include "scene/capabilities.h"
+
+#include "base/error.h"
+#include "scene/values.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace plumbline::scene
+{
+  namespace
+  {
+    using C = Capability;
+
+    const Capabilities of_meshes = {C::meshes, C::quadrilaterals, C::triangles, C::mixed_cells};
+    const Capabilities on_meshes_alone = {C::meshes,          C::quadrilaterals,  C::triangles,
+                                          C::mixed_cells,     C::heterogeneous,   C::damage,
+                                          C::zero_dilatation, C::mixed_dilatation};
+    const Capabilities of_double_wells = {C::double_well, C::double_well_collar};
+
+    Capabilities operator|(Capabilities a, const Capabilities &b)
+    {
+      a.insert(b.begin(), b.end());
+      return a;
+    }
+
+    bool includes(const Capabilities &can, const Capabilities &needed)
+    {
+      return std::includes(can.begin(), can.end(), needed.begin(), needed.end());
+    }
+
+    /// How a scene says that it needs something, and what to write instead; empty: there is
+    /// nothing.
+    struct Need
+    {
+      std::string text, remedy;
+    };
+
+    Need describe(Capability capability, const Scene &scene)
+    {
+      const std::string mesh = "Domain/mesh = " + scene.domain.mesh.name,
+                        cells = "the cells of " + mesh + " are ",
+                        model = "Material/model = " + base::word(scene.material.model);
+      switch (capability)
+      {
+      case C::lattice:
+        return {mesh, "write Domain/mesh = squares or triangles"};
+      case C::meshes:
+        return {mesh, "write Domain/mesh = lattice"};
+      case C::quadrilaterals:
+        return {cells + "quadrilaterals", ""};
+      case C::triangles:
+        return {cells + "triangles", ""};
+      case C::mixed_cells:
+        return {cells + "of several kinds", ""};
+      case C::free_boundary:
+        return {"Domain/boundary = free", "write Domain/boundary = constrained"};
+      case C::floating:
+        return {"Domain/fixed = none: the body can move as a whole (3 rigid modes in the plane) "
+                "and there is no one solution",
+                "give Domain/fixed ('plumbline stability' measures the body as it is)"};
+      case C::heterogeneous:
+        return {"the material varies in space", "write constants"};
+      case C::damage:
+        return {"Domain/cracks or Domain/outside is given", "clear both"};
+      case C::notch:
+        return {"Crack/notch > 0 ('plumbline crack' follows it)", "write 0"};
+      case C::dilatation:
+        return {model + " with its dilatation", "write Material/model = bond-based"};
+      case C::zero_dilatation:
+        return {"Material/collar dilatation = zero", "write from data"};
+      case C::mixed_dilatation:
+        return {"Solver/dilatation = kept", "write Solver/dilatation = eliminated"};
+      case C::nonlocal:
+        return {"the scene asks for a nonlocal solution",
+                "write Study/regime = delta, or a decisive error against local"};
+      case C::dynamic:
+        return {"the scene moves (Time/final time > 0)", "write 0"};
+      case C::double_well:
+        return {model + ", whose force is not linear (of Galerkin methods Q1 alone can: jumps of u "
+                        "make e^(-beta du^2/r) a layer at r = 0 that no fixed quadrature resolves, "
+                        "and cracks strains of 1/h)",
+                "write bond-based"};
+      case C::double_well_collar:
+        return {"u is given in a collar around double wells, but nonlinear Galerkin forces are "
+                "those of a torus",
+                "write Domain/boundary = periodic"};
+      case C::periodic:
+        return {"Domain/boundary = periodic", "write constrained"};
+      }
+      return {};
+    }
+
+    /// Those of a table that can do it all, separated by commas.
+    std::string able(const std::vector<Capable> &all, const Capabilities &needed)
+    {
+      std::vector<std::string> names;
+      for (const Capable &one : all)
+        if (includes(one.can, needed))
+          names.push_back(one.name);
+      return join(names, ", ");
+    }
+  } // namespace
+
+  Capabilities all_capabilities()
+  {
+    return all_but({});
+  }
+
+  Capabilities all_but(const Capabilities &left_out)
+  {
+    Capabilities rest;
+    for (std::size_t i = 0; i < base::words<Capability>.size(); ++i)
+      if (left_out.count(static_cast<Capability>(i)) == 0)
+        rest.insert(static_cast<Capability>(i));
+    return rest;
+  }
+
+  const std::vector<Capable> &models()
+  {
+    const Capabilities bonds =
+        of_meshes | Capabilities{C::lattice, C::heterogeneous, C::nonlocal, C::dynamic};
+    const Capabilities solids =
+        bonds | Capabilities{C::dilatation, C::zero_dilatation, C::mixed_dilatation};
+    static const std::vector<Capable> all = {
+        {base::word(Model::bond_based), bonds},
+        {base::word(Model::lps), solids | Capabilities{C::damage}},
+        {base::word(Model::variational), solids | Capabilities{C::free_boundary, C::floating}},
+        {base::word(Model::double_well),
+         of_double_wells |
+             Capabilities{C::lattice, C::notch, C::nonlocal, C::dynamic, C::periodic}}};
+    return all;
+  }
+
+  const std::vector<Capable> &analyses()
+  {
+    const Capabilities moving = {C::dynamic, C::notch, C::periodic};
+    static const std::vector<Capable> all = {
+        {base::word(Analysis::statics),
+         all_but(moving | of_double_wells | Capabilities{C::floating})},
+        {base::word(Analysis::motion), all_but({C::notch})},
+        {base::word(Analysis::crack),
+         of_double_wells | Capabilities{C::lattice, C::notch, C::dynamic, C::nonlocal}},
+        {base::word(Analysis::stability), all_capabilities()},
+        {base::word(Analysis::dispersion),
+         all_but(on_meshes_alone | Capabilities{C::free_boundary, C::floating})},
+        {base::word(Analysis::check),
+         all_but({C::free_boundary, C::floating, C::damage, C::dilatation, C::zero_dilatation,
+                  C::mixed_dilatation})}};
+    return all;
+  }
+
+  Capabilities needs(const Scene &scene)
+  {
+    const DomainSection &domain = scene.domain;
+    const bool is_double_well = scene.material.is_double_well();
+    Capabilities needed;
+    const auto add = [&](bool is_needed, Capability capability)
+    {
+      if (is_needed)
+        needed.insert(capability);
+    };
+    add(domain.mesh.is_lattice() && !domain.is_free_body, C::lattice);
+    add(!domain.mesh.is_lattice(), C::meshes);
+    add(domain.is_free_body, C::free_boundary);
+    add(domain.is_floating, C::floating);
+    add(!scene.is_homogeneous(), C::heterogeneous);
+    add(domain.is_damaged(), C::damage);
+    add(scene.crack.is_there(), C::notch);
+    add(scene.has_dilatation(), C::dilatation);
+    add(!scene.material.has_collar_dilatation, C::zero_dilatation);
+    add(scene.solver.is_mixed, C::mixed_dilatation);
+    add(scene.study.regime != Regime::delta && scene.study.decisive_error.target != Target::local,
+        C::nonlocal);
+    add(scene.time.is_dynamic(), C::dynamic);
+    add(is_double_well, C::double_well);
+    add(is_double_well && scene.time.is_dynamic() && !domain.is_periodic, C::double_well_collar);
+    add(domain.is_periodic, C::periodic);
+    return needed;
+  }
+
+  std::string refusal(const Scene &scene, const Capabilities &needed, const Capabilities &can,
+                      const std::string &others)
+  {
+    Capabilities missing;
+    std::set_difference(needed.begin(), needed.end(), can.begin(), can.end(),
+                        std::inserter(missing, missing.end()));
+    if (missing.empty())
+      return "";
+    const Need need = describe(*missing.begin(), scene);
+    const std::string take = others.empty() ? "" : "take " + others;
+    return need.text + "; " + take + (take.empty() || need.remedy.empty() ? "" : ", or ") +
+           need.remedy;
+  }
+
+  void check_model(const Scene &scene)
+  {
+    const Capable &model = models()[static_cast<std::size_t>(scene.material.model)];
+    const Capabilities needed = needs(scene);
+    if (const std::string why = refusal(scene, needed, model.can, able(models(), needed));
+        !why.empty())
+      throw InputError("Material/model = " + model.name + " cannot do this scene: " + why);
+  }
+
+  void check_analysis(const Scene &scene, Analysis analysis)
+  {
+    const Capable &one = analyses()[static_cast<std::size_t>(analysis)];
+    if (const std::string why = refusal(scene, needs(scene), one.can, ""); !why.empty())
+      throw InputError("scene '" + scene.name + "': " + one.name + " cannot do it: " + why);
+  }
+
+  std::string capability_table(const std::string &of, const std::vector<Capable> &all)
+  {
+    std::vector<Capable> rows;
+    for (const Capable &one : all)
+    {
+      const auto row = std::find_if(rows.begin(), rows.end(),
+                                    [&](const Capable &other) { return other.can == one.can; });
+      if (row == rows.end())
+        rows.push_back(one);
+      else
+        row->name += ", " + one.name;
+    }
+    std::string head = "| " + of + " |", rule = "|---|", text;
+    for (const Capability capability : all_capabilities())
+    {
+      head += " " + base::word(capability) + " |";
+      rule += "---|";
+    }
+    for (const Capable &row : rows)
+    {
+      text += "| " + row.name + " |";
+      for (const Capability capability : all_capabilities())
+        text += row.can.count(capability) > 0 ? " yes |" : " - |";
+      text += "\n";
+    }
+    return head + "\n" + rule + "\n" + text;
+  }
+} // namespace plumbline::scene

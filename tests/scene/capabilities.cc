@@ -1,0 +1,84 @@
+#include "scene/capabilities.h"
+#include "base/error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+using namespace plumbline;
+using namespace plumbline::scene;
+
+namespace
+{
+  Scene parse(const std::string &text)
+  {
+    return parse_scene("capable", "subsection Problem\n set solution = x\nend\n" +
+                                      std::string("subsection Methods\n set names = FA\nend\n") +
+                                      text);
+  }
+
+  std::string failure(const std::function<void()> &act)
+  {
+    try
+    {
+      act();
+      return "";
+    }
+    catch (const InputError &error)
+    {
+      return error.what();
+    }
+  }
+} // namespace
+
+TEST(Capabilities, each_model_and_analysis_has_its_row)
+{
+  ASSERT_EQ(models().size(), base::words<Model>.size());
+  ASSERT_EQ(analyses().size(), base::words<Analysis>.size());
+  for (std::size_t i = 0; i < models().size(); ++i)
+    EXPECT_EQ(models()[i].name, base::word(static_cast<Model>(i)));
+  for (std::size_t i = 0; i < analyses().size(); ++i)
+    EXPECT_EQ(analyses()[i].name, base::word(static_cast<Analysis>(i)));
+}
+
+TEST(Capabilities, whatever_a_scene_may_need_some_model_and_some_analysis_can)
+{
+  for (const auto &rows : {models(), analyses()})
+    for (const Capability one : all_capabilities())
+      EXPECT_TRUE(std::any_of(rows.begin(), rows.end(),
+                              [&](const Capable &row) { return row.can.count(one) > 0; }))
+          << base::word(one);
+}
+
+TEST(Capabilities, refusals_say_what_is_missing_who_can_and_what_to_write)
+{
+  const Scene scene = parse("");
+  const Capabilities needed = {Capability::lattice, Capability::periodic};
+  EXPECT_EQ(refusal(scene, needed, all_capabilities(), "others"), "");
+  EXPECT_EQ(refusal(scene, needed, all_but({Capability::periodic}), "others"),
+            "Domain/boundary = periodic; take others, or write constrained");
+  EXPECT_EQ(refusal(scene, needed, {}, ""),
+            "Domain/mesh = lattice; write Domain/mesh = squares or triangles");
+}
+
+TEST(Capabilities, models_and_analyses_refuse_what_their_rows_leave_out)
+{
+  EXPECT_EQ(failure([] { (void)parse("subsection Domain\n set boundary = periodic\nend\n"); }),
+            "scene 'capable': Material/model = bond-based cannot do this scene: Domain/boundary = "
+            "periodic; take double well, or write constrained");
+  const Scene mesh = parse("subsection Domain\n set mesh = squares\nend\n");
+  EXPECT_EQ(failure([&] { check_analysis(mesh, Analysis::statics); }), "");
+  EXPECT_EQ(failure([&] { check_analysis(mesh, Analysis::dispersion); }),
+            "scene 'capable': dispersion cannot do it: Domain/mesh = squares; write Domain/mesh = "
+            "lattice");
+}
+
+TEST(Capabilities, those_that_can_do_the_same_share_a_row_of_the_table)
+{
+  const std::string table =
+      capability_table("of", {{"one", {Capability::lattice}}, {"two", {}}, {"three", {}}});
+  EXPECT_EQ(table.rfind("| of | lattice | meshes |", 0), 0u) << table;
+  EXPECT_NE(table.find("| one | yes | - |"), std::string::npos) << table;
+  EXPECT_NE(table.find("| two, three | - | - |"), std::string::npos) << table;
+}
