@@ -162,6 +162,6 @@ namespace plumbline::base
       std::array{"automatic", "every", "reference", "none"};
   template <>
   inline constexpr auto words<scene::ExpectedKind> =
-      std::array{"verdicts", "errors",    "rates",  "bounds", "monotone",
-                 "jitter",   "stability", "orders", "growth"};
+      std::array{"verdicts", "errors",    "rates",  "bounds",       "monotone",
+                 "jitter",   "stability", "orders", "strain growth"};
 } // namespace plumbline::base

@@ -217,7 +217,7 @@ namespace plumbline::study
             failure += one.failure;
             worst = std::max(worst, growth.difference(one));
           }
-      results.push_back({"Expected/growth: " + expected.text,
+      results.push_back({"Expected/strain growth: " + expected.text,
                          "<= " + base::to_text(expected.values.front(), 4),
                          !is_found          ? "no such method on a torus of double wells"
                          : !failure.empty() ? failure

@@ -60,7 +60,7 @@ namespace plumbline::study
   void add_growth(const method::Method &method, const scene::Scene &scene,
                   const scene::Problem &problem, std::vector<StrainGrowth> &growths);
 
-  /// Expected/growth: the largest difference() of a method over all series and directions.
+  /// Expected/strain growth: the largest difference() of a method over all series and directions.
   std::vector<Expectation> check_growth(const scene::Scene &scene,
                                         const std::vector<StrainGrowth> &growths);
 } // namespace plumbline::study

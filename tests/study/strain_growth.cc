@@ -91,7 +91,7 @@ TEST(StrainGrowth, expected_is_checked_for_every_direction)
 {
   const auto check = [](const std::string &expected)
   {
-    const auto scene = torus({{"Methods/names", "FA"}, {"Expected/growth", expected}});
+    const auto scene = torus({{"Methods/names", "FA"}, {"Expected/strain growth", expected}});
     std::vector<StrainGrowth> growths(2);
     for (std::size_t d = 0; d < 2; ++d)
     {
