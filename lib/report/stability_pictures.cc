@@ -63,7 +63,7 @@ namespace plumbline::report
         auto found = std::find_if(all.begin(), all.end(),
                                   [&](const Series &s) { return s.name == row.series; });
         if (found == all.end())
-          found = all.insert(all.end(), {row.series});
+          found = all.insert(all.end(), {row.series, study::Axis::horizon, {}});
         if (!found->rows.empty() && row.h != found->rows[0]->h)
           found->axis = study::Axis::mesh_size;
         found->rows.push_back(&row);
