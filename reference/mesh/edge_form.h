@@ -24,7 +24,7 @@ namespace plumbline::reference
     explicit EdgeForm(const MeshSpace &space);
 
     std::vector<Edge> edges;         ///< those with a free node first, each group by its first end
-    std::size_t n_active;            ///< with a free node
+    std::size_t n_active = 0;        ///< with a free node
     std::vector<double> radius;      ///< of each dof's support, about its node
     std::vector<double> integral;    ///< of each shape function
     std::vector<char> is_at_outside; ///< nodes of sides that have one triangle

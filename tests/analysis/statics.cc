@@ -102,6 +102,7 @@ TEST(Statics, cases_together_have_the_solutions_that_they_have_alone)
 TEST(Statics, each_case_is_charged_the_setup_and_refined_as_far_as_it_needs)
 {
   const auto scene = two_cases({{"Domain/mesh", "triangles"},
+                                {"Quadrature/entries", "quadrature"},
                                 {"Quadrature/tolerance", "1e-6"},
                                 {"Quadrature/max refinements", "6"}});
   const auto problems = problems_of(scene);

@@ -215,7 +215,9 @@ TEST_F(BadMeshes, methods_and_targets_that_do_not_fit_are_refused)
 
 TEST_F(BadMeshes, what_cannot_be_solved_exits_with_3_and_keeps_the_rest)
 {
-  const std::string tight = set("Domain/mesh", "triangles") + set("Quadrature/tolerance", "1e-12");
+  const std::string tight = set("Domain/mesh", "triangles") +
+                            set("Quadrature/entries", "quadrature") +
+                            set("Quadrature/tolerance", "1e-12");
   const std::vector<Trial> runs = {
       {tight + set("Quadrature/max refinements", "0") + "--methods P1,FA",
        {"no solution: P1, u, m = 2, h = 0.25", "more than Quadrature/tolerance = 1e-12; raise"}},

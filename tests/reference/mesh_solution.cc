@@ -118,7 +118,8 @@ TEST(MeshGalerkin, KnowsItsOuterError)
 {
   const auto solve = [](const std::string &quadrature)
   {
-    const auto scene = make_scene("triangles", wave, quadrature);
+    const auto scene = make_scene(
+        "triangles", wave, quadrature + "subsection Quadrature\n set entries = quadrature\nend\n");
     return analysis::solve(*method_named("P1"), make_problem(scene, 0, {.125, .3}));
   };
   const auto first = solve(no_refinement);
