@@ -163,8 +163,10 @@ namespace plumbline::scene
     };
     add(domain.mesh.is_lattice() && !domain.is_free_body, C::lattice);
     add(!domain.mesh.is_lattice(), C::meshes);
-    add(domain.is_free_body, C::free_boundary);
-    add(domain.is_floating, C::floating);
+    // what grows is held by its grips: 'plumbline grow' says itself what it may be
+    const bool is_free = domain.is_free_body && !scene.fracture.is_there();
+    add(is_free, C::free_boundary);
+    add(is_free && domain.is_floating, C::floating);
     add(!scene.is_homogeneous(), C::heterogeneous);
     add(domain.is_damaged(), C::damage);
     add(scene.crack.is_there(), C::notch);
