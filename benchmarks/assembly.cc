@@ -143,10 +143,10 @@ namespace plumbline::benchmarks
       const auto kernel = make_kernel(type, horizon);
       double n_entries = 0;
       for (auto _ : state)
-        n_entries = static_cast<double>(
-            reference::assemble(body.space, body.cells, kernel, {}, {0, is_exact, Backend::fast},
-                                base::Team::alone())
-                .rows.value.size());
+        n_entries = static_cast<double>(reference::assemble(body.space, body.cells, kernel, {},
+                                                            {0, is_exact, Backend::fast},
+                                                            base::Team::alone())
+                                            .rows.value.size());
       const Pairs pairs = all_pairs(body, horizon);
       const auto n = static_cast<double>(pairs.size());
       count(state, "pairs", n);

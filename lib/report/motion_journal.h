@@ -31,9 +31,9 @@ namespace plumbline::report
     bool is_begun_ = false;
   };
 
-  /// With the motions and tori that a run of the scene left in the folder before its end; none if there is
-  /// no journal, or one of another scene, of other levels, or of another version. A last line that
-  /// is not whole is left out.
+  /// With the motions and tori that a run of the scene left in the folder before its end; none if
+  /// there is no journal, or one of another scene, of other levels, or of another version. A last
+  /// line that is not whole is left out.
   study::DynamicResults read_motions(const std::filesystem::path &folder,
                                      const study::DynamicResults &begun);
 } // namespace plumbline::report
