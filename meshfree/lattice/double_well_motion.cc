@@ -192,9 +192,10 @@ namespace plumbline::meshfree
     };
   } // namespace
 
-  std::unique_ptr<method::EquationOfMotion>
-  move_double_well(const scene::Problem &problem, const Bonds &bonds, double largest_eigenvalue,
-                   const dealii::Tensor<2, 2> &gradient)
+  std::unique_ptr<method::EquationOfMotion> move_double_well(const scene::Problem &problem,
+                                                             const Bonds &bonds,
+                                                             double largest_eigenvalue,
+                                                             const dealii::Tensor<2, 2> &gradient)
   {
     const auto wells = well_bonds(*problem.double_well, bonds);
     const Box box = problem.is_periodic ? torus(problem)
