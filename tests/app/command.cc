@@ -21,20 +21,6 @@ namespace
     EXPECT_EQ(outcome.out, "");
     EXPECT_FALSE(fs::exists(folder)) << "partial output for " << settings;
   }
-
-  /// A run that goes on beside the test.
-  pid_t start_run(const std::string &arguments)
-  {
-    const pid_t child = fork();
-    if (child == 0)
-    {
-      const std::string command =
-          std::string("exec ") + PLUMBLINE_COMMAND + " run " + arguments + " >/dev/null 2>&1";
-      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-      _exit(127);
-    }
-    return child;
-  }
 } // namespace
 
 TEST(Command, writes_everything_that_a_report_needs)
@@ -188,7 +174,7 @@ TEST(Command, an_interrupted_run_keeps_what_is_finished_and_goes_on)
   const std::string arguments = scene + " -o " + folder.string() + settings;
 
   // interrupt as soon as the first result is stored
-  const pid_t child = start_run(arguments);
+  const pid_t child = start("run " + arguments);
   for (int i = 0; i < 6000 && !fs::exists(folder / "results.jsonl"); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   kill(child, SIGINT);
@@ -217,7 +203,7 @@ TEST(Command, a_killed_run_has_lost_nothing_that_is_finished)
     const std::string text = fs::exists(journal) ? read(journal) : "";
     return std::count(text.begin(), text.end(), '\n');
   };
-  const pid_t child = start_run(arguments);
+  const pid_t child = start("run " + arguments);
   for (int i = 0; i < 30000 && n_finished() < 2; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   kill(child, SIGKILL);

@@ -6,11 +6,14 @@
 #include <sys/wait.h>
 
 #include <atomic>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <unistd.h>
 
 namespace plumbline::app
@@ -60,6 +63,33 @@ namespace plumbline::app
     fs::remove(out);
     fs::remove(err);
     return outcome;
+  }
+
+  /// The command beside the test, silent. @return its process
+  inline pid_t start(const std::string &arguments)
+  {
+    const pid_t child = fork();
+    if (child == 0)
+    {
+      const std::string command =
+          std::string("exec ") + PLUMBLINE_COMMAND + " " + arguments + " >/dev/null 2>&1";
+      execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char *>(nullptr));
+      _exit(127);
+    }
+    return child;
+  }
+
+  /// Kill the command as soon as it has written a file, or after half a minute.
+  /// @return  whether it still ran
+  inline bool kill_at(const std::string &arguments, const fs::path &file)
+  {
+    const pid_t child = start(arguments);
+    for (int i = 0; i < 6000 && !fs::exists(file); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFSIGNALED(status);
   }
 
   inline void expect_found(const std::string &text, const std::string &part,

@@ -7,9 +7,7 @@
 
 #include <sys/resource.h>
 
-#include <chrono>
-#include <csignal>
-#include <thread>
+#include <future>
 
 namespace
 {
@@ -83,26 +81,13 @@ TEST(CrackCommand, goes_on_after_it_was_killed_to_the_same_bits)
                               " --quiet --set 'Time/critical fractions=0.1' --set "
                               "Time/damping=0.1 --set 'Crack/checkpoint interval=1' --set "
                               "Time/frames=5 -o ";
-  std::thread first([&] { (void)run(command + whole.string()); });
-  const pid_t child = fork();
-  if (child == 0)
-  {
-    const std::string shell =
-        "exec " + std::string(PLUMBLINE_COMMAND) + " " + command + killed.string() + " 2>/dev/null";
-    execl("/bin/sh", "sh", "-c", shell.c_str(), static_cast<char *>(nullptr));
-    _exit(127);
-  }
-  using namespace std::chrono_literals;
-  for (int i = 0; i < 3000 && !fs::exists(killed / "checkpoint.h5"); ++i)
-    std::this_thread::sleep_for(10ms);
-  kill(child, SIGKILL);
-  int status = 0;
-  waitpid(child, &status, 0);
-  ASSERT_TRUE(WIFSIGNALED(status)) << "the run had ended before it was killed";
+  const auto first = std::async(std::launch::async, [&] { (void)run(command + whole.string()); });
+  ASSERT_TRUE(kill_at(command + killed.string(), killed / "checkpoint.h5"))
+      << "the run had ended before it was killed";
   ASSERT_TRUE(fs::exists(killed / "checkpoint.h5"));
   EXPECT_FALSE(fs::exists(killed / "crack.json"));
   const Outcome resumed = run(command + killed.string());
-  first.join();
+  first.wait();
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_GT(results(killed)["resumed_at"], 0);
   EXPECT_EQ(results(whole)["resumed_at"], 0);

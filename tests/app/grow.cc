@@ -5,10 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <chrono>
 #include <cmath>
-#include <csignal>
-#include <thread>
+#include <future>
 
 namespace
 {
@@ -90,26 +88,12 @@ TEST(GrowCommand, goes_on_after_it_was_killed_to_the_same_bits)
   const fs::path whole = temporary("whole"), killed = temporary("killed");
   const std::string command =
       "grow " + plate() + " --quiet --set 'Fracture/checkpoint interval=7' -o ";
-  std::thread first([&] { (void)run(command + whole.string()); });
-  const pid_t child = fork();
-  if (child == 0)
-  {
-    const std::string shell =
-        "exec " + std::string(PLUMBLINE_COMMAND) + " " + command + killed.string() + " 2>/dev/null";
-    execl("/bin/sh", "sh", "-c", shell.c_str(), static_cast<char *>(nullptr));
-    _exit(127);
-  }
-  using namespace std::chrono_literals;
-  for (int i = 0; i < 6000 && !fs::exists(killed / "checkpoint.h5"); ++i)
-    std::this_thread::sleep_for(5ms);
-  std::this_thread::sleep_for(200ms);
-  kill(child, SIGKILL);
-  int status = 0;
-  waitpid(child, &status, 0);
-  ASSERT_TRUE(WIFSIGNALED(status)) << "the run had ended before it was killed";
+  const auto first = std::async(std::launch::async, [&] { (void)run(command + whole.string()); });
+  ASSERT_TRUE(kill_at(command + killed.string(), killed / "checkpoint.h5"))
+      << "the run had ended before it was killed";
   EXPECT_FALSE(fs::exists(killed / "grow.json"));
   const Outcome resumed = run(command + killed.string());
-  first.join();
+  first.wait();
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_GT(results(killed)["n_resumed"], 0);
   EXPECT_EQ(results(whole)["n_resumed"], 0);
