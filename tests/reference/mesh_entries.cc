@@ -294,8 +294,7 @@ TEST(MeshEntries, ByRefinedQuadratureApproachTheExactOnes)
   const Mesh mesh = geometry::lattice_mesh(four_cells, h, horizon, false);
   for (const auto &[kernel, finest] :
        {Case{constant(horizon), 8}, Case{linear_decay(horizon), 5}, Case{bond_tensor(horizon), 6},
-        Case{no_powers("gaussian", horizon), 6},
-        Case{physics::Kernel<2>::with_diffusion({{1, 0}, {-1, 2}}, horizon, 1), 5}})
+        Case{no_powers("gaussian", horizon), 6}})
   {
     const auto exact = entries(assemble(mesh, kernel, true, 1, 0).matrix.rows);
     std::vector<double> errors;
@@ -308,6 +307,19 @@ TEST(MeshEntries, ByRefinedQuadratureApproachTheExactOnes)
     EXPECT_LT(errors[finest - 1], 1e-7); // both places of the kink
     EXPECT_LT(errors[finest], 1e-7);
   }
+}
+
+TEST(MeshEntries, OfSmoothKernelsAreRefinedWhereTheCircleDoesNotCut)
+{
+  // outer rules for a constant kernel leave 1e-3 there, however often they are refined
+  const double h = .25, horizon = 3 * h;
+  const geometry::Domain four_cells{{{Point<2>(0, 0), Point<2>(.5, .5)}}, {}};
+  const Mesh mesh = geometry::lattice_mesh(four_cells, h, horizon, false);
+  const auto kernel = physics::Kernel<2>::with_diffusion({{1, 0}, {-1, 2}}, horizon, 1);
+  const auto exact = entries(assemble(mesh, kernel, true, 1, 0).matrix.rows);
+  EXPECT_LT(
+      frobenius_difference(entries(assemble(mesh, kernel, true, 1, 1, false).matrix.rows), exact),
+      1e-5);
 }
 
 TEST(MeshEntries, OfFunctionsAndTablesApproachTheExactOnes)
