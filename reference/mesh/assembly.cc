@@ -5,8 +5,10 @@
 #include "reference/mesh/pair_quadrature.h"
 #include "reference/mesh/rectangle_pairs.h"
 #include "reference/mesh/rows.h"
+#include "reference/mesh/triangle_pairs.h"
 
 #include <deal.II/base/parallel.h>
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/work_stream.h>
 
 #include <algorithm>
@@ -29,37 +31,82 @@ namespace plumbline::reference
       return ratio < 1 - clearly || (ratio <= 1 + clearly && a <= b);
     }
 
+    /// The coefficient in each cell, if it has one value there as far as many points tell.
+    std::vector<double> constants_in_cells(const MeshSpace &space,
+                                           const physics::Coefficient &coefficient)
+    {
+      const bool is_triangle = space.shapes().n_vertices() == 3;
+      std::vector<Point<2>> points = is_triangle
+                                         ? dealii::QWitherdenVincentSimplex<2>(6).get_points()
+                                         : dealii::QGauss<2>(6).get_points();
+      const double third = is_triangle ? 1. / 3 : .5;
+      const Point<2> middle(third, third);
+      constexpr double inwards = 1e-3; // a jump may run along sides
+      const CellShapes linear(space.shapes().n_vertices(), 1);
+      for (const Point<2> &corner : linear.support())
+        points.push_back(corner + inwards * (middle - corner));
+      std::vector<double> values;
+      for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
+      {
+        values.push_back(coefficient.at(space.map(cell).point(middle)));
+        for (const Point<2> &unit : points)
+          if (coefficient.at(space.map(cell).point(unit)) != values.back())
+            return {};
+      }
+      return values;
+    }
+
     /// Blocks of pairs of cells by whichever way is exact.
     class PairIntegrator
     {
     public:
-      PairIntegrator(const MeshSpace &space, const MeshCells &cells, const KernelEntries &profile,
-                     double horizon, const std::optional<physics::Coefficient> &coefficient,
+      PairIntegrator(const MeshSpace &space, const MeshCells &cells,
+                     const physics::Kernel<2> &kernel, const KernelEntries &profile,
+                     const std::optional<physics::Coefficient> &coefficient,
                      const AssemblyOptions &options)
-          : cells_(cells), by_quadrature_(space, cells, profile, horizon, coefficient,
-                                          options.refinement, options.backend)
+          : cells_(cells), coefficient_(coefficient),
+            of_cells_(coefficient ? constants_in_cells(space, *coefficient)
+                                  : std::vector<double>()),
+            by_quadrature_(space, cells, profile, kernel.horizon(),
+                           of_cells_.empty() ? coefficient : std::nullopt, options.refinement,
+                           options.backend)
       {
-        if (options.exact_entries && !coefficient && space.shapes().n_vertices() == 4)
-          by_correlation_.emplace(space.shapes(), profile, horizon, options.backend);
+        if (!options.exact_entries || has_changing_coefficient())
+          return;
+        if (space.shapes().n_vertices() == 4)
+          by_correlation_.emplace(space.shapes(), profile, kernel.horizon(), options.backend);
+        else if (TrianglePairs::refuse(space, kernel).empty())
+          by_sides_.emplace(space, cells, kernel);
       }
+
+      bool has_changing_coefficient() const { return coefficient_ && of_cells_.empty(); }
 
       bool is_exact(std::size_t a, std::size_t b) const
       {
+        if (by_sides_)
+          return by_sides_->is_exact(a, b);
         return by_correlation_ && cells_.is_rectangle(a) && cells_.is_rectangle(b);
       }
 
       void integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks)
       {
-        if (is_exact(outer, inner) && !by_quadrature_.is_product(outer, inner))
-          by_correlation_->integrate(cells_[outer].box(), cells_[inner].box(), blocks);
-        else
+        if (by_quadrature_.is_product(outer, inner) || !is_exact(outer, inner))
           by_quadrature_.integrate(outer, inner, blocks);
+        else if (by_sides_)
+          by_sides_->integrate(outer, inner, blocks);
+        else
+          by_correlation_->integrate(cells_[outer].box(), cells_[inner].box(), blocks);
+        if (!of_cells_.empty())
+          blocks.scale(coefficient_->mean(of_cells_[outer], of_cells_[inner]));
       }
 
     private:
       const MeshCells &cells_;
+      std::optional<physics::Coefficient> coefficient_;
+      std::vector<double> of_cells_; ///< empty: it changes inside of them
       PairQuadrature by_quadrature_;
       std::optional<RectanglePairs> by_correlation_;
+      std::optional<TrianglePairs> by_sides_;
     };
 
     /// Of each cell the pairs that have their outer points on it, for a share of the cells. A
@@ -148,6 +195,24 @@ namespace plumbline::reference
           }
       }
     }
+    /// How entries came about, in words.
+    std::string tell_way(const MeshSpace &space, const physics::Kernel<2> &kernel,
+                         const PairIntegrator &integrator, const AssemblyOptions &options,
+                         bool is_exact)
+    {
+      const bool is_triangles = space.shapes().n_vertices() == 3;
+      if (is_exact)
+        return is_triangles ? "exact by sides of pairs of triangles"
+                            : "of axis-aligned rectangles exact by correlation";
+      if (!is_triangles || !options.exact_entries)
+        return "by quadrature";
+      std::string reason = TrianglePairs::refuse(space, kernel);
+      if (integrator.has_changing_coefficient())
+        reason = "the material changes inside of triangles";
+      return reason.empty() ? "by sides of pairs of triangles, but by quadrature where one of them "
+                              "is more than 30 times longer than high"
+                            : "by quadrature, not exact by sides of triangles: " + reason;
+    }
   } // namespace
 
   MeshMatrix assemble(const MeshSpace &space, const MeshCells &cells,
@@ -155,16 +220,11 @@ namespace plumbline::reference
                       const std::optional<physics::Coefficient> &coefficient,
                       const AssemblyOptions &options, const base::Team &team)
   {
-    std::string way = "by quadrature";
-    if (options.exact_entries && space.is_continuous() && space.shapes().n_vertices() == 3)
-    {
-      const std::string refusal =
-          coefficient ? "the material changes from place to place" : refuse_edges(space, kernel);
-      if (refusal.empty())
-        return {assemble_by_edges(space, kernel, team), true,
-                "exact by pairs of sides of the triangles"};
-      way += ", not exact by pairs of sides: " + refusal;
-    }
+    const bool is_triangles = space.shapes().n_vertices() == 3;
+    if (options.exact_entries && !coefficient && is_triangles && space.is_continuous() &&
+        refuse_edges(space, kernel).empty())
+      return {assemble_by_edges(space, kernel, team), true,
+              "exact by pairs of sides of the triangles"};
     const KernelEntries profile(kernel);
     std::vector<std::size_t> outer_cells;
     for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
@@ -176,10 +236,9 @@ namespace plumbline::reference
 
     std::vector<CellPairs> pairs = find_pairs(space, cells, kernel.horizon(), outer_cells);
     MeshRows sum(space, profile.n_entries(), pairs);
-    const Scratch scratch{
-        PairIntegrator(space, cells, profile, kernel.horizon(), coefficient, options),
-        {},
-        std::vector<unsigned int>(space.n_dofs())};
+    const Scratch scratch{PairIntegrator(space, cells, kernel, profile, coefficient, options),
+                          {},
+                          std::vector<unsigned int>(space.n_dofs())};
     // an exception must not leave a thread: the first one is kept and thrown at the end
     std::exception_ptr failure;
     std::mutex mutex;
@@ -208,8 +267,7 @@ namespace plumbline::reference
     if (failure)
       std::rethrow_exception(failure);
     pairs = {};
-    if (sum.is_exact)
-      way = "of axis-aligned rectangles exact by correlation";
-    return {sum.combine(kernel.n_components()), sum.is_exact, way};
+    return {sum.combine(kernel.n_components()), sum.is_exact,
+            tell_way(space, kernel, scratch.integrator, options, sum.is_exact)};
   }
 } // namespace plumbline::reference

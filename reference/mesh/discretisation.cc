@@ -1,11 +1,13 @@
 #include "reference/mesh/discretisation.h"
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "method/limit_proof.h"
 #include "method/sparse_motion.h"
 #include "reference/geometry_check.h"
 #include "reference/mesh/assembly.h"
 #include "reference/mesh/dilatation.h"
+#include "reference/mesh/entry_check.h"
 #include "reference/mesh/weighted_volume.h"
 
 #include <deal.II/base/parallel.h>
@@ -280,6 +282,7 @@ namespace plumbline::reference
         const scene::GeometrySection &geometry = problem_.settings.geometry;
         const auto check =
             check_geometry(*cells_, problem_.horizon(), geometry.n_checks, geometry.seed);
+        add_entry_check(geometry, result);
         result.n_geometry_checks = check.n_checked;
         result.geometry_difference = check.worst_difference;
         return result;
@@ -295,6 +298,22 @@ namespace plumbline::reference
       }
 
     private:
+      /// What another way gives for a sample of entries.
+      void add_entry_check(const scene::GeometrySection &geometry,
+                           method::Diagnostics &result) const
+      {
+        if (problem_.dilatation || problem_.body || team().n_ranks() > 1 ||
+            (problem_.coefficient && !is_exact_))
+          return;
+        const EntryCheck check = check_entries(*space_, problem_.kernel, problem_.coefficient,
+                                               free(), geometry.n_checks, geometry.seed);
+        if (check.n_entries > 0)
+          result.notes.push_back(
+              std::to_string(check.n_entries) + " entries by the correlations of " +
+              std::to_string(check.n_pairs) + " pairs of cells: at most " +
+              base::to_text(check.worst_difference, 2) + " of the diagonal away");
+      }
+
       void make_rows()
       {
         MeshMatrix matrix;

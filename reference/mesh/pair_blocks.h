@@ -17,5 +17,12 @@ namespace plumbline::reference
       for (auto *block : {&outer, &cross, &inner})
         block->assign(static_cast<std::size_t>(n) * n * n_entries, 0.);
     }
+
+    void scale(double factor)
+    {
+      for (auto *block : {&outer, &cross, &inner})
+        for (double &value : *block)
+          value *= factor;
+    }
   };
 } // namespace plumbline::reference
