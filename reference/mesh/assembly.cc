@@ -4,6 +4,7 @@
 #include "reference/mesh/number_set.h"
 #include "reference/mesh/pair_quadrature.h"
 #include "reference/mesh/rectangle_pairs.h"
+#include "reference/mesh/repeated_pairs.h"
 #include "reference/mesh/rows.h"
 #include "reference/mesh/triangle_pairs.h"
 
@@ -88,6 +89,7 @@ namespace plumbline::reference
         return by_correlation_ && cells_.is_rectangle(a) && cells_.is_rectangle(b);
       }
 
+      /// Without coefficients that are constant in cells.
       void integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks)
       {
         if (by_quadrature_.is_product(outer, inner) || !is_exact(outer, inner))
@@ -96,8 +98,12 @@ namespace plumbline::reference
           by_sides_->integrate(outer, inner, blocks);
         else
           by_correlation_->integrate(cells_[outer].box(), cells_[inner].box(), blocks);
-        if (!of_cells_.empty())
-          blocks.scale(coefficient_->mean(of_cells_[outer], of_cells_[inner]));
+      }
+
+      /// Of the blocks.
+      double factor(std::size_t outer, std::size_t inner) const
+      {
+        return of_cells_.empty() ? 1 : coefficient_->mean(of_cells_[outer], of_cells_[inner]);
       }
 
     private:
@@ -155,8 +161,27 @@ namespace plumbline::reference
       std::vector<unsigned int> slot; ///< of each dof among the columns
     };
 
+    /// Blocks of the pairs that stand for all others.
+    std::vector<PairBlocks> integrate_first(const std::vector<RepeatedPairs::Pair> &first,
+                                            const PairIntegrator &integrator)
+    {
+      std::vector<PairBlocks> blocks(first.size());
+      constexpr unsigned int grain = 64;
+      in_parallel(
+          first.size(),
+          [&](std::size_t from, std::size_t to)
+          {
+            PairIntegrator own = integrator;
+            for (std::size_t k = from; k < to; ++k)
+              own.integrate(first[k].first, first[k].second, blocks[k]);
+          },
+          grain);
+      return blocks;
+    }
+
     /// All pairs of a cell.
-    void integrate_cell(const MeshSpace &space, const CellPairs &pairs, unsigned int n_entries,
+    void integrate_cell(const MeshSpace &space, const CellPairs &pairs,
+                        const std::vector<PairBlocks> &first, unsigned int n_entries,
                         std::size_t cell, Scratch &scratch, CellRows &part)
     {
       const unsigned int n = space.shapes().size();
@@ -172,14 +197,15 @@ namespace plumbline::reference
       const std::size_t own = static_cast<std::size_t>(
           std::lower_bound(pairs.partners.begin(), pairs.partners.end(), cell) -
           pairs.partners.begin());
-      PairBlocks &blocks = scratch.blocks;
       for (std::size_t i = 0; i < pairs.partners.size(); ++i)
       {
         const unsigned int partner = pairs.partners[i];
-        scratch.integrator.integrate(cell, partner, blocks);
+        if (pairs.same.empty())
+          scratch.integrator.integrate(cell, partner, scratch.blocks);
+        const PairBlocks &blocks = pairs.same.empty() ? scratch.blocks : first[pairs.same[i]];
         part.is_exact = part.is_exact && scratch.integrator.is_exact(cell, partner);
         // the cell with itself: both orders are the same pair, each counts half
-        const double factor = i == own ? .5 : 1;
+        const double factor = (i == own ? .5 : 1) * scratch.integrator.factor(cell, partner);
         for (std::size_t k = 0; k < block; ++k)
         {
           part.diagonal[own * block + k] += factor * blocks.outer[k];
@@ -195,6 +221,7 @@ namespace plumbline::reference
           }
       }
     }
+
     /// How entries came about, in words.
     std::string tell_way(const MeshSpace &space, const physics::Kernel<2> &kernel,
                          const PairIntegrator &integrator, const AssemblyOptions &options,
@@ -239,6 +266,10 @@ namespace plumbline::reference
     const Scratch scratch{PairIntegrator(space, cells, kernel, profile, coefficient, options),
                           {},
                           std::vector<unsigned int>(space.n_dofs())};
+    std::vector<PairBlocks> first_blocks;
+    if (!scratch.integrator.has_changing_coefficient())
+      first_blocks =
+          integrate_first(RepeatedPairs(space.mesh(), pairs).first(), scratch.integrator);
     // an exception must not leave a thread: the first one is kept and thrown at the end
     std::exception_ptr failure;
     std::mutex mutex;
@@ -248,7 +279,8 @@ namespace plumbline::reference
         {
           try
           {
-            integrate_cell(space, pairs[*cell], profile.n_entries(), *cell, own, part);
+            integrate_cell(space, pairs[*cell], first_blocks, profile.n_entries(), *cell, own,
+                           part);
           }
           catch (...)
           {

@@ -182,7 +182,12 @@ namespace plumbline::reference
     /// By the length of sides over δ: potentials are analytic up to |z| = 0, one δ from the circle.
     unsigned int n_points(double ratio)
     {
-      return ratio < .3 ? 8 : ratio < .6 ? 14 : ratio < 1.2 ? 20 : 32;
+      return ratio < .3    ? 8
+             : ratio < .5  ? 10
+             : ratio < .75 ? 12
+             : ratio < 1.3 ? 14
+             : ratio < 2   ? 20
+                           : 32;
     }
     constexpr unsigned int more_along = 2; ///< where roots are functions of s
   }                                        // namespace

@@ -17,12 +17,5 @@ namespace plumbline::reference
       for (auto *block : {&outer, &cross, &inner})
         block->assign(static_cast<std::size_t>(n) * n * n_entries, 0.);
     }
-
-    void scale(double factor)
-    {
-      for (auto *block : {&outer, &cross, &inner})
-        for (double &value : *block)
-          value *= factor;
-    }
   };
 } // namespace plumbline::reference

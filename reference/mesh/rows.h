@@ -20,6 +20,7 @@ namespace plumbline::reference
   {
     std::vector<unsigned int> partners; ///< ascending, the cell itself is one
     std::vector<unsigned int> columns;  ///< dofs of all of them, ascending
+    std::vector<unsigned int> same;     ///< of each, which RepeatedPairs::first stands for it
   };
 
   /// What the pairs of one outer cell add: its rows, and diagonal blocks of its partners.

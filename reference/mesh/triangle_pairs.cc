@@ -1,8 +1,7 @@
 #include "reference/mesh/triangle_pairs.h"
 
+#include "geometry/polygon.h"
 #include "reference/mesh/kernel_entries.h"
-
-#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +19,10 @@ namespace plumbline::reference
     {
       return a[0] * b[1] - a[1] * b[0];
     }
+
+    /// Of centroids, in sums of radii: beyond it pairs are apart.
+    constexpr double near = 3;
+    constexpr double accuracy = 1e-15; ///< of rules for them
 
     bool is_constant(const physics::Kernel<2> &kernel)
     {
@@ -43,7 +46,7 @@ namespace plumbline::reference
   {
     const geometry::Mesh &mesh = space.mesh();
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> index;
-    double largest = 0;
+    double largest = 0, longest = 0;
     for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
     {
       std::array<Side, n_sides> of_cell;
@@ -65,8 +68,22 @@ namespace plumbline::reference
       longest = std::max(longest, longest_side);
       largest = std::max(largest, cells.radius(cell));
     }
-    reach = (kernel.horizon() + 4 * largest) / kernel.horizon();
+    const double reach = (kernel.horizon() + 4 * largest) / kernel.horizon();
     pairs = std::make_unique<EdgePairs>(kernel, longest, 1 - reach * reach);
+
+    const unsigned int highest =
+        2 + std::max<unsigned int>(degree_away_from_singularity(near, 1, accuracy),
+                                   static_cast<unsigned int>(kernel.profile().degree()));
+    const geometry::Polygon unit = {Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1)};
+    for (unsigned int degree = 1; degree <= highest + 1; degree += 2)
+    {
+      const geometry::CutRule gauss = geometry::polygon_rule(geometry::view(unit), degree);
+      ShapeRule rule{gauss.points, gauss.weights, {}};
+      rule.phi.resize(rule.unit.size() * space.shapes().size());
+      for (std::size_t q = 0; q < rule.unit.size(); ++q)
+        space.shapes().values(rule.unit[q], &rule.phi[q * space.shapes().size()]);
+      rules.push_back(std::move(rule));
+    }
   }
 
   TrianglePairs::TrianglePairs(const MeshSpace &space, const MeshCells &cells,
@@ -114,12 +131,12 @@ namespace plumbline::reference
     if (is_constant(kernel_))
       return add_product(outer, inner, blocks);
     if (kernel_.profile().is_even(false))
-      return add_apart(outer, inner, kernel_.profile().degree() + 2, blocks);
+      return add_by_rule(outer, inner, shared_->rule(kernel_.profile().degree() + 2), blocks);
     const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
     const double both = cells_.radius(outer) + cells_.radius(inner);
-    constexpr double near = 3;
     if (between > near * both)
-      add_apart(outer, inner, degree_away_from_singularity(between, both, 1e-15) + 2, blocks);
+      add_by_rule(outer, inner,
+                  shared_->rule(degree_away_from_singularity(between, both, accuracy) + 2), blocks);
     else
       add_sides(outer, inner, Part::whole, 1, blocks);
   }
@@ -138,45 +155,21 @@ namespace plumbline::reference
       }
   }
 
-  void TrianglePairs::add_apart(std::size_t outer, std::size_t inner, unsigned int degree,
-                                PairBlocks &blocks) const
+  /// Triangles so far apart, or kernels so smooth, that a product of rules sees a polynomial.
+  void TrianglePairs::add_by_rule(std::size_t outer, std::size_t inner, const ShapeRule &rule,
+                                  PairBlocks &blocks) const
   {
-    const dealii::QGaussSimplex<2> *rule = nullptr;
-    (void)rule;
-    const unsigned int n = degree / 2 + 1;
-    static thread_local std::map<unsigned int, dealii::Quadrature<2>> rules;
-    auto at = rules.find(n);
-    if (at == rules.end())
-    {
-      dealii::Quadrature<2> made;
-      if (n <= 7)
-        made = dealii::QWitherdenVincentSimplex<2>(n);
-      else
-      {
-        const dealii::QGauss<2> square(n + 1);
-        auto points = square.get_points();
-        auto weights = square.get_weights();
-        for (std::size_t q = 0; q < points.size(); ++q)
-        {
-          weights[q] *= 1 - points[q][0];
-          points[q][1] *= 1 - points[q][0];
-        }
-        made = dealii::Quadrature<2>(points, weights);
-      }
-      at = rules.emplace(n, made).first;
-    }
-    const dealii::Quadrature<2> &gauss = at->second;
     const CellMap &of_x = space_.map(outer), &of_y = space_.map(inner);
     const double factor = of_x.determinant({}) * of_y.determinant({});
-    for (unsigned int i = 0; i < gauss.size(); ++i)
-      for (unsigned int j = 0; j < gauss.size(); ++j)
+    for (std::size_t i = 0; i < rule.unit.size(); ++i)
+    {
+      const Point<2> x = of_x.point(rule.unit[i]);
+      const double *const p = &rule.phi[i * n_];
+      for (std::size_t j = 0; j < rule.unit.size(); ++j)
       {
-        const Point<2> &s = gauss.point(i), &t = gauss.point(j);
-        const double value = factor * gauss.weight(i) * gauss.weight(j) *
-                             kernel_.radial(of_x.point(s).distance(of_y.point(t)));
-        double p[3], q[3];
-        space_.shapes().values(s, p);
-        space_.shapes().values(t, q);
+        const double *const q = &rule.phi[j * n_];
+        const double value = factor * rule.weight[i] * rule.weight[j] *
+                             kernel_.radial(x.distance(of_y.point(rule.unit[j])));
         for (unsigned int a = 0; a < n_; ++a)
           for (unsigned int b = 0; b < n_; ++b)
           {
@@ -185,6 +178,7 @@ namespace plumbline::reference
             blocks.inner[a * n_ + b] += value * q[a] * q[b];
           }
       }
+    }
   }
 
   const EdgeMoments &TrianglePairs::moments(unsigned int side, unsigned int edge, Part part)
@@ -244,10 +238,6 @@ namespace plumbline::reference
                                 PairBlocks &blocks)
   {
     const auto of_x = traces(outer), of_y = traces(inner);
-    const auto gradients = [](const std::array<Trace, 3> &, unsigned int, unsigned int)
-    { return 0.; };
-    (void)gradients;
-    // ∇φ_a · ∇φ_b
     const auto product_of_gradients = [&](std::size_t cell, unsigned int a, unsigned int b)
     {
       if (n_ == 1)

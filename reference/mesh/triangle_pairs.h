@@ -3,6 +3,7 @@
 #include "reference/mesh/cells.h"
 #include "reference/mesh/edge_pairs.h"
 #include "reference/mesh/pair_blocks.h"
+#include "reference/mesh/shape_rules.h"
 #include "reference/mesh/space.h"
 
 #include <memory>
@@ -40,10 +41,12 @@ namespace plumbline::reference
     {
       Shared(const MeshSpace &space, const MeshCells &cells, const physics::Kernel<2> &kernel);
 
+      const ShapeRule &rule(unsigned int degree) const { return rules[degree / 2]; }
+
       std::vector<Segment> edges;
       std::vector<std::array<Side, 3>> sides; ///< of each cell
       std::vector<char> is_slender;           ///< cells
-      double longest = 0, reach = 0;
+      std::vector<ShapeRule> rules;           ///< index i is exact to degree 2 i + 1
       std::unique_ptr<EdgePairs> pairs;
     };
     /// The polynomials of a cell along one of its sides: values at the ends, and the derivative
@@ -65,8 +68,8 @@ namespace plumbline::reference
     void add_sides(std::size_t outer, std::size_t inner, Part part, double factor,
                    PairBlocks &blocks);
     void add_product(std::size_t outer, std::size_t inner, PairBlocks &blocks) const;
-    void add_apart(std::size_t outer, std::size_t inner, unsigned int degree,
-                   PairBlocks &blocks) const;
+    void add_by_rule(std::size_t outer, std::size_t inner, const ShapeRule &rule,
+                     PairBlocks &blocks) const;
     void add_whole(std::size_t outer, std::size_t inner, PairBlocks &blocks);
 
     const MeshSpace &space_;

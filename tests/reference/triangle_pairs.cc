@@ -6,6 +6,7 @@
 #include "reference/mesh/edge_assembly.h"
 #include "reference/mesh/entry_check.h"
 #include "reference/mesh/pair_correlation.h"
+#include "reference/mesh/repeated_pairs.h"
 
 #include <gtest/gtest.h>
 
@@ -359,5 +360,63 @@ TEST(EntryCheck, FindsEntriesThatAreWrong)
       for (double &value : rows.value)
         value *= 1 + 1e-8;
       EXPECT_GT(check().worst_difference, 1e-12);
+    }
+}
+
+TEST(RepeatedPairs, AreTranslationsOfTheFirstOfTheirKind)
+{
+  const double h = .125, horizon = 3 * h;
+  Mesh mesh = triangles(h, horizon, 0);
+  for (auto &vertex : mesh.vertices) // two shapes of four triangles
+    vertex[0] += vertex[0] > .5 ? .5 * (vertex[0] - .5) : 0;
+  const auto pairs_of = [&](const Mesh &any)
+  {
+    const MeshCells cells(any);
+    std::vector<reference::CellPairs> pairs(cells.size());
+    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+      if (any.cells[cell].is_inside)
+        cells.find_near(cell, horizon, pairs[cell].partners);
+    return pairs;
+  };
+  auto pairs = pairs_of(mesh);
+  const reference::RepeatedPairs repeated(mesh, pairs);
+  std::size_t n_pairs = 0;
+  for (std::size_t cell = 0; cell < pairs.size(); ++cell)
+    for (std::size_t i = 0; i < pairs[cell].partners.size(); ++i)
+    {
+      ++n_pairs;
+      const auto [outer, inner] = repeated.first().at(pairs[cell].same.at(i));
+      const auto a = mesh.polygon(cell), b = mesh.polygon(pairs[cell].partners[i]),
+                 c = mesh.polygon(outer), d = mesh.polygon(inner);
+      for (unsigned int v = 0; v < 3; ++v)
+        for (unsigned int w = 0; w < 3; ++w)
+        {
+          EXPECT_LT(((a[v] - b[w]) - (c[v] - d[w])).norm(), 1e-9 * h);
+          EXPECT_LT(((a[v] - a[w]) - (c[v] - c[w])).norm(), 1e-9 * h);
+        }
+    }
+  EXPECT_LT(4 * repeated.first().size(), n_pairs);
+
+  const Mesh moved = triangles(h, horizon, .2);
+  auto single = pairs_of(moved);
+  EXPECT_TRUE(reference::RepeatedPairs(moved, single).first().empty());
+  for (const auto &own : single)
+    EXPECT_TRUE(own.same.empty());
+}
+
+TEST(RepeatedPairs, MakeTheMatrixOfAllPairs)
+{
+  const double h = .125;
+  for (const Powers &powers : profiles)
+    for (const unsigned int degree : {0u, 1u})
+    {
+      const auto kernel = kernel_of(powers, 3 * h);
+      const auto jumps = coefficient_of("x > .5 ? 3 : 1", physics::Mean::harmonic);
+      const Assembled system = assemble(triangles(h, 3 * h, 0), kernel, false, degree, jumps);
+      const auto check =
+          reference::check_entries(*system.space, kernel, jumps, system.matrix.rows, 60, 2);
+      EXPECT_GE(check.n_entries, 60u);
+      EXPECT_LT(check.worst_difference, 1e-13);
+      EXPECT_LT(worst_row(system, [](const auto &) { return 1.; }), 1e-13);
     }
 }
