@@ -2,24 +2,27 @@
 
 #include "physics/kernel.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace plumbline::physics
 {
-  /// Radial potentials of a scalar kernel C in 2D as functions of u = |ξ|²: Ψ with Δ²Ψ = C, and Ψ₃
-  /// with ΔΨ₃ = Ψ.
+  /// Radial potentials of a scalar kernel C in 2D as functions of u = |ξ|²: Δ²Ψ₂ = C, ΔΨ₃ = Ψ₂,
+  /// ΔΨ₄ = Ψ₃.
   struct PotentialJet
   {
-    double value, first, second;    ///< Ψ, Ψ', Ψ''
-    double next_first, next_second; ///< Ψ₃', Ψ₃''
+    double value;               ///< Ψ₂
+    double first[3], second[3]; ///< derivatives of Ψ₂, Ψ₃, Ψ₄
   };
 
   /// Those that vanish with their derivatives at the horizon, so that they may be cut off there.
-  /// With q = u/δ², ρ = 1 - q: Ψ = δ⁴ f(ρ), f = O(ρ⁴), and Ψ₃' = -½ δ⁴ g, g = O(ρ⁵), as
-  /// RadialPotential has them; from the same Green's function
+  /// With q = u/δ², ρ = 1 - q: Ψ₂ = δ⁴ f(ρ), f = O(ρ⁴), as RadialPotential has it; from the same
+  /// Green's function
   ///   f' = ρ³/(16 q²) ∫_0^1 C τ² R(ρτ/q) dτ, R(x) = (x - ln(1 + x))/x²,
-  ///   f'' = ρ²/(16 q²) ∫_0^1 C τ dτ, C at δ√(q + ρτ).
+  ///   f'' = ρ²/(16 q²) ∫_0^1 C τ dτ, C at δ√(q + ρτ);
+  /// Ψ_k = δ^2k f_k, f_(k+1)' = g_k/2, 2 q g_k = ∫_0^ρ f_k.
   /// Tables of polynomials in ρ. Accuracy: 1e-14 relative to ρ = .9, a test. Thread safe.
   class CircleJets
   {
@@ -32,28 +35,45 @@ namespace plumbline::physics
 
     double square() const { return square_; } ///< δ²
 
-    PotentialJet operator()(double u) const
+    /// @tparam n_orders  how many potentials, from Ψ₂ on
+    template <unsigned int n_orders>
+    PotentialJet at(double u) const
     {
-      const double rho = std::min(1 - u * inverse_, highest_rho), q = 1 - rho;
-      const auto [f, f1, f2, g] = reduced(rho);
-      const double square = rho * rho, value = square * square * f,
-                   of_g = square * square * rho * g;
-      return {square_ * square_ * value, -square_ * square * rho * f1, square * f2,
-              -.5 * square_ * square_ * of_g, square_ * (.25 * value + .5 * of_g) / q};
+      constexpr unsigned int n = n_orders < 3 ? 4 : n_functions; // whole vector registers
+      const double rho = std::min(1 - u * inverse_, highest_rho), per_q = 1 / (1 - rho);
+      const Values reduced = evaluate<n>(rho);
+      const double two = rho * rho, four = two * two, f = four * reduced[0];
+      PotentialJet jet{square_ * square_ * f,
+                       {-square_ * two * rho * reduced[1], 0, 0},
+                       {two * reduced[2], 0, 0}};
+      if constexpr (n_orders > 1)
+      {
+        const double g = four * rho * reduced[3];
+        jet.first[1] = -.5 * square_ * square_ * g;
+        jet.second[1] = square_ * per_q * (.25 * f + .5 * g);
+      }
+      if constexpr (n_orders > 2)
+      {
+        const double f3 = four * two * reduced[4], g3 = four * two * rho * reduced[5];
+        jet.first[2] = -.5 * square_ * square_ * square_ * g3;
+        jet.second[2] = square_ * square_ * per_q * (.25 * f3 + .5 * g3);
+      }
+      return jet;
     }
 
   private:
-    static constexpr unsigned int n_terms = 10, n_functions = 4;
+    static constexpr unsigned int n_terms = 10, n_functions = 6;
     static constexpr double knee = -1;
 
-    using Values = std::array<double, n_functions>; ///< f/ρ⁴, f'/ρ³, f''/ρ², g/ρ⁵
+    using Values = std::array<double, n_functions>; ///< f/ρ⁴, f'/ρ³, f''/ρ², g/ρ⁵, f₃/ρ⁶, g₃/ρ⁷
     struct Table
     {
       double start = 0, per_length = 0;
       std::vector<std::array<Values, n_terms>> intervals; ///< coefficients
     };
 
-    Values reduced(double rho) const
+    template <unsigned int n>
+    Values evaluate(double rho) const
     {
       const Table &table = rho < knee ? far_ : near_;
       const double place = (rho - table.start) * table.per_length;
@@ -62,13 +82,14 @@ namespace plumbline::physics
       const double x = 2 * (place - i) - 1;
       Values result = c[n_terms - 1];
       for (unsigned int k = n_terms - 1; k-- > 0;)
-        for (unsigned int j = 0; j < n_functions; ++j)
+#pragma GCC unroll 6
+        for (unsigned int j = 0; j < n; ++j)
           result[j] = result[j] * x + c[k][j];
       return result;
     }
 
     template <class Function>
-    static Table tabulate(double from, double to, double length, const Function &function);
+    void tabulate(unsigned int first, unsigned int last, const Function &function);
 
     double square_, inverse_;
     Table far_, near_;
@@ -81,15 +102,37 @@ namespace plumbline::physics
   public:
     explicit PowerJets(const Kernel<2> &kernel);
 
-    PotentialJet operator()(double u) const; ///< u > 0
-    /// The highest power of |ξ| in what any of them is multiplied out to.
+    /// @param u  > 0
+    template <unsigned int n_orders>
+    PotentialJet at(double u) const
+    {
+      PotentialJet sum{};
+      const double r = std::sqrt(u);
+      for (const Term &term : terms_)
+      {
+        double power = 1; // r^k
+        for (int k = 0; k < std::abs(term.exponent); ++k)
+          power *= r;
+        if (term.exponent < 0)
+          power = 1 / power;
+        sum.value += term.value * power * u * u;
+        for (unsigned int k = 0; k < n_orders; ++k, power *= u)
+        {
+          sum.first[k] += term.first[k] * power * u;
+          sum.second[k] += term.second[k] * power;
+        }
+      }
+      return sum;
+    }
+
+    /// The highest power of |ξ| in any of them.
     unsigned int degree() const { return degree_; }
 
   private:
     struct Term
     {
       int exponent;
-      double value, first, second, next_first, next_second; ///< factors of r^exponent
+      double value, first[3], second[3]; ///< factors
     };
     std::vector<Term> terms_;
     unsigned int degree_ = 0;

@@ -70,6 +70,7 @@ namespace plumbline::reference
     }
 
     /// The integrals over f alone, x being fixed on e; z = y - x.
+    template <unsigned int degree>
     class LineMoments
     {
     public:
@@ -88,44 +89,56 @@ namespace plumbline::reference
       template <class Jets>
       void add_at(const Jets &jets, const Vector2 &z, double t, double weight)
       {
-        const physics::PotentialJet jet = jets(z.norm_square());
+        const physics::PotentialJet jet = jets.template at<degree + 1>(z.norm_square());
         const double along_e = normal_e_ * z, along_f = normal_f_ * z, twice = 2 * weight;
         const double across = 2 * along_e * along_f;
-        const double both = -twice * (jet.first * product_ + jet.second * across);
-        const double of_x = -twice * jet.first * along_e, of_y = twice * jet.first * along_f;
-        both_[0] += both;
-        both_[1] += both * t;
-        both_[2] += both * t * t;
-        of_x_[0] += of_x;
-        of_x_[1] += of_x * t;
-        of_y_[0] += of_y;
-        of_y_[1] += of_y * t;
-        value_ += weight * jet.value;
-        next_ -= twice * (jet.next_first * product_ + jet.next_second * across);
+#pragma GCC unroll 3
+        for (unsigned int k = 0; k <= degree; ++k)
+        {
+          double both = -twice * (jet.first[k] * product_ + jet.second[k] * across);
+#pragma GCC unroll 5
+          for (unsigned int j = 0; j <= highest - 2 * k; ++j, both *= t)
+            both_[k][j] += both;
+          double of_x = -twice * jet.first[k] * along_e, of_y = twice * jet.first[k] * along_f;
+#pragma GCC unroll 5
+          for (unsigned int j = 0; j + 1 <= highest - 2 * k; ++j, of_x *= t, of_y *= t)
+          {
+            of_x_[k][j] += of_x;
+            of_y_[k][j] += of_y;
+          }
+        }
+        double value = weight * jet.value;
+#pragma GCC unroll 5
+        for (unsigned int j = 0; j + 2 <= highest; ++j, value *= t)
+          value_[j] += value;
       }
 
       void add_to(EdgeMoments &sum, double s, double weight) const
       {
-        sum.both[0] += weight * both_[0];
-        sum.both[1] += weight * s * both_[0];
-        sum.both[2] += weight * both_[1];
-        sum.both[3] += weight * s * both_[1];
-        sum.both[4] += weight * s * s * both_[0];
-        sum.both[5] += weight * both_[2];
-        sum.of_x[0] += weight * of_x_[0];
-        sum.of_x[1] += weight * s * of_x_[0];
-        sum.of_x[2] += weight * of_x_[1];
-        sum.of_y[0] += weight * of_y_[0];
-        sum.of_y[1] += weight * s * of_y_[0];
-        sum.of_y[2] += weight * of_y_[1];
-        sum.value += weight * value_;
-        sum.next += weight * next_;
+        for (unsigned int i = 0; i <= highest; ++i, weight *= s)
+        {
+          for (unsigned int k = 0; 2 * k + i <= highest; ++k)
+            for (unsigned int j = 0; i + j + 2 * k <= highest; ++j)
+              sum.both[k][i][j] += weight * both_[k][j];
+          for (unsigned int k = 0; 2 * k + i + 1 <= highest; ++k)
+            for (unsigned int j = 0; i + j + 2 * k + 1 <= highest; ++j)
+            {
+              sum.of_x[k][i][j] += weight * of_x_[k][j];
+              sum.of_y[k][i][j] += weight * of_y_[k][j];
+            }
+          for (unsigned int j = 0; i + j + 2 <= highest; ++j)
+            sum.value[i][j] += weight * value_[j];
+        }
       }
 
     private:
+      static constexpr unsigned int highest = 2 * degree;
+
       Vector2 normal_e_, normal_f_, along_, z_;
       double product_;
-      double both_[3] = {}, of_x_[2] = {}, of_y_[2] = {}, value_ = 0, next_ = 0;
+      double both_[degree + 1][highest + 1] = {}, of_x_[degree + 1][highest + 1] = {},
+                                         of_y_[degree + 1][highest + 1] = {},
+                                         value_[highest + 1] = {};
     };
 
     /// Points of a rule on a side, for functions that are analytic up to a distance in its length.
@@ -192,8 +205,9 @@ namespace plumbline::reference
     constexpr unsigned int more_along = 2; ///< where roots are functions of s
   }                                        // namespace
 
-  EdgePairs::EdgePairs(const physics::Kernel<2> &kernel, double longest, double lowest_rho)
-      : circle_(kernel, lowest_rho), powers_(kernel),
+  EdgePairs::EdgePairs(const physics::Kernel<2> &kernel, unsigned int degree, double longest,
+                       double lowest_rho)
+      : degree_(degree), circle_(kernel, lowest_rho), powers_(kernel),
         inner_(physics::gauss(n_points(longest / kernel.horizon()))),
         outer_(physics::gauss(inner_.size() + more_along))
   {
@@ -202,17 +216,35 @@ namespace plumbline::reference
   void EdgePairs::at_circle(const Segment &e, const Segment &f, EdgeMoments *in,
                             EdgeMoments *out) const
   {
+    degree_ == 0   ? at_circle_as<0>(e, f, in, out)
+    : degree_ == 1 ? at_circle_as<1>(e, f, in, out)
+                   : at_circle_as<2>(e, f, in, out);
+  }
+
+  EdgeMoments EdgePairs::whole(const Segment &e, const Segment &f) const
+  {
+    EdgeMoments sum;
+    degree_ == 0   ? add_whole<0>(e, f, sum)
+    : degree_ == 1 ? add_whole<1>(e, f, sum)
+                   : add_whole<2>(e, f, sum);
+    return sum;
+  }
+
+  template <unsigned int degree>
+  void EdgePairs::at_circle_as(const Segment &e, const Segment &f, EdgeMoments *in,
+                               EdgeMoments *out) const
+  {
     const double square = circle_.square(), horizon = std::sqrt(square);
     if (farthest(e, f) <= horizon)
     {
       if (in != nullptr)
-        add_smooth(e, f, *in);
+        add_smooth<degree>(e, f, *in);
       return;
     }
     if (distance(e, f) >= horizon)
     {
       if (out != nullptr)
-        add_smooth(e, f, *out);
+        add_smooth<degree>(e, f, *out);
       return;
     }
     std::vector<double> tangents;
@@ -238,28 +270,31 @@ namespace plumbline::reference
         for (unsigned int i = 0; i < outer_.size(); ++i)
         {
           const double v = a + (b - a) * outer_.point(i)[0];
-          add_line(e, f, is_before ? tangent + v * v : tangent - v * v,
-                   2 * v * (b - a) * outer_.weight(i), in, out);
+          add_line<degree>(e, f, is_before ? tangent + v * v : tangent - v * v,
+                           2 * v * (b - a) * outer_.weight(i), in, out);
         }
       }
       else
         for (unsigned int i = 0; i < outer_.size(); ++i)
-          add_line(e, f, from + length * outer_.point(i)[0], length * outer_.weight(i), in, out);
+          add_line<degree>(e, f, from + length * outer_.point(i)[0], length * outer_.weight(i), in,
+                           out);
     }
   }
 
+  template <unsigned int degree>
   void EdgePairs::add_smooth(const Segment &e, const Segment &f, EdgeMoments &sum) const
   {
     for (unsigned int i = 0; i < inner_.size(); ++i)
     {
       const double s = inner_.point(i)[0];
-      LineMoments line(e, f, f.start - (e.start + s * e.along));
+      LineMoments<degree> line(e, f, f.start - (e.start + s * e.along));
       for (unsigned int j = 0; j < inner_.size(); ++j)
         line.add(circle_, inner_.point(j)[0], inner_.weight(j));
       line.add_to(sum, s, inner_.weight(i));
     }
   }
 
+  template <unsigned int degree>
   void EdgePairs::add_line(const Segment &e, const Segment &f, double s, double weight,
                            EdgeMoments *in, EdgeMoments *out) const
   {
@@ -273,7 +308,7 @@ namespace plumbline::reference
     {
       if (sum == nullptr || !(to > from))
         return;
-      LineMoments line(e, f, w);
+      LineMoments<degree> line(e, f, w);
       for (unsigned int j = 0; j < inner_.size(); ++j)
         line.add(circle_, from + (to - from) * inner_.point(j)[0], (to - from) * inner_.weight(j));
       line.add_to(*sum, s, weight);
@@ -283,16 +318,17 @@ namespace plumbline::reference
     add(leave, 1, out);
   }
 
-  EdgeMoments EdgePairs::whole(const Segment &e, const Segment &f) const
+  template <unsigned int degree>
+  void EdgePairs::add_whole(const Segment &e, const Segment &f, EdgeMoments &sum) const
   {
     if (distance(e, f) < rounding * std::min(e.along.norm(), f.along.norm()))
-      return from_corner(e, f);
-    EdgeMoments sum;
-    add_apart(e, f, {0, 1}, {0, 1}, sum);
-    return sum;
+      add_corner<degree>(e, f, sum);
+    else
+      add_apart<degree>(e, f, {0, 1}, {0, 1}, sum);
   }
 
   /// Parts of the sides, halved until they are apart in terms of their lengths.
+  template <unsigned int degree>
   void EdgePairs::add_apart(const Segment &e, const Segment &f, const Range &of_s,
                             const Range &of_t, EdgeMoments &sum) const
   {
@@ -304,9 +340,9 @@ namespace plumbline::reference
     {
       for (const unsigned int half : {0u, 1u})
         if (length_e > length_f)
-          add_apart(e, f, halve(of_s, half), of_t, sum);
+          add_apart<degree>(e, f, halve(of_s, half), of_t, sum);
         else
-          add_apart(e, f, of_s, halve(of_t, half), sum);
+          add_apart<degree>(e, f, of_s, halve(of_t, half), sum);
       return;
     }
     const auto &outer = physics::gauss(points_at(between / length_e));
@@ -314,7 +350,7 @@ namespace plumbline::reference
     for (unsigned int i = 0; i < outer.size(); ++i)
     {
       const double s = of_s[0] + ds * outer.point(i)[0];
-      LineMoments line(e, f, f.start - (e.start + s * e.along));
+      LineMoments<degree> line(e, f, f.start - (e.start + s * e.along));
       for (unsigned int j = 0; j < inner.size(); ++j)
         line.add(powers_, of_t[0] + dt * inner.point(j)[0], dt * inner.weight(j));
       line.add_to(sum, s, ds * outer.weight(i));
@@ -323,7 +359,8 @@ namespace plumbline::reference
 
   /// Sides that meet: (s, t) from the common corner as (u, u v) and (u v, u), for which a power of
   /// |z| is one of u times an analytic function of v; for a side with itself one of 1 - v, too.
-  EdgeMoments EdgePairs::from_corner(const Segment &e, const Segment &f) const
+  template <unsigned int degree>
+  void EdgePairs::add_corner(const Segment &e, const Segment &f, EdgeMoments &sum) const
   {
     double nearest = std::numeric_limits<double>::infinity();
     double s_corner = 0, t_corner = 0;
@@ -337,7 +374,6 @@ namespace plumbline::reference
         }
     const Vector2 b = (1 - 2 * s_corner) * e.along, a = (1 - 2 * t_corner) * f.along;
     const auto &along = physics::gauss(powers_.degree() / 2 + 2);
-    EdgeMoments sum;
     for (const bool is_upper : {false, true})
       for (const auto &[from, to] : away_from_root(is_upper ? a : b, is_upper ? b : a))
       {
@@ -347,12 +383,11 @@ namespace plumbline::reference
           {
             const double u = along.point(i)[0], v = from + (to - from) * across.point(j)[0];
             const double s = is_upper ? u * v : u, t = is_upper ? u : u * v;
-            LineMoments point(e, f, {});
+            LineMoments<degree> point(e, f, {});
             point.add_at(powers_, t * a - s * b, std::abs(t_corner - t), 1);
             point.add_to(sum, std::abs(s_corner - s),
                          u * along.weight(i) * (to - from) * across.weight(j));
           }
       }
-    return sum;
   }
 } // namespace plumbline::reference

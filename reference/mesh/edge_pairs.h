@@ -7,16 +7,19 @@
 
 namespace plumbline::reference
 {
-  /// Integrals over a pair of sides, x at s on the one and y at t on the other, of a potential
-  /// Ψ(y - x) and what Green's identities need of it: normal derivatives along (along_y, -along_x),
-  /// lengths of the sides in them.
+  /// Integrals over a pair of sides, x at s on the one and y at t on the other, of s^i t^j times
+  /// potentials Ψ_2+k(y - x) and what Green's identities need of them: normal derivatives along
+  /// (along_y, -along_x), lengths of the sides in them. For shape functions of degree p, i + j goes
+  /// up to 2 p - 2 k with both derivatives, one less with one, two less with none.
   struct EdgeMoments
   {
-    std::array<double, 6> both{}; ///< ∬ m ∂_nx ∂_ny Ψ, m = 1, s, t, st, s², t²
-    std::array<double, 3> of_x{}; ///< ∬ m ∂_nx Ψ, m = 1, s, t
-    std::array<double, 3> of_y{}; ///< ∬ m ∂_ny Ψ
-    double value = 0;             ///< ∬ Ψ
-    double next = 0;              ///< ∬ ∂_nx ∂_ny Ψ₃, ΔΨ₃ = Ψ
+    static constexpr unsigned int n_orders = 3, n = 5; ///< p = 2
+
+    using Table = std::array<std::array<double, n>, n>;
+    std::array<Table, n_orders> both{}; ///< ∬ s^i t^j ∂_nx ∂_ny Ψ_2+k
+    std::array<Table, 2> of_x{};        ///< ∬ s^i t^j ∂_nx Ψ_2+k
+    std::array<Table, 2> of_y{};        ///< ∬ s^i t^j ∂_ny Ψ_2+k
+    Table value{};                      ///< ∬ s^i t^j Ψ₂
   };
 
   /// Such integrals by rules in s and t that see analytic functions alone: cut where the circle
@@ -24,9 +27,11 @@ namespace plumbline::reference
   class EdgePairs
   {
   public:
+    /// @param degree      of shape functions, 0 to 2
     /// @param longest     side [length]: the number of points follows from it
     /// @param lowest_rho  1 - (the largest distance of points / δ)²
-    EdgePairs(const physics::Kernel<2> &kernel, double longest, double lowest_rho);
+    EdgePairs(const physics::Kernel<2> &kernel, unsigned int degree, double longest,
+              double lowest_rho);
 
     /// The potential that vanishes at the circle, inside and outside of it.
     void at_circle(const Segment &e, const Segment &f, EdgeMoments *in, EdgeMoments *out) const;
@@ -35,14 +40,24 @@ namespace plumbline::reference
     EdgeMoments whole(const Segment &e, const Segment &f) const;
 
   private:
+    using Range = std::array<double, 2>; ///< of s or t
+
+    template <unsigned int degree>
+    void at_circle_as(const Segment &e, const Segment &f, EdgeMoments *in, EdgeMoments *out) const;
+    template <unsigned int degree>
     void add_smooth(const Segment &e, const Segment &f, EdgeMoments &sum) const;
+    template <unsigned int degree>
     void add_line(const Segment &e, const Segment &f, double s, double weight, EdgeMoments *in,
                   EdgeMoments *out) const;
-    using Range = std::array<double, 2>; ///< of s or t
+    template <unsigned int degree>
     void add_apart(const Segment &e, const Segment &f, const Range &of_s, const Range &of_t,
                    EdgeMoments &sum) const;
-    EdgeMoments from_corner(const Segment &e, const Segment &f) const;
+    template <unsigned int degree>
+    void add_corner(const Segment &e, const Segment &f, EdgeMoments &sum) const;
+    template <unsigned int degree>
+    void add_whole(const Segment &e, const Segment &f, EdgeMoments &sum) const;
 
+    unsigned int degree_;
     physics::CircleJets circle_;
     physics::PowerJets powers_;
     const dealii::Quadrature<1> &inner_; ///< along f

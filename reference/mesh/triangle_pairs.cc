@@ -15,25 +15,15 @@ namespace plumbline::reference
     constexpr unsigned int n_sides = 3;
     constexpr unsigned int next[n_sides] = {1, 2, 0};
 
-    double cross(const Vector2 &a, const Vector2 &b)
-    {
-      return a[0] * b[1] - a[1] * b[0];
-    }
-
     /// Of centroids, in sums of radii: beyond it pairs are apart.
     constexpr double near = 3;
     constexpr double accuracy = 1e-15; ///< of rules for them
-
-    bool is_constant(const physics::Kernel<2> &kernel)
-    {
-      return kernel.profile().degree() == 0 && kernel.profile().lowest_exponent() == 0;
-    }
-  } // namespace
+  }                                    // namespace
 
   std::string TrianglePairs::refuse(const MeshSpace &space, const physics::Kernel<2> &kernel)
   {
-    if (space.shapes().degree() > 1)
-      return "the degree is more than 1";
+    if (space.shapes().degree() > 2)
+      return "the degree is more than 2";
     if (kernel.structure() != physics::Structure::scalar)
       return "the kernel is a tensor";
     if (!kernel.breaks().empty() || kernel.profile().is_function())
@@ -43,6 +33,7 @@ namespace plumbline::reference
 
   TrianglePairs::Shared::Shared(const MeshSpace &space, const MeshCells &cells,
                                 const physics::Kernel<2> &kernel)
+      : traces(space.shapes())
   {
     const geometry::Mesh &mesh = space.mesh();
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> index;
@@ -69,11 +60,13 @@ namespace plumbline::reference
       largest = std::max(largest, cells.radius(cell));
     }
     const double reach = (kernel.horizon() + 4 * largest) / kernel.horizon();
-    pairs = std::make_unique<EdgePairs>(kernel, longest, 1 - reach * reach);
+    pairs =
+        std::make_unique<EdgePairs>(kernel, space.shapes().degree(), longest, 1 - reach * reach);
 
     const unsigned int highest =
-        2 + std::max<unsigned int>(degree_away_from_singularity(near, 1, accuracy),
-                                   static_cast<unsigned int>(kernel.profile().degree()));
+        2 * space.shapes().degree() +
+        std::max<unsigned int>(degree_away_from_singularity(near, 1, accuracy),
+                               static_cast<unsigned int>(kernel.profile().degree()));
     const geometry::Polygon unit = {Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1)};
     for (unsigned int degree = 1; degree <= highest + 1; degree += 2)
     {
@@ -110,6 +103,7 @@ namespace plumbline::reference
       used_.clear();
       kept_.assign(1, {});
       outer_ = outer;
+      find_traces(outer, of_outer_);
     }
     const double horizon = kernel_.horizon();
     const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
@@ -118,41 +112,29 @@ namespace plumbline::reference
     if (cells_.farthest(outer, inner) <= horizon)
       add_whole(outer, inner, blocks);
     else if (between - both > apart * horizon)
-      add_sides(outer, inner, Part::in, 1, blocks);
+      add_sides(inner, Part::in, 1, blocks);
     else
     {
       add_whole(outer, inner, blocks);
-      add_sides(outer, inner, Part::out, -1, blocks);
+      add_sides(inner, Part::out, -1, blocks);
     }
   }
 
   void TrianglePairs::add_whole(std::size_t outer, std::size_t inner, PairBlocks &blocks)
   {
-    if (is_constant(kernel_))
-      return add_product(outer, inner, blocks);
     if (kernel_.profile().is_even(false))
-      return add_by_rule(outer, inner, shared_->rule(kernel_.profile().degree() + 2), blocks);
+      return add_by_rule(outer, inner,
+                         shared_->rule(kernel_.profile().degree() + 2 * space_.shapes().degree()),
+                         blocks);
     const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
     const double both = cells_.radius(outer) + cells_.radius(inner);
     if (between > near * both)
       add_by_rule(outer, inner,
-                  shared_->rule(degree_away_from_singularity(between, both, accuracy) + 2), blocks);
+                  shared_->rule(degree_away_from_singularity(between, both, accuracy) +
+                                2 * space_.shapes().degree()),
+                  blocks);
     else
-      add_sides(outer, inner, Part::whole, 1, blocks);
-  }
-
-  void TrianglePairs::add_product(std::size_t outer, std::size_t inner, PairBlocks &blocks) const
-  {
-    const double c =
-        kernel_.radial(kernel_.horizon()) * cells_.area(outer) * cells_.area(inner) / (n_ * n_);
-    const double of_mass = c * n_ * n_ / (n_ == 1 ? 1 : 12);
-    for (unsigned int a = 0; a < n_; ++a)
-      for (unsigned int b = 0; b < n_; ++b)
-      {
-        blocks.cross[a * n_ + b] += c;
-        blocks.outer[a * n_ + b] += a == b && n_ > 1 ? 2 * of_mass : of_mass;
-        blocks.inner[a * n_ + b] += a == b && n_ > 1 ? 2 * of_mass : of_mass;
-      }
+      add_sides(inner, Part::whole, 1, blocks);
   }
 
   /// Triangles so far apart, or kernels so smooth, that a product of rules sees a polynomial.
@@ -206,77 +188,109 @@ namespace plumbline::reference
     return own.moments;
   }
 
-  std::array<TrianglePairs::Trace, 3> TrianglePairs::traces(std::size_t cell) const
+  void TrianglePairs::find_traces(std::size_t cell, Traces &traces) const
   {
-    std::array<Trace, n_sides> result;
-    std::array<Point<2>, n_sides> corner;
-    for (unsigned int k = 0; k < n_sides; ++k)
-      corner[k] = space_.mesh().vertices[space_.mesh().cells[cell].vertex[k]];
-    const auto along = [&](unsigned int k) { return Vector2(corner[next[k]] - corner[k]); };
-    const double twice_area = cross(along(0), along(1));
     for (unsigned int k = 0; k < n_sides; ++k)
     {
-      const bool is_forward = shared_->sides[cell][k].is_forward;
-      Trace &trace = result[k];
-      trace.sign = is_forward ? 1 : -1;
-      if (n_ == 1)
-      {
-        trace.start[0] = 1;
-        continue;
-      }
-      const unsigned int first = is_forward ? k : next[k], last = is_forward ? next[k] : k;
-      trace.start[first] = 1;
-      trace.change[first] = -1;
-      trace.change[last] = 1;
-      for (unsigned int i = 0; i < n_sides; ++i)
-        trace.normal[i] = -(along(k) * along(next[i])) / twice_area;
+      const Side &side = shared_->sides[cell][k];
+      const Vector2 &along = shared_->edges[side.edge].along;
+      const double sign = side.is_forward ? 1 : -1;
+      traces.sign[k] = sign;
+      shared_->traces.find(space_.map(cell), k, side.is_forward,
+                           Point<2>(sign * along[1], -sign * along[0]), traces.of[k]);
     }
-    return result;
   }
 
-  void TrianglePairs::add_sides(std::size_t outer, std::size_t inner, Part part, double factor,
-                                PairBlocks &blocks)
+  namespace
   {
-    const auto of_x = traces(outer), of_y = traces(inner);
-    const auto product_of_gradients = [&](std::size_t cell, unsigned int a, unsigned int b)
+    /// Σ of a pair of sides for one function of the inner cell, as a functional of those of the
+    /// outer one.
+    struct Functional
     {
-      if (n_ == 1)
-        return 0.;
-      const auto j = space_.map(cell).inverse();
-      const double gx[3] = {-j[0] - j[2], j[0], j[2]}, gy[3] = {-j[1] - j[3], j[1], j[3]};
-      return gx[a] * gx[b] + gy[a] * gy[b];
+      std::array<std::array<double, 5>, 3> of_value{};
+      std::array<std::array<double, 4>, 2> of_normal{};
+
+      double operator()(const SideTrace &p) const
+      {
+        double sum = 0;
+        for (unsigned int m = 0; 2 * m <= p.degree; ++m)
+          for (unsigned int i = 0; i + 2 * m <= p.degree; ++i)
+          {
+            sum += p.value[m][i] * of_value[m][i];
+            if (i + 2 * m < p.degree)
+              sum += p.normal[m][i] * of_normal[m][i];
+          }
+        return sum;
+      }
     };
+
+    /// The functions that are paired are of this degree in all at most, twice that of shapes.
+    template <bool is_outer>
+    Functional apply(const SideTrace &q, const EdgeMoments &moments, double sign_p, double sign_q,
+                     unsigned int degree)
+    {
+      // indices of outer functions come first
+      const auto at = [](const EdgeMoments::Table &table, unsigned int i, unsigned int j)
+      { return is_outer ? table[i][j] : table[j][i]; };
+      const auto &of_p = is_outer ? moments.of_x : moments.of_y,
+                 &of_q = is_outer ? moments.of_y : moments.of_x;
+      Functional result;
+      for (unsigned int n = 0; 2 * n <= q.degree; ++n)
+        for (unsigned int j = 0; j + 2 * n <= q.degree; ++j)
+        {
+          const double value = sign_q * q.value[n][j];
+          const bool has_normal = j + 2 * n < q.degree;
+          for (unsigned int m = 0; 2 * (m + n) + j <= degree; ++m)
+            for (unsigned int i = 0; 2 * (m + n) + i + j <= degree; ++i)
+            {
+              const unsigned int k = m + n, left = degree - 2 * k - i - j;
+              result.of_value[m][i] += sign_p * value * at(moments.both[k], i, j);
+              if (left < 1)
+                continue;
+              result.of_normal[m][i] -= value * at(of_q[k], i, j);
+              if (!has_normal)
+                continue;
+              result.of_value[m][i] -= sign_p * q.normal[n][j] * at(of_p[k], i, j);
+              if (left > 1 && k == 0)
+                result.of_normal[m][i] += q.normal[n][j] * at(moments.value, i, j);
+            }
+        }
+      return result;
+    }
+  } // namespace
+
+  /// The outer cell is that of the kept moments.
+  void TrianglePairs::add_sides(std::size_t inner, Part part, double factor, PairBlocks &blocks)
+  {
+    find_traces(inner, of_inner_);
+    SideTrace one;
+    one.value[0][0] = 1;
+    const unsigned int degree = 2 * space_.shapes().degree();
     for (unsigned int k = 0; k < n_sides; ++k)
       for (unsigned int l = 0; l < n_sides; ++l)
       {
-        const Trace &p = of_x[k], &q = of_y[l];
         const EdgeMoments &m = moments(k, shared_->sides[inner][l].edge, part);
-        const double signs = factor * p.sign * q.sign, sign_p = factor * p.sign,
-                     sign_q = factor * q.sign;
+        const auto &p = of_outer_.of[k], &q = of_inner_.of[l];
+        const double sign_p = of_outer_.sign[k], sign_q = of_inner_.sign[l];
+        for (unsigned int b = 0; b < n_; ++b)
+        {
+          const Functional functional = apply<true>(q[b], m, sign_p, sign_q, degree);
+          for (unsigned int a = 0; a < n_; ++a)
+            blocks.cross[a * n_ + b] += factor * functional(p[a]);
+        }
+        const Functional of_p = apply<true>(one, m, sign_p, sign_q, degree),
+                         of_q = apply<false>(one, m, sign_q, sign_p, degree);
+        unsigned int product = n_;
         for (unsigned int a = 0; a < n_; ++a)
-          for (unsigned int b = 0; b < n_; ++b)
+          for (unsigned int b = a; b < n_; ++b, ++product)
           {
-            blocks.cross[a * n_ + b] +=
-                signs * (p.start[a] * (q.start[b] * m.both[0] + q.change[b] * m.both[2]) +
-                         p.change[a] * (q.start[b] * m.both[1] + q.change[b] * m.both[3])) -
-                sign_p * q.normal[b] * (p.start[a] * m.of_x[0] + p.change[a] * m.of_x[1]) -
-                sign_q * p.normal[a] * (q.start[b] * m.of_y[0] + q.change[b] * m.of_y[2]) +
-                factor * p.normal[a] * q.normal[b] * m.value;
-            const double of_p = p.start[a] * p.change[b] + p.change[a] * p.start[b];
-            blocks.outer[a * n_ + b] +=
-                signs * (p.start[a] * p.start[b] * m.both[0] + of_p * m.both[1] +
-                         p.change[a] * p.change[b] * m.both[4] +
-                         2 * product_of_gradients(outer, a, b) * m.next) -
-                sign_q * ((p.start[a] * p.normal[b] + p.normal[a] * p.start[b]) * m.of_y[0] +
-                          (p.change[a] * p.normal[b] + p.normal[a] * p.change[b]) * m.of_y[1]);
-            const double of_q = q.start[a] * q.change[b] + q.change[a] * q.start[b];
-            blocks.inner[a * n_ + b] +=
-                signs * (q.start[a] * q.start[b] * m.both[0] + of_q * m.both[2] +
-                         q.change[a] * q.change[b] * m.both[5] +
-                         2 * product_of_gradients(inner, a, b) * m.next) -
-                sign_p * ((q.start[a] * q.normal[b] + q.normal[a] * q.start[b]) * m.of_x[0] +
-                          (q.change[a] * q.normal[b] + q.normal[a] * q.change[b]) * m.of_x[2]);
+            blocks.outer[a * n_ + b] += factor * of_p(p[product]);
+            blocks.inner[a * n_ + b] += factor * of_q(q[product]);
           }
       }
+    for (auto *block : {&blocks.outer, &blocks.inner})
+      for (unsigned int a = 0; a < n_; ++a)
+        for (unsigned int b = 0; b < a; ++b)
+          (*block)[a * n_ + b] = (*block)[b * n_ + a];
   }
 } // namespace plumbline::reference

@@ -4,18 +4,20 @@
 #include "reference/mesh/edge_pairs.h"
 #include "reference/mesh/pair_blocks.h"
 #include "reference/mesh/shape_rules.h"
+#include "reference/mesh/side_traces.h"
 #include "reference/mesh/space.h"
 
 #include <memory>
 
 namespace plumbline::reference
 {
-  /// Blocks of pairs of triangles with a scalar kernel of powers and shape functions p, q up to
-  /// degree 1, exact to rounding: by Green's identity in x and in y,
-  ///   ∬_{T×T', |x-y|<δ} C p(x) q(y) = ∮_∂T ∮_∂T' (p ∂_nx - ∂_n p) (q ∂_ny - ∂_n q) Ψ(y - x),
-  ///   ∬ C p(x) = ∮∮ (p ∂_nx - ∂_n p) ∂_ny Ψ + Δp ∮∮ ∂_nx ∂_ny Ψ₃ for p of degree 2, Δ²Ψ = C,
-  /// with the potential cut off at the circle, or what lies beyond it taken from all of the pair.
-  /// Accuracy, of C |T| |T'|: 1e-11 where neither is slender, 1e-13 for δ >= 4 h.
+  /// Blocks of pairs of triangles with a scalar kernel of powers and shape functions of degree 2 at
+  /// most, exact to rounding: by Green's identity in x and in y, for polynomials p and q,
+  ///   ∬_{T×T', |x-y|<δ} C p(x) q(y) = Σ_{m,n} ∮_∂T ∮_∂T' (Δ^m p ∂_nx - ∂_n Δ^m p)
+  ///     (Δ^n q ∂_ny - ∂_n Δ^n q) Ψ_{2+m+n}(y - x), Δ^k Ψ_k = C,
+  /// with the potentials cut off at the circle, or what lies beyond it taken from all of the pair.
+  /// Accuracy, of C |T| |T'| / 9 for degree 1 at most: 1e-11 where neither is slender, 2.5e-12 for
+  /// δ >= 4 h, 1e-9 to where slender ones are left to quadrature; for degree 2 1e-10.
   /// Not thread safe: give each thread its own copy.
   class TrianglePairs
   {
@@ -47,14 +49,14 @@ namespace plumbline::reference
       std::vector<std::array<Side, 3>> sides; ///< of each cell
       std::vector<char> is_slender;           ///< cells
       std::vector<ShapeRule> rules;           ///< index i is exact to degree 2 i + 1
+      SideTraces traces;
       std::unique_ptr<EdgePairs> pairs;
     };
-    /// The polynomials of a cell along one of its sides: values at the ends, and the derivative
-    /// along the outer normal times the length.
-    struct Trace
+    /// The functions of a cell on its sides.
+    struct Traces
     {
-      double sign = 1; ///< of the outer normal in terms of the edge's
-      std::array<double, 3> start{}, change{}, normal{};
+      std::array<double, 3> sign{}; ///< of outer normals in terms of the edges'
+      std::array<std::vector<SideTrace>, 3> of;
     };
     enum class Part : char
     {
@@ -64,9 +66,8 @@ namespace plumbline::reference
     };
 
     const EdgeMoments &moments(unsigned int side, unsigned int edge, Part part);
-    std::array<Trace, 3> traces(std::size_t cell) const;
-    void add_sides(std::size_t outer, std::size_t inner, Part part, double factor,
-                   PairBlocks &blocks);
+    void find_traces(std::size_t cell, Traces &traces) const;
+    void add_sides(std::size_t inner, Part part, double factor, PairBlocks &blocks);
     void add_product(std::size_t outer, std::size_t inner, PairBlocks &blocks) const;
     void add_by_rule(std::size_t outer, std::size_t inner, const ShapeRule &rule,
                      PairBlocks &blocks) const;
@@ -86,5 +87,6 @@ namespace plumbline::reference
     std::vector<std::array<Kept, 3>> kept_;
     std::vector<unsigned int> place_; ///< in kept_, of each side of outer_ and edge; 0: none
     std::vector<std::size_t> used_;
+    Traces of_outer_, of_inner_;
   };
 } // namespace plumbline::reference
