@@ -309,7 +309,8 @@ namespace plumbline::reference
                                                free(), geometry.n_checks, geometry.seed);
         if (check.n_entries > 0)
           result.notes.push_back(
-              std::to_string(check.n_entries) + " entries by the correlations of " +
+              std::to_string(check.n_entries) +
+              (check.n_entries == 1 ? " entry by" : " entries by") + " the correlations of " +
               std::to_string(check.n_pairs) + " pairs of cells: at most " +
               base::to_text(check.worst_difference, 2) + " of the diagonal away");
       }
