@@ -79,6 +79,16 @@ namespace plumbline::scene
       return field;
     }
 
+    /// Whether a field has a series to 14 digits. Where it has none, its load, which is as rough,
+    /// would be looked at in vain at 129² points, each of them a ball of quadrature points.
+    bool is_resolved(const ChebyshevField::Function &value, unsigned int n_components,
+                     const Extent &extent, double size)
+    {
+      constexpr double digits = 1e-14;
+      return series_of(value, n_components, extent.box, digits * size, extent.is_rectangle)
+          .has_value();
+    }
+
     /// The largest value of a field over the samples: for noise levels.
     double magnitude(const Field &field, unsigned int n_components, const Extent &extent)
     {
@@ -283,7 +293,10 @@ namespace plumbline::scene
       const Expression u =
           expression("Problem/solution", scene.problem.solutions[case_index].expression);
       const double noise = noise_of(kernel, *problem.solution, n_components, omega);
-      problem.load = with_series(manufactured_load(problem, u, omega), n_components, omega, noise);
+      problem.load = {manufactured_load(problem, u, omega), std::nullopt};
+      if (is_resolved(problem.solution->value, n_components, omega,
+                      magnitude(*problem.solution, n_components, omega)))
+        problem.load = with_series(std::move(problem.load.value), n_components, omega, noise);
     }
     return problem;
   }
