@@ -14,7 +14,7 @@ namespace plumbline::study
     const auto least = std::min_element(runs.begin(), runs.end(),
                                         [](const Run *a, const Run *b)
                                         { return a->cost.seconds() < b->cost.seconds(); });
-    const double most = tie_ratio * (*least)->cost.seconds();
+    const double most = tie_ratio * (*least)->cost.seconds() + tie_seconds;
     runs.erase(std::remove_if(runs.begin(), runs.end(),
                               [most](const Run *run) { return run->cost.seconds() > most; }),
                runs.end());
