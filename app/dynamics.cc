@@ -81,9 +81,8 @@ namespace plumbline::app
     study::DynamicResults earlier_motions(const fs::path &folder, const scene::Scene &scene,
                                           unsigned int n_levels)
     {
-      for (const std::string &name : {scene.domain.mesh.name, scene.methods.nodes.name})
-        if (is_newer(fs::path(scene.folder) / name, folder / "dynamics.jsonl"))
-          return study::begin_results(scene, n_levels);
+      if (has_newer_files(scene, folder / "dynamics.jsonl"))
+        return study::begin_results(scene, n_levels);
       return report::read_motions(folder, study::begin_results(scene, n_levels));
     }
   } // namespace

@@ -72,9 +72,8 @@ namespace plumbline::app
       {
         const study::Results earlier = report::read_results(folder);
         // files that the scene names must be as old as the results
-        const bool is_current = !is_newer(fs::path(scene.folder) / scene.domain.mesh.name, file) &&
-                                !is_newer(fs::path(scene.folder) / scene.methods.nodes.name, file);
-        if (is_current && !earlier.is_complete && earlier.scene_text == scene.text)
+        if (!has_newer_files(scene, file) && !earlier.is_complete &&
+            earlier.scene_text == scene.text)
           return earlier;
       }
       catch (const InputError &)
@@ -114,6 +113,15 @@ namespace plumbline::app
       return name + ".vtu";
     }
 
+    /// What is as cheap, to noise.
+    std::string tie(const study::Choice &choice)
+    {
+      std::string names;
+      for (const std::string &method : choice.tied)
+        names += (names.empty() ? "" : ", ") + method;
+      return names.empty() ? "" : "; a tie with " + names;
+    }
+
     void print_summary(const study::Results &results, const fs::path &folder)
     {
       std::cout << results.scene_name << ": " << results.purpose << "\n\n"
@@ -133,6 +141,8 @@ namespace plumbline::app
           std::cout << std::left << std::setw(static_cast<int>(width[c])) << row[c];
         std::cout << row[4] << '\n';
       }
+      for (const std::string &warning : results.warnings)
+        std::cerr << "warning: " << warning << '\n';
       for (const study::Advice &advice : results.advice)
         if (!advice.choices.empty())
         {
@@ -140,7 +150,7 @@ namespace plumbline::app
           for (const study::Choice &choice : advice.choices)
             std::cout << "  cheapest to " << choice.target << ": " << choice.method
                       << " at h = " << choice.h << ", error " << choice.error << ", "
-                      << choice.seconds << " CPU s\n";
+                      << choice.seconds << " CPU s" << tie(choice) << '\n';
         }
       for (const study::Expectation &expectation : results.expectations)
         if (!expectation.holds)

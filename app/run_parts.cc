@@ -58,6 +58,16 @@ namespace plumbline::app
             {"ranks", std::to_string(base::Team::all().n_ranks())}};
   }
 
+  bool has_newer_files(const scene::Scene &scene, const std::filesystem::path &than)
+  {
+    const std::filesystem::path folder = scene.folder;
+    for (const scene::Series &series : scene.study.series)
+      for (const scene::Level &level : series.levels)
+        if (is_newer(folder / scene.methods.nodes.file_at(level.h), than))
+          return true;
+    return is_newer(folder / scene.domain.mesh.name, than);
+  }
+
   bool is_newer(const std::filesystem::path &file, const std::filesystem::path &than)
   {
     namespace fs = std::filesystem;

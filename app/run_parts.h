@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/scene.h"
+
 #include <chrono>
 #include <filesystem>
 #include <map>
@@ -18,6 +20,9 @@ namespace plumbline::app
 
   /// Whether both files are there, and the first is newer.
   bool is_newer(const std::filesystem::path &file, const std::filesystem::path &than);
+
+  /// Whether a mesh or node file that the scene names is newer.
+  bool has_newer_files(const scene::Scene &scene, const std::filesystem::path &than);
 
   /// Make the folder and try it, so that no work is lost at the end. @note Collective.
   /// @throws InputError  it cannot be written

@@ -332,7 +332,8 @@ namespace plumbline::atlas
       }
     const std::string how = page::paragraph(
         "Errors are relative to the largest value of the solution, in the norm that decides each "
-        "scene's verdicts; costs are CPU seconds of setup and solve on one thread. A method is on "
+        "scene's verdicts; costs are CPU seconds of setup and solve on one thread. Within 20 % "
+        "of the cheapest the method with the fewest unknowns is named. A method is on "
         "the (Pareto) front of a case if one of its runs errs by at most a tenth and no other run "
         "is as accurate for nine tenths of its time. A method that stalls or fails may be on it "
         "(✗) where little accuracy is asked for, but is never named as the cheapest. Green: it "

@@ -2,6 +2,7 @@
 
 #include "report/journal.h"
 #include "report/plot.h"
+#include "study/cheapest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -86,14 +87,13 @@ namespace plumbline::atlas
   {
     for (const auto wanted : {study::Outcome::converges, study::Outcome::undecided})
     {
-      const study::Run *best = nullptr;
+      std::vector<const study::Run *> runs;
       for (const study::Run *run : runs_of(question))
         if (outcome_of(question, run->method) == wanted &&
-            relative_error(*question.results, *run) <= target &&
-            (best == nullptr || run->cost.seconds() < best->cost.seconds()))
-          best = run;
-      if (best != nullptr)
-        return best;
+            relative_error(*question.results, *run) <= target)
+          runs.push_back(run);
+      if (!runs.empty())
+        return study::cheapest(runs).front();
     }
     return nullptr;
   }

@@ -25,21 +25,31 @@ namespace plumbline::algebra
 
   using Sides = std::array<std::array<Side, 2>, 2>;
 
+  /// Where rows between two zeros have them.
+  enum class Zeros
+  {
+    next, ///< at the next node outside, whatever its transform costs
+    fast  ///< where conjugate gradients need the least time, see sine_row.h
+  };
+
   /// The τ preconditioner for one node family: the sine transform diagonalises the operator but for
   /// its rows near the boundary; components are treated one by one. Eigenvalues
   /// λ_pq = Σ_k A(k) cos(k1 θ_p) cos(k2 θ_q), θ_p = π p/(n1+1) between two sides of zeros.
   /// At mirrored sides it inverts the rows of half cells, A times ½.
   /// @param sides  lower and upper of each axis; two mirrored ones need two nodes between them
+  /// @param zeros  fast: a longer row's, whose transform is fast: restrict A^-1 of its rectangle
   /// Source: Bini & Di Benedetto 1990, doi:10.1145/97444.97688; cosines: Strang 1999,
   /// doi:10.1137/S0036144598336745.
   /// @throws NumericalError  an eigenvalue is not positive: the stencil is not coercive
   std::unique_ptr<RectangleSolver> make_sine_solver(const Stencil &stencil,
                                                     const geometry::NodeSet &nodes,
                                                     const geometry::CellRange &cells,
-                                                    const Sides &sides = {});
+                                                    const Sides &sides = {},
+                                                    Zeros zeros = Zeros::next);
 
-  /// The same idea for several node families: reflect the rectangle oddly to twice its size, where
-  /// the operator is block circulant, and invert its symbol block by block.
+  /// The same idea for several node families: reflect the rectangle, and as many cells around it as
+  /// make that fast, oddly to twice its size, where the operator is block circulant, and invert its
+  /// symbol block by block.
   /// @throws NumericalError  as above
   std::unique_ptr<RectangleSolver> make_reflection_solver(const Stencil &stencil,
                                                           const geometry::NodeSet &nodes,

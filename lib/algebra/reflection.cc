@@ -1,6 +1,7 @@
 #include "algebra/rectangle_solver.h"
 
 #include "algebra/fftw.h"
+#include "algebra/sine_row.h"
 #include "base/error.h"
 
 #include <Eigen/Dense>
@@ -19,7 +20,7 @@ namespace plumbline::algebra
     /// One place of the doubled period that a degree of freedom is reflected to.
     struct Image
     {
-      int index;           ///< in [0, 2 n)
+      int index;           ///< in [0, 2 width)
       unsigned int family; ///< along the axis
       double sign;
     };
@@ -36,10 +37,11 @@ namespace plumbline::algebra
       void invert_symbol(const Stencil &stencil, unsigned int component);
 
       geometry::NodeSet nodes_;
-      std::array<int, 2> lower_, n_; ///< first cell and number of cells
-      std::size_t n_real_, n_modes_;
+      std::array<int, 2> lower_, n_;          ///< first cell and number of cells
+      std::array<int, 2> before_{}, width_{}; ///< cells before those, and with them and those after
+      std::size_t n_real_ = 0, n_modes_ = 0;
       std::vector<Complex> inverse_; ///< shape (n_components, n_modes, n_families, n_families)
-      AlignedArray<double> field_;   ///< shape (n_families, 2 n[1], 2 n[0])
+      AlignedArray<double> field_;   ///< shape (n_families, 2 width[1], 2 width[0])
       AlignedArray<Complex> modes_;  ///< shape (n_families, n_modes)
       Plan forward_, backward_;
     };
@@ -47,14 +49,19 @@ namespace plumbline::algebra
     ReflectionSolver::ReflectionSolver(const Stencil &stencil, const geometry::NodeSet &nodes,
                                        const geometry::CellRange &cells)
         : nodes_(nodes),
-          lower_(cells.lower), n_{cells.upper[0] - cells.lower[0], cells.upper[1] - cells.lower[1]},
-          n_real_(4 * static_cast<std::size_t>(n_[0]) * n_[1]),
-          n_modes_(2 * static_cast<std::size_t>(n_[1]) * (n_[0] + 1))
+          lower_(cells.lower), n_{cells.upper[0] - cells.lower[0], cells.upper[1] - cells.lower[1]}
     {
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        before_[d] = fast_cells_around(n_[d], best_zero(stencil.reach()));
+        width_[d] = n_[d] + 2 * before_[d];
+      }
+      n_real_ = 4 * static_cast<std::size_t>(width_[0]) * width_[1];
+      n_modes_ = 2 * static_cast<std::size_t>(width_[1]) * (width_[0] + 1);
       const unsigned int n_families = nodes.n_families();
       field_ = AlignedArray<double>(n_families * n_real_);
       modes_ = AlignedArray<Complex>(n_families * n_modes_);
-      const int dims[2] = {2 * n_[1], 2 * n_[0]};
+      const int dims[2] = {2 * width_[1], 2 * width_[0]};
       auto *const modes = reinterpret_cast<fftw_complex *>(modes_.data());
       const int many = static_cast<int>(n_families), n_real = static_cast<int>(n_real_),
                 n_modes = static_cast<int>(n_modes_);
@@ -72,7 +79,7 @@ namespace plumbline::algebra
     void ReflectionSolver::invert_symbol(const Stencil &stencil, unsigned int component)
     {
       const unsigned int n_families = nodes_.n_families();
-      const int reach = stencil.reach(), period[2] = {2 * n_[0], 2 * n_[1]};
+      const int reach = stencil.reach(), period[2] = {2 * width_[0], 2 * width_[1]};
       const double scale = 1. / static_cast<double>(n_real_);
       const auto wrap = [](int k, int p) { return ((k % p) + p) % p; };
       std::vector<Complex> symbol(n_families * n_families * n_modes_);
@@ -119,8 +126,9 @@ namespace plumbline::algebra
                                                   int i) const
     {
       const geometry::AxisSpecies &species = nodes_.axis[family];
-      const int mirrored =
-          species.at_vertex ? (2 * n_[axis] - i) % (2 * n_[axis]) : 2 * n_[axis] - 1 - i;
+      const int period = 2 * width_[axis];
+      i += before_[axis];
+      const int mirrored = species.at_vertex ? (period - i) % period : period - 1 - i;
       return {Image{i, family, 1}, Image{mirrored, species.mirror, -1}};
     }
 
@@ -140,7 +148,7 @@ namespace plumbline::algebra
                          lower_[0] + i);
         }
       };
-      const std::size_t width = 2 * static_cast<std::size_t>(n_[0]);
+      const std::size_t width = 2 * static_cast<std::size_t>(width_[0]);
 
       for (unsigned int c = 0; c < nodes_.n_components; ++c)
       {
@@ -170,8 +178,10 @@ namespace plumbline::algebra
           }
         }
         fftw_execute(backward_.get());
-        visit([&](unsigned int s, unsigned int, unsigned int, int i, int j, std::size_t at)
-              { result[start + at] += field_[s * n_real_ + j * width + i]; });
+        visit(
+            [&](unsigned int s, unsigned int, unsigned int, int i, int j, std::size_t at) {
+              result[start + at] += field_[s * n_real_ + (before_[1] + j) * width + before_[0] + i];
+            });
       }
     }
   } // namespace

@@ -7,8 +7,9 @@ namespace plumbline::algebra
                                                const std::vector<geometry::CellRange> &rectangles)
   {
     for (const geometry::CellRange &cells : rectangles)
-      solvers_.push_back(nodes.n_families() == 1 ? make_sine_solver(stencil, nodes, cells)
-                                                 : make_reflection_solver(stencil, nodes, cells));
+      solvers_.push_back(nodes.n_families() == 1
+                             ? make_sine_solver(stencil, nodes, cells, {}, Zeros::fast)
+                             : make_reflection_solver(stencil, nodes, cells));
   }
 
   void SchwarzPreconditioner::vmult(Vector &result, const Vector &input) const

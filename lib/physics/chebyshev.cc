@@ -17,18 +17,40 @@ namespace plumbline::physics
       Matrix transform(n, n);
       for (unsigned int k = 0; k < n; ++k)
         for (unsigned int i = 0; i < n; ++i)
-          transform(k, i) = (k == 0 ? 1. : 2.) / n * std::cos(M_PI * k * (i + .5) / n);
+          // the angle in its first turn: after sixty of them its rounding would look like noise of
+          // f
+          transform(k, i) =
+              (k == 0 ? 1. : 2.) / n * std::cos(M_PI * ((k * (2 * i + 1)) % (4 * n)) / (2. * n));
       return transform;
     }
 
-    /// The number of leading terms that stand above the tolerance.
-    unsigned int significant_terms(const Matrix &coefficients, double tolerance)
+    /// Leading rows up to the last one with an entry above the tolerance, at least one.
+    unsigned int significant_rows(const Matrix &coefficients, double tolerance)
     {
       Eigen::Index n = coefficients.rows();
-      while (n > 1 && coefficients.row(n - 1).cwiseAbs().maxCoeff() <= tolerance &&
-             coefficients.col(n - 1).head(n).cwiseAbs().maxCoeff() <= tolerance)
+      while (n > 1 && coefficients.row(n - 1).cwiseAbs().maxCoeff() <= tolerance)
         --n;
       return static_cast<unsigned int>(n);
+    }
+
+    /// Coefficients of f on a box by its values at n[0] × n[1] Chebyshev points.
+    /// @param tolerance  overwritten: of round-off
+    Matrix coefficients_of(const ChebyshevField::Function &f, unsigned int component,
+                           const Point<2> &lower, const Point<2> &upper,
+                           const std::array<unsigned int, 2> &n, double noise, double &tolerance)
+    {
+      constexpr double relative = 1e-15;
+      Matrix values(n[0], n[1]);
+      for (unsigned int i = 0; i < n[0]; ++i)
+        for (unsigned int j = 0; j < n[1]; ++j)
+        {
+          const double s = std::cos(M_PI * (i + .5) / n[0]), t = std::cos(M_PI * (j + .5) / n[1]);
+          values(i, j) = f(Point<2>(lower[0] + .5 * (1 + s) * (upper[0] - lower[0]),
+                                    lower[1] + .5 * (1 + t) * (upper[1] - lower[1])),
+                           component);
+        }
+      tolerance = relative * values.cwiseAbs().maxCoeff() + noise;
+      return values_to_coefficients(n[0]) * values * values_to_coefficients(n[1]).transpose();
     }
   } // namespace
 
@@ -37,42 +59,45 @@ namespace plumbline::physics
                                                         const Point<2> &lower,
                                                         const Point<2> &upper, double noise)
   {
-    constexpr double relative = 1e-15;
-    for (unsigned int n = 9; n <= 129; n = 2 * n - 1)
+    constexpr unsigned int fewest = 9, most = 129;
+    // a layer along one axis needs many points across it, few along it
+    for (std::array<unsigned int, 2> n{fewest, fewest};;)
     {
+      std::vector<Matrix> coefficients;
+      std::array<unsigned int, 2> n_significant{1, 1};
+      for (unsigned int c = 0; c < n_components; ++c)
+      {
+        double tolerance = 0;
+        coefficients.push_back(coefficients_of(f, c, lower, upper, n, noise, tolerance));
+        n_significant[0] = std::max(n_significant[0], significant_rows(coefficients[c], tolerance));
+        n_significant[1] =
+            std::max(n_significant[1], significant_rows(coefficients[c].transpose(), tolerance));
+      }
+      // resolved when at least the last two terms of each axis are round-off
+      bool is_resolved = true;
+      for (unsigned int d = 0; d < 2; ++d)
+        if (n_significant[d] + 2 > n[d])
+        {
+          if (n[d] == most)
+            return std::nullopt;
+          n[d] = 2 * n[d] - 1;
+          is_resolved = false;
+        }
+      if (!is_resolved)
+        continue;
       ChebyshevField field;
       field.lower_ = lower;
       field.upper_ = upper;
-      const Matrix transform = values_to_coefficients(n);
-      std::vector<Matrix> coefficients(n_components, Matrix(n, n));
-      unsigned int n_significant = 1;
-      for (unsigned int c = 0; c < n_components; ++c)
-      {
-        Matrix values(n, n);
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
-          {
-            const double s = std::cos(M_PI * (i + .5) / n), t = std::cos(M_PI * (j + .5) / n);
-            values(i, j) = f(Point<2>(lower[0] + .5 * (1 + s) * (upper[0] - lower[0]),
-                                      lower[1] + .5 * (1 + t) * (upper[1] - lower[1])),
-                             c);
-          }
-        coefficients[c] = transform * values * transform.transpose();
-        const double tolerance = relative * values.cwiseAbs().maxCoeff() + noise;
-        n_significant = std::max(n_significant, significant_terms(coefficients[c], tolerance));
-      }
-      // resolved when at least the last two terms of each axis are round-off
-      if (n_significant + 2 > n)
-        continue;
-      field.n_terms_ = n_significant;
+      field.n_terms_ = std::max(n_significant[0], n_significant[1]);
       for (const Matrix &all : coefficients)
       {
-        const Matrix kept = all.topLeftCorner(n_significant, n_significant);
+        Matrix kept = Matrix::Zero(field.n_terms_, field.n_terms_);
+        kept.topLeftCorner(n_significant[0], n_significant[1]) =
+            all.topLeftCorner(n_significant[0], n_significant[1]);
         field.coefficients_.emplace_back(kept.data(), kept.data() + kept.size());
       }
       return field;
     }
-    return std::nullopt;
   }
 
   std::vector<double> ChebyshevField::basis(unsigned int axis, double coordinate) const

@@ -62,16 +62,20 @@ namespace plumbline::physics
       std::vector<double> ends = kernel.breaks();
       ends.push_back(kernel.horizon());
       Sample coarse = over_ball(ends, 6, 12, g);
-      double change = 0, size = 0, noise = 0;
+      double change = 0, size = 0, noise = 0, before = 0;
       for (unsigned int n = 12; n <= 192; n *= 2)
       {
         const Sample fine = over_ball(ends, n, 2 * n, g);
         change = std::abs(fine.value - coarse.value);
         size = std::abs(fine.value) + scale * fine.difference;
         noise = round_off * scale * fine.size;
-        if (change <= settled * size + noise)
+        // errors of twice as many points fall at least as fast again: what is left after this
+        // change is that much smaller than it
+        const double fall = before > 0 ? std::min(1., change / before) : 1;
+        if (fall * change <= settled * size + noise)
           return fine.value;
         coarse = fine;
+        before = change;
       }
       if (change <= acceptable * size + noise)
         return coarse.value;

@@ -72,6 +72,7 @@ namespace plumbline::report
     a("h", run.h);
     a("horizon", run.horizon);
     a("cost", run.cost);
+    a("geometry_seconds", run.geometry_seconds);
     a("diagnostics", run.diagnostics);
     a("size", run.size);
     a("round_off", run.round_off);
@@ -101,6 +102,7 @@ namespace plumbline::report
     a("verdict", trend.verdict);
     a("reason", trend.reason);
     a("proof", trend.proof);
+    a("finest", trend.finest);
   }
 
   template <typename Archive>
@@ -165,6 +167,7 @@ namespace plumbline::report
     a("h", choice.h);
     a("error", choice.error);
     a("seconds", choice.seconds);
+    a("tied", choice.tied);
   }
 
   template <typename Archive>
@@ -212,6 +215,7 @@ namespace plumbline::report
     a("runs", results.runs);
     a("savings", results.savings);
     a("left_out", results.left_out);
+    a("warnings", results.warnings);
     a("scene_text", results.scene_text);
   }
 } // namespace plumbline::report

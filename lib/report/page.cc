@@ -109,6 +109,8 @@ namespace plumbline::report
         text += "<p class=\"banner\"><b>This run is not complete.</b> What follows rests on the "
                 "levels that are finished; the same command on the same folder goes on from "
                 "here.</p>\n";
+      for (const std::string &warning : results.warnings)
+        text += "<p class=\"banner\"><b>Warning.</b> " + escape_html(warning) + ".</p>\n";
       text += "<p class=\"soft\">" + escape_html(regime_words(results.regime)) +
               ". Verdicts rest on the error " + escape_html(error_words(results.decisive_error)) +
               ".</p>\n<ul class=\"facts\">\n<li>" + std::to_string(methods(results).size()) +
@@ -220,9 +222,12 @@ namespace plumbline::report
           "L2, √(area · mean e²). Averages: of the solution over the comparison cells, each by its "
           "area. In the collar every space takes the constraint at its nodes: DGQ0 and DGP0 at "
           "cell centres, as one-point rules do, not its averages.</p>\n";
-      text += folded("Cost of each run", to_html(cost_table(results)) +
-                                             "<p class=\"soft\">CPU seconds are summed over "
-                                             "threads. Data: <code>tables/cost.csv</code></p>\n");
+      text +=
+          folded("Cost of each run",
+                 to_html(cost_table(results)) +
+                     "<p class=\"soft\">CPU seconds are summed over "
+                     "threads. Geometry, the mesh and for meshfree methods "
+                     "the cells of nodes, is in no cost. Data: <code>tables/cost.csv</code></p>\n");
       return section("numbers", "Tables", text);
     }
 

@@ -22,7 +22,16 @@ namespace plumbline::report::page
 
     bool is_same_run(const study::Choice &a, const study::Choice &b)
     {
-      return a.method == b.method && a.h == b.h && a.error == b.error;
+      return a.method == b.method && a.h == b.h && a.error == b.error && a.tied == b.tied;
+    }
+
+    /// Others that cost the same.
+    std::string tie(const study::Choice &choice)
+    {
+      std::string names;
+      for (const std::string &method : choice.tied)
+        join(names, escape_html(method));
+      return names.empty() ? "" : "<small> a tie with " + names + "</small>";
     }
 
     /// One row for each run; neighbouring targets that it serves stand together.
@@ -38,9 +47,9 @@ namespace plumbline::report::page
         text += "<tr><td>error ≤ " + short_power(choice.target) +
                 (last > first ? " … " + short_power(choices[last].target) : "") + "</td><td>→ " +
                 marker(style_of(methods, choice.method)) + "<b>" + escape_html(choice.method) +
-                "</b></td><td>h = " + rounded(choice.h) + "</td><td title=\"its error is " +
-                rounded_error(choice.error) + "\">" + rounded_seconds(choice.seconds) +
-                "</td></tr>\n";
+                "</b>" + tie(choice) + "</td><td>h = " + rounded(choice.h) +
+                "</td><td title=\"its error is " + rounded_error(choice.error) + "\">" +
+                rounded_seconds(choice.seconds) + "</td></tr>\n";
       }
       return text;
     }
@@ -206,8 +215,11 @@ namespace plumbline::report::page
     std::string text =
         summary(results, names) +
         "<p class=\"soft\">The cheapest run for an error of that size: method, mesh "
-        "size, CPU time of setup and solve. Only methods that converge, and "
-        "whose second moments are not known to be wrong, are named.</p>\n<div class=\"cards\">\n" +
+        "size, CPU time of setup and solve (the best of three below 0.02 s). What costs within 20 "
+        "% "
+        "of the cheapest is a tie, of which the method with the fewest unknowns comes first. Only "
+        "methods that converge, and whose second moments are not known to be wrong, are "
+        "named.</p>\n<div class=\"cards\">\n" +
         open + "</div>\n";
     if (!more.empty())
       text += folded(std::to_string(results.advice.size() - n_open_cards) + " more cases",

@@ -2,6 +2,7 @@
 
 #include "report/formats.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -53,7 +54,8 @@ namespace plumbline::report::page
 
     const Section sections[] = {
         {ChartKind::work_precision, "work", "Work and precision",
-         "Lower left is better: a smaller error for less work. Each point is a level of the sweep; "
+         "Work is setup (weights or entries, and geometry as far as they need it) and solve. Lower "
+         "left is better: a smaller error for less work. Each point is a level of the sweep; "
          "where several series share a chart, a line ends where more work gains nothing; "
          "the grey band joins the points that no other beats. Solid lines with filled symbols are "
          "meshfree rules, dashed lines with open symbols are Galerkin methods. Errors of the size "
@@ -72,6 +74,25 @@ namespace plumbline::report::page
          "cost that no machine or program changes."},
         {ChartKind::iterations, "iterations", "Iterations",
          "Iterations of the linear solver as the mesh is refined."}};
+
+    /// What is in no method's work: meshes, and cells of nodes, of the dearest level.
+    std::string geometry_words(const study::Results &results)
+    {
+      double of_mesh = 0, of_nodes = 0;
+      for (const study::Run &run : results.runs)
+      {
+        double &most = run.side == study::Side::meshfree ? of_nodes : of_mesh;
+        most = std::max(most, run.geometry_seconds);
+      }
+      std::string text;
+      if (of_mesh > 0)
+        text = "the mesh of Galerkin methods, up to " + rounded_seconds(of_mesh) + " a level";
+      if (of_nodes > 0)
+        text += (text.empty() ? "" : "; ") +
+                ("mesh and cells of meshfree nodes, up to " + rounded_seconds(of_nodes)) +
+                " a level";
+      return text.empty() ? text : " Not in it, since methods share it: " + text + " of CPU time.";
+    }
   } // namespace
 
   std::string marker(const Style &style)
@@ -148,7 +169,10 @@ namespace plumbline::report::page
       }
       if (large.empty() && small.empty())
         continue;
-      const std::string id = section.id, head = section.head, words = section.text;
+      const std::string id = section.id, head = section.head;
+      const std::string words =
+          section.text +
+          (section.kind == ChartKind::work_precision ? geometry_words(results) : std::string());
       const std::string grid = "<div class=\"grid\">\n" + small + "</div>\n";
       const std::string of_each = " by problem and series (" + std::to_string(n_small) + ")";
       if (is_minor)

@@ -144,13 +144,15 @@ namespace plumbline::report
   {
     Table table;
     table.caption = "Cost of each run; CPU seconds are summed over threads";
-    table.columns = {"method", "problem",     "series",      "h",       "unknowns",
-                     "bonds",  "setup CPU s", "solve CPU s", "peak MB", "iterations"};
+    table.columns = {"method",      "problem", "series",         "h",
+                     "unknowns",    "bonds",   "geometry CPU s", "setup CPU s",
+                     "solve CPU s", "peak MB", "iterations"};
     for (const study::Run &run : results.runs)
       if (run.failure.empty())
         table.rows.push_back({text_cell(run.method), text_cell(run.problem), text_cell(run.series),
                               number_cell(run.h), count_cell(run.cost.n_unknowns),
-                              count_cell(run.cost.n_bonds), number_cell(run.cost.setup_seconds),
+                              count_cell(run.cost.n_bonds), number_cell(run.geometry_seconds),
+                              number_cell(run.cost.setup_seconds),
                               number_cell(run.cost.solve_seconds),
                               number_cell(1e-6 * static_cast<double>(run.cost.peak_bytes)),
                               count_cell(run.cost.n_iterations)});

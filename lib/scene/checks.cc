@@ -6,6 +6,7 @@
 #include "scene/values.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
@@ -271,6 +272,24 @@ namespace plumbline::scene
               "Methods/load = cells is for free bodies; write nodes, or Domain/boundary = free");
     }
 
+    /// That of a fine level is missed before coarse ones are solved.
+    void check_node_files(const Scene &scene)
+    {
+      const NodeSource &nodes = scene.methods.nodes;
+      if (!nodes.is_for_each_level())
+        return;
+      for (const Series &series : scene.study.series)
+        for (const Level &level : series.levels)
+        {
+          const std::string file =
+              (std::filesystem::path(scene.folder) / nodes.file_at(level.h)).string();
+          require(std::filesystem::exists(file),
+                  "Methods/nodes = " + nodes.name + ": there is no file '" + file +
+                      "' for h = " + short_number(level.h) +
+                      "; give one for each h of Study/h, or leave that h out");
+        }
+    }
+
     void check_nodes(const Scene &scene)
     {
       const MeshSource &mesh = scene.domain.mesh;
@@ -282,6 +301,7 @@ namespace plumbline::scene
       require(kind != NodeKind::file || is_csv,
               "Methods/nodes = '" + nodes +
                   "' is not known; write centres, vertices, mesh, or a file .csv");
+      check_node_files(scene);
       require(!mesh.is_lattice() || kind == NodeKind::centres || kind == NodeKind::vertices,
               on_mesh + mesh_remedy);
       require((mesh.is_of_boxes() && mesh.map.empty()) || scene.domain.is_free_body ||
@@ -333,9 +353,11 @@ namespace plumbline::scene
     const std::string decisive = "Study/decisive error = '" + study.decisive_error.text() + "'";
     require(std::find(study.norms.begin(), study.norms.end(), norm) != study.norms.end(),
             decisive + " must be 'norm | target' with a norm of Study/norms (add it there) and a "
-                       "target of exact, local, reference");
+                       "target of exact, local, reference, own finest level");
     require(target != Target::exact || !scene.problem.solutions.empty(),
-            decisive + " needs Problem/solution, which is empty; use the target reference");
+            decisive +
+                " needs Problem/solution, which is empty; use the target reference, or, where none "
+                "can be, own finest level");
     require(target != Target::local || local != LocalSolution::computed || is_of_averages,
             decisive + ": a computed local solution is compared by cell averages; use averages L2 "
                        "or averages Linf");
@@ -345,6 +367,13 @@ namespace plumbline::scene
                        "itself, take the target exact");
     require(target != Target::reference || reference.method,
             decisive + " needs Reference/method, which is none");
+    require(target != Target::finest || is_of_averages,
+            decisive +
+                ": solutions of two levels are held against each other by cell averages; use "
+                "averages L2 or averages Linf");
+    require(target != Target::finest || study.regime != Regime::horizon,
+            decisive + " with Study/regime = horizon: nothing is refined there; take the target "
+                       "exact or reference, or another regime");
     require(target != Target::reference || is_of_averages,
             decisive + ": solutions are held against a reference by cell averages; use averages "
                        "L2 or averages Linf");

@@ -104,7 +104,8 @@ namespace plumbline::scene
   {
     exact,
     local,
-    reference
+    reference,
+    finest ///< the same method's solution of its finest level: no exact one is needed
   };
 
   /// Whose error is estimated.
@@ -156,7 +157,8 @@ namespace plumbline::base
   inline constexpr auto words<scene::Norm> = std::array{
       "nodal Linf", "nodal L2", "averages Linf", "averages L2", "field Linf", "field L2"};
   template <>
-  inline constexpr auto words<scene::Target> = std::array{"exact", "local", "reference"};
+  inline constexpr auto words<scene::Target> =
+      std::array{"exact", "local", "reference", "own finest level"};
   template <>
   inline constexpr auto words<scene::Estimate> =
       std::array{"automatic", "every", "reference", "none"};

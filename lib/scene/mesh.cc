@@ -138,6 +138,21 @@ namespace plumbline::scene
     return body;
   }
 
+  namespace
+  {
+    /// From the file of a level.
+    std::vector<Point<2>> read_level_nodes(const Scene &scene, const Level &level,
+                                           std::vector<std::size_t> *lines)
+    try
+    {
+      return read_nodes(path(scene, scene.methods.nodes.file_at(level.h)), lines);
+    }
+    catch (const InputError &error)
+    {
+      throw InputError("Methods/nodes = " + scene.methods.nodes.name + ": " + error.what());
+    }
+  } // namespace
+
   std::vector<Point<2>> read_nodes(const std::string &file, std::vector<std::size_t> *lines)
   {
     Csv csv(file, {"x", "y"});
@@ -159,10 +174,11 @@ namespace plumbline::scene
       return geometry::vertex_squares(geometry::Lattice(scene.domain.boxes, level.h),
                                       scene.reach(level.horizon));
     const bool is_file = source.kind() == NodeKind::file;
+    const std::string file = is_file ? path(scene, source.file_at(level.h)) : source.name;
     std::vector<std::size_t> lines;
     const auto nodes = source.kind() == NodeKind::mesh ? centroids(mesh)
                        : is_file
-                           ? read_nodes(path(scene, source.name), &lines)
+                           ? read_level_nodes(scene, level, &lines)
                            : lattice_nodes(mesh, level.h, source.perturbation, scene.geometry.seed);
     try
     {
@@ -171,11 +187,11 @@ namespace plumbline::scene
     catch (const InputError &error)
     {
       if (const auto twins = is_file ? geometry::find_twins(nodes, mesh) : std::nullopt)
-        throw InputError("node file '" + path(scene, source.name) + "', line " +
-                         std::to_string(lines[twins->second]) + ": the node there " +
+        throw InputError("node file '" + file + "', line " + std::to_string(lines[twins->second]) +
+                         ": the node there " +
                          twins->place("that of line " + std::to_string(lines[twins->first])) +
                          "; take one of them out");
-      throw InputError((is_file ? "node file '" + path(scene, source.name) + "', counted from 0: "
+      throw InputError((is_file ? "node file '" + file + "', counted from 0: "
                                 : "Methods/nodes = " + source.name + ": ") +
                        error.what());
     }

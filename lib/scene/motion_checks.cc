@@ -94,6 +94,9 @@ namespace plumbline::scene
                   study.norms.end(),
               decisive + " must be 'norm | target' with a norm of Study/norms; write 'nodal L2 | "
                          "exact', or add the norm");
+      require(study.decisive_error.target != Target::finest,
+              decisive + ": motions are not held against their own finest level; take exact or "
+                         "reference");
       require(study.decisive_error.target != Target::local,
               decisive + ": a motion's local limit is not known; take exact or reference");
       require(study.decisive_error.target != Target::reference || scene.reference.method,

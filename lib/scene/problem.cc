@@ -1,5 +1,6 @@
 #include "scene/problem.h"
 
+#include "base/cost.h"
 #include "base/error.h"
 #include "physics/double_well_load.h"
 #include "physics/load.h"
@@ -76,6 +77,16 @@ namespace plumbline::scene
       Field field{std::move(value), std::nullopt};
       field.series = series_of(field.value, n_components, extent.box, noise, extent.is_rectangle);
       return field;
+    }
+
+    /// Whether a field has a series to 14 digits. Where it has none, its load, which is as rough,
+    /// would be looked at in vain at 129² points, each of them a ball of quadrature points.
+    bool is_resolved(const ChebyshevField::Function &value, unsigned int n_components,
+                     const Extent &extent, double size)
+    {
+      constexpr double digits = 1e-14;
+      return series_of(value, n_components, extent.box, digits * size, extent.is_rectangle)
+          .has_value();
     }
 
     /// The largest value of a field over the samples: for noise levels.
@@ -209,20 +220,25 @@ namespace plumbline::scene
     /// On its lattice, or on a mesh with the cells of its nodes.
     void put_in_place(const Scene &scene, const Level &level, Problem &problem)
     {
+      base::CpuTimer timer;
       if (scene.domain.is_free_body)
       {
         const geometry::VertexCells body = make_body(scene, level);
         problem.body = body.lattice;
         problem.cells = body.cells;
         problem.mesh = body.mesh;
+        problem.mesh_seconds = timer.seconds();
       }
       else if (scene.domain.mesh.is_lattice())
         problem.lattice.emplace(scene.domain.boxes, level.h);
       else
       {
         problem.mesh = std::make_shared<const geometry::Mesh>(make_mesh(scene, level));
+        problem.mesh_seconds = timer.seconds();
+        timer.restart();
         problem.cells = std::make_shared<const geometry::NodeCells>(
             make_node_cells(scene, level, *problem.mesh));
+        problem.cells_seconds = timer.seconds();
       }
     }
   } // namespace
@@ -239,6 +255,8 @@ namespace plumbline::scene
       problem.mesh = same_place->mesh;
       problem.cells = same_place->cells;
       problem.body = same_place->body;
+      problem.mesh_seconds = same_place->mesh_seconds;
+      problem.cells_seconds = same_place->cells_seconds;
     }
     else
       put_in_place(scene, level, problem);
@@ -275,8 +293,20 @@ namespace plumbline::scene
       const Expression u =
           expression("Problem/solution", scene.problem.solutions[case_index].expression);
       const double noise = noise_of(kernel, *problem.solution, n_components, omega);
-      problem.load = with_series(manufactured_load(problem, u, omega), n_components, omega, noise);
+      problem.load = {manufactured_load(problem, u, omega), std::nullopt};
+      if (is_resolved(problem.solution->value, n_components, omega,
+                      magnitude(*problem.solution, n_components, omega)))
+        problem.load = with_series(std::move(problem.load.value), n_components, omega, noise);
     }
     return problem;
+  }
+
+  std::function<double(const Point<2> &, unsigned int)>
+  operator_on_solution(const Scene &scene, unsigned int case_index, const Problem &problem)
+  {
+    const Expression u("Problem/solution", scene.problem.solutions[case_index].expression,
+                       scene.constants(problem.horizon(), 0));
+    return manufactured_load(problem, u,
+                             problem.lattice ? extent(*problem.lattice) : extent(*problem.mesh));
   }
 } // namespace plumbline::scene

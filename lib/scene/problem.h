@@ -75,6 +75,8 @@ namespace plumbline::scene
     std::optional<physics::DoubleWell> double_well = {}; ///< `kernel` is that of its small strains
     std::function<double(const dealii::Point<2> &)> boundary_function = {}; ///< ω; empty: 1
     MethodSettings settings = {};
+    double mesh_seconds = 0;  ///< what making `mesh` (and a body's `cells`) took [CPU s]
+    double cells_seconds = 0; ///< what making the `cells` of nodes took besides [CPU s]
     double horizon() const { return kernel.horizon(); }
   };
 
@@ -89,4 +91,10 @@ namespace plumbline::scene
   Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level,
                        double t = 0, const Field *known_load = nullptr,
                        const Problem *same_place = nullptr);
+
+  /// L u of the scene's solution: what its load would be if it were not given.
+  /// @pre the case has a solution, and `problem` is of it
+  /// @throws NumericalError  when called, as physics::ManufacturedLoad
+  std::function<double(const dealii::Point<2> &, unsigned int component)>
+  operator_on_solution(const Scene &scene, unsigned int case_index, const Problem &problem);
 } // namespace plumbline::scene

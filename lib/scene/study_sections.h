@@ -25,6 +25,10 @@ namespace plumbline::scene
 
     NodeKind kind() const { return base::from_word<NodeKind>(name).value_or(NodeKind::file); }
     bool are_vertices() const { return kind() == NodeKind::vertices; }
+
+    static constexpr auto level_mark = "{h}"; ///< in a file's name: the mesh size of the level
+    bool is_for_each_level() const { return name.find(level_mark) != std::string::npos; }
+    std::string file_at(double h) const; ///< e.g. nodes_0.05.csv for nodes_{h}.csv
   };
 
   struct MethodsSection

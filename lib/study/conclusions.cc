@@ -1,6 +1,7 @@
 #include "study/conclusions.h"
 
 #include "base/number_text.h"
+#include "study/cheapest.h"
 #include "study/expectations.h"
 #include "study/trend.h"
 
@@ -14,11 +15,27 @@ namespace plumbline::study
 {
   namespace
   {
-    bool is_against_reference(const std::string &error)
+    bool is_against(const std::string &error, scene::Target against)
     {
-      const std::string target = "| reference";
+      const std::string target = "| " + base::word(against);
       return error.size() >= target.size() &&
              error.compare(error.size() - target.size(), target.size(), target) == 0;
+    }
+
+    bool is_against_reference(const std::string &error)
+    {
+      return is_against(error, scene::Target::reference);
+    }
+
+    /// Where the last level of a run's method, case and series is on the axis.
+    double finest_place(const Results &results, const Run &first, Axis axis)
+    {
+      double least = coordinate(axis, first);
+      for (const Run &run : results.runs)
+        if (run.method == first.method && run.problem == first.problem &&
+            run.series == first.series)
+          least = std::min(least, coordinate(axis, run));
+      return least;
     }
 
     /// A difference to the reference that is not ten times the reference's own estimate decides
@@ -112,6 +129,8 @@ namespace plumbline::study
         trend.x.push_back(coordinate(trend.axis, run));
         trend.values.push_back(value->second);
       }
+      if (is_against(error, scene::Target::finest))
+        trend.finest = finest_place(results, first, trend.axis);
       if (trend.outcome != Outcome::failed)
         judge(trend);
       doubt_reference(results, trend);
@@ -147,21 +166,31 @@ namespace plumbline::study
       }
     }
 
-    /// The cheapest run of methods that converge, to this field and to others, with an error of at
-    /// most a target, or nullptr.
-    const Run *cheapest(const Results &results, const std::set<std::string> &methods,
-                        const std::string &problem, const std::string &series, double target)
+    /// The cheapest runs of methods that converge, to this field and to others, with an error of at
+    /// most a target.
+    std::vector<const Run *> cheapest_to(const Results &results,
+                                         const std::set<std::string> &methods,
+                                         const std::string &problem, const std::string &series,
+                                         double target)
     {
-      const Run *best = nullptr;
+      std::vector<const Run *> runs;
       for (const Run &run : results.runs)
       {
         const auto error = run.errors.find(results.decisive_error);
         if (run.problem == problem && run.series == series && methods.count(run.method) > 0 &&
-            error != run.errors.end() && error->second <= target &&
-            (best == nullptr || run.cost.seconds() < best->cost.seconds()))
-          best = &run;
+            error != run.errors.end() && error->second <= target)
+          runs.push_back(&run);
       }
-      return best;
+      return cheapest(runs);
+    }
+
+    Choice choice_of(const std::vector<const Run *> &runs, double target, const std::string &error)
+    {
+      const Run &run = *runs.front();
+      Choice choice{target, run.method, run.h, run.errors.at(error), run.cost.seconds(), {}};
+      for (std::size_t i = 1; i < runs.size(); ++i)
+        choice.tied.push_back(runs[i]->method);
+      return choice;
     }
 
     void give_advice(const scene::Scene &scene, Results &results)
@@ -182,11 +211,12 @@ namespace plumbline::study
               else if (trend.outcome == Outcome::field_only)
                 advice.field_only.push_back(trend.method);
             }
+          if (is_against(results.decisive_error, scene::Target::finest))
+            good.clear(); // how near a method is to itself does not make it better than another
           for (const double target : {1e-2, 1e-4, 1e-6, 1e-8})
-            if (const Run *run = cheapest(results, good, problem, series.name, target))
-              advice.choices.push_back({target, run->method, run->h,
-                                        run->errors.at(results.decisive_error),
-                                        run->cost.seconds()});
+            if (const auto runs = cheapest_to(results, good, problem, series.name, target);
+                !runs.empty())
+              advice.choices.push_back(choice_of(runs, target, results.decisive_error));
           results.advice.push_back(advice);
         }
     }

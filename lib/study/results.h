@@ -26,6 +26,9 @@ namespace plumbline::study
     unsigned int level = 0;     ///< from coarse to fine
     double h = 0, horizon = 0;  ///< [length]
     base::Cost cost;
+    /// What making the mesh and, for meshfree methods, the cells of nodes took. Methods of a level
+    /// share it; it is in no cost [CPU s].
+    double geometry_seconds = 0;
     Diagnostics diagnostics;
     /// Of the solution: largest less least cell average of a component. A constant counts for
     /// nothing, as for the operator.
@@ -66,6 +69,8 @@ namespace plumbline::study
     std::string reason;    ///< one sentence with the numbers
     double round_off = 0;  ///< errors up to this are round-off
     LimitProof proof = {}; ///< apart from this field; of the level with the worst moments
+    /// Where errors are differences to the own finest level: its place on the axis; else 0.
+    double finest = 0;
   };
 
   /// How far a Galerkin solution of one level may be wrong: bounds in practice, see
@@ -114,12 +119,13 @@ namespace plumbline::study
     bool holds = false;
   };
 
-  /// The cheapest run of a method that converges with an error of at most a target.
+  /// The cheapest run of a method that converges with an error of at most a target, see `cheapest`.
   struct Choice
   {
     double target = 0;
     std::string method;
     double h = 0, error = 0, seconds = 0; ///< [length], of the decisive error, CPU [s]
+    std::vector<std::string> tied = {};   ///< other methods that cost the same, to noise
   };
 
   /// Which method to take for one problem and series, and which not to.
@@ -153,6 +159,7 @@ namespace plumbline::study
     std::string decisive_error;                    ///< the "norm | target" that verdicts rest on
     std::vector<Run> runs;
     std::vector<std::string> left_out; ///< solves that the budget did not allow
+    std::vector<std::string> warnings; ///< of the scene, e.g. that its solution and load contradict
     std::vector<Trend> trends;
     std::vector<ErrorEstimate> references; ///< of the scene's reference
     std::vector<ErrorEstimate> estimates;  ///< of other Galerkin solutions

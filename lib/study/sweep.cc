@@ -4,10 +4,12 @@
 #include "base/team.h"
 #include "study/comparison.h"
 #include "study/conclusions.h"
+#include "study/contradiction.h"
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
 #include "study/round_off.h"
 #include "study/saving.h"
+#include "study/self_convergence.h"
 #include "study/timing.h"
 
 #include <algorithm>
@@ -20,13 +22,6 @@ namespace plumbline::study
 {
   namespace
   {
-    bool is_same_run(const Run &run, const std::string &method, const std::string &problem,
-                     const std::string &series, unsigned int level)
-    {
-      return run.method == method && run.problem == problem && run.series == series &&
-             run.level == level;
-    }
-
     /// Of a rank that failed, with others that may wait for it in the middle of a solve [s].
     constexpr double patience = 30;
 
@@ -55,6 +50,8 @@ namespace plumbline::study
           for (unsigned int level = 0; level < n_levels(series) && !is_stopped_; ++level)
             run_level(series, level);
         results_.is_complete = !is_stopped_;
+        if (!is_stopped_)
+          own_finest_.compare(scene_, results_.runs);
         sort_by_case();
         conclude(scene_, results_);
         return results_;
@@ -76,33 +73,6 @@ namespace plumbline::study
         return control_.n_levels == 0 ? n : std::min(n, control_.n_levels);
       }
 
-      const Run *find_run(const Method &method, const std::string &name,
-                          const scene::Series &series, unsigned int level) const
-      {
-        for (const Run &run : results_.runs)
-          if (is_same_run(run, method.name(), name, series.name, level))
-            return &run;
-        return nullptr;
-      }
-
-      /// What this level is expected to cost, from the two before it [CPU s]; nothing if the one
-      /// before was left out itself.
-      std::optional<double> expected_seconds(const Method &method, const std::string &name,
-                                             const scene::Series &series, unsigned int level) const
-      {
-        constexpr double usual_growth = 4; // unknowns, as h halves
-        if (level == 0)
-          return 0;
-        const Run *last = find_run(method, name, series, level - 1);
-        if (last == nullptr)
-          return {};
-        const Run *before = level < 2 ? nullptr : find_run(method, name, series, level - 2);
-        const double growth = before == nullptr || before->cost.seconds() == 0
-                                  ? usual_growth
-                                  : last->cost.seconds() / before->cost.seconds();
-        return growth * last->cost.seconds();
-      }
-
       /// Methods that the budget allows at this level.
       Methods affordable(const std::string &name, const scene::Series &series, unsigned int level)
       {
@@ -111,7 +81,8 @@ namespace plumbline::study
         Methods result;
         for (const auto &method : methods_)
         {
-          const auto seconds = expected_seconds(*method, name, series, level);
+          const auto seconds =
+              expected_seconds(results_.runs, method->name(), name, series.name, level);
           const bool is_dear = !seconds || *seconds > control_.budget;
           if (!base::Team::all().any(is_dear)) // each rank has its own clock, and all must agree
           {
@@ -132,6 +103,8 @@ namespace plumbline::study
       bool take_earlier(const Methods &due, const std::string &name, const scene::Series &series,
                         unsigned int level)
       {
+        if (is_against_own()) // what an earlier run held against its own finest level is not kept
+          return false;
         std::vector<Run> known;
         for (const auto &method : due)
           for (const Run &run : earlier_.runs)
@@ -141,6 +114,7 @@ namespace plumbline::study
           return false;
         results_.runs.insert(results_.runs.end(), known.begin(), known.end());
         results_.savings = earlier_.savings; // of the first level, which is known then
+        results_.warnings = earlier_.warnings;
         for (const ErrorMap &map : earlier_.maps)
           if (map.problem == name && map.series == series.name && level + 1 == n_levels(series))
             results_.maps.push_back(map);
@@ -165,10 +139,27 @@ namespace plumbline::study
           say(cases_[c], series, level, "load and reference");
           open.push_back({c, std::move(due), make_problem(scene_, c, series.levels[level])});
         }
+        warn(open, series, level);
         solve_targets(open, series, level);
         for (const auto &method : methods_)
           run_method(*method, open, series, level);
         n_done_ = n_before + cases_.size() * methods_.size();
+      }
+
+      bool is_against_own() const
+      {
+        return scene_.study.decisive_error.target == scene::Target::finest;
+      }
+
+      /// Of the finest level, where the horizon is the shortest and limits are near.
+      void warn(const std::vector<Case> &open, const scene::Series &series, unsigned int level)
+      {
+        if (level + 1 < n_levels(series) || series.name != scene_.study.series.front().name)
+          return;
+        for (const Case &one : open)
+          if (const auto found = measure_contradiction(scene_, one.index, one.problem);
+              found && found->is_clear())
+            results_.warnings.push_back(cases_[one.index] + ": " + found->text());
       }
 
       void say(const std::string &name, const scene::Series &series, unsigned int level,
@@ -284,6 +275,8 @@ namespace plumbline::study
         run.level = level;
         run.h = series.levels[level].h;
         run.horizon = series.levels[level].horizon;
+        run.geometry_seconds = one.problem.mesh_seconds +
+                               (method.side() == Side::meshfree ? one.problem.cells_seconds : 0);
         return run;
       }
 
@@ -297,6 +290,8 @@ namespace plumbline::study
         run.round_off = round_off_error(problem, solution);
         run.diagnostics = solution.diagnostics;
         run.errors = errors(scene_, problem, solution, one.targets);
+        if (is_against_own())
+          own_finest_.keep(run, problem, solution.averages);
         for (const auto &[error, value] : run.errors)
           if (!std::isfinite(value))
             throw NumericalError("the error " + error + " is not a finite number");
@@ -379,6 +374,7 @@ namespace plumbline::study
       const std::vector<std::string> cases_;
       const base::SeparateTeam ranks_{base::Team::all()};
       Results results_;
+      OwnFinest own_finest_;
       std::size_t n_done_ = 0, n_all_ = 0;
       bool is_stopped_ = false;
     };

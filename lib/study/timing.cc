@@ -35,4 +35,35 @@ namespace plumbline::study
     }
     return outcomes;
   }
+
+  bool is_same_run(const Run &run, const std::string &method, const std::string &problem,
+                   const std::string &series, unsigned int level)
+  {
+    return run.method == method && run.problem == problem && run.series == series &&
+           run.level == level;
+  }
+
+  std::optional<double> expected_seconds(const std::vector<Run> &runs, const std::string &method,
+                                         const std::string &problem, const std::string &series,
+                                         unsigned int level)
+  {
+    constexpr double usual_growth = 4; // unknowns, as h halves
+    if (level == 0)
+      return 0;
+    const auto find = [&](unsigned int wanted) -> const Run *
+    {
+      for (const Run &run : runs)
+        if (is_same_run(run, method, problem, series, wanted))
+          return &run;
+      return nullptr;
+    };
+    const Run *last = find(level - 1);
+    if (last == nullptr)
+      return {};
+    const Run *before = level < 2 ? nullptr : find(level - 2);
+    const double growth = before == nullptr || before->cost.seconds() == 0
+                              ? usual_growth
+                              : last->cost.seconds() / before->cost.seconds();
+    return growth * last->cost.seconds();
+  }
 } // namespace plumbline::study

@@ -93,24 +93,68 @@ namespace plumbline::study
     return slope;
   }
 
+  double own_rate(const std::vector<double> &x, const std::vector<double> &d, double finest)
+  {
+    constexpr double lowest = .25, highest = 8, step = .01;
+    double best = lowest, least = 1e300;
+    for (double p = lowest; p <= highest; p += step)
+    {
+      double s1 = 0, s2 = 0, residual = 0; // of d = C (x^p - finest^p), relative, C = s1 / s2
+      std::vector<double> ratio;
+      for (std::size_t i = 0; i < x.size(); ++i)
+      {
+        ratio.push_back((std::pow(x[i] / finest, p) - 1) / d[i]);
+        s1 += ratio.back();
+        s2 += ratio.back() * ratio.back();
+      }
+      for (const double one : ratio)
+        residual += std::pow(s1 / s2 * one - 1, 2);
+      if (residual < least)
+      {
+        least = residual;
+        best = p;
+      }
+    }
+    return best;
+  }
+
+  namespace
+  {
+    /// Errors from differences to the own finest level, which has one itself.
+    std::vector<double> with_own_error(const Trend &trend)
+    {
+      std::vector<double> errors = trend.values;
+      const bool is_positive =
+          std::all_of(errors.begin(), errors.end(), [](double d) { return d > 0; });
+      if (trend.finest == 0 || errors.size() < 2 || !is_positive)
+        return errors;
+      const double p = own_rate(trend.x, errors, trend.finest);
+      for (std::size_t i = 0; i < errors.size(); ++i)
+        errors[i] /= 1 - std::pow(trend.finest / trend.x[i], p);
+      return errors;
+    }
+  } // namespace
+
   void judge(Trend &trend)
   {
     trend.rates.clear();
+    const std::vector<double> values = with_own_error(trend);
     for (std::size_t i = 1; i < trend.x.size(); ++i)
-      trend.rates.push_back(std::log(trend.values[i] / trend.values[i - 1]) /
+      trend.rates.push_back(std::log(values[i] / values[i - 1]) /
                             std::log(trend.x[i] / trend.x[i - 1]));
     trend.outcome = Outcome::undecided;
     if (trend.x.size() < levels_for_verdict)
     {
       trend.reason = std::to_string(trend.x.size()) + " of the " +
-                     std::to_string(levels_for_verdict) +
-                     " levels that a verdict needs: run more (Study/h, --levels)";
+                     std::to_string(levels_for_verdict) + " levels that a verdict needs" +
+                     (trend.finest > 0 ? " besides the finest" : "") +
+                     ": run more (Study/h, --levels)";
       return;
     }
 
     const double floor = trend.round_off;
-    const double largest = *std::max_element(trend.values.begin(), trend.values.end());
-    if (trend.values.back() <= floor && !(floor <= blurred * trend.size))
+    const double largest = *std::max_element(values.begin(), values.end());
+    if (values.back() <= floor && !(floor <= blurred * trend.size))
     {
       trend.reason = "round-off, up to " + base::to_text(floor, 3) +
                      ", hides the errors of a solution that "
@@ -120,7 +164,7 @@ namespace plumbline::study
                      "or lower Solver/tolerance";
       return;
     }
-    if (trend.values.back() <= floor)
+    if (values.back() <= floor)
     {
       trend.outcome = Outcome::converges;
       trend.reason =
@@ -130,10 +174,10 @@ namespace plumbline::study
     }
     std::vector<double> x, e; // a level that is exact by chance does not count
     for (std::size_t i = 0; i < trend.x.size(); ++i)
-      if (trend.values[i] > floor)
+      if (values[i] > floor)
       {
         x.push_back(trend.x[i]);
-        e.push_back(trend.values[i]);
+        e.push_back(values[i]);
       }
     if (x.size() < levels_for_verdict)
     {
@@ -191,9 +235,12 @@ namespace plumbline::study
       return base::word(Outcome::failed);
     if (regime == scene::Regime::horizon)
       return "rate " + base::to_text(trend.rate, 4);
-    const std::string name = regime == scene::Regime::delta ? "AC"
-                             : regime == scene::Regime::m   ? "m-convergent"
-                                                            : "delta-m-convergent";
+    if (trend.finest > 0 && trend.outcome == Outcome::field_only)
+      return "self-convergent to a wrong limit";
+    const std::string name = trend.finest > 0                 ? "self-convergent"
+                             : regime == scene::Regime::delta ? "AC"
+                             : regime == scene::Regime::m     ? "m-convergent"
+                                                              : "delta-m-convergent";
     switch (trend.outcome)
     {
     case Outcome::converges:

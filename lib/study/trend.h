@@ -25,6 +25,11 @@ namespace plumbline::study
   };
   Slope fit_slope(const std::vector<double> &x, const std::vector<double> &e);
 
+  /// The rate p of differences to the finest level, d = C (x^p - finest^p), in relative residuals:
+  /// those to the limit itself would be C x^p. Between 1/4 and 8, to .01.
+  /// @pre x > finest > 0, d > 0
+  double own_rate(const std::vector<double> &x, const std::vector<double> &d, double finest);
+
   /// Rates, plateau and outcome from trend.x, values, size and round_off; the rest is left alone.
   ///
   /// - converges: the last error is round-off, where that is at most 1e-4 of how far the solution
@@ -36,9 +41,11 @@ namespace plumbline::study
   ///   twice the smallest one;
   /// - undecided: neither, or fewer than four levels, or round-off hides the answer.
   /// The answer is about the given solution: a method may do better for one than for another.
+  /// Where trend.finest > 0 the values are differences to the finest level; what is judged is C
+  /// x^p, see `own_rate`: whether the solutions have a limit, not which.
   void judge(Trend &trend);
 
-  /// The outcome in words: "AC", "not AC", "m-convergent", ..., "undecided", "failed"; "rate 1.98"
-  /// where the horizon alone varies.
+  /// The outcome in words: "AC", "not AC", "m-convergent", ..., "self-convergent" (to a limit of
+  /// the method's own), "undecided", "failed"; "rate 1.98" where the horizon alone varies.
   std::string verdict_of(scene::Regime regime, const Trend &trend);
 } // namespace plumbline::study

@@ -160,6 +160,7 @@ TEST_F(BadMeshes, nodes_that_cannot_be_used_are_refused)
   write("twin.csv", csv("x,y", "0.125,0.375"));
   write("close.csv", csv("x,y", "0,0.3\n1e-15,0.3"));
   write("far.csv", csv("x,y", "3,3"));
+  write("odd_0.25.csv", csv("x,y", "0,0,0"));
   write("outer.csv", "x,y\n+1.2,.5\n");
   const std::string lattice = set("Domain/mesh", "lattice"),
                     moved = set("Methods/perturbation", "0.3");
@@ -180,6 +181,13 @@ TEST_F(BadMeshes, nodes_that_cannot_be_used_are_refused)
        refused("far.csv", {"far.csv'", "node 64 at (3, 3) lies outside of the domain and its "
                                        "collar; take it out, or move it in"}),
        refused("outer.csv", {"outer.csv'", "none of the 1 nodes lies in the domain; add nodes"}),
+       refused("level_{h}.csv",
+               {"Methods/nodes = level_{h}.csv: there is no file '", "level_0.25.csv",
+                "' for h = 0.25; give one for each h of Study/h"}),
+       refused("odd_{h}.csv",
+               {"Methods/nodes = odd_{h}.csv: '", "odd_0.25.csv', line 66: '0,0,0' has 3 "
+                                                  "values for 2 columns; take some out"}),
+       refused("nox.csv", {"Methods/nodes = nox.csv: '"}),
        refused("middles", {"Methods/nodes = 'middles' is not known; write centres"}),
        refused("far.csv", {"far.csv with Domain/mesh = lattice", "write Domain/mesh"}, lattice),
        refused("centres", {"Methods/perturbation > 0 with Domain/mesh = lattice"}, lattice + moved),

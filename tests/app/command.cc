@@ -55,6 +55,21 @@ TEST(Command, check_fails_with_1_when_an_expectation_does_not_hold)
   EXPECT_EQ(run(common + "--set 'Expected/verdicts=IPA-AC: AC'").exit_code, 0);
 }
 
+TEST(Command, a_solution_that_contradicts_its_load_is_warned_of)
+{
+  const fs::path folder = temporary("contradiction");
+  const std::string command = "run " + std::string(PLUMBLINE_SCENES) +
+                              "/lps/cracked_plate.prm --methods FA --set Study/h=0.125,0.0625 -o " +
+                              folder.string();
+  EXPECT_EQ(run(command).err.find("warning"), std::string::npos); // no solution is given
+  const Outcome outcome = run(command + " --set 'Problem/solution=0, y - 0.5'");
+  EXPECT_EQ(outcome.exit_code, 0);
+  expect_found(outcome.err, "warning: u: solution and load contradict each other: at 32 points");
+  expect_found(read(folder / "results.json"), "solution and load contradict each other");
+  expect_found(read(folder / "report.html"), "solution and load contradict each other");
+  fs::remove_all(folder);
+}
+
 TEST(Command, expectations_take_the_other_name_of_a_method)
 {
   const std::string common = "run " + scene + " -o " + temporary("check").string() +

@@ -84,6 +84,33 @@ TEST(ManufacturedLoad, settles_to_the_accuracy_that_it_claims)
   EXPECT_NEAR(load(Point<2>(.5, .3), 0), exact, 1e-13 * std::abs(exact));
 }
 
+// u = f(x) cos y, f a layer: across the ball cos y integrates to 2 sin(√(δ² - ξ²)) cos y, and with
+// ξ = δ sin t what is left is periodic in t, for which equidistant points are exact to rounding.
+TEST(ManufacturedLoad, of_a_layer_is_right_to_twelve_digits)
+{
+  const auto kernel = Kernel<2>::with_diffusion(kernel_type("constant").profile, horizon, 1);
+  for (const double a : {2., 5., 10., 20.})
+  {
+    const ManufacturedLoad load(
+        kernel, Expression("Problem/solution", "atan(" + std::to_string(a) + "*(x-.43))*cos(y)"));
+    const auto f = [a](double x) { return std::atan(a * (x - .43)); };
+    for (const double x : {.05, .3, .43, .45, .5, .83})
+    {
+      constexpr int n = 4000;
+      double sum = 0;
+      for (int k = 0; k < n; ++k)
+      {
+        const double t = 2 * M_PI * (k + .5) / n, across = horizon * std::cos(t);
+        sum += f(x + horizon * std::sin(t)) * 2 * std::sin(across) * across * M_PI / n;
+      }
+      const double exact =
+          -kernel.constant() * std::cos(.6) * (sum - M_PI * horizon * horizon * f(x));
+      EXPECT_NEAR(load(Point<2>(x, .6), 0), exact, 1e-12 * std::max(1., std::abs(exact)))
+          << a << ' ' << x;
+    }
+  }
+}
+
 TEST(ManufacturedLoad, takes_the_mean_of_the_coefficients_at_both_ends)
 {
   // a = 1 + x, u = x²: -∫ C (a + ξ_1/2) (2 x ξ_1 + ξ_1²) = -(1 + 2 x) ∫ C ξ_1²
@@ -180,6 +207,25 @@ TEST(ChebyshevField, reproduces_smooth_fields_to_round_off_and_contracts_axis_by
   ASSERT_EQ(values.size(), 2u);
   EXPECT_NEAR(values[0], .3 * .3 * .2, 1e-14);
   EXPECT_NEAR(values[1], .3 * .3 * .7, 1e-14);
+}
+
+TEST(ChebyshevField, asks_for_many_values_across_a_layer_alone)
+{
+  for (const unsigned int across : {0u, 1u})
+  {
+    unsigned int n_values = 0;
+    const auto f = [&](const Point<2> &x, unsigned int)
+    {
+      ++n_values;
+      return std::atan(5 * (x[across] - .43)) * std::cos(x[1 - across]);
+    };
+    const auto field = ChebyshevField::resolve(f, 1, Point<2>(), Point<2>(1, 1));
+    ASSERT_TRUE(field);
+    EXPECT_LT(n_values, 6000u); // 129² are 16641
+    for (const double x : {.01, .4, .44, .97})
+      for (const double y : {.02, .5, .93})
+        EXPECT_NEAR((*field)(Point<2>(x, y), 0), f(Point<2>(x, y), 0), 1e-13);
+  }
 }
 
 TEST(ChebyshevField, does_not_claim_to_resolve_a_kink)

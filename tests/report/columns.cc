@@ -57,6 +57,7 @@ namespace plumbline::report
     study::Run run = make_run("FA", 0, .5, 1.5);
     run.cost.n_unknowns = 11;
     run.cost.n_bonds = 12;
+    run.geometry_seconds = 17;
     run.cost.setup_seconds = 13;
     run.cost.solve_seconds = 14;
     run.cost.peak_bytes = 15000000;
@@ -66,6 +67,7 @@ namespace plumbline::report
     EXPECT_EQ(value(table, 0, "h"), .5);
     EXPECT_EQ(value(table, 0, "unknowns"), 11);
     EXPECT_EQ(value(table, 0, "bonds"), 12);
+    EXPECT_EQ(value(table, 0, "geometry CPU s"), 17);
     EXPECT_EQ(value(table, 0, "setup CPU s"), 13);
     EXPECT_EQ(value(table, 0, "solve CPU s"), 14);
     EXPECT_DOUBLE_EQ(value(table, 0, "peak MB"), 15);

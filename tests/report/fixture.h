@@ -116,7 +116,7 @@ namespace plumbline::report::fixture
         results.advice.push_back({problem,
                                   series,
                                   {{1e-2, "IPA-AC recalibrated", .1, 6.2e-3, 5.1e-4},
-                                   {1e-4, "IPA-AC recalibrated", .0125, 9.7e-5, 3.2},
+                                   {1e-4, "IPA-AC recalibrated", .0125, 9.7e-5, 3.2, {"Q1"}},
                                    {1e-6, "Q1", .003125, 4.4e-7, 77}},
                                   {"FA", "IPA-AC", "P0"}});
       }
@@ -141,6 +141,7 @@ namespace plumbline::report::fixture
       map.values[8] = 0;
       results.maps.push_back(map);
     }
+    results.warnings = {"solution & load contradict each other"};
     results.omissions = {{"outer quadrature", "the lattice has exact entries", "9 of 10 CPU s"},
                          {"the matrix", "one stencil <serves> all nodes", "memory of 1e6 bonds"}};
     base::Cost cheap, dear;

@@ -93,6 +93,8 @@ namespace plumbline::report
     EXPECT_EQ(advice.choices[1].h, .0125);
     EXPECT_EQ(advice.choices[1].error, 9.7e-5);
     EXPECT_EQ(advice.choices[1].seconds, 3.2);
+    EXPECT_EQ(advice.choices[1].tied, std::vector<std::string>{"Q1"});
+    EXPECT_EQ(back.warnings, results.warnings);
     ASSERT_EQ(back.maps.size(), results.maps.size());
     for (std::size_t i = 0; i < back.maps.size(); ++i)
     {

@@ -106,6 +106,25 @@ namespace plumbline::report
     EXPECT_TRUE(holds(html, "No method of this run is known to converge."));
   }
 
+  TEST(ReportPage, NamesTiesWarningsAndWhatIsInNoCost)
+  {
+    study::Results results = fixture::results();
+    results.advice[0].choices = {{1e-2, "Q1", .1, 3e-5, 5.1e-4, {"A<B", "FA"}},
+                                 {1e-4, "Q1", .1, 3e-5, 5.1e-4}};
+    std::string html = page_of(results);
+    EXPECT_TRUE(holds(html, "<b>Q1</b><small> a tie with A&lt;B, FA</small></td>"));
+    EXPECT_FALSE(holds(html, "<td>error ≤ 1e-2 … 1e-4</td>")); // another answer, so another row
+    EXPECT_TRUE(holds(html, "<b>Warning.</b> solution &amp; load contradict each other."));
+    EXPECT_FALSE(holds(html, "Not in it, since methods share it")); // nothing was made
+    results.warnings.clear();
+    results.runs.front().geometry_seconds = 2.5; // FA
+    results.runs.back().geometry_seconds = 1.5;  // Q1
+    html = page_of(results);
+    EXPECT_FALSE(holds(html, "<b>Warning.</b>"));
+    EXPECT_TRUE(holds(html, "the mesh of Galerkin methods, up to 1.5 s a level; mesh and cells of "
+                            "meshfree nodes, up to 2.5 s a level of CPU time."));
+  }
+
   TEST(ReportPage, RanksByTheLargestErrorWhereNothingIsRefined)
   {
     study::Results results = fixture::results();

@@ -285,6 +285,57 @@ TEST(Conclusions, the_cheapest_run_is_by_setup_and_solve_together)
   }
 }
 
+TEST(Conclusions, costs_within_a_fifth_are_a_tie_that_fewer_unknowns_and_then_names_break)
+{
+  struct Row
+  {
+    double seconds_a, seconds_b; ///< at the level that reaches the target
+    std::size_t unknowns_a, unknowns_b;
+    std::string named;
+    std::vector<std::string> tied;
+  };
+  const std::vector<Row> table = {
+      {1., 1.19, 100, 400, "A", {"B"}}, {1., 1.19, 400, 100, "B", {"A"}},
+      {1.19, 1., 100, 400, "A", {"B"}}, // whoever was faster this time
+      {1.19, 1., 400, 100, "B", {"A"}}, {1.19, 1., 100, 100, "A", {"B"}},     // by name
+      {1., 1.21, 400, 100, "A", {}},                                          // clearly cheaper
+      {1.21, 1., 100, 400, "B", {}},    {1e-4, 1.6e-4, 400, 100, "B", {"A"}}, // .06 ms are noise
+      {1e-4, 1.8e-4, 400, 100, "A", {}}};
+  const auto scene = make_scene(against_exact);
+  for (const Row &row : table)
+  {
+    Results results = make_results(scene);
+    add_runs(results, "A", second_order);
+    add_runs(results, "B", second_order);
+    set_cost(results, "A", row.seconds_a / 16, 0);
+    set_cost(results, "B", row.seconds_b / 16, 0);
+    for (study::Run &run : results.runs)
+      run.cost.n_unknowns = run.method == "A" ? row.unknowns_a : row.unknowns_b;
+    conclude(scene, results);
+    ASSERT_FALSE(results.advice.front().choices.empty());
+    const Choice &choice = results.advice.front().choices.front();
+    EXPECT_EQ(choice.method, row.named) << row.seconds_a << ' ' << row.seconds_b;
+    EXPECT_EQ(choice.tied, row.tied) << row.seconds_a << ' ' << row.seconds_b;
+    EXPECT_DOUBLE_EQ(choice.seconds, row.named == "A" ? row.seconds_a : row.seconds_b);
+  }
+}
+
+TEST(Conclusions, a_method_does_not_tie_with_another_level_of_its_own)
+{
+  const auto scene = make_scene(against_exact);
+  Results results = make_results(scene);
+  add_runs(results, "A", {9e-3, 2e-3, 5e-4, 1.25e-4}); // each level is accurate enough
+  for (study::Run &run : results.runs)
+  {
+    run.cost.solve_seconds = 1 - .01 * run.level;
+    run.cost.n_unknowns = 100 << run.level;
+  }
+  conclude(scene, results);
+  const Choice &choice = results.advice.front().choices.front();
+  EXPECT_EQ(choice.h, h[0]); // alike in cost, with fewer unknowns
+  EXPECT_TRUE(choice.tied.empty());
+}
+
 TEST(Conclusions, the_cheapest_run_meets_its_target)
 {
   const auto scene = make_scene(against_exact);
@@ -385,4 +436,54 @@ TEST(Conclusions, the_weakest_proof_of_all_levels_counts)
     conclude(scene, results);
     EXPECT_EQ(trend_of(results, "A").verdict, "AC for this field only") << wrong;
   }
+}
+
+// ---- the own finest level -----------------------------------------------------------------------
+
+namespace
+{
+  /// What conclude says of differences to a finest level at h = .0125.
+  Trend judged_by_own(const std::vector<double> &differences, LimitProof::Answer answer)
+  {
+    const auto scene = make_scene("averages L2 | own finest level");
+    Results results = make_results(scene);
+    add_runs(results, "A", differences);
+    Run finest = results.runs.back();
+    finest.level = 4;
+    finest.h = .0125;
+    finest.errors.clear();
+    results.runs.push_back(finest);
+    prove(results, "A", answer, answer == LimitProof::Answer::incompatible ? .04 : 0);
+    conclude(scene, results);
+    return trend_of(results, "A");
+  }
+
+  /// |u_h - u_H| of u_h = u + h^p.
+  std::vector<double> differences(double p)
+  {
+    std::vector<double> values;
+    for (const double size : h)
+      values.push_back(std::pow(size, p) - std::pow(.0125, p));
+    return values;
+  }
+} // namespace
+
+TEST(Conclusions, differences_to_the_own_finest_level_show_the_rate_to_the_limit)
+{
+  using Answer = LimitProof::Answer;
+  for (const double p : {1., 2.})
+  {
+    const Trend trend = judged_by_own(differences(p), Answer::compatible);
+    EXPECT_EQ(trend.verdict, "self-convergent") << trend.reason;
+    EXPECT_NEAR(trend.rate, p, .03); // raw differences would say 1.58 of 1
+    EXPECT_NEAR(trend.rates.back(), p, .03);
+    EXPECT_EQ(trend.finest, .0125);
+  }
+  EXPECT_EQ(judged_by_own(differences(2), Answer::incompatible).verdict,
+            "self-convergent to a wrong limit");
+  EXPECT_EQ(judged_by_own(differences(.4), Answer::compatible).outcome, Outcome::undecided);
+  // solutions that move by as much at every level have no limit
+  EXPECT_NE(judged_by_own({4e-2, 3e-2, 2e-2, 1e-2}, Answer::unknown).outcome, Outcome::converges);
+  EXPECT_EQ(judged_by_own({1e-3, 2e-3, 1e-3, 4e-3}, Answer::unknown).verdict,
+            "not self-convergent");
 }

@@ -21,9 +21,18 @@ namespace plumbline::scene
       switch (kind)
       {
       case ExpectedKind::verdicts:
-        return {
-            "AC",     "AC for this field only", "delta-m-convergent", "failed",   "m-convergent",
-            "not AC", "not delta-m-convergent", "not m-convergent",   "undecided"};
+        return {"AC",
+                "AC for this field only",
+                "delta-m-convergent",
+                "failed",
+                "m-convergent",
+                "not AC",
+                "not delta-m-convergent",
+                "not m-convergent",
+                "not self-convergent",
+                "self-convergent",
+                "self-convergent to a wrong limit",
+                "undecided"};
       case ExpectedKind::monotone:
         return {"no", "yes"};
       case ExpectedKind::stability:

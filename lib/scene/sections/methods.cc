@@ -5,6 +5,15 @@
 
 namespace plumbline::scene
 {
+  std::string NodeSource::file_at(double h) const
+  {
+    const std::string mark = level_mark;
+    std::string file = name;
+    for (auto at = file.find(mark); at != std::string::npos; at = file.find(mark))
+      file.replace(at, mark.size(), short_number(h));
+    return file;
+  }
+
   void MethodsSection::declare(Keys &keys)
   {
     keys.add(
@@ -13,8 +22,10 @@ namespace plumbline::scene
         "'plumbline list methods'.");
     keys.add("nodes", nodes.name,
              "Meshfree nodes: centres of lattice cells, vertices (of a lattice, the boundary among "
-             "the data), mesh (centroids of its cells), or a file .csv with columns x and y. On "
-             "meshes their cells are Voronoi cells.");
+             "the data), mesh (centroids of its cells), or a file .csv with columns x and y, one "
+             "for each level if "
+             "{h} is in its name (pd_{h}.csv: pd_0.05.csv at h = 0.05). On meshes their cells are "
+             "Voronoi cells.");
     keys.add("perturbation", nodes.perturbation, between(0, .49),
              "Centres are moved at random by up to so many h in x and in y (Geometry/seed). Needs "
              "a mesh.");

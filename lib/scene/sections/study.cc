@@ -33,7 +33,7 @@ namespace plumbline::scene
       if (parts.size() != 2 || !norm || !target)
         throw InputError("'" + text +
                          "' must be 'norm | target' with a norm of Study/norms (add it there) and "
-                         "a target of exact, local, reference");
+                         "a target of exact, local, reference, own finest level");
       return {*norm, *target};
     }
 
@@ -82,7 +82,9 @@ namespace plumbline::scene
     keys.add(
         "decisive error", decisive_error.text(), any_text(),
         [this](const std::string &text) { decisive_error = to_decisive_error(text); },
-        "The 'norm | target' that verdicts rest on; targets: exact, local, reference.");
+        "The 'norm | target' that verdicts rest on; targets: exact, local, reference, "
+        "own finest level (of averages, for scenes without any other: has a method a limit? Its "
+        "levels should halve h, since others' cells are not parts of each other).");
   }
 
   void StudySection::complete()

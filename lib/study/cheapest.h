@@ -1,0 +1,21 @@
+#pragma once
+
+#include "study/results.h"
+
+#include <vector>
+
+namespace plumbline::study
+{
+  /// Costs this many times the least are a tie: CPU times of one solve repeat to 5 % where it is
+  /// long, to 20 % at a millisecond, the best of three (solve_and_time).
+  constexpr double tie_ratio = 1.2;
+
+  /// So are costs that differ by less than this, which the best of three of one solve of .1 ms does
+  /// from run to run [CPU s].
+  constexpr double tie_seconds = 5e-5;
+
+  /// Which of the runs to take: of those that tie with the least cost the one with the fewest
+  /// unknowns, then by name. First that one, then the cheapest run of each other method within the
+  /// tie, in the same order. Empty if there are no runs.
+  std::vector<const Run *> cheapest(std::vector<const Run *> runs);
+} // namespace plumbline::study

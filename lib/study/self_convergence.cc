@@ -1,0 +1,127 @@
+#include "study/self_convergence.h"
+
+#include "base/error.h"
+#include "geometry/search.h"
+#include "study/comparison.h"
+#include "study/timing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace plumbline::study
+{
+  using geometry::view;
+
+  namespace
+  {
+    geometry::Polygon square(const dealii::Point<2> &centre, double h)
+    {
+      const double r = h / 2, x = centre[0], y = centre[1];
+      return {{x - r, y - r}, {x + r, y - r}, {x + r, y + r}, {x - r, y + r}};
+    }
+  } // namespace
+
+  CellPieces comparison_pieces(const scene::Problem &problem)
+  {
+    CellPieces result;
+    if (!problem.cells)
+    {
+      for (const dealii::Point<2> &centre : comparison_points(problem))
+      {
+        result.cell.push_back(result.pieces.size());
+        result.pieces.push_back(square(centre, problem.h));
+        result.area.push_back(problem.h * problem.h);
+      }
+      return result;
+    }
+    const geometry::NodeCells &cells = *problem.cells;
+    for (std::size_t c = 0; c < cells.n_free; ++c)
+    {
+      result.area.push_back(cells.area[c]);
+      for (std::size_t p = cells.first_piece[c]; p < cells.first_piece[c + 1]; ++p)
+      {
+        result.cell.push_back(c);
+        result.pieces.push_back(cells.pieces[p]);
+      }
+    }
+    return result;
+  }
+
+  std::vector<double> transferred_averages(const CellPieces &others,
+                                           const std::vector<double> &averages,
+                                           const CellPieces &cells, unsigned int n_components)
+  {
+    std::vector<geometry::Box> boxes;
+    for (const geometry::Polygon &piece : others.pieces)
+      boxes.push_back(geometry::bounding_box(view(piece)));
+    const geometry::BoxSearch search(std::move(boxes));
+    std::vector<double> sum(cells.area.size() * n_components), shared(cells.area.size());
+    std::vector<unsigned int> found;
+    for (std::size_t p = 0; p < cells.pieces.size(); ++p)
+    {
+      search.find(geometry::bounding_box(view(cells.pieces[p])), found);
+      for (const unsigned int other : found)
+      {
+        const auto common = geometry::overlap(view(cells.pieces[p]), view(others.pieces[other]));
+        if (common.empty())
+          continue;
+        const double area = geometry::area(view(common));
+        shared[cells.cell[p]] += area;
+        for (unsigned int c = 0; c < n_components; ++c)
+          sum[cells.cell[p] * n_components + c] +=
+              area * averages[others.cell[other] * n_components + c];
+      }
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i)
+    {
+      if (!(shared[i / n_components] > 0))
+      {
+        std::ostringstream message;
+        message << "cells of the finest level meet nothing of a coarser level's cell "
+                << i / n_components << ", so it cannot be held against them; let all levels fill "
+                << "the same domain (Domain/mesh, Methods/nodes)";
+        throw NumericalError(message.str());
+      }
+      sum[i] /= shared[i / n_components];
+    }
+    return sum;
+  }
+
+  void OwnFinest::keep(const Run &run, const scene::Problem &problem,
+                       const std::vector<double> &averages)
+  {
+    if (cells_.count(place(run)) == 0)
+      cells_[place(run)] = comparison_pieces(problem);
+    kept_[{run.method, place(run)}] = {averages, problem.n_components};
+  }
+
+  void OwnFinest::compare(const scene::Scene &scene, std::vector<Run> &runs) const
+  {
+    for (Run &run : runs)
+    {
+      const auto own = kept_.find({run.method, place(run)});
+      auto finest = place(run);
+      for (const Run &other : runs)
+        if (is_same_run(other, run.method, run.problem, run.series, other.level))
+          std::get<2>(finest) = std::max(std::get<2>(finest), other.level);
+      const auto target = kept_.find({run.method, finest});
+      if (own == kept_.end() || target == kept_.end() || own == target)
+        continue;
+      const CellPieces &cells = cells_.at(place(run));
+      const auto [averages, n] = own->second;
+      const auto fine = transferred_averages(cells_.at(finest), target->second.averages, cells, n);
+      double largest = 0, squares = 0;
+      for (std::size_t i = 0; i < fine.size(); ++i)
+      {
+        const double difference = averages[i] - fine[i];
+        largest = std::max(largest, std::abs(difference));
+        squares += difference * difference * cells.area[i / n];
+      }
+      for (const scene::Norm norm : scene.study.norms)
+        if (scene::quantity(norm) == scene::Quantity::averages)
+          run.errors[scene::DecisiveError{norm, scene::Target::finest}.text()] =
+              scene::is_largest(norm) ? largest : std::sqrt(squares);
+    }
+  }
+} // namespace plumbline::study
