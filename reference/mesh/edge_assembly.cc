@@ -101,7 +101,7 @@ namespace plumbline::reference
     template <unsigned int n>
     void add_groups(const MeshSpace &space, const EdgeForm &form, const PairWays &ways,
                     const physics::Kernel<2> &kernel, double lowest_rho,
-                    const PowerPotential &whole, const base::Team &team, HalfMatrix &half)
+                    const WholePotential &whole, const base::Team &team, HalfMatrix &half)
     {
       const typename EdgeIntegrals<n>::Tables potential(kernel, lowest_rho);
       const EdgeGroups<n> groups(space, form, ways, potential, whole);
@@ -194,14 +194,27 @@ namespace plumbline::reference
       return ways.farthest_out() + 2 * largest + form.longest;
     }
 
+    /// The same of the potential without a horizon.
+    double whole_reach(const EdgeForm &form, const PairWays &ways)
+    {
+      return ways.farthest_near() + 2 * *std::max_element(form.radius.begin(), form.radius.end());
+    }
+
+    bool is_constant(const physics::Kernel<2> &kernel)
+    {
+      const physics::RadialProfile &profile = kernel.profile();
+      return kernel.structure() == physics::Structure::scalar && !profile.is_function() &&
+             profile.degree() == 0 && profile.lowest_exponent() == 0;
+    }
+
     template <unsigned int n>
     algebra::Rows assemble_entries(const MeshSpace &space, const physics::Kernel<2> &kernel,
                                    const base::Team &team)
     {
       const double horizon = kernel.horizon();
       const EdgeForm form(space);
-      const PowerPotential whole(kernel);
-      const PairWays ways(space, form, horizon, whole.is_none());
+      const PairWays ways(space, form, horizon, is_constant(kernel));
+      const WholePotential whole(kernel, whole_reach(form, ways), form.longest);
       HalfMatrix half = make_half(space, form, ways, horizon, n);
       const double farthest = reach(form, ways) / horizon;
       add_groups<n>(space, form, ways, kernel, 1 - farthest * farthest, whole, team, half);
@@ -210,42 +223,59 @@ namespace plumbline::reference
         subtract_mass(space, kernel.moment({0, 0}), n, half);
       return combine<n>(space, form, ways, half, is_first ? whole.constant() : 0);
     }
+
+    /// Why a kernel whose profile has no breaks cannot have its matrix; empty: it can.
+    std::string refuse_smooth(const MeshSpace &space, const EdgeForm &form,
+                              const physics::Kernel<2> &kernel)
+    {
+      const PairWays ways(space, form, kernel.horizon(), false);
+      const double horizon = kernel.horizon(), width = geometry::collar_width(space.mesh());
+      constexpr double rounding = 1e-8; // of meshes read from files
+      const auto first_held =
+          form.is_at_outside.begin() + static_cast<std::ptrdiff_t>(space.n_free());
+      if (width < horizon * (1 - rounding) ||
+          std::any_of(form.is_at_outside.begin(), first_held, [](char is) { return is != 0; }))
+        return "balls reach beyond the mesh";
+      double widest = 0; // of supports that end at the outside, where potentials do not see them
+      for (std::size_t dof = space.n_free(); dof < space.n_dofs(); ++dof)
+        if (form.is_at_outside[dof] != 0)
+          widest = std::max(widest, form.radius[dof]);
+      constexpr double farthest = 8; // pairs of nodes, in horizons: the length of tables
+      if (width - widest < .2 * horizon || reach(form, ways) > farthest * horizon)
+        return "triangles are large in relation to the horizon";
+      return WholePotential::refuse(kernel, whole_reach(form, ways));
+    }
   } // namespace
 
   std::string refuse_edges(const MeshSpace &space, const physics::Kernel<2> &kernel)
   {
     if (space.shapes().degree() != 1)
       return "the degree is not 1";
-    if (!kernel.breaks().empty() || kernel.profile().is_function())
-      return "the kernel is no sum of powers";
+    constexpr std::size_t most_breaks = 7; // each costs as much as a kernel
+    if (kernel.breaks().size() > most_breaks)
+      return "the kernel's profile has more than " + std::to_string(most_breaks) + " breaks";
     const EdgeForm form(space);
-    const PairWays ways(space, form, kernel.horizon(), false);
     constexpr double most_slender = 30; // terms are larger than their sum by its square
     if (form.most_slender > most_slender)
       return "some triangle is more than " + std::to_string(static_cast<int>(most_slender)) +
              " times longer than high";
-    const double horizon = kernel.horizon(), width = geometry::collar_width(space.mesh());
-    constexpr double rounding = 1e-8; // of meshes read from files
-    const auto first_held =
-        form.is_at_outside.begin() + static_cast<std::ptrdiff_t>(space.n_free());
-    if (width < horizon * (1 - rounding) ||
-        std::any_of(form.is_at_outside.begin(), first_held, [](char is) { return is != 0; }))
-      return "balls reach beyond the mesh";
-    double widest = 0; // of supports that end at the outside, where potentials do not see them
-    for (std::size_t dof = space.n_free(); dof < space.n_dofs(); ++dof)
-      if (form.is_at_outside[dof] != 0)
-        widest = std::max(widest, form.radius[dof]);
-    constexpr double farthest = 8; // pairs of nodes, in horizons: the length of tables
-    if (width - widest < .2 * horizon || reach(form, ways) > farthest * horizon)
-      return "triangles are large in relation to the horizon";
+    for (const physics::Kernel<2> &part : kernel.parts())
+      if (const std::string reason = refuse_smooth(space, form, part); !reason.empty())
+        return reason;
     return "";
   }
 
   algebra::Rows assemble_by_edges(const MeshSpace &space, const physics::Kernel<2> &kernel,
                                   const base::Team &team)
   {
-    return kernel.structure() == physics::Structure::scalar
-               ? assemble_entries<1>(space, kernel, team)
-               : assemble_entries<3>(space, kernel, team);
+    algebra::Rows sum;
+    for (const physics::Kernel<2> &part : kernel.parts())
+    {
+      algebra::Rows rows = part.structure() == physics::Structure::scalar
+                               ? assemble_entries<1>(space, part, team)
+                               : assemble_entries<3>(space, part, team);
+      sum = sum.start.empty() ? std::move(rows) : algebra::add(sum, rows);
+    }
+    return sum;
   }
 } // namespace plumbline::reference

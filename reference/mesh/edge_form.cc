@@ -117,6 +117,7 @@ namespace plumbline::reference
       : space_(space), form_(form), horizon_(horizon), is_product_(is_product)
   {
     const double both = 2 * *std::max_element(form.radius.begin(), form.radius.end());
-    farthest_out_ = std::max(horizon, apart * horizon + both);
+    farthest_near_ = apart * horizon + both;
+    farthest_out_ = std::max(horizon, farthest_near_);
   }
 } // namespace plumbline::reference

@@ -69,12 +69,15 @@ namespace plumbline::reference
     /// Nodes farther apart have no pair by the potential outside.
     double farthest_out() const { return farthest_out_; }
 
+    /// Nodes farther apart have no pair that takes the potential without a horizon.
+    double farthest_near() const { return farthest_near_; }
+
   private:
     static constexpr double apart = .35; ///< supports, so that Q needs few points
 
     const MeshSpace &space_;
     const EdgeForm &form_;
-    double horizon_, farthest_out_;
+    double horizon_, farthest_out_, farthest_near_;
     bool is_product_;
   };
 } // namespace plumbline::reference

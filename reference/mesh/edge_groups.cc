@@ -43,7 +43,7 @@ namespace plumbline::reference
   template <unsigned int n>
   EdgeGroups<n>::EdgeGroups(const MeshSpace &space, const EdgeForm &form, const PairWays &ways,
                             const typename EdgeIntegrals<n>::Tables &potential,
-                            const PowerPotential &whole)
+                            const WholePotential &whole)
       : space_(space), form_(form), ways_(ways), horizon_(potential.horizon()),
         has_whole_(!whole.is_none()), integrals_(potential, whole),
         middles_(search_points(middles(form)))

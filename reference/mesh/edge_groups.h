@@ -24,7 +24,7 @@ namespace plumbline::reference
   {
   public:
     EdgeGroups(const MeshSpace &space, const EdgeForm &form, const PairWays &ways,
-               const typename EdgeIntegrals<n>::Tables &potential, const PowerPotential &whole);
+               const typename EdgeIntegrals<n>::Tables &potential, const WholePotential &whole);
 
     /// Q, as far as it was asked for.
     struct Known

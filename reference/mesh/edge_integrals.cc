@@ -76,7 +76,7 @@ namespace plumbline::reference
   } // namespace
 
   template <unsigned int n>
-  EdgeIntegrals<n>::EdgeIntegrals(const Tables &potential, const PowerPotential &whole)
+  EdgeIntegrals<n>::EdgeIntegrals(const Tables &potential, const WholePotential &whole)
       : potential_(potential), whole_(whole), square_(potential.horizon() * potential.horizon())
   {
   }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "physics/radial_potential.h"
-#include "reference/mesh/power_potential.h"
+#include "reference/mesh/whole_potential.h"
 
 #include <type_traits>
 
@@ -70,7 +70,7 @@ namespace plumbline::reference
     using Tables =
         std::conditional_t<n == 1, physics::PotentialTables<1>, physics::PotentialTables<2>>;
 
-    EdgeIntegrals(const Tables &potential, const PowerPotential &whole);
+    EdgeIntegrals(const Tables &potential, const WholePotential &whole);
 
     /// Q.
     Potentials<n> from_point(const Point<2> &v, const Segment &e, const Wanted &wanted) const;
@@ -99,7 +99,7 @@ namespace plumbline::reference
                              bool for_divergence) const;
 
     const Tables &potential_;
-    const PowerPotential &whole_;
+    const WholePotential &whole_;
     double square_; ///< δ²
   };
 } // namespace plumbline::reference

@@ -2,6 +2,7 @@
 #include "physics/radial_potential.h"
 
 #include "physics/gauss.h"
+#include "physics/regular_potential.h"
 
 #include <gtest/gtest.h>
 
@@ -158,7 +159,8 @@ TEST(RadialPotential, of_bond_tensors_is_that_of_closed_forms)
       }
       const double rounding = rho < .9 ? 1e-14 : 1e-12;
       EXPECT_NEAR(divergence[0], integral[0] / (2 * q), rounding * std::abs(divergence[0])) << rho;
-      EXPECT_NEAR(divergence[1], integral[1] / (2 * q * q), rounding * std::abs(divergence[1])) << rho;
+      EXPECT_NEAR(divergence[1], integral[1] / (2 * q * q), rounding * std::abs(divergence[1]))
+          << rho;
       if (std::abs(rho) < .2)
         continue; // the closed form cancels
       const long double exact_q = 1 - static_cast<long double>(rho), log = std::log(exact_q);
@@ -171,4 +173,46 @@ TEST(RadialPotential, of_bond_tensors_is_that_of_closed_forms)
           << rho;
     }
   }
+}
+
+TEST(RegularPotential, of_a_gaussian_is_its_series)
+{
+  // D² q^(k+2) = (k+1)² (k+2)² q^k, and 2 q g = ∫_0^q f
+  const double rate = 1.5;
+  const auto profile =
+      physics::RadialProfile::smooth([&](double t) { return std::exp(-rate * t * t); }, true);
+  const Kernel<2> kernel(Structure::scalar, profile, horizon, 2);
+  const double farthest = 2.2;
+  const physics::RegularPotential potential(kernel, farthest);
+  double largest = potential.f(farthest * farthest);
+  for (double q = 0; q <= farthest * farthest; q += .0713)
+  {
+    long double f = 0, g = 0, term = 2. / 16;
+    for (int k = 0; k < 80; ++k)
+    {
+      const long double part =
+          term * std::pow(static_cast<long double>(q), k + 2) / (std::pow((k + 1.L) * (k + 2), 2));
+      f += part;
+      g += part / (2 * (k + 3));
+      term *= -rate / (k + 1);
+    }
+    EXPECT_NEAR(potential.f(q), static_cast<double>(f), 1e-14 * largest) << q;
+    EXPECT_NEAR(potential.g(q), static_cast<double>(g), 1e-14 * largest) << q;
+  }
+}
+
+TEST(RegularPotential, is_of_smooth_kernels_alone)
+{
+  const auto can_have = [](const physics::RadialProfile &profile, double farthest) {
+    return physics::RegularPotential::can_have({Structure::scalar, profile, horizon, 1}, farthest);
+  };
+  const auto gaussian = [](double rate) {
+    return physics::RadialProfile::smooth([=](double t) { return std::exp(-rate * t * t); }, true);
+  };
+  EXPECT_TRUE(can_have(gaussian(4), 2));
+  EXPECT_FALSE(can_have(gaussian(400), 2));
+  EXPECT_TRUE(can_have({{1, 0}, {-1, 2}}, 2));
+  EXPECT_FALSE(can_have({{1, 0}, {-1, 1}}, 2));
+  EXPECT_FALSE(
+      can_have(physics::RadialProfile::smooth([](double t) { return std::exp(-t); }, false), 2));
 }

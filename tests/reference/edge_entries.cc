@@ -43,6 +43,22 @@ namespace
             tensor({{1, 2}}, horizon)};
   }
 
+  /// Kernels whose profile is a function, or has a break.
+  std::vector<physics::Kernel<2>> functions(double horizon)
+  {
+    using physics::RadialProfile;
+    const auto gaussian =
+        RadialProfile::smooth([](double t) { return std::exp(-4 * t * t); }, true);
+    const auto exponential =
+        RadialProfile::smooth([](double t) { return std::exp(-2 * t); }, false);
+    const auto table = RadialProfile::table({{0, 2}, {.6, 1}, {1, .2}});
+    return {physics::Kernel<2>::with_diffusion(gaussian, horizon, 1),
+            physics::Kernel<2>::with_diffusion(exponential, horizon, 1),
+            physics::Kernel<2>::with_diffusion(table, horizon, 1),
+            physics::Kernel<2>::with_bulk_modulus(exponential, horizon, 1),
+            physics::Kernel<2>::with_bulk_modulus(table, horizon, 1)};
+  }
+
   /// Triangles on a lattice, the vertices of Ω moved by up to a part of h.
   Mesh triangles(double h, double horizon, double part)
   {
@@ -114,6 +130,21 @@ namespace
     return worst;
   }
 
+  /// The same of quadratic fields on a lattice: A(x² e_b) = -∫C_ab ξ² ∫φ, which is -2 h² of scalar
+  /// kernels, whatever the horizon.
+  double worst_quadratic(const Assembled &system, const physics::Kernel<2> &kernel, double h)
+  {
+    double worst = 0;
+    for (const std::array<int, 2> power : {std::array<int, 2>{2, 0}, {1, 1}, {0, 2}})
+      worst = std::max(worst, worst_row(
+                                  system,
+                                  [&](const Offset &x)
+                                  { return std::pow(x[0], power[0]) * std::pow(x[1], power[1]); },
+                                  [&](unsigned int a, unsigned int b)
+                                  { return -h * h * kernel.moment(power, a, b); }));
+    return worst;
+  }
+
   double largest_difference(const Assembled &a, const Assembled &b)
   {
     double largest = 0, diagonal = 0;
@@ -148,15 +179,7 @@ TEST(EdgeEntries, ReproduceQuadraticFieldsOnLattices)
       EXPECT_LT(worst_row(system, [](const Offset &) { return 1.; }), allowed);
       EXPECT_LT(worst_row(system, [&](const Offset &x) { return (x[0] - 2 * x[1]) / (m * h); }),
                 allowed);
-      // A(x² e_b) = -∫C_ab ξ² ∫φ: -2 h² of scalar kernels, whatever the horizon
-      for (const std::array<int, 2> power : {std::array<int, 2>{2, 0}, {1, 1}, {0, 2}})
-        EXPECT_LT(worst_row(
-                      system,
-                      [&](const Offset &x)
-                      { return std::pow(x[0], power[0]) * std::pow(x[1], power[1]); },
-                      [&](unsigned int a, unsigned int b)
-                      { return -h * h * kernel.moment(power, a, b); }),
-                  allowed);
+      EXPECT_LT(worst_quadratic(system, kernel, h), allowed);
     }
 }
 
@@ -245,6 +268,38 @@ TEST(EdgeEntries, AreWhatRefinedQuadratureApproaches)
     }
 }
 
+TEST(EdgeEntries, OfFunctionsAndTablesAreExactToo)
+{
+  const double h = .125;
+  for (const double m : {4., 6.5})
+    for (const double part : {0., .2})
+      for (const auto &kernel : functions(m * h))
+      {
+        const Assembled system = assemble(triangles(h, m * h, part), kernel);
+        ASSERT_TRUE(system.matrix.is_exact) << system.matrix.way;
+        const double allowed = 4e-13;
+        EXPECT_LT(worst_row(system, [](const Offset &) { return 1.; }), allowed);
+        EXPECT_LT(worst_row(system, [&](const Offset &x) { return (x[0] - 2 * x[1]) / (m * h); }),
+                  allowed);
+        if (part == 0)
+        {
+          EXPECT_LT(worst_quadratic(system, kernel, h), allowed);
+        }
+        for (unsigned int i = 0; i < system.matrix.rows.n_rows(); ++i)
+          for (unsigned int j = 0; j < i; ++j)
+            ASSERT_EQ(system.entry(i, j), system.entry(j, i));
+      }
+  const Mesh mesh = triangles(.25, 1, .2);
+  for (const auto &kernel : functions(1))
+  {
+    const Assembled exact = assemble(mesh, kernel);
+    const double coarse = largest_difference(exact, assemble(mesh, kernel, false, 0)),
+                 fine = largest_difference(exact, assemble(mesh, kernel, false, 2));
+    EXPECT_LT(fine, 2e-5);
+    EXPECT_GT(coarse, 10 * fine);
+  }
+}
+
 TEST(EdgeEntries, DoNotDependOnTheNumberOfThreads)
 {
   const Mesh mesh = triangles(.125, .5, .2);
@@ -268,9 +323,22 @@ TEST(EdgeEntries, AreRefusedWhereTheFormDoesNotHold)
   EXPECT_EQ(reason(mesh, constant(4 * h)), "");
   EXPECT_EQ(reason(mesh, constant(4 * h), 2), "the degree is not 1");
   EXPECT_EQ(reason(mesh, tensor({{1, -1}}, 4 * h)), "");
-  EXPECT_EQ(reason(mesh, {physics::Structure::scalar,
-                          physics::RadialProfile::table({{0, 2}, {.5, 1}, {1, .2}}), 4 * h, 1}),
-            "the kernel is no sum of powers");
+  for (const auto &kernel : functions(4 * h))
+    EXPECT_EQ(reason(mesh, kernel), "");
+  const auto scalar = [&](physics::RadialProfile profile)
+  { return physics::Kernel<2>::with_diffusion(std::move(profile), 4 * h, 1); };
+  std::vector<std::array<double, 2>> rows;
+  for (unsigned int i = 0; i < 10; ++i)
+    rows.push_back({i / 9., std::cos(i)});
+  EXPECT_EQ(reason(mesh, scalar(physics::RadialProfile::table(rows))),
+            "the kernel's profile has more than 7 breaks");
+  EXPECT_EQ(reason(mesh, scalar(physics::RadialProfile::table({{0, 2}, {.2, 1}, {1, .2}}))),
+            "triangles are large in relation to the horizon");
+  for (const bool is_even : {true, false})
+    EXPECT_EQ(reason(mesh, scalar(physics::RadialProfile::smooth(
+                               [&](double t) { return std::exp(is_even ? -400 * t * t : -20 * t); },
+                               is_even))),
+              "the kernel varies fast in relation to the horizon or the triangles");
   EXPECT_EQ(reason(mesh, constant(4.5 * h)), "balls reach beyond the mesh");
   EXPECT_EQ(reason(triangles(h, 1.2 * h, 0), constant(1.2 * h)),
             "triangles are large in relation to the horizon");
