@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "physics/gauss.h"
 
-#include <array>
 #include <cmath>
 
 namespace plumbline::physics
@@ -26,75 +25,57 @@ namespace plumbline::physics
       return sum;
     }
 
-    /// f/ρ⁴: Green's function is 4 (s + q) (artanh z - z) / 2, z = (s - q)/(s + q), s = q + ρτ.
-    double reduced_f(const Kernel<2> &kernel, double rho)
+    /// f/ρ⁴, s = q + ρτ: Green's function is 4 (s + q) (artanh z - z) / 2, z = (s - q)/(s + q).
+    template <unsigned int n_parts>
+    std::array<double, n_parts> reduced_f(const Kernel<2> &kernel, double rho)
     {
       const dealii::Quadrature<1> &rule = gauss(n_points);
       const double q = 1 - rho;
-      long double sum = 0;
+      std::array<long double, n_parts> sum{};
       for (unsigned int i = 0; i < rule.size(); ++i)
       {
         const long double tau = rule.point(i)[0], s = q + rho * tau, both = s + q;
-        const double value = kernel.radial(kernel.horizon() * std::sqrt(static_cast<double>(s)));
-        sum += rule.weight(i) * value * tau * tau * tau * reduced_artanh(rho * tau / both) /
-               (both * both);
+        const long double weight =
+            rule.weight(i) * tau * tau * tau *
+            kernel.radial(kernel.horizon() * std::sqrt(static_cast<double>(s)));
+        sum[0] += weight * reduced_artanh(rho * tau / both) / (both * both);
+        if constexpr (n_parts == 2)
+          sum[1] += weight / s;
       }
-      return static_cast<double>(sum / 8);
+      std::array<double, n_parts> result{};
+      if constexpr (n_parts == 1)
+        result[0] = static_cast<double>(sum[0] / 8);
+      else // of half the trace
+        result = {static_cast<double>(sum[0] / 16), static_cast<double>(sum[1] / (96 * q * q))};
+      return result;
     }
   } // namespace
 
-  template <class Function>
-  RadialPotential::Tables RadialPotential::tabulate(const Function &function) const
-  {
-    // Chebyshev's interpolant on each interval, x in (-1, 1), written in powers of x
-    std::array<std::array<double, n_terms>, n_terms> chebyshev{}; // T_k's coefficients
-    chebyshev[0][0] = chebyshev[1][1] = 1;
-    for (unsigned int k = 2; k < n_terms; ++k)
-      for (unsigned int p = 0; p < n_terms; ++p)
-        chebyshev[k][p] = (p > 0 ? 2 * chebyshev[k - 1][p - 1] : 0) - chebyshev[k - 2][p];
-
-    const auto make = [&](double from, double to, double length)
-    {
-      const auto n = static_cast<std::size_t>(std::ceil((to - from) / length)) + 1;
-      Table table{from, length, std::vector<double>(n * n_terms)};
-      std::array<double, n_terms> value{};
-      for (std::size_t i = 0; i < n; ++i)
-      {
-        for (unsigned int j = 0; j < n_terms; ++j)
-          value[j] = function(from + length * (i + .5 + .5 * std::cos(M_PI * (j + .5) / n_terms)));
-        for (unsigned int k = 0; k < n_terms; ++k)
-        {
-          double coefficient = 0;
-          for (unsigned int j = 0; j < n_terms; ++j)
-            coefficient += value[j] * std::cos(M_PI * k * (j + .5) / n_terms);
-          coefficient *= (k == 0 ? 1. : 2.) / n_terms;
-          for (unsigned int p = 0; p < n_terms; ++p)
-            table.coefficients[i * n_terms + p] += coefficient * chebyshev[k][p];
-        }
-      }
-      return table;
-    };
-    constexpr double knee = -.5, far = 1. / 16, near = 1. / 128;
-    return {make(std::min(lowest_, knee), knee, far), make(knee, highest_rho, near)};
-  }
-
-  RadialPotential::RadialPotential(const Kernel<2> &kernel, double lowest_rho)
+  template <unsigned int n_parts>
+  PotentialTables<n_parts>::PotentialTables(const Kernel<2> &kernel, double lowest_rho)
       : horizon_(kernel.horizon()), lowest_(lowest_rho)
   {
-    if (kernel.structure() != Structure::scalar || !kernel.breaks().empty())
-      throw NumericalError("radial potentials are of scalar kernels without breaks");
-    f_ = tabulate([&](double rho) { return reduced_f(kernel, rho); });
-    g_ = tabulate(
-        [&](double rho)
-        {
-          const dealii::Quadrature<1> &rule = gauss(n_points);
-          double sum = 0;
-          for (unsigned int i = 0; i < rule.size(); ++i)
-          {
-            const double tau = rule.point(i)[0];
-            sum += rule.weight(i) * tau * tau * tau * tau * f_(rho * tau);
-          }
-          return sum / (2 * (1 - rho));
-        });
+    if ((kernel.structure() == Structure::tensor) != (n_parts == 2) || !kernel.breaks().empty())
+      throw NumericalError("a radial potential is asked for with another kind of kernel");
+    f_ = {[&](double rho) { return reduced_f<n_parts>(kernel, rho); }, lowest_, highest_rho};
+    const auto reduced_g = [&](double rho)
+    {
+      const dealii::Quadrature<1> &rule = gauss(n_points);
+      Values sum{};
+      for (unsigned int i = 0; i < rule.size(); ++i)
+      {
+        const double tau = rule.point(i)[0], weight = rule.weight(i) * std::pow(tau, 4);
+        const Values value = f_(rho * tau);
+        for (unsigned int part = 0; part < n_parts; ++part)
+          sum[part] += weight * value[part] * (part == 1 ? 1 - rho * tau : 1);
+      }
+      for (unsigned int part = 0; part < n_parts; ++part)
+        sum[part] /= 2 * std::pow(1 - rho, part + 1.);
+      return sum;
+    };
+    g_ = {reduced_g, lowest_, highest_rho};
   }
+
+  template class PotentialTables<1>;
+  template class PotentialTables<2>;
 } // namespace plumbline::physics

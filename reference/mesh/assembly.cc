@@ -236,6 +236,8 @@ namespace plumbline::reference
       std::string reason = TrianglePairs::refuse(space, kernel);
       if (integrator.has_changing_coefficient())
         reason = "the material changes inside of triangles";
+      else if (!reason.empty() && space.is_continuous() && space.shapes().degree() == 1)
+        reason = refuse_edges(space, kernel);
       return reason.empty() ? "by sides of pairs of triangles, but by quadrature where one of them "
                               "is more than 30 times longer than high"
                             : "by quadrature, not exact by sides of triangles: " + reason;

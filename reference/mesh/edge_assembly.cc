@@ -19,7 +19,7 @@ namespace plumbline::reference
     {
       std::vector<std::size_t> start;
       std::vector<unsigned int> column;
-      std::vector<double> value;
+      std::vector<double> value; ///< shape (n_columns, n_entries)
 
       std::size_t find(unsigned int row, unsigned int col) const
       {
@@ -31,7 +31,7 @@ namespace plumbline::reference
     };
 
     HalfMatrix make_half(const MeshSpace &space, const EdgeForm &form, const PairWays &ways,
-                         double horizon)
+                         double horizon, unsigned int n_entries)
     {
       std::vector<Point<2>> points;
       for (std::size_t dof = 0; dof < space.n_dofs(); ++dof)
@@ -63,10 +63,11 @@ namespace plumbline::reference
         half.column.insert(half.column.end(), row.begin(), row.end());
         row = {};
       }
-      half.value.assign(half.column.size(), 0);
+      half.value.assign(half.column.size() * n_entries, 0);
       return half;
     }
 
+    template <unsigned int n>
     void add(const EdgeGroup &group, HalfMatrix &half)
     {
       const double *value = group.values.data();
@@ -78,9 +79,9 @@ namespace plumbline::reference
         {
           while (k < end && half.column[k] < column)
             ++k;
-          if (k < end && half.column[k] == column)
-            half.value[k] += *value;
-          ++value;
+          for (unsigned int i = 0; i < n && k < end && half.column[k] == column; ++i)
+            half.value[k * n + i] += value[i];
+          value += n;
         }
       }
     }
@@ -97,83 +98,152 @@ namespace plumbline::reference
     }
 
     /// Sum of all groups of this rank's share.
+    template <unsigned int n>
     void add_groups(const MeshSpace &space, const EdgeForm &form, const PairWays &ways,
-                    const physics::RadialPotential &potential, const PowerPotential &whole,
-                    const base::Team &team, HalfMatrix &half)
+                    const physics::Kernel<2> &kernel, double lowest_rho,
+                    const WholePotential &whole, const base::Team &team, HalfMatrix &half)
     {
-      const EdgeGroups groups(space, form, ways, potential, whole);
+      const typename EdgeIntegrals<n>::Tables potential(kernel, lowest_rho);
+      const EdgeGroups<n> groups(space, form, ways, potential, whole);
       const std::vector<std::size_t> starts = group_starts(form);
       const auto [first, last] = team.share(starts.size() - 1);
       std::vector<std::size_t> own(last - first);
       std::iota(own.begin(), own.end(), first);
+      using Scratch = typename EdgeGroups<n>::Scratch;
       dealii::WorkStream::run(
           own.begin(), own.end(),
-          [&](const std::vector<std::size_t>::iterator &g, EdgeGroups::Scratch &scratch,
-              EdgeGroup &group) { groups.integrate(starts[*g], starts[*g + 1], scratch, group); },
-          [&](const EdgeGroup &group) { add(group, half); }, EdgeGroups::Scratch(), EdgeGroup());
+          [&](const std::vector<std::size_t>::iterator &g, Scratch &scratch, EdgeGroup &group)
+          { groups.integrate(starts[*g], starts[*g + 1], scratch, group); },
+          [&](const EdgeGroup &group) { add<n>(group, half); }, Scratch(), EdgeGroup());
     }
 
-    /// Add ∫C times the mass matrix of free rows.
-    void add_mass(const MeshSpace &space, double of_ball, algebra::Rows &rows)
+    /// Take off half of ∬ C φ_i(x) φ_j(x), the mass matrix times ∫C.
+    void subtract_mass(const MeshSpace &space, double of_ball, unsigned int n_entries,
+                       HalfMatrix &half)
     {
       for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
       {
         const unsigned int *const dof = space.dofs(cell);
         const double share = of_ball * space.map(cell).determinant({}) / 24;
         for (unsigned int a = 0; a < 3; ++a)
-          for (unsigned int b = 0; b < 3 && dof[a] < space.n_free(); ++b)
-          {
-            const auto first =
-                           rows.column.begin() + static_cast<std::ptrdiff_t>(rows.start[dof[a]]),
-                       last = rows.column.begin() +
-                              static_cast<std::ptrdiff_t>(rows.start[dof[a] + 1]);
-            const auto at = std::lower_bound(first, last, dof[b]);
-            rows.value[static_cast<std::size_t>(at - rows.column.begin())] +=
-                a == b ? 2 * share : share;
-          }
+          for (unsigned int b = 0; b < 3; ++b)
+            if (dof[a] < space.n_free() || dof[b] < space.n_free())
+              half.value[half.find(dof[a], dof[b]) * n_entries] -= a == b ? share : .5 * share;
       }
     }
 
-    /// Entries ∬ C φ_i(x) (φ_j(x) - φ_j(y)) of free rows that this rank has a share in; what one
-    /// rank alone must give, if `is_first`.
-    algebra::Rows combine(const MeshSpace &space, const EdgeForm &form, const PairWays &ways,
-                          const physics::Kernel<2> &kernel, HalfMatrix half, bool is_product,
-                          bool is_first)
+    /// The entries of a 2 x 2 block, see Potentials.
+    double entry(const std::array<double, 3> &value, unsigned int a, unsigned int b)
     {
+      return a != b ? value[2] : a == 0 ? value[0] + value[1] : value[0] - value[1];
+    }
+
+    /// Entries ∬ C φ_i(x) (φ_j(x) - φ_j(y)) of free rows.
+    /// @param constant  the kernel's constant term, whose whole pairs are products
+    template <unsigned int n>
+    algebra::Rows combine(const MeshSpace &space, const EdgeForm &form, const PairWays &ways,
+                          const HalfMatrix &half, double constant)
+    {
+      constexpr unsigned int n_components = n == 1 ? 1 : 2;
       algebra::Rows rows;
-      rows.start.assign(half.start.begin(),
-                        half.start.begin() + static_cast<std::ptrdiff_t>(space.n_free()) + 1);
-      rows.column.assign(half.column.begin(),
-                         half.column.begin() + static_cast<std::ptrdiff_t>(rows.start.back()));
-      rows.value.resize(rows.column.size());
-      const double density = kernel.radial(kernel.horizon());
+      rows.start.assign(1, 0);
+      for (unsigned int dof = 0; dof < space.n_free(); ++dof)
+        for (unsigned int c = 0; c < n_components; ++c)
+          rows.start.push_back(rows.start.back() +
+                               n_components * (half.start[dof + 1] - half.start[dof]));
+      rows.column.resize(rows.start.back());
+      rows.value.resize(rows.start.back());
+      const auto make_row = [&](unsigned int i)
+      {
+        for (std::size_t k = half.start[i]; k < half.start[i + 1]; ++k)
+        {
+          const unsigned int j = half.column[k];
+          const double *const own = &half.value[k * n], *const other =
+                                                            &half.value[half.find(j, i) * n];
+          std::array<double, 3> value{};
+          for (unsigned int e = 0; e < n; ++e)
+            value[e] = -(own[e] + other[e]);
+          const PairWay way = ways(i, j);
+          if (way == PairWay::whole || way == PairWay::out)
+            value[0] -= constant * (form.integral[i] * form.integral[j]);
+          for (unsigned int a = 0; a < n_components; ++a)
+            for (unsigned int b = 0; b < n_components; ++b)
+            {
+              const std::size_t to =
+                  rows.start[i * n_components + a] + (k - half.start[i]) * n_components + b;
+              rows.column[to] = j * n_components + b;
+              rows.value[to] = entry(value, a, b);
+            }
+        }
+      };
       in_parallel(space.n_free(),
                   [&](std::size_t first, std::size_t last)
                   {
                     for (std::size_t row = first; row < last; ++row)
-                      for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
-                      {
-                        const auto i = static_cast<unsigned int>(row), j = rows.column[k];
-                        double value = half.value[k] + half.value[half.find(j, i)];
-                        const PairWay way = ways(i, j);
-                        if (is_product && is_first &&
-                            (way == PairWay::whole || way == PairWay::out))
-                          value += density * (form.integral[i] * form.integral[j]);
-                        rows.value[k] = -value;
-                      }
+                      make_row(static_cast<unsigned int>(row));
                   });
-      if (is_first)
-        add_mass(space, kernel.moment({0, 0}), rows);
       return rows;
     }
 
     /// The largest distance of points that potentials are asked for.
-    double reach(const MeshSpace &space, const EdgeForm &form, double horizon)
+    double reach(const EdgeForm &form, const PairWays &ways)
     {
       double largest = 0;
       for (const Edge &edge : form.edges)
         largest = std::max(largest, edge.radius);
-      return PairWays(space, form, horizon).farthest_out() + 2 * largest + form.longest;
+      return ways.farthest_out() + 2 * largest + form.longest;
+    }
+
+    /// The same of the potential without a horizon.
+    double whole_reach(const EdgeForm &form, const PairWays &ways)
+    {
+      return ways.farthest_near() + 2 * *std::max_element(form.radius.begin(), form.radius.end());
+    }
+
+    bool is_constant(const physics::Kernel<2> &kernel)
+    {
+      const physics::RadialProfile &profile = kernel.profile();
+      return kernel.structure() == physics::Structure::scalar && !profile.is_function() &&
+             profile.degree() == 0 && profile.lowest_exponent() == 0;
+    }
+
+    template <unsigned int n>
+    algebra::Rows assemble_entries(const MeshSpace &space, const physics::Kernel<2> &kernel,
+                                   const base::Team &team)
+    {
+      const double horizon = kernel.horizon();
+      const EdgeForm form(space);
+      const PairWays ways(space, form, horizon, is_constant(kernel));
+      const WholePotential whole(kernel, whole_reach(form, ways), form.longest);
+      HalfMatrix half = make_half(space, form, ways, horizon, n);
+      const double farthest = reach(form, ways) / horizon;
+      add_groups<n>(space, form, ways, kernel, 1 - farthest * farthest, whole, team, half);
+      const bool is_first = team.rank() == 0; // of ranks: what one alone must give
+      if (is_first)
+        subtract_mass(space, kernel.moment({0, 0}), n, half);
+      return combine<n>(space, form, ways, half, is_first ? whole.constant() : 0);
+    }
+
+    /// Why a kernel whose profile has no breaks cannot have its matrix; empty: it can.
+    std::string refuse_smooth(const MeshSpace &space, const EdgeForm &form,
+                              const physics::Kernel<2> &kernel)
+    {
+      const PairWays ways(space, form, kernel.horizon(), false);
+      const double horizon = kernel.horizon(), width = geometry::collar_width(space.mesh());
+      constexpr double rounding = 1e-8; // of meshes read from files
+      const auto first_held =
+          form.is_at_outside.begin() + static_cast<std::ptrdiff_t>(space.n_free());
+      if (width < horizon * (1 - rounding) ||
+          std::any_of(form.is_at_outside.begin(), first_held, [](char is) { return is != 0; }))
+        return "balls reach beyond the mesh";
+      double widest = 0; // of supports that end at the outside, where potentials do not see them
+      for (std::size_t dof = space.n_free(); dof < space.n_dofs(); ++dof)
+        if (form.is_at_outside[dof] != 0)
+          widest = std::max(widest, form.radius[dof]);
+      constexpr double farthest = 8; // pairs of nodes, in horizons: the length of tables
+      if (width - widest < .2 * horizon || reach(form, ways) > farthest * horizon)
+        return "triangles are large in relation to the horizon";
+      return WholePotential::refuse(kernel, whole_reach(form, ways));
     }
   } // namespace
 
@@ -181,42 +251,31 @@ namespace plumbline::reference
   {
     if (space.shapes().degree() != 1)
       return "the degree is not 1";
-    if (kernel.structure() != physics::Structure::scalar)
-      return "the kernel is a tensor";
-    if (!kernel.breaks().empty() || kernel.profile().is_function())
-      return "the kernel is no sum of powers";
+    constexpr std::size_t most_breaks = 7; // each costs as much as a kernel
+    if (kernel.breaks().size() > most_breaks)
+      return "the kernel's profile has more than " + std::to_string(most_breaks) + " breaks";
     const EdgeForm form(space);
     constexpr double most_slender = 30; // terms are larger than their sum by its square
     if (form.most_slender > most_slender)
       return "some triangle is more than " + std::to_string(static_cast<int>(most_slender)) +
              " times longer than high";
-    const double horizon = kernel.horizon(), width = geometry::collar_width(space.mesh());
-    constexpr double rounding = 1e-8; // of meshes read from files
-    const auto first_held =
-        form.is_at_outside.begin() + static_cast<std::ptrdiff_t>(space.n_free());
-    if (width < horizon * (1 - rounding) ||
-        std::any_of(form.is_at_outside.begin(), first_held, [](char is) { return is != 0; }))
-      return "balls reach beyond the mesh";
-    double widest = 0; // of supports that end at the outside, where potentials do not see them
-    for (std::size_t dof = space.n_free(); dof < space.n_dofs(); ++dof)
-      if (form.is_at_outside[dof] != 0)
-        widest = std::max(widest, form.radius[dof]);
-    constexpr double farthest = 8; // pairs of nodes, in horizons: the length of tables
-    if (width - widest < .2 * horizon || reach(space, form, horizon) > farthest * horizon)
-      return "triangles are large in relation to the horizon";
+    for (const physics::Kernel<2> &part : kernel.parts())
+      if (const std::string reason = refuse_smooth(space, form, part); !reason.empty())
+        return reason;
     return "";
   }
 
   algebra::Rows assemble_by_edges(const MeshSpace &space, const physics::Kernel<2> &kernel,
                                   const base::Team &team)
   {
-    const EdgeForm form(space);
-    const PairWays ways(space, form, kernel.horizon());
-    const PowerPotential whole(kernel);
-    HalfMatrix half = make_half(space, form, ways, kernel.horizon());
-    const double farthest = reach(space, form, kernel.horizon()) / kernel.horizon();
-    const physics::RadialPotential potential(kernel, 1 - farthest * farthest);
-    add_groups(space, form, ways, potential, whole, team, half);
-    return combine(space, form, ways, kernel, std::move(half), whole.is_none(), team.rank() == 0);
+    algebra::Rows sum;
+    for (const physics::Kernel<2> &part : kernel.parts())
+    {
+      algebra::Rows rows = part.structure() == physics::Structure::scalar
+                               ? assemble_entries<1>(space, part, team)
+                               : assemble_entries<3>(space, part, team);
+      sum = sum.start.empty() ? std::move(rows) : algebra::add(sum, rows);
+    }
+    return sum;
   }
 } // namespace plumbline::reference

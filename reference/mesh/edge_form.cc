@@ -11,11 +11,6 @@ namespace plumbline::reference
     constexpr unsigned int n_corners = 3;
     constexpr unsigned int next[n_corners] = {1, 2, 0};
 
-    double cross(const Vector2 &a, const Vector2 &b)
-    {
-      return a[0] * b[1] - a[1] * b[0];
-    }
-
     /// A triangle's nodes and corners, counter-clockwise.
     struct Triangle
     {
@@ -53,8 +48,8 @@ namespace plumbline::reference
         if (is_new)
         {
           const auto [first, second] = place->first;
-          const Point<2> &start = space_.support(first);
-          all.push_back({{start, space_.support(second) - start}, {first, second}, {}, 2, 0});
+          all.push_back({{space_.support(first), space_.support(second)}, {first, second}, {}});
+          all.back().length = all.back().segment.along.norm();
         }
         return all[place->second];
       }
@@ -113,10 +108,11 @@ namespace plumbline::reference
     std::sort(edges.begin(), held, [](const Edge &a, const Edge &b) { return a.node < b.node; });
   }
 
-  PairWays::PairWays(const MeshSpace &space, const EdgeForm &form, double horizon)
-      : space_(space), form_(form), horizon_(horizon)
+  PairWays::PairWays(const MeshSpace &space, const EdgeForm &form, double horizon, bool is_product)
+      : space_(space), form_(form), horizon_(horizon), is_product_(is_product)
   {
     const double both = 2 * *std::max_element(form.radius.begin(), form.radius.end());
-    farthest_out_ = std::max(horizon, apart * horizon + both);
+    farthest_near_ = apart * horizon + both;
+    farthest_out_ = std::max(horizon, farthest_near_);
   }
 } // namespace plumbline::reference

@@ -15,7 +15,7 @@ namespace plumbline::reference
     std::array<unsigned int, 4> node; ///< dofs, the ends first; n_nodes of them count
     std::array<double, 4> jump;       ///< J = -Σ_T |e| ∂φ/∂n_T
     unsigned int n_nodes = 2;
-    double radius = 0; ///< about its middle, of the nodes
+    double length = 0, radius = 0; ///< radius: about its middle, of the nodes
   };
 
   /// What continuous piecewise linears on triangles are by their sides: Δφ = Σ_e J(e) along e.
@@ -45,7 +45,10 @@ namespace plumbline::reference
   class PairWays
   {
   public:
-    PairWays(const MeshSpace &space, const EdgeForm &form, double horizon);
+    /// @param is_product  the whole is a product, at no cost: else only near supports take it,
+    /// whose
+    ///                    potential is small
+    PairWays(const MeshSpace &space, const EdgeForm &form, double horizon, bool is_product);
 
     PairWay operator()(unsigned int i, unsigned int j) const
     {
@@ -53,21 +56,28 @@ namespace plumbline::reference
       const double both = form_.radius[i] + form_.radius[j];
       if (distance - both >= horizon_)
         return PairWay::none;
+      const bool is_apart = distance - both > apart * horizon_;
+      if (is_apart && !is_product_)
+        return PairWay::in;
       if (distance + both <= horizon_)
         return PairWay::whole;
       if (form_.is_at_outside[i] || form_.is_at_outside[j]) // not continuous: only this is valid
         return PairWay::in;
-      return distance > horizon_ && distance - both > apart * horizon_ ? PairWay::in : PairWay::out;
+      return is_apart && distance > horizon_ ? PairWay::in : PairWay::out;
     }
 
     /// Nodes farther apart have no pair by the potential outside.
     double farthest_out() const { return farthest_out_; }
 
+    /// Nodes farther apart have no pair that takes the potential without a horizon.
+    double farthest_near() const { return farthest_near_; }
+
   private:
-    static constexpr double apart = .35; ///< of supports, so that Q needs few points
+    static constexpr double apart = .35; ///< supports, so that Q needs few points
 
     const MeshSpace &space_;
     const EdgeForm &form_;
-    double horizon_, farthest_out_;
+    double horizon_, farthest_out_, farthest_near_;
+    bool is_product_;
   };
 } // namespace plumbline::reference

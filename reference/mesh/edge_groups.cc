@@ -13,6 +13,17 @@ namespace plumbline::reference
         points.push_back(edge.segment.middle());
       return points;
     }
+
+    std::size_t row_of(unsigned int node, const EdgeGroup &group)
+    {
+      const auto at = std::lower_bound(group.rows.begin(), group.rows.end(), node);
+      return static_cast<std::size_t>(at - group.rows.begin());
+    }
+
+    unsigned char bit(PairWay way)
+    {
+      return static_cast<unsigned char>(1u << static_cast<unsigned int>(way));
+    }
   } // namespace
 
   geometry::Box box_about(const Point<2> &x, double radius)
@@ -29,32 +40,27 @@ namespace plumbline::reference
     return geometry::BoxSearch(std::move(boxes));
   }
 
-  EdgeGroups::EdgeGroups(const MeshSpace &space, const EdgeForm &form, const PairWays &ways,
-                         const physics::RadialPotential &potential, const PowerPotential &whole)
+  template <unsigned int n>
+  EdgeGroups<n>::EdgeGroups(const MeshSpace &space, const EdgeForm &form, const PairWays &ways,
+                            const typename EdgeIntegrals<n>::Tables &potential,
+                            const WholePotential &whole)
       : space_(space), form_(form), ways_(ways), horizon_(potential.horizon()),
-        has_whole_(!whole.is_none()), integrals_(potential, whole, form.longest),
+        has_whole_(!whole.is_none()), integrals_(potential, whole),
         middles_(search_points(middles(form)))
   {
     for (const Edge &edge : form.edges)
       largest_radius_ = std::max(largest_radius_, edge.radius);
   }
 
-  void EdgeGroups::integrate(std::size_t first, std::size_t last, Scratch &scratch,
-                             EdgeGroup &group) const
+  template <unsigned int n>
+  void EdgeGroups<n>::integrate(std::size_t first, std::size_t last, Scratch &scratch,
+                                EdgeGroup &group) const
   {
     find_near(first, last, scratch);
     find_nodes(first, last, scratch, group);
-    const std::size_t n_columns = group.columns.size();
-    group.values.assign(group.rows.size() * n_columns, 0);
-    scratch.ways.resize(group.rows.size() * n_columns);
-    for (std::size_t r = 0; r < group.rows.size(); ++r)
-      for (std::size_t c = 0; c < n_columns; ++c)
-        scratch.ways[r * n_columns + c] = static_cast<char>(ways_(group.rows[r], group.columns[c]));
-
-    const Edge &edge = form_.edges[first];
-    scratch.from_start.resize(scratch.near.size());
-    for (std::size_t k = 0; k < scratch.near.size(); ++k)
-      scratch.from_start[k] = from_point(edge.segment.start, form_.edges[scratch.near[k]]);
+    find_ways(group, scratch);
+    group.values.assign(group.rows.size() * group.columns.size() * n, 0);
+    scratch.from_start.assign(scratch.near.size(), {});
     for (std::size_t e = first; e < last; ++e)
     {
       sum_partners(e, group, scratch);
@@ -62,29 +68,47 @@ namespace plumbline::reference
     }
   }
 
-  /// Whether their pair is needed: one of their nodes' pairs is neither whole nor none, or
-  /// whole ones are no products.
-  bool EdgeGroups::is_near(const Edge &e, const Edge &f) const
+  /// Whether nodes of theirs may be a pair that takes theirs.
+  template <unsigned int n>
+  bool EdgeGroups<n>::is_near(const Edge &e, const Edge &f) const
   {
-    return e.segment.middle().distance(f.segment.middle()) <
-               ways_.farthest_out() + e.radius + f.radius &&
-           (has_whole_ || sees_circle(e, f));
+    const double distance = e.segment.middle().distance(f.segment.middle()),
+                 both = e.radius + f.radius;
+    return distance < ways_.farthest_out() + both && (has_whole_ || distance > horizon_ - both);
   }
 
-  bool EdgeGroups::sees_circle(const Edge &e, const Edge &f) const
+  /// Q, kept for the next who asks.
+  template <unsigned int n>
+  const Potentials<n> &EdgeGroups<n>::ask(Known &known, const Point<2> &v, const Edge &e,
+                                          const Wanted &wanted) const
   {
-    return e.segment.middle().distance(f.segment.middle()) > horizon_ - e.radius - f.radius;
+    const Wanted missing = wanted.without(known.has);
+    if (!missing.is_none())
+    {
+      known.value.add(1, integrals_.from_point(v, e.segment, missing));
+      known.has.add(missing);
+    }
+    return known.value;
   }
 
-  /// Q, with what is cut at the circle where sides that see it may ask for it.
-  Potentials EdgeGroups::from_point(const Point<2> &v, const Edge &e) const
+  /// What pairs of their nodes take of a pair of edges, unless it is zero.
+  template <unsigned int n>
+  Wanted EdgeGroups<n>::wanted(const Edge &e, const Edge &f, const Scratch &scratch) const
   {
-    const double margin = 2 * largest_radius_ + form_.longest;
-    return integrals_.from_point(v, e.segment, v.distance(e.segment.middle()) > horizon_ - margin);
+    unsigned int ways = 0;
+    for (unsigned int k = 0; k < f.n_nodes; ++k)
+      ways |= scratch.edge_ways[scratch.slot[f.node[k]]];
+    const auto has = [&](PairWay way) { return (ways & bit(way)) != 0; };
+    const double distance = e.segment.middle().distance(f.segment.middle()),
+                 both = .5 * (e.length + f.length);
+    return {(has(PairWay::in) && distance < horizon_ + both) ||
+                (has(PairWay::out) && distance > horizon_ - both),
+            (has(PairWay::whole) || has(PairWay::out)) && has_whole_};
   }
 
   /// Edges that an edge of the group has a pair with, each pair once: numbers from first on.
-  void EdgeGroups::find_near(std::size_t first, std::size_t last, Scratch &scratch) const
+  template <unsigned int n>
+  void EdgeGroups<n>::find_near(std::size_t first, std::size_t last, Scratch &scratch) const
   {
     double reach = 0;
     const Point<2> &center = form_.edges[first].segment.start;
@@ -101,8 +125,9 @@ namespace plumbline::reference
   }
 
   /// The nodes of the group's edges, and of all that are near them.
-  void EdgeGroups::find_nodes(std::size_t first, std::size_t last, Scratch &scratch,
-                              EdgeGroup &group) const
+  template <unsigned int n>
+  void EdgeGroups<n>::find_nodes(std::size_t first, std::size_t last, Scratch &scratch,
+                                 EdgeGroup &group) const
   {
     group.rows.clear();
     group.columns.clear();
@@ -124,67 +149,78 @@ namespace plumbline::reference
       scratch.slot[group.columns[c]] = c;
   }
 
+  template <unsigned int n>
+  void EdgeGroups<n>::find_ways(const EdgeGroup &group, Scratch &scratch) const
+  {
+    scratch.ways.clear();
+    for (const unsigned int row : group.rows)
+      for (const unsigned int column : group.columns)
+        scratch.ways.push_back(ways_(row, column));
+  }
+
   /// Σ_f J(f) D(e, f) over later edges f, e itself by half.
-  void EdgeGroups::sum_partners(std::size_t e, const EdgeGroup &group, Scratch &scratch) const
+  template <unsigned int n>
+  void EdgeGroups<n>::sum_partners(std::size_t e, const EdgeGroup &group, Scratch &scratch) const
   {
     const Edge &edge = form_.edges[e];
-    scratch.sums.assign(group.columns.size(), {});
-    scratch.to_edge.resize(group.columns.size());
-    scratch.has_edge.assign(group.columns.size(), 0);
-    const auto to_edge = [&](unsigned int node)
+    const std::size_t n_columns = group.columns.size();
+    scratch.sums.assign(n_columns, {});
+    scratch.to_edge.assign(n_columns, {});
+    scratch.edge_ways.assign(n_columns, 0);
+    for (unsigned int k = 0; k < edge.n_nodes; ++k)
     {
-      const unsigned int slot = scratch.slot[node];
-      if (scratch.has_edge[slot] == 0)
-        scratch.to_edge[slot] = from_point(space_.support(node), edge);
-      scratch.has_edge[slot] = 1;
-      return scratch.to_edge[slot];
-    };
+      const PairWay *const way = &scratch.ways[row_of(edge.node[k], group) * n_columns];
+      for (std::size_t c = 0; c < n_columns; ++c)
+        scratch.edge_ways[c] |= bit(way[c]);
+    }
     for (std::size_t k = 0; k < scratch.near.size(); ++k)
     {
       const unsigned int f = scratch.near[k];
       const Edge &other = form_.edges[f];
-      if (f < e || !is_near(edge, other))
+      const Wanted asked = f < e ? Wanted() : wanted(edge, other, scratch);
+      if (asked.is_none())
         continue;
-      Potentials d;
-      if (EdgeIntegrals::is_parallel(edge.segment, other.segment))
-        d = integrals_.between_parallel(edge.segment, other.segment, sees_circle(edge, other));
+      const Segment &a = edge.segment, &b = other.segment;
+      Potentials<n> d;
+      if (EdgeIntegrals<n>::is_parallel(a, b))
+        d = integrals_.between_parallel(a, b, asked);
       else
-        d = integrals_.between(edge.segment, other.segment,
-                               {scratch.from_start[k], from_point(edge.segment.end(), other)},
-                               {to_edge(other.node[0]), to_edge(other.node[1])});
+        d = integrals_.between(
+            a, b,
+            {ask(scratch.from_start[k], a.start, other, asked),
+             integrals_.from_point(a.end, b, asked)},
+            {ask(scratch.to_edge[scratch.slot[other.node[0]]], b.start, edge, asked),
+             ask(scratch.to_edge[scratch.slot[other.node[1]]], b.end, edge, asked)},
+            asked);
       const double factor = f == e ? .5 : 1;
-      for (unsigned int n = 0; n < other.n_nodes; ++n)
-        scratch.sums[scratch.slot[other.node[n]]].add(factor * other.jump[n], d);
+      for (unsigned int m = 0; m < other.n_nodes; ++m)
+        scratch.sums[scratch.slot[other.node[m]]].add(factor * other.jump[m], d);
     }
   }
 
-  void EdgeGroups::add_rows(const Edge &edge, EdgeGroup &group, const Scratch &scratch) const
+  template <unsigned int n>
+  void EdgeGroups<n>::add_rows(const Edge &edge, EdgeGroup &group, const Scratch &scratch) const
   {
     const std::size_t n_columns = group.columns.size();
-    for (unsigned int n = 0; n < edge.n_nodes; ++n)
+    for (unsigned int k = 0; k < edge.n_nodes; ++k)
     {
-      const auto row = static_cast<std::size_t>(
-          std::lower_bound(group.rows.begin(), group.rows.end(), edge.node[n]) -
-          group.rows.begin());
-      double *const to = &group.values[row * n_columns];
-      const char *const way = &scratch.ways[row * n_columns];
-      for (std::size_t c = 0; c < n_columns; ++c)
+      const std::size_t row = row_of(edge.node[k], group);
+      double *to = &group.values[row * n_columns * n];
+      for (std::size_t c = 0; c < n_columns; ++c, to += n)
       {
-        const Potentials &sum = scratch.sums[c];
-        switch (static_cast<PairWay>(way[c]))
-        {
-        case PairWay::none:
-          break;
-        case PairWay::whole:
-          to[c] += edge.jump[n] * sum.whole;
-          break;
-        case PairWay::in:
-          to[c] += edge.jump[n] * sum.in;
-          break;
-        case PairWay::out:
-          to[c] += edge.jump[n] * (sum.whole - sum.out);
-        }
+        const Potentials<n> &sum = scratch.sums[c];
+        const PairWay way = scratch.ways[row * n_columns + c];
+        for (unsigned int i = 0; i < n; ++i)
+          if (way == PairWay::whole)
+            to[i] += edge.jump[k] * sum.whole[i];
+          else if (way == PairWay::in)
+            to[i] += edge.jump[k] * sum.in[i];
+          else if (way == PairWay::out)
+            to[i] += edge.jump[k] * (sum.whole[i] - sum.out[i]);
       }
     }
   }
+
+  template class EdgeGroups<1>;
+  template class EdgeGroups<3>;
 } // namespace plumbline::reference

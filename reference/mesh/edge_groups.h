@@ -13,23 +13,34 @@ namespace plumbline::reference
   struct EdgeGroup
   {
     std::vector<unsigned int> rows, columns; ///< nodes, ascending
-    std::vector<double> values;              ///< shape (n_rows, n_columns)
+    std::vector<double> values;              ///< shape (n_rows, n_columns, n entries)
   };
 
   /// Sums over pairs of edges, Σ_{e,f} J_i(e) J_j(f) D(e, f), each pair once and an edge with
   /// itself by half, so that the sum and its transpose are all pairs. Thread safe.
+  /// @tparam n  entries, see Potentials
+  template <unsigned int n>
   class EdgeGroups
   {
   public:
     EdgeGroups(const MeshSpace &space, const EdgeForm &form, const PairWays &ways,
-               const physics::RadialPotential &potential, const PowerPotential &whole);
+               const typename EdgeIntegrals<n>::Tables &potential, const WholePotential &whole);
+
+    /// Q, as far as it was asked for.
+    struct Known
+    {
+      Wanted has;
+      Potentials<n> value;
+    };
 
     /// A worker's own memory.
     struct Scratch
     {
-      std::vector<unsigned int> near, found, slot;       ///< edges; of each node among the columns
-      std::vector<Potentials> from_start, to_edge, sums; ///< Q and Σ J D
-      std::vector<char> has_edge, ways;
+      std::vector<unsigned int> near, found, slot; ///< edges; of each node among the columns
+      std::vector<Known> from_start, to_edge;      ///< Q of near edges, of columns
+      std::vector<Potentials<n>> sums;             ///< Σ J D of columns
+      std::vector<PairWay> ways;                   ///< shape (n_rows, n_columns)
+      std::vector<unsigned char> edge_ways;        ///< of an edge's nodes: bits by PairWay
     };
 
     /// The pairs of edges first ... last - 1, which have their first end in common, with later
@@ -38,10 +49,12 @@ namespace plumbline::reference
 
   private:
     bool is_near(const Edge &e, const Edge &f) const;
-    bool sees_circle(const Edge &e, const Edge &f) const;
-    Potentials from_point(const Point<2> &v, const Edge &e) const;
+    Wanted wanted(const Edge &e, const Edge &f, const Scratch &scratch) const;
+    const Potentials<n> &ask(Known &known, const Point<2> &v, const Edge &e,
+                             const Wanted &wanted) const;
     void find_near(std::size_t first, std::size_t last, Scratch &scratch) const;
     void find_nodes(std::size_t first, std::size_t last, Scratch &scratch, EdgeGroup &group) const;
+    void find_ways(const EdgeGroup &group, Scratch &scratch) const;
     void sum_partners(std::size_t e, const EdgeGroup &group, Scratch &scratch) const;
     void add_rows(const Edge &edge, EdgeGroup &group, const Scratch &scratch) const;
 
@@ -50,7 +63,7 @@ namespace plumbline::reference
     const PairWays &ways_;
     double horizon_, largest_radius_ = 0;
     bool has_whole_;
-    EdgeIntegrals integrals_;
+    EdgeIntegrals<n> integrals_;
     geometry::BoxSearch middles_;
   };
 } // namespace plumbline::reference

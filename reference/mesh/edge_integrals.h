@@ -1,54 +1,49 @@
 #pragma once
 
 #include "physics/radial_potential.h"
+#include "reference/mesh/whole_potential.h"
+
+#include <type_traits>
 
 namespace plumbline::reference
 {
-  using dealii::Point;
-  using Vector2 = dealii::Tensor<1, 2>;
-
-  /// A side of cells: start + σ along, 0 <= σ <= 1.
-  struct Segment
-  {
-    Point<2> start;
-    Vector2 along;
-
-    Point<2> end() const { return start + along; }
-    Point<2> middle() const { return start + .5 * along; }
-  };
-
   /// The same integral with three potentials.
+  /// @tparam n  entries: 1 of scalar kernels; 3 of bond tensors: half the trace, then
+  ///            ½(C_xx - C_yy) and C_xy
+  template <unsigned int n>
   struct Potentials
   {
-    double in = 0, ///< Ψ cut off at the circle: the pairs of points nearer than the horizon
-        out = 0,   ///< what it would be outside
-        whole = 0; ///< of the kernel without a horizon; 0 for the constant kernel
+    std::array<double, n>
+        in{},    ///< Ψ cut off at the circle: pairs of points nearer than the horizon
+        out{},   ///< what it would be outside
+        whole{}; ///< of the kernel without a horizon; 0 of its constant term
 
     void add(double factor, const Potentials &other)
     {
-      in += factor * other.in;
-      out += factor * other.out;
-      whole += factor * other.whole;
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        in[i] += factor * other.in[i];
+        out[i] += factor * other.out[i];
+        whole[i] += factor * other.whole[i];
+      }
     }
   };
 
-  /// The potential of a sum of powers without a horizon: Δ²Ψ = C for all ξ ≠ 0,
-  /// c |ξ|^k → c |ξ|^(k+4) / ((k+2)² (k+4)²), whose integrals over lines are elementary.
-  class PowerPotential
+  /// Which of them are asked for.
+  struct Wanted
   {
-  public:
-    /// @param kernel  scalar, of powers; the constant one has none (its integrals are products)
-    explicit PowerPotential(const physics::Kernel<2> &kernel);
+    bool circle = false, whole = false; ///< circle: in and out
 
-    bool is_none() const { return odd_.empty() && even_.empty(); }
-
-    /// ∫ (a + b x) Ψ(√(x² + h²)) dx over [from, to], for divergence: each power p over p + 2.
-    double integrate(double from, double to, double h, double a, double b,
-                     bool for_divergence) const;
-
-  private:
-    /// Coefficients of r, r^3, ... and of 1, r^2, ...
-    std::vector<double> odd_, even_;
+    bool is_none() const { return !circle && !whole; }
+    Wanted without(const Wanted &other) const
+    {
+      return {circle && !other.circle, whole && !other.whole};
+    }
+    void add(const Wanted &other)
+    {
+      circle = circle || other.circle;
+      whole = whole || other.whole;
+    }
   };
 
   /// Integrals of a kernel's radial potentials over pairs of sides,
@@ -57,40 +52,43 @@ namespace plumbline::reference
   /// all of the other: they are cut where the circle crosses the side, and between analytic, so
   /// that circles that touch a side are no special case. Accuracy: 1e-14 of the largest Ψ on the
   /// two sides; inside, where points come nearer than .2 δ, the value has no meaning.
+  template <unsigned int n>
   class EdgeIntegrals
   {
   public:
-    /// @param longest  side [length]: the number of points follows from it
-    EdgeIntegrals(const physics::RadialPotential &potential, const PowerPotential &whole,
-                  double longest);
+    using Tables =
+        std::conditional_t<n == 1, physics::PotentialTables<1>, physics::PotentialTables<2>>;
 
-    /// Q. @param at_circle  wanted: in and out
-    Potentials from_point(const Point<2> &v, const Segment &e, bool at_circle) const;
+    EdgeIntegrals(const Tables &potential, const WholePotential &whole);
+
+    /// Q.
+    Potentials<n> from_point(const Point<2> &v, const Segment &e, const Wanted &wanted) const;
 
     /// D by the integrals from both ends of each to the other.
     /// @param from_e  Q(start of e, f) and Q(end of e, f)
     /// @param from_f  Q(start of f, e) and Q(end of f, e)
-    Potentials between(const Segment &e, const Segment &f, const Potentials (&from_e)[2],
-                       const Potentials (&from_f)[2]) const;
+    Potentials<n> between(const Segment &e, const Segment &f, const Potentials<n> (&from_e)[2],
+                          const Potentials<n> (&from_f)[2], const Wanted &wanted) const;
 
     /// Sides that are as good as parallel: there, other integrals are taken.
     static bool is_parallel(const Segment &e, const Segment &f);
-    Potentials between_parallel(const Segment &e, const Segment &f, bool at_circle) const; ///< D
+    Potentials<n> between_parallel(const Segment &e, const Segment &f,
+                                   const Wanted &wanted) const; ///< D
 
   private:
-    template <class Integrand>
-    void split(double from, double to, double first_root, double second_root,
-               const Integrand &integrand, Potentials &sum) const;
-    Potentials on_one_line(const Segment &e, const Segment &f, bool at_circle) const;
-    Potentials slanted(const Segment &e, const Segment &f, bool at_circle) const;
-    template <class Integrand>
-    Potentials on_segment(const Point<2> &v, const Segment &e, bool at_circle, bool for_divergence,
-                          const Integrand &integrand) const;
+    std::array<double, n> at(const Vector2 &z, bool for_divergence) const;
+    template <class Factor>
+    void split(const Vector2 &z, const Vector2 &along, double from, double to, const Factor &factor,
+               bool for_divergence, Potentials<n> &sum) const;
+    void add_whole(const Vector2 &z, const Vector2 &direction, double from, double to, double a,
+                   double b, bool for_divergence, Potentials<n> &sum) const;
+    Potentials<n> on_one_line(const Segment &e, const Segment &f, const Wanted &wanted) const;
+    Potentials<n> slanted(const Segment &e, const Segment &f, const Wanted &wanted) const;
+    Potentials<n> on_segment(const Point<2> &v, const Segment &e, const Wanted &wanted,
+                             bool for_divergence) const;
 
-    const physics::RadialPotential &potential_;
-    const PowerPotential &whole_;
+    const Tables &potential_;
+    const WholePotential &whole_;
     double square_; ///< δ²
-    const std::vector<Point<1>> &points_;
-    const std::vector<double> &weights_;
   };
 } // namespace plumbline::reference

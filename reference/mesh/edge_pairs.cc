@@ -9,11 +9,6 @@ namespace plumbline::reference
 {
   namespace
   {
-    double cross(const Vector2 &a, const Vector2 &b)
-    {
-      return a[0] * b[1] - a[1] * b[0];
-    }
-
     Vector2 normal(const Segment &e)
     {
       return Point<2>(e.along[1], -e.along[0]);
@@ -27,7 +22,7 @@ namespace plumbline::reference
 
     Segment part(const Segment &e, const std::array<double, 2> &range)
     {
-      return {e.start + range[0] * e.along, (range[1] - range[0]) * e.along};
+      return {e.start + range[0] * e.along, e.start + range[1] * e.along};
     }
 
     std::array<double, 2> halve(const std::array<double, 2> &range, unsigned int half)
@@ -65,8 +60,8 @@ namespace plumbline::reference
 
     double farthest(const Segment &e, const Segment &f)
     {
-      return std::max({e.start.distance(f.start), e.start.distance(f.end()),
-                       e.end().distance(f.start), e.end().distance(f.end())});
+      return std::max({e.start.distance(f.start), e.start.distance(f.end), e.end.distance(f.start),
+                       e.end.distance(f.end)});
     }
 
     /// The integrals over f alone, x being fixed on e; z = y - x.
@@ -161,7 +156,7 @@ namespace plumbline::reference
           cuts.push_back(s);
       };
       const double a = e.along.norm_square();
-      for (const Point<2> &end : {f.start, f.end()})
+      for (const Point<2> &end : {f.start, f.end})
       {
         const Vector2 z = e.start - end;
         const double b = z * e.along, discriminant = b * b - a * (z.norm_square() - square);
@@ -187,7 +182,7 @@ namespace plumbline::reference
   double distance(const Segment &e, const Segment &f)
   {
     return std::min(
-        {distance(e.start, f), distance(e.end(), f), distance(f.start, e), distance(f.end(), e)});
+        {distance(e.start, f), distance(e.end, f), distance(f.start, e), distance(f.end, e)});
   }
 
   namespace

@@ -1,6 +1,7 @@
 #include "reference/mesh/pair_correlation.h"
 
 #include "physics/gauss.h"
+#include "reference/mesh/segment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +11,6 @@ namespace plumbline::reference
   namespace
   {
     using geometry::Polygon;
-    using Vector2 = dealii::Tensor<1, 2>;
-
-    double cross(const Vector2 &a, const Vector2 &b)
-    {
-      return a[0] * b[1] - a[1] * b[0];
-    }
 
     /// Where a vertex of one triangle meets a side of the other, as z.
     struct Crease

@@ -49,7 +49,7 @@ namespace plumbline::reference
             index.try_emplace(std::minmax(a, b), static_cast<unsigned int>(edges.size()));
         const auto [first, second] = place->first;
         if (is_new)
-          edges.push_back({mesh.vertices[first], mesh.vertices[second] - mesh.vertices[first]});
+          edges.emplace_back(mesh.vertices[first], mesh.vertices[second]);
         of_cell[k] = {place->second, first == a};
         longest_side = std::max(longest_side, edges[place->second].along.norm());
       }

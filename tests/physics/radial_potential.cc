@@ -2,6 +2,7 @@
 #include "physics/radial_potential.h"
 
 #include "physics/gauss.h"
+#include "physics/regular_potential.h"
 
 #include <gtest/gtest.h>
 
@@ -102,4 +103,116 @@ TEST(RadialPotential, of_any_profile_solves_its_equation)
       integral += (1 - q) * rule.weight(i) * potential.f((1 - q) * (1 - rule.point(i)[0]));
     EXPECT_NEAR(potential.g(1 - q), integral / (2 * q), 1e-13 * std::abs(integral)) << q;
   }
+}
+
+TEST(RadialPotential, of_bond_tensors_is_that_of_closed_forms)
+{
+  // δ⁴ [z_a z_b A + δ² δ_ab B] with Δ² of it = ξ_a ξ_b γ: A is the part that changes with the
+  // direction, q A/2 + B half the trace
+  struct Case
+  {
+    physics::RadialProfile::Powers terms; // t² γ
+    long double (*A)(long double q, long double log), (*B)(long double q, long double log);
+  };
+  const Case cases[] = {
+      {{{1, 2}},
+       [](long double q, long double) { return std::pow(1 - q, 4) / (384 * q * q); },
+       [](long double q, long double log)
+       {
+         return -q * q * q / 2304 + q * q / 192 + q / 64 - 11.L / 576 - 1 / (768 * q) -
+                (q / 64 + 1.L / 96) * log;
+       }},
+      {{{1, -1}},
+       [](long double q, long double)
+       { return -std::sqrt(q) / 15 + q / 48 + 1.L / 16 - 1 / (48 * q) + 1 / (240 * q * q); },
+       [](long double q, long double log)
+       {
+         return 4 * std::pow(q, 1.5L) / 45 - q * q / 96 - q / 32 - 13.L / 288 - 1 / (480 * q) -
+                (q / 16 + 1.L / 48) * log;
+       }},
+      {{{1, 0}, {-1, 1}},
+       [](long double q, long double log)
+       {
+         return q * log / 96 + q / 576 - std::pow(q, 1.5L) / 105 + 1.L / 96 - 1 / (320 * q) +
+                1 / (2016 * q * q);
+       },
+       [](long double q, long double log)
+       {
+         return -q * q * log / 192 + q * q / 144 + 4 * std::pow(q, 2.5L) / 1575 - q / 576 -
+                3.L / 400 - 1 / (4032 * q) - (q / 96 + 1.L / 320) * log;
+       }}};
+  for (const Case &one : cases)
+  {
+    const physics::PotentialTables<2> potential({Structure::tensor, one.terms, horizon, 1}, lowest);
+    const auto &rule = physics::gauss(40);
+    for (double rho = lowest; rho <= RadialPotential::highest_rho; rho += .0137)
+    {
+      const auto found = potential.f(rho), divergence = potential.g(rho);
+      const double q = 1 - rho;
+      double integral[2] = {}; // of f, of s f from q to 1
+      for (unsigned int i = 0; i < rule.size(); ++i)
+      {
+        const double at = rho * rule.point(i)[0];
+        const auto f = potential.f(at);
+        integral[0] += rho * rule.weight(i) * f[0];
+        integral[1] += rho * rule.weight(i) * (1 - at) * f[1];
+      }
+      const double rounding = rho < .9 ? 1e-14 : 1e-12;
+      EXPECT_NEAR(divergence[0], integral[0] / (2 * q), rounding * std::abs(divergence[0])) << rho;
+      EXPECT_NEAR(divergence[1], integral[1] / (2 * q * q), rounding * std::abs(divergence[1]))
+          << rho;
+      if (std::abs(rho) < .2)
+        continue; // the closed form cancels
+      const long double exact_q = 1 - static_cast<long double>(rho), log = std::log(exact_q);
+      const long double A = one.A(exact_q, log), trace = exact_q * A / 2 + one.B(exact_q, log);
+      EXPECT_NEAR(found[0], static_cast<double>(trace),
+                  rounding * std::abs(static_cast<double>(trace)) + 1e-16)
+          << rho;
+      EXPECT_NEAR(found[1], static_cast<double>(A),
+                  rounding * std::abs(static_cast<double>(A)) + 1e-16)
+          << rho;
+    }
+  }
+}
+
+TEST(RegularPotential, of_a_gaussian_is_its_series)
+{
+  // D² q^(k+2) = (k+1)² (k+2)² q^k, and 2 q g = ∫_0^q f
+  const double rate = 1.5;
+  const auto profile =
+      physics::RadialProfile::smooth([&](double t) { return std::exp(-rate * t * t); }, true);
+  const Kernel<2> kernel(Structure::scalar, profile, horizon, 2);
+  const double farthest = 2.2;
+  const physics::RegularPotential potential(kernel, farthest);
+  double largest = potential.f(farthest * farthest);
+  for (double q = 0; q <= farthest * farthest; q += .0713)
+  {
+    long double f = 0, g = 0, term = 2. / 16;
+    for (int k = 0; k < 80; ++k)
+    {
+      const long double part =
+          term * std::pow(static_cast<long double>(q), k + 2) / (std::pow((k + 1.L) * (k + 2), 2));
+      f += part;
+      g += part / (2 * (k + 3));
+      term *= -rate / (k + 1);
+    }
+    EXPECT_NEAR(potential.f(q), static_cast<double>(f), 1e-14 * largest) << q;
+    EXPECT_NEAR(potential.g(q), static_cast<double>(g), 1e-14 * largest) << q;
+  }
+}
+
+TEST(RegularPotential, is_of_smooth_kernels_alone)
+{
+  const auto can_have = [](const physics::RadialProfile &profile, double farthest) {
+    return physics::RegularPotential::can_have({Structure::scalar, profile, horizon, 1}, farthest);
+  };
+  const auto gaussian = [](double rate) {
+    return physics::RadialProfile::smooth([=](double t) { return std::exp(-rate * t * t); }, true);
+  };
+  EXPECT_TRUE(can_have(gaussian(4), 2));
+  EXPECT_FALSE(can_have(gaussian(400), 2));
+  EXPECT_TRUE(can_have({{1, 0}, {-1, 2}}, 2));
+  EXPECT_FALSE(can_have({{1, 0}, {-1, 1}}, 2));
+  EXPECT_FALSE(
+      can_have(physics::RadialProfile::smooth([](double t) { return std::exp(-t); }, false), 2));
 }
