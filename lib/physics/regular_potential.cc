@@ -61,11 +61,11 @@ namespace plumbline::physics
     const auto second = table([&](double q) { return moment(at(first), q, 0); });
     const auto third = table([&](double q) { return moment(at(second), q, 1); });
     const auto f = table([&](double q) { return moment(at(third), q, 1) / 16; });
-    values = {[&](double rho)
-              {
-                const double q = 1 - rho;
-                return std::array<double, 2>{at(f)(q), .5 * moment(at(f), q, 2)};
-              },
-              lowest, 1};
+    tables_ = {[&](double rho)
+               {
+                 const double q = 1 - rho;
+                 return std::array<double, 2>{at(f)(q), .5 * moment(at(f), q, 2)};
+               },
+               lowest, 1};
   }
 } // namespace plumbline::physics

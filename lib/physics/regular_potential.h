@@ -22,10 +22,10 @@ namespace plumbline::physics
     static bool can_have(const Kernel<2> &kernel, double farthest);
 
     /// 0 <= q <= farthest². [1 / length^4 times the unit of the operator]
-    double f(double q) const { return q * q * values(1 - q)[0]; }
-    double g(double q) const { return q * q * values(1 - q)[1]; }
+    double f(double q) const { return q * q * tables_(1 - q)[0]; }
+    double g(double q) const { return q * q * tables_(1 - q)[1]; }
 
   private:
-    LocalPolynomials<2> values; ///< of 1 - q
+    LocalPolynomials<2> tables_; ///< of 1 - q
   };
 } // namespace plumbline::physics
