@@ -22,15 +22,22 @@ namespace plumbline::physics
     /// @param from, to  where it is wanted, to < 1
     template <class Function>
     LocalPolynomials(const Function &function, double from, double to)
-        : far_(function, std::min(from, knee), knee, 1. / 16), near_(function, knee, to, 1. / 128)
+        : far_(function, std::min(from, knee), knee, 1. / 8), near_(function, knee, to, 1. / 128)
     {
     }
 
-    Values operator()(double x) const { return x < knee ? far_(x) : near_(x); }
+    Values operator()(double x) const { return first<n>(x); }
+
+    /// The first m functions; what is said of the others has no meaning.
+    template <unsigned int m>
+    Values first(double x) const
+    {
+      return x < knee ? far_.template first<m>(x) : near_.template first<m>(x);
+    }
 
   private:
     static constexpr unsigned int n_terms = 10; ///< of a polynomial
-    static constexpr double knee = -.5;
+    static constexpr double knee = -1;
 
     class Intervals
     {
@@ -47,7 +54,8 @@ namespace plumbline::physics
           fit(function, from + length * i, &coefficients_[i * n_terms]);
       }
 
-      Values operator()(double x) const
+      template <unsigned int m>
+      Values first(double x) const
       {
         const double place = (x - start_) * (1 / length_);
         const auto i = static_cast<unsigned int>(place);
@@ -55,7 +63,8 @@ namespace plumbline::physics
         const double t = 2 * (place - i) - 1;
         Values value = c[n_terms - 1];
         for (unsigned int k = n_terms - 1; k-- > 0;)
-          for (unsigned int j = 0; j < n; ++j)
+#pragma GCC unroll 6
+          for (unsigned int j = 0; j < m; ++j)
             value[j] = value[j] * t + c[k][j];
         return value;
       }

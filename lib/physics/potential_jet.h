@@ -1,6 +1,6 @@
 #pragma once
 
-#include "physics/kernel.h"
+#include "physics/radial_potential.h"
 
 #include <algorithm>
 #include <array>
@@ -27,8 +27,6 @@ namespace plumbline::physics
   class CircleJets
   {
   public:
-    static constexpr double highest_rho = .96; ///< f has a logarithm at q = 0
-
     /// @param kernel      scalar, its profile without breaks
     /// @param lowest_rho  of arguments, < 0: 1 - (the largest |ξ| / δ)²
     CircleJets(const Kernel<2> &kernel, double lowest_rho);
@@ -40,8 +38,9 @@ namespace plumbline::physics
     PotentialJet at(double u) const
     {
       constexpr unsigned int n = n_orders < 3 ? 4 : n_functions; // whole vector registers
-      const double rho = std::min(1 - u * inverse_, highest_rho), per_q = 1 / (1 - rho);
-      const Values reduced = evaluate<n>(rho);
+      const double rho = std::min(1 - u * inverse_, RadialPotential::highest_rho),
+                   per_q = 1 / (1 - rho);
+      const auto reduced = tables_.template first<n>(rho);
       const double two = rho * rho, four = two * two, f = four * reduced[0];
       PotentialJet jet{square_ * square_ * f,
                        {-square_ * two * rho * reduced[1], 0, 0},
@@ -62,37 +61,10 @@ namespace plumbline::physics
     }
 
   private:
-    static constexpr unsigned int n_terms = 10, n_functions = 6;
-    static constexpr double knee = -1;
-
-    using Values = std::array<double, n_functions>; ///< f/ρ⁴, f'/ρ³, f''/ρ², g/ρ⁵, f₃/ρ⁶, g₃/ρ⁷
-    struct Table
-    {
-      double start = 0, per_length = 0;
-      std::vector<std::array<Values, n_terms>> intervals; ///< coefficients
-    };
-
-    template <unsigned int n>
-    Values evaluate(double rho) const
-    {
-      const Table &table = rho < knee ? far_ : near_;
-      const double place = (rho - table.start) * table.per_length;
-      const auto i = static_cast<unsigned int>(place);
-      const auto &c = table.intervals[i];
-      const double x = 2 * (place - i) - 1;
-      Values result = c[n_terms - 1];
-      for (unsigned int k = n_terms - 1; k-- > 0;)
-#pragma GCC unroll 6
-        for (unsigned int j = 0; j < n; ++j)
-          result[j] = result[j] * x + c[k][j];
-      return result;
-    }
-
-    template <class Function>
-    void tabulate(unsigned int first, unsigned int last, const Function &function);
+    static constexpr unsigned int n_functions = 6;
 
     double square_, inverse_;
-    Table far_, near_;
+    LocalPolynomials<n_functions> tables_; ///< f/ρ⁴, f'/ρ³, f''/ρ², g/ρ⁵, f₃/ρ⁶, g₃/ρ⁷
   };
 
   /// Those of a sum of powers without a horizon: c |ξ|^k → c |ξ|^(k+4) / ((k+2)² (k+4)²), and so

@@ -48,6 +48,9 @@ namespace plumbline::physics
       return times(square * square * rho, g_(rho));
     }
 
+    Values f_per_power(double rho) const { return f_(rho); } ///< f/ρ⁴
+    Values g_per_power(double rho) const { return g_(rho); } ///< g/ρ⁵
+
   private:
     static Values times(double factor, Values values)
     {

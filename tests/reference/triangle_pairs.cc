@@ -358,17 +358,17 @@ TEST(TrianglePairs, LeaveSlendersToQuadrature)
 
 TEST(EntryCheck, FindsEntriesThatAreWrong)
 {
-  const double h = .125;
+  const double h = .25;
   for (const auto &[is_continuous, degree] :
        {std::pair(true, 1u), std::pair(false, 1u), std::pair(true, 2u)})
-    for (const Powers &powers : profiles)
+    for (const Powers &powers : {profiles[0], profiles[2]})
     {
       const auto kernel = kernel_of(powers, 3 * h);
       Assembled system = assemble(triangles(h, 3 * h, .2), kernel, is_continuous, degree);
       algebra::Rows &rows = system.matrix.rows;
       const auto check = [&]
-      { return reference::check_entries(*system.space, kernel, {}, rows, 40, 1); };
-      EXPECT_GE(check().n_pairs, 40u);
+      { return reference::check_entries(*system.space, kernel, {}, rows, 20, 1); };
+      EXPECT_GE(check().n_pairs, 20u);
       EXPECT_LT(check().worst_difference, 1e-13);
       for (double &value : rows.value)
         value *= 1 + 1e-8;
