@@ -22,7 +22,7 @@ namespace plumbline::physics
     /// @param from, to  where it is wanted, to < 1
     template <class Function>
     LocalPolynomials(const Function &function, double from, double to)
-        : far_(function, std::min(from, knee), knee, 1. / 8), near_(function, knee, to, 1. / 128)
+        : far_(function, std::min(from, knee), knee, 1. / 16), near_(function, knee, to, 1. / 128)
     {
     }
 
@@ -37,7 +37,7 @@ namespace plumbline::physics
 
   private:
     static constexpr unsigned int n_terms = 10; ///< of a polynomial
-    static constexpr double knee = -1;
+    static constexpr double knee = -.5;
 
     class Intervals
     {
