@@ -14,6 +14,7 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -307,12 +308,15 @@ namespace plumbline::reference
           return;
         const EntryCheck check = check_entries(*space_, problem_.kernel, problem_.coefficient,
                                                free(), geometry.n_checks, geometry.seed);
-        if (check.n_entries > 0)
-          result.notes.push_back(
-              std::to_string(check.n_entries) +
-              (check.n_entries == 1 ? " entry by" : " entries by") + " the correlations of " +
-              std::to_string(check.n_pairs) + " pairs of cells: at most " +
-              base::to_text(check.worst_difference, 2) + " of the diagonal away");
+        if (check.n_entries == 0)
+          return;
+        constexpr double rounding = 1e-12;
+        const double decade = check.worst_difference <= rounding
+                                  ? rounding
+                                  : std::pow(10., std::ceil(std::log10(check.worst_difference)));
+        result.notes.push_back("a sample of entries, made again by correlations of pairs of cells, "
+                               "agrees to " +
+                               base::to_text(decade, 1) + " of the diagonal");
       }
 
       void make_rows()
