@@ -13,8 +13,8 @@ namespace plumbline::physics
   /// ΔΨ₄ = Ψ₃.
   struct PotentialJet
   {
-    double value;               ///< Ψ₂
-    double first[3], second[3]; ///< derivatives of Ψ₂, Ψ₃, Ψ₄
+    double value = 0;                     ///< Ψ₂
+    double first[3] = {}, second[3] = {}; ///< derivatives of Ψ₂, Ψ₃, Ψ₄
   };
 
   /// Those that vanish with their derivatives at the horizon, so that they may be cut off there.
@@ -103,8 +103,8 @@ namespace plumbline::physics
   private:
     struct Term
     {
-      int exponent;
-      double value, first[3], second[3]; ///< factors
+      int exponent = 0;
+      double value = 0, first[3] = {}, second[3] = {}; ///< factors
     };
     std::vector<Term> terms_;
     unsigned int degree_ = 0;

@@ -25,8 +25,8 @@ namespace plumbline::reference
     using Place = std::array<std::int64_t, 2>; ///< in quanta
     struct Key
     {
-      unsigned int outer, inner; ///< shapes
-      Place offset;
+      unsigned int outer = 0, inner = 0; ///< shapes
+      Place offset{};
       bool operator==(const Key &other) const
       {
         return outer == other.outer && inner == other.inner && offset == other.offset;

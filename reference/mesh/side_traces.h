@@ -36,7 +36,7 @@ namespace plumbline::reference
 
     struct Function
     {
-      unsigned int degree;
+      unsigned int degree = 0;
       /// On a side, forward and back: of ∂^(a+b)/∂ξ^a ∂η^b in unit coordinates.
       std::array<std::array<std::array<std::array<Series, highest + 1>, highest + 1>, 2>, 3> sides;
     };
