@@ -255,13 +255,13 @@ namespace plumbline::reference
       return {assemble_by_edges(space, kernel, team), true,
               "exact by pairs of sides of the triangles"};
     const KernelEntries profile(kernel);
-    std::vector<std::size_t> outer_cells;
+    std::vector<std::size_t> all_cells;
     for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
       if (space.mesh().cells[cell].is_inside)
-        outer_cells.push_back(cell);
-    const auto [first, last] = team.share(outer_cells.size());
-    outer_cells = {outer_cells.begin() + static_cast<std::ptrdiff_t>(first),
-                   outer_cells.begin() + static_cast<std::ptrdiff_t>(last)};
+        all_cells.push_back(cell);
+    const auto [first, last] = team.share(all_cells.size());
+    std::vector<std::size_t> outer_cells(all_cells.begin() + static_cast<std::ptrdiff_t>(first),
+                                         all_cells.begin() + static_cast<std::ptrdiff_t>(last));
 
     std::vector<CellPairs> pairs = find_pairs(space, cells, kernel.horizon(), outer_cells);
     MeshRows sum(space, profile.n_entries(), pairs);
@@ -270,8 +270,13 @@ namespace plumbline::reference
                           std::vector<unsigned int>(space.n_dofs())};
     std::vector<PairBlocks> first_blocks;
     if (!scratch.integrator.has_changing_coefficient())
-      first_blocks =
-          integrate_first(RepeatedPairs(space.mesh(), pairs).first(), scratch.integrator);
+    {
+      std::vector<CellPairs> of_all;
+      if (team.n_ranks() > 1)
+        of_all = find_pairs(space, cells, kernel.horizon(), all_cells);
+      const RepeatedPairs repeated(space.mesh(), of_all.empty() ? pairs : of_all, pairs);
+      first_blocks = integrate_first(repeated.first(), scratch.integrator);
+    }
     // an exception must not leave a thread: the first one is kept and thrown at the end
     std::exception_ptr failure;
     std::mutex mutex;

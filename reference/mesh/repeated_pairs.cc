@@ -38,33 +38,35 @@ namespace plumbline::reference
     return true;
   }
 
-  RepeatedPairs::RepeatedPairs(const geometry::Mesh &mesh, std::vector<CellPairs> &pairs)
+  RepeatedPairs::RepeatedPairs(const geometry::Mesh &mesh, const std::vector<CellPairs> &all,
+                               std::vector<CellPairs> &own)
       : quantum_(1e-9 * mesh.longest_side())
   {
     if (!find_shapes(mesh))
       return;
-    const auto start = [&](std::size_t cell) -> const Point<2> &
-    { return mesh.vertices[mesh.cells[cell].vertex[0]]; };
+    const auto key = [&](std::size_t outer, std::size_t inner)
+    {
+      const auto start = [&](std::size_t cell)
+      { return mesh.vertices[mesh.cells[cell].vertex[0]]; };
+      return Key{shape_[outer], shape_[inner], place(Point<2>(start(inner) - start(outer)))};
+    };
     std::unordered_map<Key, unsigned int, Hash> known;
     std::size_t n_pairs = 0;
-    for (std::size_t cell = 0; cell < pairs.size(); ++cell)
-    {
-      n_pairs += pairs[cell].partners.size();
-      pairs[cell].same.reserve(pairs[cell].partners.size());
-      for (const unsigned int partner : pairs[cell].partners)
+    for (std::size_t cell = 0; cell < all.size(); ++cell)
+      for (const unsigned int partner : all[cell].partners)
       {
-        const Key key{shape_[cell], shape_[partner], place(Point<2>(start(partner) - start(cell)))};
-        const auto [at, is_new] = known.try_emplace(key, static_cast<unsigned int>(first_.size()));
-        if (is_new)
+        ++n_pairs;
+        if (known.try_emplace(key(cell, partner), static_cast<unsigned int>(first_.size())).second)
           first_.emplace_back(cell, partner);
-        pairs[cell].same.push_back(at->second);
       }
-    }
     constexpr std::size_t often = 4; // fewer repetitions are not worth the memory
-    if (first_.size() * often <= n_pairs)
+    if (first_.size() * often > n_pairs)
+    {
+      first_.clear();
       return;
-    first_.clear();
-    for (CellPairs &own : pairs)
-      own.same = {};
+    }
+    for (std::size_t cell = 0; cell < own.size(); ++cell)
+      for (const unsigned int partner : own[cell].partners)
+        own[cell].same.push_back(known.at(key(cell, partner)));
   }
 } // namespace plumbline::reference

@@ -15,9 +15,11 @@ namespace plumbline::reference
   public:
     using Pair = std::pair<std::size_t, std::size_t>;
 
-    /// Fills `same` of all pairs if most of them repeat; else there is none to stand for others.
-    /// Cells that differ by less than 1e-9 of the longest side have one shape.
-    RepeatedPairs(const geometry::Mesh &mesh, std::vector<CellPairs> &pairs);
+    /// Fills `same` of a rank's own pairs if most of all ranks' pairs repeat; else there is none to
+    /// stand for others. Cells that differ by less than 1e-9 of the longest side have one shape.
+    /// @param all  those of all ranks, so that the same ones stand for others on each
+    RepeatedPairs(const geometry::Mesh &mesh, const std::vector<CellPairs> &all,
+                  std::vector<CellPairs> &own);
 
     const std::vector<Pair> &first() const { return first_; } ///< empty: most pairs are single
 

@@ -17,8 +17,9 @@ namespace plumbline::reference
   ///     (Δ^n q ∂_ny - ∂_n Δ^n q) Ψ_{2+m+n}(y - x), Δ^k Ψ_k = C,
   /// with the potentials cut off at the circle, or what lies beyond it taken from all of the pair.
   /// Accuracy, of C |T| |T'| / 9 for degree 1 at most: 1e-11 where neither is slender, 2.5e-12 for
-  /// δ >= 4 h, 1e-9 to where slender ones are left to quadrature; for degree 2 1e-10.
-  /// Not thread safe: give each thread its own copy.
+  /// δ >= 4 h, 1e-9 to where slender ones are left to quadrature; for degree 2 1e-11, and 1e-9 for
+  /// kernels with odd powers (10,240 pairs of moved meshes, δ = .7 to 5.5 h). Not thread safe: give
+  /// each thread its own copy.
   class TrianglePairs
   {
   public:

@@ -392,7 +392,7 @@ TEST(RepeatedPairs, AreTranslationsOfTheFirstOfTheirKind)
     return pairs;
   };
   auto pairs = pairs_of(mesh);
-  const reference::RepeatedPairs repeated(mesh, pairs);
+  const reference::RepeatedPairs repeated(mesh, pairs_of(mesh), pairs);
   std::size_t n_pairs = 0;
   for (std::size_t cell = 0; cell < pairs.size(); ++cell)
     for (std::size_t i = 0; i < pairs[cell].partners.size(); ++i)
@@ -412,7 +412,7 @@ TEST(RepeatedPairs, AreTranslationsOfTheFirstOfTheirKind)
 
   const Mesh moved = triangles(h, horizon, .2);
   auto single = pairs_of(moved);
-  EXPECT_TRUE(reference::RepeatedPairs(moved, single).first().empty());
+  EXPECT_TRUE(reference::RepeatedPairs(moved, pairs_of(moved), single).first().empty());
   for (const auto &own : single)
     EXPECT_TRUE(own.same.empty());
 }
