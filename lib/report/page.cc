@@ -4,6 +4,7 @@
 #include "report/page_parts.h"
 #include "report/tables.h"
 #include "scene/choices.h"
+#include "study/trend.h"
 
 #include <algorithm>
 #include <array>
@@ -18,8 +19,14 @@ namespace plumbline::report
   {
     namespace
     {
-      std::string regime_words(scene::Regime regime)
+      std::string regime_words(scene::Regime regime, bool is_own_finest)
       {
+        if (is_own_finest)
+          return std::string(regime == scene::Regime::m ? "m-convergence: δ is fixed and h → 0"
+                             : regime == scene::Regime::delta ? "m = δ/h is fixed and δ → 0"
+                                                              : "δ → 0 and m = δ/h → ∞ together") +
+                 "; each method is held against its own finest level, which tells whether it has a "
+                 "limit, not which";
         static const std::array<const char *, 4> texts = {
             "m-convergence: the horizon δ is fixed and h → 0, against the nonlocal solution",
             "δ-convergence: m = δ/h is fixed and δ → 0, against the local limit; this decides "
@@ -111,7 +118,9 @@ namespace plumbline::report
                 "here.</p>\n";
       for (const std::string &warning : results.warnings)
         text += "<p class=\"banner\"><b>Warning.</b> " + escape_html(warning) + ".</p>\n";
-      text += "<p class=\"soft\">" + escape_html(regime_words(results.regime)) +
+      text += "<p class=\"soft\">" +
+              escape_html(regime_words(results.regime, study::is_against(results.decisive_error,
+                                                                         scene::Target::finest))) +
               ". Verdicts rest on the error " + escape_html(error_words(results.decisive_error)) +
               ".</p>\n<ul class=\"facts\">\n<li>" + std::to_string(methods(results).size()) +
               " methods</li><li>" + std::to_string(results.runs.size()) + " runs</li><li>✓ " +

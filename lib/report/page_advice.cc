@@ -143,7 +143,9 @@ namespace plumbline::report::page
     }
 
     /// The answer for a reader of nothing else: each method in the worst class that it belongs to.
-    std::string summary(const study::Results &results, const std::vector<MethodName> &methods)
+    /// @param is_own  held against own finest levels: whether there is a limit, not which
+    std::string summary(const study::Results &results, const std::vector<MethodName> &methods,
+                        bool is_own = false)
     {
       std::string good, bad, mixed, blind, failed, open;
       std::map<std::size_t, std::string> too_few; // by the number of levels there are
@@ -172,7 +174,8 @@ namespace plumbline::report::page
       const bool is_open = !open.empty() || !too_few.empty();
       std::string text;
       if (!good.empty())
-        text = (is_one ? "<b>✓ Converge: " : "<b>✓ Converge everywhere: ") + good + ".</b>";
+        text = std::string("<b>✓ ") + (is_own ? "Have a limit" : "Converge") +
+               (is_one ? ": " : " everywhere: ") + good + ".</b>";
       else if (!is_open)
         text = "<b>No method converges" + everywhere + ".</b>";
       else if (!bad.empty() || !mixed.empty() || !blind.empty())
@@ -186,8 +189,9 @@ namespace plumbline::report::page
       if (!mixed.empty())
         text += " <b class=\"no\">✗ Stall in some cases: " + mixed + ".</b>";
       if (!blind.empty())
-        text += " <b class=\"no\">✗ Right for this field only, their second moments are wrong: " +
-                blind + ".</b>";
+        text += std::string(" <b class=\"no\">✗ ") +
+                (is_own ? "Have a limit" : "Right for this field only") +
+                ", their second moments are wrong: " + blind + ".</b>";
       if (!failed.empty())
         text += " –&nbsp;No solution at some level: " + failed + ".";
       for (const auto &[n_levels, names] : too_few)
@@ -206,6 +210,13 @@ namespace plumbline::report::page
     if (results.advice.empty())
       return "";
     const std::vector<MethodName> names = methods(results);
+    if (study::is_against(results.decisive_error, scene::Target::finest))
+      return section("advice", "Which method?",
+                     summary(results, names, true) +
+                         "<p class=\"soft\">Each method is held against its own finest level. How "
+                         "near it is to itself does not make it better than another, so none is "
+                         "advised: for that take a case with a known solution, or a reference "
+                         "(Study/decisive error).</p>\n");
     if (results.regime ==
         scene::Regime::horizon) // nothing is refined here, so nothing converges or stalls
       return section("advice", "Which method?", ranking(results, names));
@@ -215,11 +226,10 @@ namespace plumbline::report::page
     std::string text =
         summary(results, names) +
         "<p class=\"soft\">The cheapest run for an error of that size: method, mesh "
-        "size, CPU time of setup and solve (the best of three below 0.02 s). What costs within 20 "
-        "% "
-        "of the cheapest is a tie, of which the method with the fewest unknowns comes first. Only "
-        "methods that converge, and whose second moments are not known to be wrong, are "
-        "named.</p>\n<div class=\"cards\">\n" +
+        "size, CPU time of setup and solve (the best of three below 0.02 s). What costs at "
+        "most 20 % or 50 µs more than the cheapest is a tie, of which the method with the fewest "
+        "unknowns comes first. Only methods that converge, and whose second moments are not known "
+        "to be wrong, are named.</p>\n<div class=\"cards\">\n" +
         open + "</div>\n";
     if (!more.empty())
       text += folded(std::to_string(results.advice.size() - n_open_cards) + " more cases",

@@ -6,7 +6,6 @@
 #include "scene/values.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
@@ -15,12 +14,6 @@ namespace plumbline::scene
 {
   namespace
   {
-    void require(bool is_good, const std::string &otherwise)
-    {
-      if (!is_good)
-        throw InputError(otherwise);
-    }
-
     /// Beyond this ratio a stencil alone takes gigabytes.
     constexpr double most_ratio = 2000;
 
@@ -161,156 +154,6 @@ namespace plumbline::scene
               "Problem/load has " + std::to_string(n_loads) + " cases and Problem/solution has " +
                   std::to_string(n_solutions) + "; give one load a solution");
     }
-  } // namespace
-
-  void check_kernel_and_problem(const Scene &scene)
-  {
-    check_kernel(scene);
-    check_problem(scene);
-  }
-
-  namespace
-  {
-    void check_free_body(const Scene &scene)
-    {
-      const auto needs = [](bool is_good, const std::string &what)
-      { require(is_good, "Domain/boundary = free needs " + what); };
-      needs(!scene.domain.mesh.is_lattice() ||
-                (scene.domain.boxes.include.size() == 1 && scene.domain.boxes.exclude.empty()),
-            "one box (Domain/boxes) without holes where Domain/mesh = lattice; write squares or "
-            "triangles for several boxes, a .geo or .msh file for any other shape");
-      needs(
-          !scene.domain.fixed.empty() || scene.domain.is_floating,
-          "a part where u is given, or the body can move as a whole (3 rigid modes in the plane); "
-          "give Domain/fixed");
-      needs(scene.methods.nodes.are_vertices(), "Methods/nodes = vertices");
-      needs(scene.problem.solutions.empty() && !scene.problem.loads.empty(),
-            "Problem/load and Problem/constraint as expressions, Problem/solution empty");
-      needs(!scene.domain.collar, "Domain/collar = auto: there is none");
-      if (!scene.domain.mesh.is_of_boxes() || !scene.domain.mesh.map.empty())
-        return; // fixed boxes may cut the cells
-      for (const Series &series : scene.study.series)
-        for (const Level &level : series.levels)
-        {
-          geometry::Domain both = scene.domain.boxes;
-          both.include.insert(both.include.end(), scene.domain.fixed.begin(),
-                              scene.domain.fixed.end());
-          (void)geometry::Lattice(both, level.h);
-        }
-    }
-
-    const std::string mesh_remedy = "a lattice is uniform; write Domain/mesh = squares, triangles, "
-                                    "a .msh or .geo file, or a generator";
-
-    void check_mesh(const Scene &scene)
-    {
-      const MeshSource &mesh = scene.domain.mesh;
-      const MeshKind kind = mesh.kind();
-      const bool is_generator = kind == MeshKind::generator, is_free = scene.domain.is_free_body;
-      const auto needs = [&](bool is_good, const std::string &what, const std::string &remedy)
-      { require(is_good, what + " with Domain/mesh = " + mesh.name + ": " + remedy); };
-      needs(mesh.map.empty() || kind == MeshKind::squares || kind == MeshKind::triangles,
-            "Domain/map is given",
-            "maps move squares and triangles; clear it or choose one of them");
-      needs(is_generator || (mesh.arguments.empty() && mesh.inside.empty()),
-            "Domain/arguments or Domain/inside is given",
-            "they belong to deal.II's generators; clear them");
-      needs(!is_generator || !mesh.inside.empty() || is_free, "Domain/inside is empty",
-            "lattice, squares, triangles and files .msh or .geo do without, any other name is a "
-            "generator of deal.II; tell which of its cells are in Omega, the others being the "
-            "collar, by an expression that is positive there");
-      needs(mesh.is_of_boxes() || scene.domain.boxes.exclude.empty(), "Domain/holes is given",
-            "holes are for boxes; cut them out of the mesh itself");
-      if (mesh.is_lattice())
-      {
-        needs(scene.kernel.coefficient.empty(),
-              "Kernel/coefficient = '" + scene.kernel.coefficient + "'", mesh_remedy);
-        needs(is_free || scene.material.is_homogeneous,
-              "Material/" + scene.material.keys[0] + " or " + scene.material.keys[1] +
-                  " varies in space",
-              mesh_remedy);
-        needs(!scene.has_dilatation() || is_free || scene.kernel.profile.breaks().empty(),
-              "Kernel/type = " + scene.kernel.type,
-              "dilatations on a lattice need an influence function without breaks; write "
-              "Domain/mesh = squares, or another Kernel/type");
-        needs(scene.methods.nodes.perturbation == 0, "Methods/perturbation > 0", mesh_remedy);
-        needs(scene.problem.local_solution != LocalSolution::computed,
-              "Problem/local solution = computed", mesh_remedy);
-        return;
-      }
-      needs(!scene.domain.collar, "Domain/collar is given",
-            "a mesh has the collar it has, and is checked; write Domain/collar = auto");
-      needs(is_free || scene.solver.operator_backend == base::OperatorBackend::automatic,
-            "Solver/operator = " + base::word(scene.solver.operator_backend),
-            "operators on meshes are sparse matrices; write automatic");
-    }
-
-    /// Where u is given, and what is free.
-    void check_boundary(const Scene &scene)
-    {
-      if (scene.fracture.is_there())
-        return check_fracture(scene);
-      const DomainSection &domain = scene.domain;
-      if (domain.is_free_body)
-        check_free_body(scene);
-      require(domain.is_free_body || (domain.fixed.empty() && !domain.is_floating),
-              "Domain/fixed is given, but u is given in the collar all around; write "
-              "Domain/boundary = free, or clear it");
-      require(scene.problem.local_solution != LocalSolution::computed ||
-                  !(domain.is_free_body || domain.is_damaged()),
-              "Problem/local solution = computed needs u all around a domain without cracks and "
-              "free surfaces; write none, or an expression");
-      require(scene.material.has_collar_dilatation ||
-                  (scene.has_dilatation() && !domain.mesh.is_lattice() && !domain.is_free_body),
-              "Material/collar dilatation = zero needs a state-based solid with lambda != mu on "
-              "scattered nodes with a collar; write from data, or Material/model = LPS with "
-              "Domain/mesh = squares");
-      require(!domain.is_damaged() || !domain.mesh.is_lattice(),
-              "Domain/cracks or Domain/outside is given with Domain/mesh = lattice: " +
-                  mesh_remedy);
-      require(!scene.methods.loads_are_averages || domain.is_free_body,
-              "Methods/load = cells is for free bodies; write nodes, or Domain/boundary = free");
-    }
-
-    /// That of a fine level is missed before coarse ones are solved.
-    void check_node_files(const Scene &scene)
-    {
-      const NodeSource &nodes = scene.methods.nodes;
-      if (!nodes.is_for_each_level())
-        return;
-      for (const Series &series : scene.study.series)
-        for (const Level &level : series.levels)
-        {
-          const std::string file =
-              (std::filesystem::path(scene.folder) / nodes.file_at(level.h)).string();
-          require(std::filesystem::exists(file),
-                  "Methods/nodes = " + nodes.name + ": there is no file '" + file +
-                      "' for h = " + short_number(level.h) +
-                      "; give one for each h of Study/h, or leave that h out");
-        }
-    }
-
-    void check_nodes(const Scene &scene)
-    {
-      const MeshSource &mesh = scene.domain.mesh;
-      const std::string &nodes = scene.methods.nodes.name;
-      const NodeKind kind = scene.methods.nodes.kind();
-      const bool is_csv = base::has_ending(nodes, ".csv");
-      const std::string on_mesh =
-          "Methods/nodes = " + nodes + " with Domain/mesh = " + mesh.name + ": ";
-      require(kind != NodeKind::file || is_csv,
-              "Methods/nodes = '" + nodes +
-                  "' is not known; write centres, vertices, mesh, or a file .csv");
-      check_node_files(scene);
-      require(!mesh.is_lattice() || kind == NodeKind::centres || kind == NodeKind::vertices,
-              on_mesh + mesh_remedy);
-      require((mesh.is_of_boxes() && mesh.map.empty()) || scene.domain.is_free_body ||
-                  kind != NodeKind::vertices,
-              on_mesh + "vertices are those of the boxes; write centres, mesh, or a file .csv");
-      require(scene.methods.nodes.perturbation == 0 || kind == NodeKind::centres,
-              "Methods/perturbation moves centres, but Methods/nodes = " + nodes +
-                  "; write Methods/nodes = centres, or set the perturbation to 0");
-    }
 
     void check_coefficient(const Scene &scene)
     {
@@ -333,11 +176,10 @@ namespace plumbline::scene
     }
   } // namespace
 
-  void check_mesh_and_nodes(const Scene &scene)
+  void check_kernel_and_problem(const Scene &scene)
   {
-    check_mesh(scene);
-    check_boundary(scene);
-    check_nodes(scene);
+    check_kernel(scene);
+    check_problem(scene);
     check_coefficient(scene);
   }
 

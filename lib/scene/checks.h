@@ -10,10 +10,10 @@ namespace plumbline::scene
   /// Mesh sizes divide the domain, horizons reach a neighbour, the collar holds the ball.
   void check_levels(const Scene &scene);
 
-  /// Kernel, limit, and the number of components of every expression.
+  /// Kernel, limit, coefficient, and the number of components of every expression.
   void check_kernel_and_problem(const Scene &scene);
 
-  /// Keys of Domain/mesh, Kernel/coefficient and Methods/nodes fit together.
+  /// Keys of Domain and Methods/nodes fit together.
   void check_mesh_and_nodes(const Scene &scene);
 
   /// The norm that decides is among the others, and what its target needs is given.

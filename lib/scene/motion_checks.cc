@@ -11,12 +11,6 @@ namespace plumbline::scene
 {
   namespace
   {
-    void require(bool is_good, const std::string &otherwise)
-    {
-      if (!is_good)
-        throw InputError(otherwise);
-    }
-
     void check_torus(const Scene &scene)
     {
       const DomainSection &domain = scene.domain;

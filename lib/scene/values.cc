@@ -104,6 +104,12 @@ namespace plumbline::scene
     return text.str();
   }
 
+  void require(bool is_good, const std::string &otherwise)
+  {
+    if (!is_good)
+      throw InputError(otherwise);
+  }
+
   std::string join(const std::vector<std::string> &words, const std::string &separator)
   {
     std::string list;

@@ -27,5 +27,8 @@ namespace plumbline::scene
   /// A short decimal text, as in series names: 3, 0.4, 2.5.
   std::string short_number(double value);
 
+  /// @throw InputError saying what is wrong
+  void require(bool is_good, const std::string &otherwise);
+
   std::string join(const std::vector<std::string> &words, const std::string &separator);
 } // namespace plumbline::scene

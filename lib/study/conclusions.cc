@@ -15,13 +15,6 @@ namespace plumbline::study
 {
   namespace
   {
-    bool is_against(const std::string &error, scene::Target against)
-    {
-      const std::string target = "| " + base::word(against);
-      return error.size() >= target.size() &&
-             error.compare(error.size() - target.size(), target.size(), target) == 0;
-    }
-
     bool is_against_reference(const std::string &error)
     {
       return is_against(error, scene::Target::reference);

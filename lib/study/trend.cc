@@ -229,6 +229,13 @@ namespace plumbline::study
                      numbers;
   }
 
+  bool is_against(const std::string &error, scene::Target target)
+  {
+    const std::string end = "| " + base::word(target);
+    return error.size() >= end.size() &&
+           error.compare(error.size() - end.size(), end.size(), end) == 0;
+  }
+
   std::string verdict_of(scene::Regime regime, const Trend &trend)
   {
     if (trend.outcome == Outcome::failed)

@@ -15,6 +15,9 @@ namespace plumbline::study
   /// @pre at least four levels, x decreasing, e > 0
   PlateauFit fit_plateau(const std::vector<double> &x, const std::vector<double> &e);
 
+  /// An error as 'norm | target' is held against this target.
+  bool is_against(const std::string &error, scene::Target target);
+
   /// Fewer levels decide nothing.
   constexpr std::size_t levels_for_verdict = 4;
 
