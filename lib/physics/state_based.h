@@ -14,6 +14,8 @@ namespace plumbline::physics
   struct Lame
   {
     double lambda = 0, mu = 0;
+
+    bool operator==(const Lame &other) const { return lambda == other.lambda && mu == other.mu; }
   };
 
   enum class PlaneState

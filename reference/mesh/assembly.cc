@@ -1,5 +1,6 @@
 #include "reference/mesh/assembly.h"
 
+#include "reference/mesh/cell_constants.h"
 #include "reference/mesh/edge_assembly.h"
 #include "reference/mesh/number_set.h"
 #include "reference/mesh/pair_quadrature.h"
@@ -9,7 +10,6 @@
 #include "reference/mesh/triangle_pairs.h"
 
 #include <deal.II/base/parallel.h>
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/work_stream.h>
 
 #include <algorithm>
@@ -32,31 +32,6 @@ namespace plumbline::reference
       return ratio < 1 - clearly || (ratio <= 1 + clearly && a <= b);
     }
 
-    /// The coefficient in each cell, if it has one value there as far as many points tell.
-    std::vector<double> constants_in_cells(const MeshSpace &space,
-                                           const physics::Coefficient &coefficient)
-    {
-      const bool is_triangle = space.shapes().n_vertices() == 3;
-      std::vector<Point<2>> points = is_triangle
-                                         ? dealii::QWitherdenVincentSimplex<2>(6).get_points()
-                                         : dealii::QGauss<2>(6).get_points();
-      const double third = is_triangle ? 1. / 3 : .5;
-      const Point<2> middle(third, third);
-      constexpr double inwards = 1e-3; // a jump may run along sides
-      const CellShapes linear(space.shapes().n_vertices(), 1);
-      for (const Point<2> &corner : linear.support())
-        points.push_back(corner + inwards * (middle - corner));
-      std::vector<double> values;
-      for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
-      {
-        values.push_back(coefficient.at(space.map(cell).point(middle)));
-        for (const Point<2> &unit : points)
-          if (coefficient.at(space.map(cell).point(unit)) != values.back())
-            return {};
-      }
-      return values;
-    }
-
     /// Blocks of pairs of cells by whichever way is exact.
     class PairIntegrator
     {
@@ -66,7 +41,8 @@ namespace plumbline::reference
                      const std::optional<physics::Coefficient> &coefficient,
                      const AssemblyOptions &options)
           : cells_(cells), coefficient_(coefficient),
-            of_cells_(coefficient ? constants_in_cells(space, *coefficient)
+            of_cells_(coefficient ? constants_in_cells(space, [&](const Point<2> &x)
+                                                       { return coefficient->at(x); })
                                   : std::vector<double>()),
             by_quadrature_(space, cells, profile, kernel.horizon(),
                            of_cells_.empty() ? coefficient : std::nullopt, options.refinement,

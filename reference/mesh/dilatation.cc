@@ -1,6 +1,7 @@
 #include "reference/mesh/dilatation.h"
 
-#include "reference/mesh/dilatation_row.h"
+#include "reference/mesh/cell_constants.h"
+#include "reference/mesh/dilatation_parts.h"
 #include "reference/mesh/weighted_volume.h"
 
 #include <deal.II/base/parallel.h>
@@ -10,20 +11,14 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 namespace plumbline::reference
 {
   namespace
   {
-    /// An outer cell, and what is within the horizon of it.
-    struct OuterCell
-    {
-      unsigned int cell;
-      std::vector<unsigned int> dofs; ///< ascending, the free ones first
-    };
-
-    /// Σ w Eᵀ θ of one outer cell, shape (2 n_free, 2 n_dofs), by its dofs.
+    /// Σ w Eᵀ θ of one outer cell, shape (2 n_dofs, 2 n_dofs), by its dofs.
     using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
     struct OuterRule
@@ -64,27 +59,24 @@ namespace plumbline::reference
     class BlockIntegrator
     {
     public:
-      BlockIntegrator(const MeshSpace &space, const MeshCells &cells,
-                      const physics::Dilatation &dilatation, const DilatationOptions &options)
-          : space_(space), cells_(cells),
-            row_(space, cells, dilatation, 2 + 2 * options.refinement, options.backend),
-            horizon_(dilatation.influence.horizon()), slot_(space.n_dofs()),
-            rule_(outer_rule(space.shapes(), options.refinement))
+      /// @param parts  must outlive the integrator
+      BlockIntegrator(const MeshSpace &space, const DilatationRow &row, const OuterRule &rule,
+                      const DilatationParts &parts, const WeightedVolume *volume)
+          : space_(space), row_(row), rule_(rule), parts_(parts), volume_(volume),
+            slot_(space.n_dofs())
       {
-        if (options.is_normalised)
-          volume_.emplace(space.mesh(), dilatation.influence);
       }
 
       void integrate(const OuterCell &outer, Block &block);
 
     private:
       const MeshSpace &space_;
-      const MeshCells &cells_;
       DilatationRow row_;
-      double horizon_;
-      std::vector<unsigned int> slot_, near_;
-      OuterRule rule_;
-      std::optional<WeightedVolume> volume_;
+      const OuterRule &rule_;
+      const DilatationParts &parts_;
+      const WeightedVolume *volume_; ///< none: θ is not normalised
+      std::vector<unsigned int> slot_;
+      std::vector<const double *> known_;
       std::vector<double> theta_, test_;
       Block thetas_, tests_; ///< by points
     };
@@ -92,64 +84,39 @@ namespace plumbline::reference
     void BlockIntegrator::integrate(const OuterCell &outer, Block &block)
     {
       const auto n = static_cast<Eigen::Index>(outer.dofs.size());
-      const auto end = std::lower_bound(outer.dofs.begin(), outer.dofs.end(), space_.n_free());
-      const Eigen::Index n_free = end - outer.dofs.begin();
       for (Eigen::Index i = 0; i < n; ++i)
         slot_[outer.dofs[i]] = static_cast<unsigned int>(i);
-      cells_.find_near(outer.cell, horizon_, near_);
+      if (parts_.is_there())
+        parts_.find(outer, known_);
       theta_.resize(2 * n);
       test_.resize(2 * n);
       const auto n_points = static_cast<Eigen::Index>(rule_.unit.size());
       thetas_.resize(n_points, 2 * n);
-      tests_.resize(n_points, 2 * n_free);
+      tests_.resize(n_points, 2 * n);
       const CellMap &map = space_.map(outer.cell);
       for (Eigen::Index q = 0; q < n_points; ++q)
       {
         const Point<2> &unit = rule_.unit[q];
-        row_.evaluate(outer.cell, unit, near_, slot_, theta_, test_);
+        row_.evaluate(outer.cell, unit, outer.near, known_, slot_, theta_, test_);
         double weight = rule_.weight[q] * map.determinant(unit);
-        if (volume_)
+        if (volume_ != nullptr)
         {
           const double factor = 2 / (*volume_)(map.point(unit));
           weight *= factor * factor;
         }
         thetas_.row(q) = Eigen::Map<const Eigen::RowVectorXd>(theta_.data(), 2 * n);
-        tests_.row(q) = weight * Eigen::Map<const Eigen::RowVectorXd>(test_.data(), 2 * n_free);
+        tests_.row(q) = weight * Eigen::Map<const Eigen::RowVectorXd>(test_.data(), 2 * n);
+        for (const double *&known : known_)
+          known += 2 * space_.shapes().size();
       }
       block.noalias() = tests_.transpose() * thetas_;
     }
 
-    /// This rank's share of the cells that have free dofs within the horizon.
-    std::vector<OuterCell> find_outer(const MeshSpace &space, const MeshCells &cells,
-                                      double horizon, const base::Team &team)
+    void keep_share(const base::Team &team, std::vector<OuterCell> &outer)
     {
-      std::vector<OuterCell> all(cells.size());
-      dealii::parallel::apply_to_subranges(
-          static_cast<std::size_t>(0), cells.size(),
-          [&](std::size_t first, std::size_t last)
-          {
-            std::vector<unsigned int> near;
-            for (std::size_t cell = first; cell < last; ++cell)
-            {
-              auto &dofs = all[cell].dofs;
-              cells.find_near(cell, horizon, near);
-              for (const unsigned int other : near)
-                dofs.insert(dofs.end(), space.dofs(other),
-                            space.dofs(other) + space.shapes().size());
-              std::sort(dofs.begin(), dofs.end());
-              dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
-              all[cell].cell = static_cast<unsigned int>(cell);
-            }
-          },
-          256);
-      all.erase(std::remove_if(all.begin(), all.end(),
-                               [&](const OuterCell &outer)
-                               { return outer.dofs.front() >= space.n_free(); }),
-                all.end());
-      const auto [first, last] = team.share(all.size());
-      all.erase(all.begin() + static_cast<std::ptrdiff_t>(last), all.end());
-      all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first));
-      return all;
+      const auto [first, last] = team.share(outer.size());
+      outer.erase(outer.begin() + static_cast<std::ptrdiff_t>(last), outer.end());
+      outer.erase(outer.begin(), outer.begin() + static_cast<std::ptrdiff_t>(first));
     }
 
     /// Zero rows whose columns are the unknowns of all outer cells that a dof is near to.
@@ -186,49 +153,135 @@ namespace plumbline::reference
       return rows;
     }
 
-    void add(const OuterCell &outer, const Block &block, algebra::Rows &rows)
+    void add(const MeshSpace &space, const OuterCell &outer, const Block &block,
+             algebra::Rows &rows)
     {
-      for (Eigen::Index i = 0; i < block.rows(); ++i)
+      for (const unsigned int i : outer.ascending)
       {
-        std::size_t k = rows.start[2 * outer.dofs[i / 2] + i % 2];
-        const double *from = &block(i, 0);
-        for (const unsigned int dof : outer.dofs)
+        if (outer.dofs[i] >= space.n_free())
+          break;
+        for (const unsigned int c : {0u, 1u})
         {
-          while (rows.column[k] != 2 * dof)
-            k += 2;
-          rows.value[k++] += *from++;
-          rows.value[k++] += *from++;
+          std::size_t k = rows.start[2 * outer.dofs[i] + c];
+          const double *const from = &block(2 * i + c, 0);
+          for (const unsigned int j : outer.ascending)
+          {
+            while (rows.column[k] != 2 * outer.dofs[j])
+              k += 2;
+            rows.value[k++] += from[2 * j];
+            rows.value[k++] += from[2 * j + 1];
+          }
         }
       }
     }
+
+    /// Numbers of materials that are one in each cell; empty: they change inside of cells.
+    std::vector<unsigned int> number(const std::vector<physics::Lame> &materials)
+    {
+      std::map<std::pair<double, double>, unsigned int> known;
+      std::vector<unsigned int> numbers;
+      for (const physics::Lame &lame : materials)
+        numbers.push_back(
+            known.try_emplace({lame.lambda, lame.mu}, static_cast<unsigned int>(known.size()))
+                .first->second);
+      return numbers;
+    }
+
+    /// Blocks that stand for several cells, no larger in all than the matrix.
+    class SharedBlocks
+    {
+    public:
+      /// @param alike  see find_alike; empty: none is shared
+      template <class Integrate>
+      SharedBlocks(const std::vector<OuterCell> &outer, const std::vector<std::size_t> &alike,
+                   std::size_t most_values, const Integrate &integrate)
+          : place_(outer.size(), none)
+      {
+        std::vector<std::size_t> n_alike(outer.size()), first;
+        for (const std::size_t i : alike)
+          ++n_alike[i];
+        std::size_t n_values = 0;
+        constexpr std::size_t often = 3;
+        for (std::size_t i = 0; i < alike.size(); ++i)
+        {
+          const std::size_t size = 4 * outer[i].dofs.size() * outer[i].dofs.size();
+          if (alike[i] == i && n_alike[i] >= often && n_values + size <= most_values)
+          {
+            n_values += size;
+            place_[i] = first.size();
+            first.push_back(i);
+          }
+          place_[i] = place_[alike[i]];
+        }
+        blocks_.resize(first.size());
+        integrate(first, blocks_);
+      }
+
+      const Block *find(std::size_t i) const
+      {
+        return place_[i] == none ? nullptr : &blocks_[place_[i]];
+      }
+
+    private:
+      static constexpr std::size_t none = -1;
+      std::vector<std::size_t> place_; ///< of each outer cell in blocks_
+      std::vector<Block> blocks_;
+    };
   } // namespace
 
   algebra::Rows assemble_dilatation(const MeshSpace &space, const MeshCells &cells,
                                     const physics::Dilatation &dilatation,
                                     const DilatationOptions &options, const base::Team &team)
   {
-    const std::vector<OuterCell> outer =
-        find_outer(space, cells, dilatation.influence.horizon(), team);
+    const Translations translations(space.mesh());
+    const std::vector<physics::Lame> materials =
+        dilatation.is_homogeneous
+            ? std::vector<physics::Lame>(cells.size(), dilatation.material({}))
+            : constants_in_cells(space, dilatation.material);
+    const OuterRule rule = outer_rule(space.shapes(), options.refinement);
+    std::optional<WeightedVolume> volume;
+    if (options.is_normalised)
+      volume.emplace(space.mesh(), dilatation.influence);
+    std::vector<OuterCell> outer =
+        find_outer(space, cells, translations, dilatation.influence.horizon());
+    const DilatationRow row(space, cells, dilatation, materials, 2 + 2 * options.refinement,
+                            options.backend);
+    const DilatationParts parts(space, outer, translations, rule.unit, row);
+    keep_share(team, outer);
     algebra::Rows rows = make_pattern(space, outer);
-    // blocks by threads, added in order
+
     dealii::Threads::ThreadLocalStorage<std::optional<BlockIntegrator>> integrators;
-    std::vector<Block> blocks(4 * dealii::MultithreadInfo::n_threads());
-    for (std::size_t begin = 0; begin < outer.size(); begin += blocks.size())
+    const auto integrate = [&](const std::vector<std::size_t> &some, std::vector<Block> &blocks)
     {
-      const std::size_t end = std::min(outer.size(), begin + blocks.size());
       dealii::parallel::apply_to_subranges(
-          begin, end,
+          static_cast<std::size_t>(0), some.size(),
           [&](std::size_t first, std::size_t last)
           {
             std::optional<BlockIntegrator> &own = integrators.get();
             if (!own)
-              own.emplace(space, cells, dilatation, options);
+              own.emplace(space, row, rule, parts, volume ? &*volume : nullptr);
             for (std::size_t i = first; i < last; ++i)
-              own->integrate(outer[i], blocks[i - begin]);
+              own->integrate(outer[some[i]], blocks[i]);
           },
           1);
+    };
+    const bool can_share = translations.has_few_shapes() && !materials.empty();
+    const SharedBlocks shared(outer,
+                              can_share ? find_alike(outer, translations, number(materials))
+                                        : std::vector<std::size_t>(),
+                              rows.value.size(), integrate);
+    // blocks by threads, added in order
+    std::vector<Block> blocks(4 * dealii::MultithreadInfo::n_threads());
+    for (std::size_t begin = 0, end = 0; begin < outer.size(); begin = end)
+    {
+      std::vector<std::size_t> single;
+      for (end = begin; end < outer.size() && single.size() < blocks.size(); ++end)
+        if (shared.find(end) == nullptr)
+          single.push_back(end);
+      integrate(single, blocks);
+      auto next = blocks.begin();
       for (std::size_t i = begin; i < end; ++i)
-        add(outer[i], blocks[i - begin], rows);
+        add(space, outer[i], shared.find(i) != nullptr ? *shared.find(i) : *next++, rows);
     }
     return rows;
   }

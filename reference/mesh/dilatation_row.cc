@@ -42,43 +42,46 @@ namespace plumbline::reference
   } // namespace
 
   DilatationRow::DilatationRow(const MeshSpace &space, const MeshCells &cells,
-                               const physics::Dilatation &dilatation, unsigned int smooth_degree,
+                               const physics::Dilatation &dilatation,
+                               std::vector<physics::Lame> materials, unsigned int smooth_degree,
                                geometry::Backend backend)
       : space_(space), cells_(cells), dilatation_(dilatation), profile_(dilatation.influence),
-        smooth_degree_(smooth_degree), backend_(backend), whole_(whole_rules(space.shapes())),
-        theta_(2 * space.shapes().size()), test_(2 * space.shapes().size())
+        materials_(std::move(materials)), smooth_degree_(smooth_degree), backend_(backend),
+        whole_(whole_rules(space.shapes())), theta_(2 * space.shapes().size()),
+        test_(2 * space.shapes().size())
   {
   }
 
   void DilatationRow::evaluate(std::size_t cell, const Point<2> &unit,
                                const std::vector<unsigned int> &near,
+                               const std::vector<const double *> &known,
                                const std::vector<unsigned int> &slot, std::vector<double> &theta,
                                std::vector<double> &test)
   {
     const unsigned int n = space_.shapes().size();
     const Point<2> x = space_.map(cell).point(unit);
-    const bool is_two_point = !dilatation_.is_symmetric();
-    own_ = dilatation_.material(x);
+    own_ = materials_.empty() ? dilatation_.material(x) : materials_[cell];
     std::fill(theta.begin(), theta.end(), 0.);
     std::fill(test.begin(), test.end(), 0.);
     std::array<double, 2> theta_sum{}, test_sum{};
-    for (const unsigned int inner : near)
+    for (std::size_t k = 0; k < near.size(); ++k)
     {
+      const unsigned int inner = near[k];
       if (x.distance(cells_.centroid(inner)) >=
           dilatation_.influence.horizon() + cells_.radius(inner))
         continue;
-      integrate(x, inner);
+      const double *const part = known.empty() ? integrate(x, inner).data() : known[k];
+      const double factor = is_geometry_alone() ? factor_of(inner) : 1;
+      const double *const of_test = is_geometry_alone() ? part : test_.data();
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int c = 0; c < 2; ++c)
         {
           const std::size_t to = 2 * slot[space_.dofs(inner)[a]] + c;
-          theta[to] += theta_[2 * a + c];
-          theta_sum[c] += theta_[2 * a + c];
-          if (is_two_point)
-          {
-            test[to] += test_[2 * a + c];
-            test_sum[c] += test_[2 * a + c];
-          }
+          theta[to] += part[2 * a + c];
+          theta_sum[c] += part[2 * a + c];
+          const double value = factor * of_test[2 * a + c];
+          test[to] += value;
+          test_sum[c] += value;
         }
     }
     phi_.resize(n);
@@ -90,13 +93,15 @@ namespace plumbline::reference
         theta[to] -= phi_[a] * theta_sum[c];
         test[to] -= phi_[a] * test_sum[c];
       }
-    if (!is_two_point)
-      std::transform(theta.begin(), theta.end(), test.begin(),
-                     [f = dilatation_.factor(own_, own_)](double value) { return f * value; });
   }
 
-  /// theta_ and test_ of ball(x) ∩ cell.
-  void DilatationRow::integrate(const Point<2> &x, std::size_t inner)
+  /// f of x and a cell.
+  double DilatationRow::factor_of(std::size_t inner) const
+  {
+    return dilatation_.factor(own_, dilatation_.is_symmetric() ? own_ : materials_[inner]);
+  }
+
+  const std::vector<double> &DilatationRow::integrate(const Point<2> &x, std::size_t inner)
   {
     std::fill(theta_.begin(), theta_.end(), 0.);
     std::fill(test_.begin(), test_.end(), 0.);
@@ -105,6 +110,7 @@ namespace plumbline::reference
                        [&](double ball_radius, const SmoothEntries &influence) {
                          add_ball({x, ball_radius}, influence, inner);
                        });
+    return theta_;
   }
 
   /// An influence function without breaks on ball ∩ cell.
@@ -114,7 +120,6 @@ namespace plumbline::reference
     const Point<2> &x = ball.centre;
     const double *phi = find_rule(ball, influence, inner);
     const std::size_t n = space_.shapes().size();
-    const bool is_two_point = !dilatation_.is_symmetric();
     for (std::size_t q = 0; q < rule_.points.size(); ++q, phi += n)
     {
       const Point<2> &y = rule_.points[q];
@@ -127,7 +132,7 @@ namespace plumbline::reference
         theta_[2 * a] += k * xi[0] * phi[a];
         theta_[2 * a + 1] += k * xi[1] * phi[a];
       }
-      if (is_two_point)
+      if (!is_geometry_alone())
       {
         k *= dilatation_.factor(own_, dilatation_.material(y));
         for (std::size_t a = 0; a < n; ++a)
@@ -148,7 +153,7 @@ namespace plumbline::reference
     const geometry::ConvexCell &cell = cells_[inner];
     const CellMap &map = space_.map(inner);
     const double distance = x.distance(cells_.centroid(inner)), radius = cells_.radius(inner);
-    const unsigned int smooth = map.is_affine() && dilatation_.is_symmetric() ? 0 : smooth_degree_;
+    const unsigned int smooth = map.is_affine() && is_geometry_alone() ? 0 : smooth_degree_;
     const int highest = influence.highest_exponent(2 * radius);
     unsigned int kernel = 1 + highest;
     if (!influence.is_smooth())

@@ -17,22 +17,30 @@ namespace plumbline::reference
   class DilatationRow
   {
   public:
+    /// @param materials  of each cell; empty: they change inside of them
     /// @param smooth_degree  of polynomials that stand on a cell for functions that are none: the
     /// material of two-point models, shape functions through a bilinear map
     DilatationRow(const MeshSpace &space, const MeshCells &cells,
-                  const physics::Dilatation &dilatation, unsigned int smooth_degree,
-                  geometry::Backend backend);
+                  const physics::Dilatation &dilatation, std::vector<physics::Lame> materials,
+                  unsigned int smooth_degree, geometry::Backend backend);
+
+    /// What a material has no part in is the same for pairs that are translations.
+    bool is_geometry_alone() const { return dilatation_.is_symmetric() || !materials_.empty(); }
+
+    /// ∫Kξφ over ball(x) ∩ cell, shape (n_shapes, 2), until the next call.
+    const std::vector<double> &integrate(const Point<2> &x, std::size_t inner);
 
     /// @param cell, unit  where x is
     /// @param near   cells, among them all in reach of x
+    /// @param known  of each of them what `integrate` gives; empty: not known
     /// @param slot   of each dof of these in the rows
     /// @param theta, test  rows of θ and E, shape (n_slots, 2), overwritten
     void evaluate(std::size_t cell, const Point<2> &unit, const std::vector<unsigned int> &near,
-                  const std::vector<unsigned int> &slot, std::vector<double> &theta,
-                  std::vector<double> &test);
+                  const std::vector<const double *> &known, const std::vector<unsigned int> &slot,
+                  std::vector<double> &theta, std::vector<double> &test);
 
   private:
-    void integrate(const Point<2> &x, std::size_t inner);
+    double factor_of(std::size_t inner) const;
     void add_ball(const geometry::Ball &ball, const SmoothEntries &influence, std::size_t inner);
     const double *find_rule(const geometry::Ball &ball, const SmoothEntries &influence,
                             std::size_t inner);
@@ -41,12 +49,14 @@ namespace plumbline::reference
     const MeshCells &cells_;
     physics::Dilatation dilatation_;
     KernelEntries profile_;
+    std::vector<physics::Lame> materials_;
     unsigned int smooth_degree_;
     geometry::Backend backend_;
     std::vector<ShapeRule> whole_; ///< on whole cells, exact to degree 2 i + 1
 
     physics::Lame own_{};              ///< the material at x
-    std::vector<double> theta_, test_; ///< ∫Kξφ, ∫fKξφ of a cell, shape (n_shapes, 2)
+    std::vector<double> theta_, test_; ///< ∫Kξφ, ∫fKξφ of a cell, shape (n_shapes, 2); the latter
+                                       ///< where materials change inside of cells
     std::vector<double> phi_;
     geometry::CutRule rule_;
   };

@@ -156,7 +156,7 @@ namespace
                    const std::function<double(const Point<2> &)> &divergence)
   {
     const MeshSpace &space = discrete.space;
-    reference::DilatationRow row(space, discrete.cells, dilatation, 2, geometry::Backend::fast);
+    reference::DilatationRow row(space, discrete.cells, dilatation, {}, 2, geometry::Backend::fast);
     std::vector<unsigned int> near, slot(space.n_dofs());
     std::iota(slot.begin(), slot.end(), 0u);
     std::vector<double> theta(2 * space.n_dofs()), test(2 * space.n_dofs());
@@ -167,7 +167,7 @@ namespace
         if (space.mesh().cells[cell].is_inside)
         {
           discrete.cells.find_near(cell, dilatation.influence.horizon(), near);
-          row.evaluate(cell, unit, near, slot, theta, test);
+          row.evaluate(cell, unit, near, {}, slot, theta, test);
           const double value = std::inner_product(theta.begin(), theta.end(), values.begin(), 0.);
           worst = std::max(worst, std::abs(value - divergence(space.map(cell).point(unit))));
         }
@@ -274,6 +274,36 @@ TEST(MeshDilatation, IsBlindToConstantsAndSymmetricWhereItShouldBe)
             EXPECT_GT(asymmetry(rows), 1e-4);
         }
       }
+}
+
+TEST(MeshDilatation, OfSurroundingsThatRepeatIsThatOfEachCell)
+{
+  // a material that differs by rounding inside of cells is asked for at every point
+  const auto halves = [](double rounding, bool is_two_point)
+  {
+    return Dilatation{physics::influence_function(singular, .4),
+                      [=](const Point<2> &x) {
+                        return Lame{(x[0] < .5 ? 3 : 5) + rounding * x[1], x[0] < .5 ? 1. : 4.};
+                      },
+                      is_two_point, false};
+  };
+  for (const bool is_triangles : {true, false})
+    for (const bool is_continuous : {true, false})
+      for (const bool is_two_point : {true, false})
+        for (const bool is_free : {true, false})
+        {
+          const Discrete discrete(is_free ? free_square(.125, is_triangles)
+                                          : square_mesh(.125, .8, is_triangles),
+                                  is_continuous, 1);
+          const auto rows = discrete.assemble(halves(0, is_two_point), 0, is_free),
+                     of_each = discrete.assemble(halves(4e-15, is_two_point), 0, is_free);
+          ASSERT_EQ(rows.column, of_each.column);
+          double difference = 0;
+          for (std::size_t k = 0; k < rows.value.size(); ++k)
+            difference = std::max(difference, std::abs(rows.value[k] - of_each.value[k]));
+          EXPECT_LT(difference, 1e-13 * largest(of_each.value));
+          EXPECT_GT(largest(of_each.value), 0);
+        }
 }
 
 TEST(MeshDilatation, OfUniformSquaresApproachesThatOfTheLattice)

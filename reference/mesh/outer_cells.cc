@@ -1,0 +1,84 @@
+#include "reference/mesh/outer_cells.h"
+
+#include "reference/mesh/rows.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace plumbline::reference
+{
+  namespace
+  {
+    void sort_as_translated(std::size_t cell, const Translations &translations,
+                            std::vector<unsigned int> &near)
+    {
+      std::vector<std::pair<Translations::Pair, unsigned int>> by_place;
+      for (const unsigned int other : near)
+        by_place.emplace_back(translations.pair(cell, other), other);
+      std::sort(by_place.begin(), by_place.end());
+      std::transform(by_place.begin(), by_place.end(), near.begin(),
+                     [](const auto &one) { return one.second; });
+    }
+
+    /// @param is_known  shape (n_dofs), 0 before and after
+    void list_dofs(const MeshSpace &space, OuterCell &outer, std::vector<char> &is_known)
+    {
+      for (const unsigned int cell : outer.near)
+        for (unsigned int a = 0; a < space.shapes().size(); ++a)
+          if (char &is = is_known[space.dofs(cell)[a]]; is == 0)
+          {
+            is = 1;
+            outer.dofs.push_back(space.dofs(cell)[a]);
+          }
+      for (const unsigned int dof : outer.dofs)
+        is_known[dof] = 0;
+      outer.ascending.resize(outer.dofs.size());
+      std::iota(outer.ascending.begin(), outer.ascending.end(), 0u);
+      std::sort(outer.ascending.begin(), outer.ascending.end(),
+                [&](unsigned int a, unsigned int b) { return outer.dofs[a] < outer.dofs[b]; });
+    }
+  } // namespace
+
+  std::vector<OuterCell> find_outer(const MeshSpace &space, const MeshCells &cells,
+                                    const Translations &translations, double horizon)
+  {
+    std::vector<OuterCell> all(cells.size());
+    in_parallel(cells.size(),
+                [&](std::size_t first, std::size_t last)
+                {
+                  std::vector<char> is_known(space.n_dofs());
+                  for (std::size_t cell = first; cell < last; ++cell)
+                  {
+                    OuterCell &outer = all[cell];
+                    outer.cell = static_cast<unsigned int>(cell);
+                    cells.find_near(cell, horizon, outer.near);
+                    if (translations.has_few_shapes())
+                      sort_as_translated(cell, translations, outer.near);
+                    list_dofs(space, outer, is_known);
+                  }
+                });
+    all.erase(std::remove_if(all.begin(), all.end(),
+                             [&](const OuterCell &outer)
+                             { return outer.dofs[outer.ascending[0]] >= space.n_free(); }),
+              all.end());
+    return all;
+  }
+
+  std::vector<std::size_t> find_alike(const std::vector<OuterCell> &outer,
+                                      const Translations &translations,
+                                      const std::vector<unsigned int> &kind)
+  {
+    using Surroundings = std::vector<std::pair<Translations::Pair, unsigned int>>;
+    std::map<Surroundings, std::size_t> known;
+    std::vector<std::size_t> first;
+    for (std::size_t i = 0; i < outer.size(); ++i)
+    {
+      Surroundings own;
+      for (const unsigned int near : outer[i].near)
+        own.emplace_back(translations.pair(outer[i].cell, near), kind[near]);
+      first.push_back(known.try_emplace(std::move(own), i).first->second);
+    }
+    return first;
+  }
+} // namespace plumbline::reference

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "reference/mesh/cells.h"
+#include "reference/mesh/space.h"
+#include "reference/mesh/translations.h"
+
+namespace plumbline::reference
+{
+  /// An outer cell, and what is within the horizon of it.
+  struct OuterCell
+  {
+    unsigned int cell = 0;
+    std::vector<unsigned int> near;      ///< cells, alike around cells that are translations
+    std::vector<unsigned int> dofs;      ///< of these in turn, each once
+    std::vector<unsigned int> ascending; ///< which of them come first, by number
+  };
+
+  /// The cells that have free dofs within the horizon, ascending.
+  std::vector<OuterCell> find_outer(const MeshSpace &space, const MeshCells &cells,
+                                    const Translations &translations, double horizon);
+
+  /// Of each outer cell the first one whose surroundings are a translation of its own.
+  /// @param kind  of each cell: only alike ones stand for each other
+  std::vector<std::size_t> find_alike(const std::vector<OuterCell> &outer,
+                                      const Translations &translations,
+                                      const std::vector<unsigned int> &kind);
+} // namespace plumbline::reference
