@@ -1,5 +1,7 @@
 #include "algebra/shared_rows.h"
 
+#include "algebra/lane.h"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parallel.h>
 
@@ -81,6 +83,63 @@ namespace plumbline::algebra
         sum[0] += value[i] * x[column[i]];
       return (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
+    /// Both rows of n blocks of 2 x 2, in sums that do not wait for each other.
+    PLUMBLINE_VECTOR_CLONES
+    void multiply(const double *upper, const double *lower, const unsigned int *column,
+                  std::size_t n, const double *x, double *y)
+    {
+      Lane sum[2][2] = {};
+      const auto add = [&](std::size_t k, unsigned int to) __attribute__((always_inline))
+      {
+        const double *const a = x + 2 * column[k], *const b = x + 2 * column[k + 1];
+        const Lane values = {a[0], a[1], b[0], b[1]};
+        sum[0][to] += load(upper + 2 * k) * values;
+        sum[1][to] += load(lower + 2 * k) * values;
+      };
+      std::size_t k = 0;
+      for (; k + 4 <= n; k += 4)
+      {
+        add(k, 0);
+        add(k + 2, 1);
+      }
+      for (unsigned int c = 0; c < 2; ++c)
+      {
+        const Lane all = sum[c][0] + sum[c][1];
+        y[c] = (all[0] + all[1]) + (all[2] + all[3]);
+      }
+      for (; k < n; ++k)
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          y[0] += upper[2 * k + d] * x[2 * column[k] + d];
+          y[1] += lower[2 * k + d] * x[2 * column[k] + d];
+        }
+    }
+
+    /// Half the even columns of every second row if the columns of rows 2 i and 2 i + 1 are the
+    /// same pairs 2 j, 2 j + 1; else empty.
+    std::vector<unsigned int> block_columns(const Rows &rows)
+    {
+      std::vector<unsigned int> columns;
+      if (rows.n_rows() % 2 != 0)
+        return columns;
+      columns.reserve(rows.column.size() / 4);
+      for (std::size_t row = 0; row < rows.n_rows(); row += 2)
+      {
+        const unsigned int *const own = rows.column.data() + rows.start[row],
+                                  *const next = rows.column.data() + rows.start[row + 1];
+        const std::size_t n = rows.start[row + 1] - rows.start[row];
+        if (n % 2 != 0 || rows.start[row + 2] - rows.start[row + 1] != n ||
+            !std::equal(own, next, next))
+          return {};
+        for (std::size_t k = 0; k < n; k += 2)
+        {
+          if (own[k] % 2 != 0 || own[k + 1] != own[k] + 1)
+            return {};
+          columns.push_back(own[k] / 2);
+        }
+      }
+      return columns;
+    }
   } // namespace
 
   Shares::Shares(std::size_t n, unsigned int n_components, const Team &team) : team(team)
@@ -118,12 +177,27 @@ namespace plumbline::algebra
   SharedRows::SharedRows(const Rows &rows, const Shares &shares) : shares_(shares), given_(rows)
   {
     const std::size_t n_ranks = shares.first.size(), n = shares.own_size;
-    if (n_ranks == 1)
-      return;
-    const Rows all = from_all(rows, shares);
-    sum_ = slice(all, 0, n);
-    for (std::size_t rank = 1; rank < n_ranks; ++rank)
-      sum_ = add(sum_, slice(all, rank * n, n));
+    if (n_ranks > 1)
+    {
+      const Rows all = from_all(rows, shares);
+      sum_ = slice(all, 0, n);
+      for (std::size_t rank = 1; rank < n_ranks; ++rank)
+        sum_ = add(sum_, slice(all, rank * n, n));
+    }
+    block_column_ = block_columns(own());
+  }
+
+  /// Rows 2 first ... 2 last - 1.
+  void SharedRows::multiply_blocks(std::size_t first, std::size_t last, const double *x,
+                                   double *y) const
+  {
+    const Rows &rows = own();
+    for (std::size_t pair = first; pair < last; ++pair)
+    {
+      const std::size_t start = rows.start[2 * pair], next = rows.start[2 * pair + 1];
+      multiply(rows.value.data() + start, rows.value.data() + next,
+               block_column_.data() + start / 4, (next - start) / 2, x, y + 2 * pair);
+    }
   }
 
   void SharedRows::vmult(Vector &y, const Vector &x, std::size_t first_row) const
@@ -141,6 +215,15 @@ namespace plumbline::algebra
     const Rows &rows = own();
     constexpr unsigned int grain = 128;
     const std::size_t begin = std::max(first_row, shares_.own_first) - shares_.own_first;
+    if (!block_column_.empty() && begin == 0)
+    {
+      dealii::parallel::apply_to_subranges(
+          static_cast<std::size_t>(0), shares_.own_size / 2,
+          [&, to = y.begin()](std::size_t first, std::size_t last)
+          { multiply_blocks(first, last, all, to); },
+          grain);
+      return;
+    }
     dealii::parallel::apply_to_subranges(
         std::min(begin, shares_.own_size), shares_.own_size,
         [&, to = y.begin()](std::size_t first, std::size_t last)
