@@ -14,14 +14,17 @@ namespace plumbline::reference
     class GalerkinMethod : public method::Method
     {
     public:
-      GalerkinMethod(unsigned int n_vertices, bool is_continuous, unsigned int degree)
-          : n_vertices_(n_vertices), is_continuous_(is_continuous), degree_(degree)
+      /// @param by_quadrature  its entries, where exact ones are known, too
+      GalerkinMethod(unsigned int n_vertices, bool is_continuous, unsigned int degree,
+                     bool by_quadrature = false)
+          : n_vertices_(n_vertices), is_continuous_(is_continuous), degree_(degree),
+            by_quadrature_(by_quadrature)
       {
       }
       std::string name() const override
       {
         return std::string(is_continuous_ ? "" : "DG") + (n_vertices_ == 4 ? "Q" : "P") +
-               std::to_string(degree_);
+               std::to_string(degree_) + (by_quadrature_ ? "-quadrature" : "");
       }
       method::Side side() const override { return method::Side::reference; }
       std::string help() const override
@@ -31,6 +34,7 @@ namespace plumbline::reference
                (n_vertices_ == 4 ? " on quadrilaterals; entries exact to round-off on lattices and "
                                    "axis-aligned rectangles"
                                  : " on triangles") +
+               (by_quadrature_ ? ", all entries by quadrature: to chart exact ones against" : "") +
                (degree_ == 0 ? " (not asymptotically compatible)" : "");
       }
       method::Capabilities can() const override
@@ -66,14 +70,17 @@ namespace plumbline::reference
       unsigned int order() const override { return degree_ + 1; }
       std::shared_ptr<const method::Method> higher_degree() const override
       {
-        return std::make_shared<GalerkinMethod>(n_vertices_, is_continuous_, degree_ + 1);
+        return std::make_shared<GalerkinMethod>(n_vertices_, is_continuous_, degree_ + 1,
+                                                by_quadrature_);
       }
       std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
                                                          const base::Team &team) const override
       {
         if (problem.lattice)
           return discretise_on_lattice(problem, AxisShapes(is_continuous_, degree_));
-        return discretise_on_mesh(problem, is_continuous_, degree_, team);
+        return discretise_on_mesh(problem, is_continuous_, degree_,
+                                  problem.settings.quadrature.exact_entries && !by_quadrature_,
+                                  team);
       }
       double expected_bytes(const method::ProblemSize &size) const override
       {
@@ -88,6 +95,7 @@ namespace plumbline::reference
       unsigned int n_vertices_;
       bool is_continuous_;
       unsigned int degree_;
+      bool by_quadrature_;
     };
 
     class LocalMethod : public method::Method
@@ -125,6 +133,8 @@ namespace plumbline::reference
       for (unsigned int degree = 0; degree <= 3; ++degree)
         methods.push_back(std::make_shared<GalerkinMethod>(n_vertices, false, degree));
     }
+    for (const bool is_continuous : {true, false})
+      methods.push_back(std::make_shared<GalerkinMethod>(3, is_continuous, 1, true));
     methods.push_back(std::make_shared<LocalMethod>());
     return methods;
   }

@@ -156,23 +156,21 @@ namespace plumbline::reference
     void add(const MeshSpace &space, const OuterCell &outer, const Block &block,
              algebra::Rows &rows)
     {
-      for (const unsigned int i : outer.ascending)
-      {
-        if (outer.dofs[i] >= space.n_free())
-          break;
-        for (const unsigned int c : {0u, 1u})
+      for (std::size_t i = 0; i < outer.dofs.size(); ++i)
+        for (unsigned int c = 0; c < 2 && outer.dofs[i] < space.n_free(); ++c)
         {
           std::size_t k = rows.start[2 * outer.dofs[i] + c];
-          const double *const from = &block(2 * i + c, 0);
-          for (const unsigned int j : outer.ascending)
+          const double *const row = &block(static_cast<Eigen::Index>(2 * i + c), 0);
+          for (const OuterCell::Run &run : outer.runs)
           {
-            while (rows.column[k] != 2 * outer.dofs[j])
+            while (rows.column[k] != 2 * run.dof)
               k += 2;
-            rows.value[k++] += from[2 * j];
-            rows.value[k++] += from[2 * j + 1];
+            const double *const from = row + 2 * run.place;
+            for (unsigned int e = 0; e < 2 * run.size; ++e)
+              rows.value[k + e] += from[e];
+            k += 2 * run.size;
           }
         }
-      }
     }
 
     /// Numbers of materials that are one in each cell; empty: they change inside of cells.

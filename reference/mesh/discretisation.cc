@@ -213,12 +213,11 @@ namespace plumbline::reference
     {
     public:
       GalerkinOnMesh(const scene::Problem &problem, std::shared_ptr<const MeshSpace> space,
-                     const base::Team &team)
+                     bool exact_entries, const base::Team &team)
           : SparseDiscretisation(problem.settings.solver, solver_options(problem, *space), team),
             problem_(problem), space_(std::move(space)),
             cells_(std::make_shared<const MeshCells>(*problem.mesh)),
-            options_{0, problem.settings.quadrature.exact_entries,
-                     problem.settings.geometry.backend}
+            options_{0, exact_entries, problem.settings.geometry.backend}
       {
         make_rows();
       }
@@ -345,13 +344,12 @@ namespace plumbline::reference
     };
   } // namespace
 
-  std::unique_ptr<method::Discretisation> discretise_on_mesh(const scene::Problem &problem,
-                                                             bool is_continuous,
-                                                             unsigned int degree,
-                                                             const base::Team &team)
+  std::unique_ptr<method::Discretisation>
+  discretise_on_mesh(const scene::Problem &problem, bool is_continuous, unsigned int degree,
+                     bool exact_entries, const base::Team &team)
   {
     return std::make_unique<GalerkinOnMesh>(problem, make_space(problem, is_continuous, degree),
-                                            team);
+                                            exact_entries, team);
   }
 
   double expected_mesh_bytes(const method::ProblemSize &size, unsigned int n_vertices,

@@ -7,12 +7,12 @@ namespace plumbline::reference
 {
   /// On the problem's mesh: entries exact by correlation on axis-aligned rectangles, else by an
   /// outer quadrature that is refined until solutions settle. Masses as of `discretise_on_lattice`.
+  /// @param exact_entries  where a way is known, else all by quadrature
   /// @note Collective.
   /// @throws NumericalError  no degree of freedom is free
-  std::unique_ptr<method::Discretisation> discretise_on_mesh(const scene::Problem &problem,
-                                                             bool is_continuous,
-                                                             unsigned int degree,
-                                                             const base::Team &team);
+  std::unique_ptr<method::Discretisation>
+  discretise_on_mesh(const scene::Problem &problem, bool is_continuous, unsigned int degree,
+                     bool exact_entries, const base::Team &team);
 
   /// Memory of its static solution at the peak [bytes], see method::Method::expected_bytes.
   double expected_mesh_bytes(const method::ProblemSize &size, unsigned int n_vertices,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace plumbline::reference
 {
@@ -33,10 +32,13 @@ namespace plumbline::reference
           }
       for (const unsigned int dof : outer.dofs)
         is_known[dof] = 0;
-      outer.ascending.resize(outer.dofs.size());
-      std::iota(outer.ascending.begin(), outer.ascending.end(), 0u);
-      std::sort(outer.ascending.begin(), outer.ascending.end(),
-                [&](unsigned int a, unsigned int b) { return outer.dofs[a] < outer.dofs[b]; });
+      for (unsigned int i = 0; i < outer.dofs.size(); ++i)
+        if (!outer.runs.empty() && outer.dofs[i] == outer.dofs[i - 1] + 1)
+          ++outer.runs.back().size;
+        else
+          outer.runs.push_back({outer.dofs[i], i, 1});
+      std::sort(outer.runs.begin(), outer.runs.end(),
+                [](const auto &a, const auto &b) { return a.dof < b.dof; });
     }
   } // namespace
 
@@ -60,7 +62,7 @@ namespace plumbline::reference
                 });
     all.erase(std::remove_if(all.begin(), all.end(),
                              [&](const OuterCell &outer)
-                             { return outer.dofs[outer.ascending[0]] >= space.n_free(); }),
+                             { return outer.runs.front().dof >= space.n_free(); }),
               all.end());
     return all;
   }

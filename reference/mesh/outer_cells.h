@@ -9,10 +9,16 @@ namespace plumbline::reference
   /// An outer cell, and what is within the horizon of it.
   struct OuterCell
   {
+    /// Dofs with numbers dof, dof + 1, ..., dof + size - 1 that follow each other.
+    struct Run
+    {
+      unsigned int dof = 0, place = 0, size = 0; ///< place: of the first in dofs
+    };
+
     unsigned int cell = 0;
-    std::vector<unsigned int> near;      ///< cells, alike around cells that are translations
-    std::vector<unsigned int> dofs;      ///< of these in turn, each once
-    std::vector<unsigned int> ascending; ///< which of them come first, by number
+    std::vector<unsigned int> near; ///< cells, alike around cells that are translations
+    std::vector<unsigned int> dofs; ///< of these in turn, each once
+    std::vector<Run> runs;          ///< the same by number
   };
 
   /// The cells that have free dofs within the horizon, ascending.
