@@ -138,19 +138,70 @@ namespace plumbline::reference
       return a != b ? value[2] : a == 0 ? value[0] + value[1] : value[0] - value[1];
     }
 
-    /// Entries ∬ C φ_i(x) (φ_j(x) - φ_j(y)) of free rows.
+    /// Entries ∬ C φ_i(x) (φ_j(x) - φ_j(y)) of pairs of nodes.
     /// @param constant  the kernel's constant term, whose whole pairs are products
     template <unsigned int n>
-    algebra::Rows combine(const MeshSpace &space, const EdgeForm &form, const PairWays &ways,
-                          const HalfMatrix &half, double constant)
+    class Entries
     {
-      constexpr unsigned int n_components = n == 1 ? 1 : 2;
+    public:
+      Entries(const EdgeForm &form, const PairWays &ways, const HalfMatrix &half, double constant)
+          : form_(form), ways_(ways), half_(half), constant_(constant)
+      {
+      }
+
+      /// @param k, other  where (i, j) and (j, i) stand in the half
+      std::array<double, n> operator()(std::size_t k, std::size_t other, unsigned int i,
+                                       unsigned int j) const
+      {
+        std::array<double, n> value;
+        for (unsigned int e = 0; e < n; ++e)
+          value[e] = -(half_.value[k * n + e] + half_.value[other * n + e]);
+        const PairWay way = ways_(i, j);
+        if (way == PairWay::whole || way == PairWay::out)
+          value[0] -= constant_ * (form_.integral[i] * form_.integral[j]);
+        return value;
+      }
+
+    private:
+      const EdgeForm &form_;
+      const PairWays &ways_;
+      const HalfMatrix &half_;
+      double constant_;
+    };
+
+    /// Free rows in place of the half: at the peak a scalar matrix takes 12 bytes an entry.
+    algebra::Rows combine(const MeshSpace &space, const Entries<1> &entries, HalfMatrix &half)
+    {
+      const auto n_free = static_cast<unsigned int>(space.n_free());
+      in_parallel(n_free,
+                  [&](std::size_t first, std::size_t last)
+                  {
+                    for (auto i = static_cast<unsigned int>(first); i < last; ++i)
+                      for (std::size_t k = half.start[i]; k < half.start[i + 1]; ++k)
+                      {
+                        const unsigned int j = half.column[k];
+                        if (j < i)
+                          continue; // with its mirror image
+                        const std::size_t other = half.find(j, i);
+                        half.value[k] = entries(k, other, i, j)[0];
+                        if (j < n_free)
+                          half.value[other] = half.value[k];
+                      }
+                  });
+      half.start.resize(n_free + 1);
+      half.column.resize(half.start.back());
+      half.value.resize(half.start.back());
+      return {std::move(half.start), std::move(half.column), std::move(half.value)};
+    }
+
+    /// The same of tensors, of which every pair of nodes has a block of 2 x 2.
+    algebra::Rows combine(const MeshSpace &space, const Entries<3> &entries, HalfMatrix &half)
+    {
       algebra::Rows rows;
       rows.start.assign(1, 0);
       for (unsigned int dof = 0; dof < space.n_free(); ++dof)
-        for (unsigned int c = 0; c < n_components; ++c)
-          rows.start.push_back(rows.start.back() +
-                               n_components * (half.start[dof + 1] - half.start[dof]));
+        for (unsigned int c = 0; c < 2; ++c)
+          rows.start.push_back(rows.start.back() + 2 * (half.start[dof + 1] - half.start[dof]));
       rows.column.resize(rows.start.back());
       rows.value.resize(rows.start.back());
       const auto make_row = [&](unsigned int i)
@@ -158,20 +209,12 @@ namespace plumbline::reference
         for (std::size_t k = half.start[i]; k < half.start[i + 1]; ++k)
         {
           const unsigned int j = half.column[k];
-          const double *const own = &half.value[k * n], *const other =
-                                                            &half.value[half.find(j, i) * n];
-          std::array<double, 3> value{};
-          for (unsigned int e = 0; e < n; ++e)
-            value[e] = -(own[e] + other[e]);
-          const PairWay way = ways(i, j);
-          if (way == PairWay::whole || way == PairWay::out)
-            value[0] -= constant * (form.integral[i] * form.integral[j]);
-          for (unsigned int a = 0; a < n_components; ++a)
-            for (unsigned int b = 0; b < n_components; ++b)
+          const std::array<double, 3> value = entries(k, half.find(j, i), i, j);
+          for (unsigned int a = 0; a < 2; ++a)
+            for (unsigned int b = 0; b < 2; ++b)
             {
-              const std::size_t to =
-                  rows.start[i * n_components + a] + (k - half.start[i]) * n_components + b;
-              rows.column[to] = j * n_components + b;
+              const std::size_t to = rows.start[i * 2 + a] + (k - half.start[i]) * 2 + b;
+              rows.column[to] = j * 2 + b;
               rows.value[to] = entry(value, a, b);
             }
         }
@@ -221,7 +264,7 @@ namespace plumbline::reference
       const bool is_first = team.rank() == 0; // of ranks: what one alone must give
       if (is_first)
         subtract_mass(space, kernel.moment({0, 0}), n, half);
-      return combine<n>(space, form, ways, half, is_first ? whole.constant() : 0);
+      return combine(space, Entries<n>(form, ways, half, is_first ? whole.constant() : 0), half);
     }
 
     /// Why a kernel whose profile has no breaks cannot have its matrix; empty: it can.
