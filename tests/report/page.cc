@@ -139,6 +139,22 @@ namespace plumbline::report
     EXPECT_FALSE(holds(html, "✗ stalls: "));
   }
 
+  TEST(ReportPage, AdvisesNothingByDifferencesToAMethodsOwnFinestLevel)
+  {
+    study::Results results = fixture::results();
+    const std::string own = "averages L2 | own finest level";
+    for (study::Trend &trend : results.trends)
+      if (trend.error == results.decisive_error)
+        trend.error = own;
+    results.decisive_error = own;
+    const std::string html = page_of(results);
+    EXPECT_TRUE(holds(html, "<b>✓ Have a limit everywhere: IPA-AC recalibrated, Q1.</b>"));
+    EXPECT_TRUE(holds(html, "none is advised"));
+    EXPECT_TRUE(holds(html, "whether it has a limit, not which"));
+    for (const char *part : {"✓ Converge", "The cheapest run", "class=\"card\"", "decides"})
+      EXPECT_FALSE(holds(html, part)) << part;
+  }
+
   TEST(ReportPage, FoldsTheCardsAfterTheSixth)
   {
     EXPECT_FALSE(holds(page_of(fixture::results()), "more cases"));
