@@ -11,8 +11,9 @@
 
 namespace plumbline::reference
 {
-  /// Blocks of pairs of triangles with a scalar kernel of powers and shape functions of degree 2 at
-  /// most, exact to rounding: by Green's identity in x and in y, for polynomials p and q,
+  /// Blocks of pairs of triangles with a kernel of powers, scalar or a bond tensor, and shape
+  /// functions of degree 2 at most, exact to rounding: by Green's identity in x and in y, for
+  /// polynomials p and q,
   ///   ∬_{T×T', |x-y|<δ} C p(x) q(y) = Σ_{m,n} ∮_∂T ∮_∂T' (Δ^m p ∂_nx - ∂_n Δ^m p)
   ///     (Δ^n q ∂_ny - ∂_n Δ^n q) Ψ_{2+m+n}(y - x), Δ^k Ψ_k = C,
   /// with the potentials cut off at the circle, or what lies beyond it taken from all of the pair.
@@ -51,7 +52,8 @@ namespace plumbline::reference
       std::vector<char> is_slender;           ///< cells
       std::vector<ShapeRule> rules;           ///< index i is exact to degree 2 i + 1
       SideTraces traces;
-      std::unique_ptr<EdgePairs> pairs;
+      std::unique_ptr<EdgePairs<1>> scalar; ///< one of both
+      std::unique_ptr<EdgePairs<3>> tensor;
     };
     /// The functions of a cell on its sides.
     struct Traces
@@ -66,27 +68,24 @@ namespace plumbline::reference
       whole
     };
 
-    const EdgeMoments &moments(unsigned int side, unsigned int edge, Part part);
+    const EdgeMoments *moments(unsigned int side, unsigned int edge, Part part);
     void find_traces(std::size_t cell, Traces &traces) const;
     void add_sides(std::size_t inner, Part part, double factor, PairBlocks &blocks);
     void add_product(std::size_t outer, std::size_t inner, PairBlocks &blocks) const;
     void add_by_rule(std::size_t outer, std::size_t inner, const ShapeRule &rule,
                      PairBlocks &blocks) const;
     void add_whole(std::size_t outer, std::size_t inner, PairBlocks &blocks);
+    void find_components(PairBlocks &blocks) const;
 
     const MeshSpace &space_;
     const MeshCells &cells_;
     physics::Kernel<2> kernel_;
     std::shared_ptr<const Shared> shared_;
-    unsigned int n_;    ///< shape functions
-    std::size_t outer_; ///< whose sides' moments are kept
-    struct Kept
-    {
-      EdgeMoments moments;
-      bool is_known = false;
-    };
-    std::vector<std::array<Kept, 3>> kept_;
-    std::vector<unsigned int> place_; ///< in kept_, of each side of outer_ and edge; 0: none
+    unsigned int n_;                  ///< shape functions
+    unsigned int n_entries_;          ///< of the kernel, see EdgePairs
+    std::size_t outer_;               ///< whose sides' moments are kept
+    std::vector<EdgeMoments> kept_;   ///< shape (n kept, n_entries)
+    std::vector<unsigned int> place_; ///< in kept_, of each edge, side of outer_ and part; 0: none
     std::vector<std::size_t> used_;
     Traces of_outer_, of_inner_;
   };
