@@ -150,9 +150,9 @@ namespace plumbline::reference
   }                                        // namespace
 
   template <unsigned int n>
-  EdgePairs<n>::EdgePairs(const physics::Kernel<2> &kernel, unsigned int degree, double longest,
-                          double lowest_rho)
-      : degree_(degree), circle_(kernel, lowest_rho), powers_(kernel),
+  EdgePairs<n>::EdgePairs(const physics::Kernel<2> &kernel, const physics::Kernel<2> &near,
+                          unsigned int degree, double longest, double lowest_rho)
+      : degree_(degree), circle_(kernel, lowest_rho), powers_(near),
         inner_(physics::gauss(n_points(longest / kernel.horizon()))),
         outer_(physics::gauss(inner_.size() + more_along))
   {

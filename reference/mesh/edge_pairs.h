@@ -31,11 +31,12 @@ namespace plumbline::reference
   class EdgePairs
   {
   public:
+    /// @param near        the kernel as powers where sides are near, for the whole
     /// @param degree      of shape functions, 0 to 2
     /// @param longest     side [length]: the number of points follows from it
     /// @param lowest_rho  1 - (the largest distance of points / δ)²
-    EdgePairs(const physics::Kernel<2> &kernel, unsigned int degree, double longest,
-              double lowest_rho);
+    EdgePairs(const physics::Kernel<2> &kernel, const physics::Kernel<2> &near, unsigned int degree,
+              double longest, double lowest_rho);
 
     /// Add those of the potential that vanishes at the circle, inside and outside of it.
     /// @param in, out  shape (n), or none

@@ -2,6 +2,7 @@
 
 #include "geometry/polygon.h"
 #include "reference/mesh/kernel_entries.h"
+#include "reference/mesh/whole_potential.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,8 @@ namespace plumbline::reference
     /// Of centroids, in sums of radii: beyond it pairs are apart.
     constexpr double near = 3;
     constexpr double accuracy = 1e-15; ///< of rules for them
+    /// Cells, in horizons: beyond it the potential inside the circle needs few points.
+    constexpr double apart = .35;
 
     /// A bound of vertices' distances from the centroid.
     double largest_radius(const geometry::Mesh &mesh)
@@ -39,17 +42,54 @@ namespace plumbline::reference
     {
       return 1 + 4 * largest_radius / horizon;
     }
+
+    /// A polynomial that a kernel is to rounding where points of pairs are no farther apart than
+    /// others by this length; of others than even ones but for the root in |ξ|.
+    unsigned int degree(const physics::Kernel<2> &kernel, double length)
+    {
+      const physics::RadialProfile &profile = kernel.profile();
+      const unsigned int lowest = std::max(0, profile.lowest_exponent());
+      if (!profile.is_function())
+        return lowest + profile.degree();
+      const double part = length / kernel.horizon();
+      return lowest + static_cast<unsigned int>(
+                          std::ceil(profile.degree(std::min(1., part)) * std::max(1., part)));
+    }
+
+    bool is_even(const physics::Kernel<2> &kernel)
+    {
+      return kernel.profile().is_even(kernel.structure() == physics::Structure::tensor);
+    }
+
+    /// The kernel as powers up to where pairs are near; nothing if it cannot be had. Even ones need
+    /// none: they are taken by rules.
+    std::optional<physics::Kernel<2>> near_powers(const physics::Kernel<2> &kernel, double largest)
+    {
+      if (is_even(kernel))
+        return physics::Kernel<2>(kernel.structure(), {{1, 2}}, kernel.horizon(), 1);
+      const double farthest_out = apart * kernel.horizon() + 4 * largest;
+      return WholePotential::as_powers(
+          kernel, std::min(2 * (near + 1) * largest, std::max(kernel.horizon(), farthest_out)));
+    }
   } // namespace
 
   std::string TrianglePairs::refuse(const MeshSpace &space, const physics::Kernel<2> &kernel)
   {
     if (space.shapes().degree() > 2)
       return "the degree is more than 2";
-    if (!kernel.breaks().empty() || kernel.profile().is_function())
-      return "the kernel is no sum of powers";
-    constexpr double farthest = 10; // potentials at so many horizons are much larger than pairs
-    if (reach(largest_radius(space.mesh()), kernel.horizon()) > farthest)
-      return "triangles are large in relation to the horizon";
+    constexpr std::size_t most_breaks = 7; // each costs as much as a kernel
+    if (kernel.breaks().size() > most_breaks)
+      return "the kernel's profile has more than " + std::to_string(most_breaks) + " breaks";
+    const double largest = largest_radius(space.mesh());
+    for (const physics::Kernel<2> &part : kernel.parts())
+    {
+      constexpr double farthest = 10; // potentials at so many horizons are much larger than pairs
+      if (reach(largest, part.horizon()) > farthest)
+        return "triangles are large in relation to the horizon or a break of the kernel";
+      constexpr unsigned int most = 60; // pairs by rules of it cost more than by quadrature
+      if (degree(part, 4 * largest) > most || !near_powers(part, largest))
+        return "the kernel varies fast in relation to the horizon or the triangles";
+    }
     return "";
   }
 
@@ -85,26 +125,16 @@ namespace plumbline::reference
     const auto make = [&](auto &pairs)
     {
       using Pairs = typename std::decay_t<decltype(pairs)>::element_type;
-      pairs = std::make_unique<Pairs>(kernel, space.shapes().degree(), longest,
-                                      1 - farthest * farthest);
+      pairs = std::make_unique<Pairs>(kernel, *near_powers(kernel, largest),
+                                      space.shapes().degree(), longest, 1 - farthest * farthest);
     };
     kernel.structure() == physics::Structure::scalar ? make(scalar) : make(tensor);
 
     const unsigned int highest =
-        2 * space.shapes().degree() +
-        std::max<unsigned int>(degree_away_from_singularity(near, 1, accuracy),
-                               kernel.profile().degree() +
-                                   std::max(0, kernel.profile().lowest_exponent()));
-    const geometry::Polygon unit = {Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1)};
+        2 * space.shapes().degree() + degree(kernel, 4 * largest) +
+        (is_even(kernel) ? 0 : degree_away_from_singularity(near, 1, accuracy));
     for (unsigned int degree = 1; degree <= highest + 1; degree += 2)
-    {
-      const geometry::CutRule gauss = geometry::polygon_rule(geometry::view(unit), degree);
-      ShapeRule rule{gauss.points, gauss.weights, {}};
-      rule.phi.resize(rule.unit.size() * space.shapes().size());
-      for (std::size_t q = 0; q < rule.unit.size(); ++q)
-        space.shapes().values(rule.unit[q], &rule.phi[q * space.shapes().size()]);
-      rules.push_back(std::move(rule));
-    }
+      rules.emplace_back(space.shapes(), degree);
   }
 
   TrianglePairs::TrianglePairs(const MeshSpace &space, const MeshCells &cells,
@@ -137,7 +167,8 @@ namespace plumbline::reference
     const double horizon = kernel_.horizon();
     const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
     const double both = cells_.radius(outer) + cells_.radius(inner);
-    constexpr double apart = .35;
+    if (between - both >= horizon)
+      return;
     if (cells_.farthest(outer, inner) <= horizon)
       add_whole(outer, inner, blocks);
     else if (between - both > apart * horizon)
@@ -147,6 +178,7 @@ namespace plumbline::reference
       add_whole(outer, inner, blocks);
       add_sides(inner, Part::out, -1, blocks);
     }
+    mirror(blocks);
     if (n_entries_ == 3)
       find_components(blocks);
   }
@@ -167,57 +199,27 @@ namespace plumbline::reference
 
   void TrianglePairs::add_whole(std::size_t outer, std::size_t inner, PairBlocks &blocks)
   {
-    if (kernel_.profile().is_even(n_entries_ == 3))
-    {
-      const unsigned int highest = kernel_.profile().degree() + kernel_.profile().lowest_exponent();
-      return add_by_rule(outer, inner, shared_->rule(highest + 2 * space_.shapes().degree()),
-                         blocks);
-    }
     const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
     const double both = cells_.radius(outer) + cells_.radius(inner);
-    if (between > near * both)
-      add_by_rule(outer, inner,
-                  shared_->rule(degree_away_from_singularity(between, both, accuracy) +
-                                2 * space_.shapes().degree()),
-                  blocks);
-    else
-      add_sides(inner, Part::whole, 1, blocks);
+    if (!is_even(kernel_) && between <= near * both)
+      return add_sides(inner, Part::whole, 1, blocks);
+    // triangles so far apart, or kernels so smooth, that a product of rules sees a polynomial
+    unsigned int of_rule = 2 * space_.shapes().degree();
+    if (is_even(kernel_) || kernel_.profile().is_function())
+      of_rule += degree(kernel_, 2 * both);
+    if (!is_even(kernel_))
+      of_rule += degree_away_from_singularity(between, both, accuracy);
+    shared_->rule(of_rule).add(space_.map(outer), space_.map(inner), kernel_, blocks);
   }
 
-  /// Triangles so far apart, or kernels so smooth, that a product of rules sees a polynomial.
-  void TrianglePairs::add_by_rule(std::size_t outer, std::size_t inner, const ShapeRule &rule,
-                                  PairBlocks &blocks) const
+  /// Entries below the diagonal of what is symmetric.
+  void TrianglePairs::mirror(PairBlocks &blocks) const
   {
-    const CellMap &of_x = space_.map(outer), &of_y = space_.map(inner);
-    const double factor = of_x.determinant({}) * of_y.determinant({});
-    for (std::size_t i = 0; i < rule.unit.size(); ++i)
-    {
-      const Point<2> x = of_x.point(rule.unit[i]);
-      const double *const p = &rule.phi[i * n_];
-      for (std::size_t j = 0; j < rule.unit.size(); ++j)
-      {
-        const double *const q = &rule.phi[j * n_];
-        const Vector2 z = of_y.point(rule.unit[j]) - x;
-        const double square = z.norm_square(), value = factor * rule.weight[i] * rule.weight[j] *
-                                                       kernel_.radial(std::sqrt(square));
-        std::array<double, 3> entry = {value, 0, 0};
-        if (n_entries_ == 3)
-        {
-          const double per_square = square > 0 ? 1 / square : 0;
-          entry = {.5 * value, .5 * value * (z[0] * z[0] - z[1] * z[1]) * per_square,
-                   value * z[0] * z[1] * per_square};
-        }
-        for (unsigned int a = 0; a < n_; ++a)
-          for (unsigned int b = 0; b < n_; ++b)
-            for (unsigned int e = 0; e < n_entries_; ++e)
-            {
-              const std::size_t place = (a * n_ + b) * n_entries_ + e;
-              blocks.cross[place] += entry[e] * p[a] * q[b];
-              blocks.outer[place] += entry[e] * p[a] * p[b];
-              blocks.inner[place] += entry[e] * q[a] * q[b];
-            }
-      }
-    }
+    for (auto *block : {&blocks.outer, &blocks.inner})
+      for (unsigned int a = 0; a < n_; ++a)
+        for (unsigned int b = 0; b < a; ++b)
+          for (unsigned int e = 0; e < n_entries_; ++e)
+            (*block)[place(a, b, e)] = (*block)[place(b, a, e)];
   }
 
   const EdgeMoments *TrianglePairs::moments(unsigned int side, unsigned int edge, Part part)
@@ -330,13 +332,11 @@ namespace plumbline::reference
         const double sign_p = of_outer_.sign[k], sign_q = of_inner_.sign[l];
         for (unsigned int e = 0; e < n_entries_; ++e)
         {
-          const auto place = [&](unsigned int a, unsigned int b)
-          { return (a * n_ + b) * n_entries_ + e; };
           for (unsigned int b = 0; b < n_; ++b)
           {
             const Functional functional = apply<true>(q[b], m[e], sign_p, sign_q, degree);
             for (unsigned int a = 0; a < n_; ++a)
-              blocks.cross[place(a, b)] += factor * functional(p[a]);
+              blocks.cross[place(a, b, e)] += factor * functional(p[a]);
           }
           const Functional of_p = apply<true>(one, m[e], sign_p, sign_q, degree),
                            of_q = apply<false>(one, m[e], sign_q, sign_p, degree);
@@ -344,15 +344,10 @@ namespace plumbline::reference
           for (unsigned int a = 0; a < n_; ++a)
             for (unsigned int b = a; b < n_; ++b, ++product)
             {
-              blocks.outer[place(a, b)] += factor * of_p(p[product]);
-              blocks.inner[place(a, b)] += factor * of_q(q[product]);
+              blocks.outer[place(a, b, e)] += factor * of_p(p[product]);
+              blocks.inner[place(a, b, e)] += factor * of_q(q[product]);
             }
         }
       }
-    for (auto *block : {&blocks.outer, &blocks.inner})
-      for (unsigned int a = 0; a < n_; ++a)
-        for (unsigned int b = 0; b < a; ++b)
-          for (unsigned int e = 0; e < n_entries_; ++e)
-            (*block)[(a * n_ + b) * n_entries_ + e] = (*block)[(b * n_ + a) * n_entries_ + e];
   }
 } // namespace plumbline::reference
