@@ -63,7 +63,7 @@ namespace plumbline::physics
         const double t = 2 * (place - i) - 1;
         Values value = c[n_terms - 1];
         for (unsigned int k = n_terms - 1; k-- > 0;)
-#pragma GCC unroll 6
+#pragma GCC unroll 13
           for (unsigned int j = 0; j < m; ++j)
             value[j] = value[j] * t + c[k][j];
         return value;

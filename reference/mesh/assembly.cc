@@ -53,15 +53,16 @@ namespace plumbline::reference
         if (space.shapes().n_vertices() == 4)
           by_correlation_.emplace(space.shapes(), profile, kernel.horizon(), options.backend);
         else if (TrianglePairs::refuse(space, kernel).empty())
-          by_sides_.emplace(space, cells, kernel);
+          for (const physics::Kernel<2> &part : kernel.parts())
+            by_sides_.emplace_back(space, cells, part);
       }
 
       bool has_changing_coefficient() const { return coefficient_ && of_cells_.empty(); }
 
       bool is_exact(std::size_t a, std::size_t b) const
       {
-        if (by_sides_)
-          return by_sides_->is_exact(a, b);
+        if (!by_sides_.empty())
+          return by_sides_[0].is_exact(a, b);
         return by_correlation_ && cells_.is_rectangle(a) && cells_.is_rectangle(b);
       }
 
@@ -70,8 +71,15 @@ namespace plumbline::reference
       {
         if (by_quadrature_.is_product(outer, inner) || !is_exact(outer, inner))
           by_quadrature_.integrate(outer, inner, blocks);
-        else if (by_sides_)
-          by_sides_->integrate(outer, inner, blocks);
+        else if (!by_sides_.empty())
+        {
+          by_sides_[0].integrate(outer, inner, blocks);
+          for (std::size_t part = 1; part < by_sides_.size(); ++part)
+          {
+            by_sides_[part].integrate(outer, inner, blocks_of_part_);
+            blocks.add(blocks_of_part_);
+          }
+        }
         else
           by_correlation_->integrate(cells_[outer].box(), cells_[inner].box(), blocks);
       }
@@ -88,7 +96,8 @@ namespace plumbline::reference
       std::vector<double> of_cells_; ///< empty: it changes inside of them
       PairQuadrature by_quadrature_;
       std::optional<RectanglePairs> by_correlation_;
-      std::optional<TrianglePairs> by_sides_;
+      std::vector<TrianglePairs> by_sides_; ///< of each smooth part of the kernel
+      PairBlocks blocks_of_part_;
     };
 
     /// Of each cell the pairs that have their outer points on it, for a share of the cells. A

@@ -1,19 +1,17 @@
 #include "reference/mesh/edge_pairs.h"
 
 #include "physics/gauss.h"
+#include "reference/mesh/line_moments.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace plumbline::reference
 {
   namespace
   {
-    Vector2 normal(const Segment &e)
-    {
-      return Point<2>(e.along[1], -e.along[0]);
-    }
-
     double distance(const Point<2> &x, const Segment &e)
     {
       const double t = std::clamp(((x - e.start) * e.along) / e.along.norm_square(), 0., 1.);
@@ -37,14 +35,18 @@ namespace plumbline::reference
     constexpr double apart = .4;
 
     /// Parts of 0 <= v <= 1 on which |fixed - v moving|² is analytic up to a distance from each:
-    /// it has two conjugate roots. One part if they are on the line, at v = 1: powers of 1 - v.
-    std::vector<std::array<double, 2>> away_from_root(const Vector2 &fixed, const Vector2 &moving)
+    /// it has two conjugate roots. One part if they are on the line, at v = 1 or outside: powers of
+    /// 1 - v, whose logarithms take parts as others do if they are outside.
+    std::vector<std::array<double, 2>> away_from_root(const Vector2 &fixed, const Vector2 &moving,
+                                                      bool has_logarithm)
     {
       const double square = moving.norm_square();
       const double root = (fixed * moving) / square,
                    height = std::abs(cross(fixed, moving)) / square;
       std::vector<std::array<double, 2>> parts = {{0, 1}};
-      for (std::size_t k = 0; height > rounding && k < parts.size();)
+      if (height < rounding && (!has_logarithm || root > 0))
+        return parts;
+      for (std::size_t k = 0; k < parts.size();)
       {
         const auto [from, to] = parts[k];
         if (std::hypot(height, std::max({0., from - root, root - to})) >= apart * (to - from))
@@ -58,83 +60,30 @@ namespace plumbline::reference
       return parts;
     }
 
+    /// Gauss's rule on (0, 1), or one for t^p ln t at 0 as well, p >= 2.
+    struct EndRule
+    {
+      EndRule(bool has_logarithm, unsigned int n_points)
+      {
+        constexpr unsigned int least_points = 18; // t = τ³: τ^8 ln τ to 1e-16
+        const auto &rule =
+            physics::gauss(has_logarithm ? std::max(least_points, 3 * n_points) : n_points);
+        for (unsigned int i = 0; i < rule.size(); ++i)
+        {
+          const double tau = rule.point(i)[0];
+          point.push_back(has_logarithm ? tau * tau * tau : tau);
+          weight.push_back((has_logarithm ? 3 * tau * tau : 1) * rule.weight(i));
+        }
+      }
+
+      std::vector<double> point, weight;
+    };
+
     double farthest(const Segment &e, const Segment &f)
     {
       return std::max({e.start.distance(f.start), e.start.distance(f.end), e.end.distance(f.start),
                        e.end.distance(f.end)});
     }
-
-    /// The integrals over f alone, x being fixed on e; z = y - x.
-    template <unsigned int degree>
-    class LineMoments
-    {
-    public:
-      LineMoments(const Segment &e, const Segment &f, const Vector2 &z_at_start)
-          : normal_e_(normal(e)), normal_f_(normal(f)), along_(f.along), z_(z_at_start),
-            product_(normal_e_ * normal_f_)
-      {
-      }
-
-      template <class Jets>
-      void add(const Jets &jets, double t, double weight)
-      {
-        add_at(jets, z_ + t * along_, t, weight);
-      }
-
-      template <class Jets>
-      void add_at(const Jets &jets, const Vector2 &z, double t, double weight)
-      {
-        const physics::PotentialJet jet = jets.template at<degree + 1>(z.norm_square());
-        const double along_e = normal_e_ * z, along_f = normal_f_ * z, twice = 2 * weight;
-        const double across = 2 * along_e * along_f;
-#pragma GCC unroll 3
-        for (unsigned int k = 0; k <= degree; ++k)
-        {
-          double both = -twice * (jet.first[k] * product_ + jet.second[k] * across);
-#pragma GCC unroll 5
-          for (unsigned int j = 0; j <= highest - 2 * k; ++j, both *= t)
-            both_[k][j] += both;
-          double of_x = -twice * jet.first[k] * along_e, of_y = twice * jet.first[k] * along_f;
-#pragma GCC unroll 5
-          for (unsigned int j = 0; j + 1 <= highest - 2 * k; ++j, of_x *= t, of_y *= t)
-          {
-            of_x_[k][j] += of_x;
-            of_y_[k][j] += of_y;
-          }
-        }
-        double value = weight * jet.value;
-#pragma GCC unroll 5
-        for (unsigned int j = 0; j + 2 <= highest; ++j, value *= t)
-          value_[j] += value;
-      }
-
-      void add_to(EdgeMoments &sum, double s, double weight) const
-      {
-        for (unsigned int i = 0; i <= highest; ++i, weight *= s)
-        {
-          for (unsigned int k = 0; 2 * k + i <= highest; ++k)
-            for (unsigned int j = 0; i + j + 2 * k <= highest; ++j)
-              sum.both[k][i][j] += weight * both_[k][j];
-          for (unsigned int k = 0; 2 * k + i + 1 <= highest; ++k)
-            for (unsigned int j = 0; i + j + 2 * k + 1 <= highest; ++j)
-            {
-              sum.of_x[k][i][j] += weight * of_x_[k][j];
-              sum.of_y[k][i][j] += weight * of_y_[k][j];
-            }
-          for (unsigned int j = 0; i + j + 2 <= highest; ++j)
-            sum.value[i][j] += weight * value_[j];
-        }
-      }
-
-    private:
-      static constexpr unsigned int highest = 2 * degree;
-
-      Vector2 normal_e_, normal_f_, along_, z_;
-      double product_;
-      double both_[degree + 1][highest + 1] = {}, of_x_[degree + 1][highest + 1] = {},
-                                         of_y_[degree + 1][highest + 1] = {},
-                                         value_[highest + 1] = {};
-    };
 
     /// Points of a rule on a side, for functions that are analytic up to a distance in its length.
     unsigned int points_at(double distance)
@@ -200,46 +149,48 @@ namespace plumbline::reference
     constexpr unsigned int more_along = 2; ///< where roots are functions of s
   }                                        // namespace
 
-  EdgePairs::EdgePairs(const physics::Kernel<2> &kernel, unsigned int degree, double longest,
-                       double lowest_rho)
-      : degree_(degree), circle_(kernel, lowest_rho), powers_(kernel),
+  template <unsigned int n>
+  EdgePairs<n>::EdgePairs(const physics::Kernel<2> &kernel, const physics::Kernel<2> &near,
+                          unsigned int degree, double longest, double lowest_rho)
+      : degree_(degree), circle_(kernel, lowest_rho), powers_(near),
         inner_(physics::gauss(n_points(longest / kernel.horizon()))),
         outer_(physics::gauss(inner_.size() + more_along))
   {
   }
 
-  void EdgePairs::at_circle(const Segment &e, const Segment &f, EdgeMoments *in,
-                            EdgeMoments *out) const
+  template <unsigned int n>
+  void EdgePairs<n>::at_circle(const Segment &e, const Segment &f, EdgeMoments *in,
+                               EdgeMoments *out) const
   {
     degree_ == 0   ? at_circle_as<0>(e, f, in, out)
     : degree_ == 1 ? at_circle_as<1>(e, f, in, out)
                    : at_circle_as<2>(e, f, in, out);
   }
 
-  EdgeMoments EdgePairs::whole(const Segment &e, const Segment &f) const
+  template <unsigned int n>
+  void EdgePairs<n>::whole(const Segment &e, const Segment &f, EdgeMoments *sum) const
   {
-    EdgeMoments sum;
     degree_ == 0   ? add_whole<0>(e, f, sum)
     : degree_ == 1 ? add_whole<1>(e, f, sum)
                    : add_whole<2>(e, f, sum);
-    return sum;
   }
 
+  template <unsigned int n>
   template <unsigned int degree>
-  void EdgePairs::at_circle_as(const Segment &e, const Segment &f, EdgeMoments *in,
-                               EdgeMoments *out) const
+  void EdgePairs<n>::at_circle_as(const Segment &e, const Segment &f, EdgeMoments *in,
+                                  EdgeMoments *out) const
   {
     const double square = circle_.square(), horizon = std::sqrt(square);
     if (farthest(e, f) <= horizon)
     {
       if (in != nullptr)
-        add_smooth<degree>(e, f, *in);
+        add_smooth<degree>(e, f, in);
       return;
     }
     if (distance(e, f) >= horizon)
     {
       if (out != nullptr)
-        add_smooth<degree>(e, f, *out);
+        add_smooth<degree>(e, f, out);
       return;
     }
     std::vector<double> tangents;
@@ -276,22 +227,24 @@ namespace plumbline::reference
     }
   }
 
+  template <unsigned int n>
   template <unsigned int degree>
-  void EdgePairs::add_smooth(const Segment &e, const Segment &f, EdgeMoments &sum) const
+  void EdgePairs<n>::add_smooth(const Segment &e, const Segment &f, EdgeMoments *sum) const
   {
     for (unsigned int i = 0; i < inner_.size(); ++i)
     {
       const double s = inner_.point(i)[0];
-      LineMoments<degree> line(e, f, f.start - (e.start + s * e.along));
+      LineMoments<degree, n> line(e, f, f.start - (e.start + s * e.along));
       for (unsigned int j = 0; j < inner_.size(); ++j)
         line.add(circle_, inner_.point(j)[0], inner_.weight(j));
       line.add_to(sum, s, inner_.weight(i));
     }
   }
 
+  template <unsigned int n>
   template <unsigned int degree>
-  void EdgePairs::add_line(const Segment &e, const Segment &f, double s, double weight,
-                           EdgeMoments *in, EdgeMoments *out) const
+  void EdgePairs<n>::add_line(const Segment &e, const Segment &f, double s, double weight,
+                              EdgeMoments *in, EdgeMoments *out) const
   {
     const Vector2 w = f.start - (e.start + s * e.along);
     const double a = f.along.norm_square(), b = w * f.along, c = w.norm_square();
@@ -303,18 +256,19 @@ namespace plumbline::reference
     {
       if (sum == nullptr || !(to > from))
         return;
-      LineMoments<degree> line(e, f, w);
+      LineMoments<degree, n> line(e, f, w);
       for (unsigned int j = 0; j < inner_.size(); ++j)
         line.add(circle_, from + (to - from) * inner_.point(j)[0], (to - from) * inner_.weight(j));
-      line.add_to(*sum, s, weight);
+      line.add_to(sum, s, weight);
     };
     add(0, enter, out);
     add(enter, leave, in);
     add(leave, 1, out);
   }
 
+  template <unsigned int n>
   template <unsigned int degree>
-  void EdgePairs::add_whole(const Segment &e, const Segment &f, EdgeMoments &sum) const
+  void EdgePairs<n>::add_whole(const Segment &e, const Segment &f, EdgeMoments *sum) const
   {
     if (distance(e, f) < rounding * std::min(e.along.norm(), f.along.norm()))
       add_corner<degree>(e, f, sum);
@@ -323,9 +277,10 @@ namespace plumbline::reference
   }
 
   /// Parts of the sides, halved until they are apart in terms of their lengths.
+  template <unsigned int n>
   template <unsigned int degree>
-  void EdgePairs::add_apart(const Segment &e, const Segment &f, const Range &of_s,
-                            const Range &of_t, EdgeMoments &sum) const
+  void EdgePairs<n>::add_apart(const Segment &e, const Segment &f, const Range &of_s,
+                               const Range &of_t, EdgeMoments *sum) const
   {
     const Segment part_e = part(e, of_s), part_f = part(f, of_t);
     const double length_e = part_e.along.norm(), length_f = part_f.along.norm(),
@@ -345,7 +300,7 @@ namespace plumbline::reference
     for (unsigned int i = 0; i < outer.size(); ++i)
     {
       const double s = of_s[0] + ds * outer.point(i)[0];
-      LineMoments<degree> line(e, f, f.start - (e.start + s * e.along));
+      LineMoments<degree, n> line(e, f, f.start - (e.start + s * e.along));
       for (unsigned int j = 0; j < inner.size(); ++j)
         line.add(powers_, of_t[0] + dt * inner.point(j)[0], dt * inner.weight(j));
       line.add_to(sum, s, ds * outer.weight(i));
@@ -354,8 +309,9 @@ namespace plumbline::reference
 
   /// Sides that meet: (s, t) from the common corner as (u, u v) and (u v, u), for which a power of
   /// |z| is one of u times an analytic function of v; for a side with itself one of 1 - v, too.
+  template <unsigned int n>
   template <unsigned int degree>
-  void EdgePairs::add_corner(const Segment &e, const Segment &f, EdgeMoments &sum) const
+  void EdgePairs<n>::add_corner(const Segment &e, const Segment &f, EdgeMoments *sum) const
   {
     double nearest = std::numeric_limits<double>::infinity();
     double s_corner = 0, t_corner = 0;
@@ -368,21 +324,27 @@ namespace plumbline::reference
           t_corner = t;
         }
     const Vector2 b = (1 - 2 * s_corner) * e.along, a = (1 - 2 * t_corner) * f.along;
-    const auto &along = physics::gauss(powers_.degree() / 2 + 2);
+    const bool has_logarithm = powers_.has_logarithm();
+    const bool is_same = (a - b).norm() < rounding * a.norm();
+    const unsigned int n_along = powers_.degree() / 2 + 2; // for polynomials
+    const EndRule along(has_logarithm, n_along);
+    const bool is_logarithm_of_v = has_logarithm && is_same;
+    const EndRule across(is_logarithm_of_v, is_logarithm_of_v ? n_along + 2 : points_at(apart));
     for (const bool is_upper : {false, true})
-      for (const auto &[from, to] : away_from_root(is_upper ? a : b, is_upper ? b : a))
-      {
-        const auto &across = physics::gauss(points_at(apart));
-        for (unsigned int i = 0; i < along.size(); ++i)
-          for (unsigned int j = 0; j < across.size(); ++j)
+      for (const auto &[from, to] :
+           away_from_root(is_upper ? a : b, is_upper ? b : a, has_logarithm))
+        for (unsigned int i = 0; i < along.point.size(); ++i)
+          for (unsigned int j = 0; j < across.point.size(); ++j)
           {
-            const double u = along.point(i)[0], v = from + (to - from) * across.point(j)[0];
+            const double u = along.point[i], v = to - (to - from) * across.point[j];
             const double s = is_upper ? u * v : u, t = is_upper ? u : u * v;
-            LineMoments<degree> point(e, f, {});
+            LineMoments<degree, n> point(e, f, {});
             point.add_at(powers_, t * a - s * b, std::abs(t_corner - t), 1);
             point.add_to(sum, std::abs(s_corner - s),
-                         u * along.weight(i) * (to - from) * across.weight(j));
+                         u * along.weight[i] * (to - from) * across.weight[j]);
           }
-      }
   }
+
+  template class EdgePairs<1>;
+  template class EdgePairs<3>;
 } // namespace plumbline::reference

@@ -24,20 +24,27 @@ namespace plumbline::reference
 
   /// Such integrals by rules in s and t that see analytic functions alone: cut where the circle
   /// crosses the ends and the sides, and stretched where it touches one.
+  /// @tparam n  entries, each with its own moments: 1 of scalar kernels; 3 of bond tensors: half
+  /// the
+  ///            trace, then ½(C_xx - C_yy) and C_xy
+  template <unsigned int n>
   class EdgePairs
   {
   public:
+    /// @param near        the kernel as powers where sides are near, for the whole
     /// @param degree      of shape functions, 0 to 2
     /// @param longest     side [length]: the number of points follows from it
     /// @param lowest_rho  1 - (the largest distance of points / δ)²
-    EdgePairs(const physics::Kernel<2> &kernel, unsigned int degree, double longest,
-              double lowest_rho);
+    EdgePairs(const physics::Kernel<2> &kernel, const physics::Kernel<2> &near, unsigned int degree,
+              double longest, double lowest_rho);
 
-    /// The potential that vanishes at the circle, inside and outside of it.
+    /// Add those of the potential that vanishes at the circle, inside and outside of it.
+    /// @param in, out  shape (n), or none
     void at_circle(const Segment &e, const Segment &f, EdgeMoments *in, EdgeMoments *out) const;
 
-    /// The potential without a horizon.
-    EdgeMoments whole(const Segment &e, const Segment &f) const;
+    /// Add those of the potential without a horizon.
+    /// @param sum  shape (n)
+    void whole(const Segment &e, const Segment &f, EdgeMoments *sum) const;
 
   private:
     using Range = std::array<double, 2>; ///< of s or t
@@ -45,21 +52,23 @@ namespace plumbline::reference
     template <unsigned int degree>
     void at_circle_as(const Segment &e, const Segment &f, EdgeMoments *in, EdgeMoments *out) const;
     template <unsigned int degree>
-    void add_smooth(const Segment &e, const Segment &f, EdgeMoments &sum) const;
+    void add_smooth(const Segment &e, const Segment &f, EdgeMoments *sum) const;
     template <unsigned int degree>
     void add_line(const Segment &e, const Segment &f, double s, double weight, EdgeMoments *in,
                   EdgeMoments *out) const;
     template <unsigned int degree>
     void add_apart(const Segment &e, const Segment &f, const Range &of_s, const Range &of_t,
-                   EdgeMoments &sum) const;
+                   EdgeMoments *sum) const;
     template <unsigned int degree>
-    void add_corner(const Segment &e, const Segment &f, EdgeMoments &sum) const;
+    void add_corner(const Segment &e, const Segment &f, EdgeMoments *sum) const;
     template <unsigned int degree>
-    void add_whole(const Segment &e, const Segment &f, EdgeMoments &sum) const;
+    void add_whole(const Segment &e, const Segment &f, EdgeMoments *sum) const;
+
+    static constexpr unsigned int n_parts = n == 1 ? 1 : 2;
 
     unsigned int degree_;
-    physics::CircleJets circle_;
-    physics::PowerJets powers_;
+    physics::CircleJets<n_parts> circle_;
+    physics::PowerJets<n_parts> powers_;
     const dealii::Quadrature<1> &inner_; ///< along f
     const dealii::Quadrature<1> &outer_; ///< along e
   };

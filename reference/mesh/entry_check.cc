@@ -38,10 +38,10 @@ namespace plumbline::reference
                          });
     }
 
-    bool is_served(const MeshSpace &space, const physics::Kernel<2> &kernel)
+    bool is_served(const MeshSpace &space)
     {
       constexpr unsigned int highest_degree = 2;
-      if (!kernel.breaks().empty() || space.shapes().degree() > highest_degree)
+      if (space.shapes().degree() > highest_degree)
         return false;
       for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
         if (!space.map(cell).is_affine())
@@ -65,7 +65,7 @@ namespace plumbline::reference
                            const algebra::Rows &rows, unsigned int n_pairs, unsigned int seed)
   {
     EntryCheck check;
-    if (!is_served(space, kernel))
+    if (!is_served(space))
       return check;
     const unsigned int nc = kernel.n_components(), n = space.shapes().size(),
                        n_entries = nc == 1 ? 1 : 3;
@@ -74,6 +74,7 @@ namespace plumbline::reference
       largest = std::max(largest, std::abs(value)); // of positive definite rows: on the diagonal
     std::mt19937 random(seed);
     PairBlocks blocks;
+    const auto parts = kernel.parts();             // without breaks
     const unsigned int most_trials = 20 * n_pairs; // most rows have entries apart
     for (unsigned int trial = 0; trial < most_trials && check.n_pairs < n_pairs; ++trial)
     {
@@ -87,9 +88,12 @@ namespace plumbline::reference
       for (const auto &[outer, a] : from)
         for (const auto &[inner, b] : to)
         {
-          integrate_correlation(space, outer, inner, kernel, blocks);
-          value -= mean(space, coefficient, outer, inner) *
-                   blocks.cross[(a * n + b) * n_entries + row % nc + column % nc];
+          for (const physics::Kernel<2> &part : parts)
+          {
+            integrate_correlation(space, outer, inner, part, blocks);
+            value -= mean(space, coefficient, outer, inner) *
+                     blocks.cross[(a * n + b) * n_entries + row % nc + column % nc];
+          }
           ++check.n_pairs;
         }
       ++check.n_entries;

@@ -21,8 +21,8 @@ namespace plumbline::reference
   /// ms a pair of linear triangles.
   /// @param rows         free unknowns with free unknowns
   /// @param coefficient  constant in each cell
-  /// @return  no entries where correlations do not serve: profiles with breaks, degrees beyond 2,
-  ///          cells that are no triangles or parallelograms
+  /// @return  no entries where correlations do not serve: degrees beyond 2, cells that are no
+  ///          triangles or parallelograms
   EntryCheck check_entries(const MeshSpace &space, const physics::Kernel<2> &kernel,
                            const std::optional<physics::Coefficient> &coefficient,
                            const algebra::Rows &rows, unsigned int n_pairs, unsigned int seed);

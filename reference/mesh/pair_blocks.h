@@ -17,5 +17,16 @@ namespace plumbline::reference
       for (auto *block : {&outer, &cross, &inner})
         block->assign(static_cast<std::size_t>(n) * n * n_entries, 0.);
     }
+
+    /// @pre  the same shapes
+    void add(const PairBlocks &other)
+    {
+      for (std::size_t k = 0; k < cross.size(); ++k)
+      {
+        outer[k] += other.outer[k];
+        cross[k] += other.cross[k];
+        inner[k] += other.inner[k];
+      }
+    }
   };
 } // namespace plumbline::reference

@@ -2,6 +2,7 @@
 
 #include "geometry/polygon.h"
 #include "reference/mesh/kernel_entries.h"
+#include "reference/mesh/whole_potential.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,21 +14,82 @@ namespace plumbline::reference
   namespace
   {
     constexpr unsigned int n_sides = 3;
+    constexpr unsigned int n_parts = 3; ///< in, out, whole
     constexpr unsigned int next[n_sides] = {1, 2, 0};
 
     /// Of centroids, in sums of radii: beyond it pairs are apart.
     constexpr double near = 3;
     constexpr double accuracy = 1e-15; ///< of rules for them
-  }                                    // namespace
+    /// Cells, in horizons: beyond it the potential inside the circle needs few points.
+    constexpr double apart = .35;
+
+    /// A bound of vertices' distances from the centroid.
+    double largest_radius(const geometry::Mesh &mesh)
+    {
+      double largest = 0;
+      for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+      {
+        const geometry::Polygon polygon = mesh.polygon(cell);
+        const Point<2> centroid = geometry::centroid(geometry::view(polygon));
+        for (const Point<2> &vertex : polygon)
+          largest = std::max(largest, vertex.distance(centroid));
+      }
+      return largest;
+    }
+
+    /// The largest distance of points of pairs within the horizon, in horizons.
+    double reach(double largest_radius, double horizon)
+    {
+      return 1 + 4 * largest_radius / horizon;
+    }
+
+    /// A polynomial that a kernel is to rounding where points of pairs are no farther apart than
+    /// others by this length; of others than even ones but for the root in |ξ|.
+    unsigned int degree(const physics::Kernel<2> &kernel, double length)
+    {
+      const physics::RadialProfile &profile = kernel.profile();
+      const unsigned int lowest = std::max(0, profile.lowest_exponent());
+      if (!profile.is_function())
+        return lowest + profile.degree();
+      const double part = length / kernel.horizon();
+      return lowest + static_cast<unsigned int>(
+                          std::ceil(profile.degree(std::min(1., part)) * std::max(1., part)));
+    }
+
+    bool is_even(const physics::Kernel<2> &kernel)
+    {
+      return kernel.profile().is_even(kernel.structure() == physics::Structure::tensor);
+    }
+
+    /// The kernel as powers up to where pairs are near; nothing if it cannot be had. Even ones need
+    /// none: they are taken by rules.
+    std::optional<physics::Kernel<2>> near_powers(const physics::Kernel<2> &kernel, double largest)
+    {
+      if (is_even(kernel))
+        return physics::Kernel<2>(kernel.structure(), {{1, 2}}, kernel.horizon(), 1);
+      const double farthest_out = apart * kernel.horizon() + 4 * largest;
+      return WholePotential::as_powers(
+          kernel, std::min(2 * (near + 1) * largest, std::max(kernel.horizon(), farthest_out)));
+    }
+  } // namespace
 
   std::string TrianglePairs::refuse(const MeshSpace &space, const physics::Kernel<2> &kernel)
   {
     if (space.shapes().degree() > 2)
       return "the degree is more than 2";
-    if (kernel.structure() != physics::Structure::scalar)
-      return "the kernel is a tensor";
-    if (!kernel.breaks().empty() || kernel.profile().is_function())
-      return "the kernel is no sum of powers";
+    constexpr std::size_t most_breaks = 7; // each costs as much as a kernel
+    if (kernel.breaks().size() > most_breaks)
+      return "the kernel's profile has more than " + std::to_string(most_breaks) + " breaks";
+    const double largest = largest_radius(space.mesh());
+    for (const physics::Kernel<2> &part : kernel.parts())
+    {
+      constexpr double farthest = 10; // potentials at so many horizons are much larger than pairs
+      if (reach(largest, part.horizon()) > farthest)
+        return "triangles are large in relation to the horizon or a break of the kernel";
+      constexpr unsigned int most = 60; // pairs by rules of it cost more than by quadrature
+      if (degree(part, 4 * largest) > most || !near_powers(part, largest))
+        return "the kernel varies fast in relation to the horizon or the triangles";
+    }
     return "";
   }
 
@@ -59,30 +121,27 @@ namespace plumbline::reference
       longest = std::max(longest, longest_side);
       largest = std::max(largest, cells.radius(cell));
     }
-    const double reach = (kernel.horizon() + 4 * largest) / kernel.horizon();
-    pairs =
-        std::make_unique<EdgePairs>(kernel, space.shapes().degree(), longest, 1 - reach * reach);
+    const double farthest = reach(largest, kernel.horizon());
+    const auto make = [&](auto &pairs)
+    {
+      using Pairs = typename std::decay_t<decltype(pairs)>::element_type;
+      pairs = std::make_unique<Pairs>(kernel, *near_powers(kernel, largest),
+                                      space.shapes().degree(), longest, 1 - farthest * farthest);
+    };
+    kernel.structure() == physics::Structure::scalar ? make(scalar) : make(tensor);
 
     const unsigned int highest =
-        2 * space.shapes().degree() +
-        std::max<unsigned int>(degree_away_from_singularity(near, 1, accuracy),
-                               static_cast<unsigned int>(kernel.profile().degree()));
-    const geometry::Polygon unit = {Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1)};
+        2 * space.shapes().degree() + degree(kernel, 4 * largest) +
+        (is_even(kernel) ? 0 : degree_away_from_singularity(near, 1, accuracy));
     for (unsigned int degree = 1; degree <= highest + 1; degree += 2)
-    {
-      const geometry::CutRule gauss = geometry::polygon_rule(geometry::view(unit), degree);
-      ShapeRule rule{gauss.points, gauss.weights, {}};
-      rule.phi.resize(rule.unit.size() * space.shapes().size());
-      for (std::size_t q = 0; q < rule.unit.size(); ++q)
-        space.shapes().values(rule.unit[q], &rule.phi[q * space.shapes().size()]);
-      rules.push_back(std::move(rule));
-    }
+      rules.emplace_back(space.shapes(), degree);
   }
 
   TrianglePairs::TrianglePairs(const MeshSpace &space, const MeshCells &cells,
                                const physics::Kernel<2> &kernel)
       : space_(space), cells_(cells), kernel_(kernel),
         shared_(std::make_shared<const Shared>(space, cells, kernel)), n_(space.shapes().size()),
+        n_entries_(kernel.structure() == physics::Structure::scalar ? 1 : 3),
         outer_(std::numeric_limits<std::size_t>::max())
   {
   }
@@ -94,21 +153,22 @@ namespace plumbline::reference
 
   void TrianglePairs::integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks)
   {
-    blocks.reset(n_, 1);
+    blocks.reset(n_, n_entries_);
     if (outer != outer_)
     {
-      place_.resize(n_sides * shared_->edges.size(), 0);
+      place_.resize(n_parts * n_sides * shared_->edges.size(), 0);
       for (const std::size_t place : used_)
         place_[place] = 0;
       used_.clear();
-      kept_.assign(1, {});
+      kept_.clear();
       outer_ = outer;
       find_traces(outer, of_outer_);
     }
     const double horizon = kernel_.horizon();
     const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
     const double both = cells_.radius(outer) + cells_.radius(inner);
-    constexpr double apart = .35;
+    if (between - both >= horizon)
+      return;
     if (cells_.farthest(outer, inner) <= horizon)
       add_whole(outer, inner, blocks);
     else if (between - both > apart * horizon)
@@ -118,74 +178,72 @@ namespace plumbline::reference
       add_whole(outer, inner, blocks);
       add_sides(inner, Part::out, -1, blocks);
     }
+    mirror(blocks);
+    if (n_entries_ == 3)
+      find_components(blocks);
+  }
+
+  /// xx, xy, yy of half the trace, ½(C_xx - C_yy) and C_xy.
+  void TrianglePairs::find_components(PairBlocks &blocks) const
+  {
+    for (auto *block : {&blocks.outer, &blocks.cross, &blocks.inner})
+      for (std::size_t k = 0; k < block->size(); k += n_entries_)
+      {
+        double *const entry = &(*block)[k];
+        const double trace = entry[0], rest = entry[1];
+        entry[0] = trace + rest;
+        entry[1] = entry[2];
+        entry[2] = trace - rest;
+      }
   }
 
   void TrianglePairs::add_whole(std::size_t outer, std::size_t inner, PairBlocks &blocks)
   {
-    if (kernel_.profile().is_even(false))
-      return add_by_rule(outer, inner,
-                         shared_->rule(kernel_.profile().degree() + 2 * space_.shapes().degree()),
-                         blocks);
     const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
     const double both = cells_.radius(outer) + cells_.radius(inner);
-    if (between > near * both)
-      add_by_rule(outer, inner,
-                  shared_->rule(degree_away_from_singularity(between, both, accuracy) +
-                                2 * space_.shapes().degree()),
-                  blocks);
-    else
-      add_sides(inner, Part::whole, 1, blocks);
+    if (!is_even(kernel_) && between <= near * both)
+      return add_sides(inner, Part::whole, 1, blocks);
+    // triangles so far apart, or kernels so smooth, that a product of rules sees a polynomial
+    unsigned int of_rule = 2 * space_.shapes().degree();
+    if (is_even(kernel_) || kernel_.profile().is_function())
+      of_rule += degree(kernel_, 2 * both);
+    if (!is_even(kernel_))
+      of_rule += degree_away_from_singularity(between, both, accuracy);
+    shared_->rule(of_rule).add(space_.map(outer), space_.map(inner), kernel_, blocks);
   }
 
-  /// Triangles so far apart, or kernels so smooth, that a product of rules sees a polynomial.
-  void TrianglePairs::add_by_rule(std::size_t outer, std::size_t inner, const ShapeRule &rule,
-                                  PairBlocks &blocks) const
+  /// Entries below the diagonal of what is symmetric.
+  void TrianglePairs::mirror(PairBlocks &blocks) const
   {
-    const CellMap &of_x = space_.map(outer), &of_y = space_.map(inner);
-    const double factor = of_x.determinant({}) * of_y.determinant({});
-    for (std::size_t i = 0; i < rule.unit.size(); ++i)
-    {
-      const Point<2> x = of_x.point(rule.unit[i]);
-      const double *const p = &rule.phi[i * n_];
-      for (std::size_t j = 0; j < rule.unit.size(); ++j)
-      {
-        const double *const q = &rule.phi[j * n_];
-        const double value = factor * rule.weight[i] * rule.weight[j] *
-                             kernel_.radial(x.distance(of_y.point(rule.unit[j])));
-        for (unsigned int a = 0; a < n_; ++a)
-          for (unsigned int b = 0; b < n_; ++b)
-          {
-            blocks.cross[a * n_ + b] += value * p[a] * q[b];
-            blocks.outer[a * n_ + b] += value * p[a] * p[b];
-            blocks.inner[a * n_ + b] += value * q[a] * q[b];
-          }
-      }
-    }
+    for (auto *block : {&blocks.outer, &blocks.inner})
+      for (unsigned int a = 0; a < n_; ++a)
+        for (unsigned int b = 0; b < a; ++b)
+          for (unsigned int e = 0; e < n_entries_; ++e)
+            (*block)[place(a, b, e)] = (*block)[place(b, a, e)];
   }
 
-  const EdgeMoments &TrianglePairs::moments(unsigned int side, unsigned int edge, Part part)
+  const EdgeMoments *TrianglePairs::moments(unsigned int side, unsigned int edge, Part part)
   {
-    const std::size_t key = n_sides * edge + side;
+    const std::size_t key = n_parts * (n_sides * edge + side) + static_cast<std::size_t>(part);
     if (place_[key] == 0)
     {
-      place_[key] = static_cast<unsigned int>(kept_.size());
       used_.push_back(key);
-      kept_.emplace_back();
-    }
-    auto &kept = kept_[place_[key]];
-    Kept &own = kept[static_cast<std::size_t>(part)];
-    if (!own.is_known)
-    {
+      const std::size_t first = kept_.size();
+      kept_.resize(first + n_entries_);
+      place_[key] = static_cast<unsigned int>(first + 1);
       const Segment &e = shared_->edges[shared_->sides[outer_][side].edge],
                     &f = shared_->edges[edge];
-      if (part == Part::whole)
-        own.moments = shared_->pairs->whole(e, f);
-      else
-        shared_->pairs->at_circle(e, f, part == Part::in ? &own.moments : nullptr,
-                                  part == Part::out ? &own.moments : nullptr);
-      own.is_known = true;
+      const auto integrate = [&](const auto &pairs)
+      {
+        if (part == Part::whole)
+          pairs.whole(e, f, &kept_[first]);
+        else
+          pairs.at_circle(e, f, part == Part::in ? &kept_[first] : nullptr,
+                          part == Part::out ? &kept_[first] : nullptr);
+      };
+      shared_->scalar ? integrate(*shared_->scalar) : integrate(*shared_->tensor);
     }
-    return own.moments;
+    return &kept_[place_[key] - 1];
   }
 
   void TrianglePairs::find_traces(std::size_t cell, Traces &traces) const
@@ -269,28 +327,27 @@ namespace plumbline::reference
     for (unsigned int k = 0; k < n_sides; ++k)
       for (unsigned int l = 0; l < n_sides; ++l)
       {
-        const EdgeMoments &m = moments(k, shared_->sides[inner][l].edge, part);
+        const EdgeMoments *const m = moments(k, shared_->sides[inner][l].edge, part);
         const auto &p = of_outer_.of[k], &q = of_inner_.of[l];
         const double sign_p = of_outer_.sign[k], sign_q = of_inner_.sign[l];
-        for (unsigned int b = 0; b < n_; ++b)
+        for (unsigned int e = 0; e < n_entries_; ++e)
         {
-          const Functional functional = apply<true>(q[b], m, sign_p, sign_q, degree);
-          for (unsigned int a = 0; a < n_; ++a)
-            blocks.cross[a * n_ + b] += factor * functional(p[a]);
-        }
-        const Functional of_p = apply<true>(one, m, sign_p, sign_q, degree),
-                         of_q = apply<false>(one, m, sign_q, sign_p, degree);
-        unsigned int product = n_;
-        for (unsigned int a = 0; a < n_; ++a)
-          for (unsigned int b = a; b < n_; ++b, ++product)
+          for (unsigned int b = 0; b < n_; ++b)
           {
-            blocks.outer[a * n_ + b] += factor * of_p(p[product]);
-            blocks.inner[a * n_ + b] += factor * of_q(q[product]);
+            const Functional functional = apply<true>(q[b], m[e], sign_p, sign_q, degree);
+            for (unsigned int a = 0; a < n_; ++a)
+              blocks.cross[place(a, b, e)] += factor * functional(p[a]);
           }
+          const Functional of_p = apply<true>(one, m[e], sign_p, sign_q, degree),
+                           of_q = apply<false>(one, m[e], sign_q, sign_p, degree);
+          unsigned int product = n_;
+          for (unsigned int a = 0; a < n_; ++a)
+            for (unsigned int b = a; b < n_; ++b, ++product)
+            {
+              blocks.outer[place(a, b, e)] += factor * of_p(p[product]);
+              blocks.inner[place(a, b, e)] += factor * of_q(q[product]);
+            }
+        }
       }
-    for (auto *block : {&blocks.outer, &blocks.inner})
-      for (unsigned int a = 0; a < n_; ++a)
-        for (unsigned int b = 0; b < a; ++b)
-          (*block)[a * n_ + b] = (*block)[b * n_ + a];
   }
 } // namespace plumbline::reference

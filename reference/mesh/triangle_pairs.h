@@ -3,7 +3,7 @@
 #include "reference/mesh/cells.h"
 #include "reference/mesh/edge_pairs.h"
 #include "reference/mesh/pair_blocks.h"
-#include "reference/mesh/shape_rules.h"
+#include "reference/mesh/product_rule.h"
 #include "reference/mesh/side_traces.h"
 #include "reference/mesh/space.h"
 
@@ -11,19 +11,22 @@
 
 namespace plumbline::reference
 {
-  /// Blocks of pairs of triangles with a scalar kernel of powers and shape functions of degree 2 at
-  /// most, exact to rounding: by Green's identity in x and in y, for polynomials p and q,
+  /// Blocks of pairs of triangles with a scalar kernel or a bond tensor, its profile without breaks
+  /// (a kernel with breaks is a sum of such ones, see Kernel::parts), and shape functions of degree
+  /// 2 at most, exact to rounding: by Green's identity in x and in y, for polynomials p and q,
   ///   ∬_{T×T', |x-y|<δ} C p(x) q(y) = Σ_{m,n} ∮_∂T ∮_∂T' (Δ^m p ∂_nx - ∂_n Δ^m p)
   ///     (Δ^n q ∂_ny - ∂_n Δ^n q) Ψ_{2+m+n}(y - x), Δ^k Ψ_k = C,
   /// with the potentials cut off at the circle, or what lies beyond it taken from all of the pair.
-  /// Accuracy, of C |T| |T'| / 9 for degree 1 at most: 1e-11 where neither is slender, 2.5e-12 for
-  /// δ >= 4 h, 1e-9 to where slender ones are left to quadrature; for degree 2 1e-11, and 1e-9 for
-  /// kernels with odd powers (10,240 pairs of moved meshes, δ = .7 to 5.5 h). Not thread safe: give
-  /// each thread its own copy.
+  /// Pairs that are whole take rules where the kernel is a polynomial of ξ to rounding, or they are
+  /// apart. Accuracy, of C |T| |T'| / 9 for degree 1 at most: 1e-11 where neither is
+  /// slender, 2.5e-12 for δ >= 4 h, 1e-9 to where slender ones are left to quadrature; for degree 2
+  /// 2e-11, and 1e-9 for kernels that are no polynomials of ξ (10,000 pairs of moved meshes, δ = .7
+  /// to 5.5 h, against integrals in long double: 2e-12 and 2e-10). Not thread safe: give each
+  /// thread its own copy.
   class TrianglePairs
   {
   public:
-    /// Empty if this way is open to a space and a kernel, else why it is not.
+    /// Empty if this way is open to a space and all parts of a kernel, else why it is not.
     static std::string refuse(const MeshSpace &space, const physics::Kernel<2> &kernel);
 
     TrianglePairs(const MeshSpace &space, const MeshCells &cells, const physics::Kernel<2> &kernel);
@@ -44,14 +47,15 @@ namespace plumbline::reference
     {
       Shared(const MeshSpace &space, const MeshCells &cells, const physics::Kernel<2> &kernel);
 
-      const ShapeRule &rule(unsigned int degree) const { return rules[degree / 2]; }
+      const ProductRule &rule(unsigned int degree) const { return rules[degree / 2]; }
 
       std::vector<Segment> edges;
       std::vector<std::array<Side, 3>> sides; ///< of each cell
       std::vector<char> is_slender;           ///< cells
-      std::vector<ShapeRule> rules;           ///< index i is exact to degree 2 i + 1
+      std::vector<ProductRule> rules;         ///< index i is exact to degree 2 i + 1
       SideTraces traces;
-      std::unique_ptr<EdgePairs> pairs;
+      std::unique_ptr<EdgePairs<1>> scalar; ///< one of both
+      std::unique_ptr<EdgePairs<3>> tensor;
     };
     /// The functions of a cell on its sides.
     struct Traces
@@ -66,27 +70,26 @@ namespace plumbline::reference
       whole
     };
 
-    const EdgeMoments &moments(unsigned int side, unsigned int edge, Part part);
+    const EdgeMoments *moments(unsigned int side, unsigned int edge, Part part);
     void find_traces(std::size_t cell, Traces &traces) const;
     void add_sides(std::size_t inner, Part part, double factor, PairBlocks &blocks);
-    void add_product(std::size_t outer, std::size_t inner, PairBlocks &blocks) const;
-    void add_by_rule(std::size_t outer, std::size_t inner, const ShapeRule &rule,
-                     PairBlocks &blocks) const;
     void add_whole(std::size_t outer, std::size_t inner, PairBlocks &blocks);
+    void mirror(PairBlocks &blocks) const;
+    void find_components(PairBlocks &blocks) const;
+    std::size_t place(unsigned int a, unsigned int b, unsigned int entry) const
+    {
+      return (static_cast<std::size_t>(a) * n_ + b) * n_entries_ + entry;
+    }
 
     const MeshSpace &space_;
     const MeshCells &cells_;
     physics::Kernel<2> kernel_;
     std::shared_ptr<const Shared> shared_;
-    unsigned int n_;    ///< shape functions
-    std::size_t outer_; ///< whose sides' moments are kept
-    struct Kept
-    {
-      EdgeMoments moments;
-      bool is_known = false;
-    };
-    std::vector<std::array<Kept, 3>> kept_;
-    std::vector<unsigned int> place_; ///< in kept_, of each side of outer_ and edge; 0: none
+    unsigned int n_;                  ///< shape functions
+    unsigned int n_entries_;          ///< of the kernel, see EdgePairs
+    std::size_t outer_;               ///< whose sides' moments are kept
+    std::vector<EdgeMoments> kept_;   ///< shape (n kept, n_entries)
+    std::vector<unsigned int> place_; ///< in kept_, of each edge, side of outer_ and part; 0: none
     std::vector<std::size_t> used_;
     Traces of_outer_, of_inner_;
   };

@@ -63,19 +63,27 @@ namespace plumbline::reference
   std::string WholePotential::refuse(const physics::Kernel<2> &kernel, double farthest)
   {
     const double t = farthest / kernel.horizon();
-    if (!kernel.profile().is_function() || physics::RegularPotential::can_have(kernel, t) ||
-        fit(kernel.profile(), t))
+    if (physics::RegularPotential::can_have(kernel, t) || as_powers(kernel, farthest))
       return "";
     return "the kernel varies fast in relation to the horizon or the triangles";
+  }
+
+  std::optional<physics::Kernel<2>> WholePotential::as_powers(const physics::Kernel<2> &kernel,
+                                                              double farthest)
+  {
+    if (!kernel.profile().is_function())
+      return kernel;
+    const auto powers = fit(kernel.profile(), farthest / kernel.horizon());
+    if (!powers)
+      return {};
+    return physics::Kernel<2>(kernel.structure(), *powers, kernel.horizon(), kernel.constant());
   }
 
   WholePotential::WholePotential(const physics::Kernel<2> &kernel, double farthest, double longest)
       : horizon_(kernel.horizon())
   {
     const double t = farthest / horizon_;
-    if (!kernel.profile().is_function())
-      powers_.emplace(kernel);
-    else if (physics::RegularPotential::can_have(kernel, t))
+    if (kernel.profile().is_function() && physics::RegularPotential::can_have(kernel, t))
     {
       regular_.emplace(kernel, t);
       // as many as resolve the kernel along a line, and the powers that its potential adds
@@ -83,8 +91,8 @@ namespace plumbline::reference
       n_points_ =
           (kernel.profile().degree(std::min(1., 2 * longest / horizon_)) + of_potential) / 2 + 1;
     }
-    else if (const auto powers = fit(kernel.profile(), t))
-      powers_.emplace(physics::Kernel<2>(kernel.structure(), *powers, horizon_, kernel.constant()));
+    else if (const auto powers = as_powers(kernel, farthest))
+      powers_.emplace(*powers);
     else
       throw NumericalError("a potential is asked for with a kernel that varies too fast");
   }

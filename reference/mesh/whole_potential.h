@@ -21,6 +21,11 @@ namespace plumbline::reference
     /// Why a kernel's is not known; empty: it is.
     static std::string refuse(const physics::Kernel<2> &kernel, double farthest);
 
+    /// A kernel without breaks as powers, functions to rounding up to a distance; nothing where
+    /// that takes too many or they cancel each other.
+    static std::optional<physics::Kernel<2>> as_powers(const physics::Kernel<2> &kernel,
+                                                       double farthest);
+
     bool is_none() const { return powers_ && powers_->is_none(); }
     double constant() const { return powers_ ? powers_->constant() : 0; }
 
