@@ -76,28 +76,38 @@ namespace plumbline::reference
           return;
         if (space.shapes().n_vertices() == 4)
           by_correlation_.emplace(space.shapes(), profile, kernel.horizon(), options.backend);
-        else if (TrianglePairs::refuse(space, kernel).empty())
+        const bool has_others = !by_correlation_ || !are_rectangles();
+        if (has_others && TrianglePairs::refuse(space, kernel).empty())
           by_sides_.emplace(space, cells, kernel);
       }
 
       bool has_changing_coefficient() const { return coefficient_ && of_cells_.empty(); }
 
+      bool are_rectangles() const
+      {
+        for (std::size_t cell = 0; cell < cells_.size(); ++cell)
+          if (!cells_.is_rectangle(cell))
+            return false;
+        return true;
+      }
+
       bool is_exact(std::size_t a, std::size_t b) const
       {
-        if (by_sides_)
-          return by_sides_->is_exact(a, b);
-        return by_correlation_ && cells_.is_rectangle(a) && cells_.is_rectangle(b);
+        return is_correlation(a, b) || (by_sides_ && by_sides_->is_exact(a, b));
       }
+
+      /// Of pairs that are not exact though others are, in words; empty: there are none.
+      std::string exceptions() const { return by_sides_ ? by_sides_->exceptions() : ""; }
 
       /// Without coefficients that are constant in cells.
       void integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks)
       {
         if (by_quadrature_.is_product(outer, inner) || !is_exact(outer, inner))
           by_quadrature_.integrate(outer, inner, blocks);
-        else if (by_sides_)
-          by_sides_->integrate(outer, inner, blocks);
-        else
+        else if (is_correlation(outer, inner))
           by_correlation_->integrate(cells_[outer].box(), cells_[inner].box(), blocks);
+        else
+          by_sides_->integrate(outer, inner, blocks);
       }
 
       /// Of the blocks.
@@ -107,6 +117,11 @@ namespace plumbline::reference
       }
 
     private:
+      bool is_correlation(std::size_t a, std::size_t b) const
+      {
+        return by_correlation_ && cells_.is_rectangle(a) && cells_.is_rectangle(b);
+      }
+
       const MeshCells &cells_;
       std::optional<physics::Coefficient> coefficient_;
       std::vector<double> of_cells_; ///< empty: it changes inside of them
@@ -222,25 +237,32 @@ namespace plumbline::reference
       }
     }
 
+    bool is_linear_triangles(const MeshSpace &space)
+    {
+      return space.shapes().n_vertices() == 3 && space.is_continuous() &&
+             space.shapes().degree() == 1;
+    }
+
     /// How entries came about, in words.
     std::string tell_way(const MeshSpace &space, const physics::Kernel<2> &kernel,
                          const PairIntegrator &integrator, const AssemblyOptions &options,
                          bool is_exact)
     {
-      const bool is_triangles = space.shapes().n_vertices() == 3;
+      const std::string cells = space.shapes().n_vertices() == 3 ? "triangles" : "quadrilaterals";
       if (is_exact)
-        return is_triangles ? "exact by sides of pairs of triangles"
-                            : "of axis-aligned rectangles exact by correlation";
-      if (!is_triangles || !options.exact_entries)
+        return integrator.are_rectangles() ? "of axis-aligned rectangles exact by correlation"
+                                           : "exact by sides of pairs of " + cells;
+      if (!options.exact_entries)
         return "by quadrature";
       std::string reason = TrianglePairs::refuse(space, kernel);
       if (integrator.has_changing_coefficient())
-        reason = "the material changes inside of triangles";
-      else if (!reason.empty() && space.is_continuous() && space.shapes().degree() == 1)
+        reason = "the material changes inside of " + cells;
+      else if (!reason.empty() && is_linear_triangles(space))
         reason = refuse_edges(space, kernel);
-      return reason.empty() ? "by sides of pairs of triangles, but by quadrature where one of them "
-                              "is more than 30 times longer than high"
-                            : "by quadrature, not exact by sides of triangles: " + reason;
+      return reason.empty()
+                 ? "by sides of pairs of " + cells + ", but by quadrature where one of " + "them " +
+                       integrator.exceptions()
+                 : "by quadrature, not exact by sides of " + cells + ": " + reason;
     }
   } // namespace
 
@@ -249,8 +271,7 @@ namespace plumbline::reference
                       const std::optional<physics::Coefficient> &coefficient,
                       const AssemblyOptions &options, const base::Team &team)
   {
-    const bool is_triangles = space.shapes().n_vertices() == 3;
-    if (options.exact_entries && !coefficient && is_triangles && space.is_continuous() &&
+    if (options.exact_entries && !coefficient && is_linear_triangles(space) &&
         refuse_edges(space, kernel).empty())
       return {assemble_by_edges(space, kernel, team), true,
               "exact by pairs of sides of the triangles"};

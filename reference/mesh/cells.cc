@@ -23,6 +23,8 @@ namespace plumbline::reference
     {
       const geometry::Polygon &polygon = locator_.polygon(i);
       cells_.emplace_back(polygon);
+      outlines_.emplace_back(mesh.cells[i].vertex.begin(),
+                             mesh.cells[i].vertex.begin() + mesh.cells[i].n_vertices);
       double radius = 0;
       // its first side is the lower one, so that shape functions are those of the unit square
       bool is_rectangle = polygon.size() == 4 && polygon[1][0] > polygon[0][0];

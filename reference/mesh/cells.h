@@ -23,6 +23,9 @@ namespace plumbline::reference
     double radius(std::size_t cell) const { return radius_[cell]; } ///< about the centroid
     bool is_rectangle(std::size_t cell) const { return is_rectangle_[cell] != 0; } ///< axis-aligned
 
+    /// Numbers of the vertices of a cell's boundary in the mesh, counter-clockwise.
+    const std::vector<unsigned int> &outline(std::size_t cell) const { return outlines_[cell]; }
+
     const geometry::CellLocator &locator() const { return locator_; }
 
     /// Cells whose distance to the given one is less than `distance`, itself included, ascending.
@@ -39,5 +42,6 @@ namespace plumbline::reference
     std::vector<geometry::ConvexCell> cells_;
     std::vector<double> radius_;
     std::vector<char> is_rectangle_;
+    std::vector<std::vector<unsigned int>> outlines_;
   };
 } // namespace plumbline::reference

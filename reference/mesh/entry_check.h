@@ -22,7 +22,7 @@ namespace plumbline::reference
   /// @param rows         free unknowns with free unknowns
   /// @param coefficient  constant in each cell
   /// @return  no entries where correlations do not serve: profiles with breaks, degrees beyond 2,
-  ///          cells that are no triangles or parallelograms
+  ///          cells that are no triangles or parallelograms (constants: any convex ones)
   EntryCheck check_entries(const MeshSpace &space, const physics::Kernel<2> &kernel,
                            const std::optional<physics::Coefficient> &coefficient,
                            const algebra::Rows &rows, unsigned int n_pairs, unsigned int seed);

@@ -68,10 +68,14 @@ namespace plumbline::reference
     }
 
     /// Lagrange's, in the order of CellShapes: vertices, then middles of sides.
-    std::vector<Polynomial> shape_functions(unsigned int degree)
+    std::vector<Polynomial> shape_functions(unsigned int n_vertices, unsigned int degree)
     {
       if (degree == 0)
         return {linear(1, 0, 0)};
+      const Polynomial xi = linear(0, 1, 0), eta = linear(0, 0, 1), left = linear(1, -1, 0),
+                       below = linear(1, 0, -1);
+      if (n_vertices == 4)
+        return {left * below, xi * below, xi * eta, left * eta};
       const std::vector<Polynomial> corner = {linear(1, -1, -1), linear(0, 1, 0), linear(0, 0, 1)};
       if (degree == 1)
         return corner;
@@ -93,27 +97,30 @@ namespace plumbline::reference
 
   SideTraces::SideTraces(const CellShapes &shapes)
   {
-    const unsigned int degree = shapes.degree();
-    const auto basis = shape_functions(degree);
+    const unsigned int degree = total_degree(shapes);
+    const auto basis = shape_functions(shapes.n_vertices(), shapes.degree());
     std::vector<std::pair<Polynomial, unsigned int>> functions;
     for (const Polynomial &phi : basis)
       functions.emplace_back(phi, degree);
     for (std::size_t a = 0; a < basis.size(); ++a)
       for (std::size_t b = a; b < basis.size(); ++b)
         functions.emplace_back(basis[a] * basis[b], 2 * degree);
-    const std::array<Point<2>, 3> vertex = {Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1)};
+    const std::vector<Point<2>> vertex = CellShapes(shapes.n_vertices(), 1).support();
+    const std::size_t n_sides = vertex.size();
     for (const auto &[polynomial, of_polynomial] : functions)
     {
       Function function{of_polynomial, {}};
+      function.sides.resize(n_sides);
       Polynomial by_xi = polynomial;
       for (unsigned int a = 0; a <= highest; ++a, by_xi = by_xi.derivative(0))
       {
         Polynomial derivative = by_xi;
         for (unsigned int b = 0; a + b <= highest; ++b, derivative = derivative.derivative(1))
-          for (unsigned int side = 0; side < 3; ++side)
+          for (std::size_t side = 0; side < n_sides; ++side)
             for (const unsigned int back : {0u, 1u})
             {
-              const Point<2> &from = vertex[(side + back) % 3], &to = vertex[(side + 1 - back) % 3];
+              const Point<2> &from = vertex[(side + back) % n_sides],
+                             &to = vertex[(side + 1 - back) % n_sides];
               function.sides[side][back][a][b] = derivative.on_line(from, to - from);
             }
       }

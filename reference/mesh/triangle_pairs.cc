@@ -12,18 +12,18 @@ namespace plumbline::reference
 {
   namespace
   {
-    constexpr unsigned int n_sides = 3;
-    constexpr unsigned int next[n_sides] = {1, 2, 0};
-
     /// Of centroids, in sums of radii: beyond it pairs are apart.
     constexpr double near = 3;
     constexpr double accuracy = 1e-15; ///< of rules for them
-  }                                    // namespace
+    /// Longer in terms of the height, and terms are larger than their sum by its square.
+    constexpr double most_slender = 30;
+  } // namespace
 
   std::string TrianglePairs::refuse(const MeshSpace &space, const physics::Kernel<2> &kernel)
   {
-    if (space.shapes().degree() > 2)
-      return "the degree is more than 2";
+    constexpr unsigned int highest = 2; // in all, of potentials up to the fourth order
+    if (SideTraces::total_degree(space.shapes()) > highest)
+      return "the degree is more than " + std::to_string(space.shapes().n_vertices() == 3 ? 2 : 1);
     if (kernel.structure() != physics::Structure::scalar)
       return "the kernel is a tensor";
     if (!kernel.breaks().empty() || kernel.profile().is_function())
@@ -37,40 +37,43 @@ namespace plumbline::reference
   {
     const geometry::Mesh &mesh = space.mesh();
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> index;
+    const bool is_quads = space.shapes().n_vertices() == 4;
     double largest = 0, longest = 0;
-    for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+    for (std::size_t cell = 0; cell < cells.size(); ++cell)
     {
-      std::array<Side, n_sides> of_cell;
+      const std::vector<unsigned int> &outline = cells.outline(cell);
+      std::vector<Side> of_cell;
       double longest_side = 0;
-      for (unsigned int k = 0; k < n_sides; ++k)
+      for (std::size_t k = 0; k < outline.size(); ++k)
       {
-        const unsigned int a = mesh.cells[cell].vertex[k], b = mesh.cells[cell].vertex[next[k]];
+        const unsigned int a = outline[k], b = outline[(k + 1) % outline.size()];
         const auto [place, is_new] =
             index.try_emplace(std::minmax(a, b), static_cast<unsigned int>(edges.size()));
         const auto [first, second] = place->first;
         if (is_new)
           edges.emplace_back(mesh.vertices[first], mesh.vertices[second]);
-        of_cell[k] = {place->second, first == a};
+        of_cell.push_back({place->second, first == a});
         longest_side = std::max(longest_side, edges[place->second].along.norm());
       }
-      sides.push_back(of_cell);
-      constexpr double most_slender = 30; // terms are larger than their sum by its square
-      is_slender.push_back(longest_side * longest_side > 2 * most_slender * cells.area(cell));
+      most_sides = std::max(most_sides, of_cell.size());
+      sides.push_back(std::move(of_cell));
+      is_slender.push_back(longest_side * longest_side >
+                           (is_quads ? 1 : 2) * most_slender * cells.area(cell));
+      is_mapped.push_back(space.shapes().degree() > 0 && !space.map(cell).is_affine());
       longest = std::max(longest, longest_side);
       largest = std::max(largest, cells.radius(cell));
     }
     const double reach = (kernel.horizon() + 4 * largest) / kernel.horizon();
-    pairs =
-        std::make_unique<EdgePairs>(kernel, space.shapes().degree(), longest, 1 - reach * reach);
+    const unsigned int degree = SideTraces::total_degree(space.shapes());
+    pairs = std::make_unique<EdgePairs>(kernel, degree, longest, 1 - reach * reach);
 
     const unsigned int highest =
-        2 * space.shapes().degree() +
-        std::max<unsigned int>(degree_away_from_singularity(near, 1, accuracy),
-                               static_cast<unsigned int>(kernel.profile().degree()));
-    const geometry::Polygon unit = {Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1)};
-    for (unsigned int degree = 1; degree <= highest + 1; degree += 2)
+        2 * degree + std::max<unsigned int>(degree_away_from_singularity(near, 1, accuracy),
+                                            static_cast<unsigned int>(kernel.profile().degree()));
+    const geometry::Polygon unit = CellShapes(space.shapes().n_vertices(), 1).support();
+    for (unsigned int of_rule = 1; of_rule <= highest + 1; of_rule += 2)
     {
-      const geometry::CutRule gauss = geometry::polygon_rule(geometry::view(unit), degree);
+      const geometry::CutRule gauss = geometry::polygon_rule(geometry::view(unit), of_rule);
       ShapeRule rule{gauss.points, gauss.weights, {}};
       rule.phi.resize(rule.unit.size() * space.shapes().size());
       for (std::size_t q = 0; q < rule.unit.size(); ++q)
@@ -83,13 +86,27 @@ namespace plumbline::reference
                                const physics::Kernel<2> &kernel)
       : space_(space), cells_(cells), kernel_(kernel),
         shared_(std::make_shared<const Shared>(space, cells, kernel)), n_(space.shapes().size()),
+        degree_(SideTraces::total_degree(space.shapes())),
         outer_(std::numeric_limits<std::size_t>::max())
   {
   }
 
   bool TrianglePairs::is_exact(std::size_t a, std::size_t b) const
   {
-    return shared_->is_slender[a] == 0 && shared_->is_slender[b] == 0;
+    const auto is_good = [&](std::size_t cell)
+    { return shared_->is_slender[cell] == 0 && shared_->is_mapped[cell] == 0; };
+    return is_good(a) && is_good(b);
+  }
+
+  std::string TrianglePairs::exceptions() const
+  {
+    const auto has = [](const std::vector<char> &some)
+    { return std::find(some.begin(), some.end(), 1) != some.end(); };
+    std::string text = has(shared_->is_mapped) ? "is no parallelogram" : "";
+    if (has(shared_->is_slender))
+      text += std::string(text.empty() ? "" : " or ") + "is more than " +
+              std::to_string(static_cast<int>(most_slender)) + " times longer than high";
+    return text;
   }
 
   void TrianglePairs::integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks)
@@ -97,7 +114,7 @@ namespace plumbline::reference
     blocks.reset(n_, 1);
     if (outer != outer_)
     {
-      place_.resize(n_sides * shared_->edges.size(), 0);
+      place_.resize(shared_->most_sides * shared_->edges.size(), 0);
       for (const std::size_t place : used_)
         place_[place] = 0;
       used_.clear();
@@ -123,35 +140,54 @@ namespace plumbline::reference
   void TrianglePairs::add_whole(std::size_t outer, std::size_t inner, PairBlocks &blocks)
   {
     if (kernel_.profile().is_even(false))
-      return add_by_rule(outer, inner,
-                         shared_->rule(kernel_.profile().degree() + 2 * space_.shapes().degree()),
-                         blocks);
+      return add_by_rule(outer, inner, kernel_.profile().degree() + 2 * degree_, blocks);
     const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
     const double both = cells_.radius(outer) + cells_.radius(inner);
     if (between > near * both)
-      add_by_rule(outer, inner,
-                  shared_->rule(degree_away_from_singularity(between, both, accuracy) +
-                                2 * space_.shapes().degree()),
+      add_by_rule(outer, inner, degree_away_from_singularity(between, both, accuracy) + 2 * degree_,
                   blocks);
     else
       add_sides(inner, Part::whole, 1, blocks);
   }
 
-  /// Triangles so far apart, or kernels so smooth, that a product of rules sees a polynomial.
-  void TrianglePairs::add_by_rule(std::size_t outer, std::size_t inner, const ShapeRule &rule,
-                                  PairBlocks &blocks) const
+  void TrianglePairs::find_rule(std::size_t cell, unsigned int degree, CellRule &rule) const
   {
-    const CellMap &of_x = space_.map(outer), &of_y = space_.map(inner);
-    const double factor = of_x.determinant({}) * of_y.determinant({});
-    for (std::size_t i = 0; i < rule.unit.size(); ++i)
+    const CellMap &map = space_.map(cell);
+    if (map.is_affine())
     {
-      const Point<2> x = of_x.point(rule.unit[i]);
-      const double *const p = &rule.phi[i * n_];
-      for (std::size_t j = 0; j < rule.unit.size(); ++j)
+      const ShapeRule &unit = shared_->rule(degree);
+      const double determinant = map.determinant({});
+      rule.points.clear();
+      rule.weights.clear();
+      for (std::size_t i = 0; i < unit.unit.size(); ++i)
       {
-        const double *const q = &rule.phi[j * n_];
-        const double value = factor * rule.weight[i] * rule.weight[j] *
-                             kernel_.radial(x.distance(of_y.point(rule.unit[j])));
+        rule.points.push_back(map.point(unit.unit[i]));
+        rule.weights.push_back(determinant * unit.weight[i]);
+      }
+      rule.phi = unit.phi;
+      return;
+    }
+    geometry::CutRule gauss = geometry::polygon_rule(cells_[cell].vertices(), degree);
+    rule.points = std::move(gauss.points);
+    rule.weights = std::move(gauss.weights);
+    rule.phi.assign(rule.points.size(), 1); // constants: others are polynomials on affine cells
+  }
+
+  /// Cells so far apart, or kernels so smooth, that a product of rules sees a polynomial.
+  void TrianglePairs::add_by_rule(std::size_t outer, std::size_t inner, unsigned int degree,
+                                  PairBlocks &blocks)
+  {
+    find_rule(outer, degree, rule_of_x_);
+    find_rule(inner, degree, rule_of_y_);
+    for (std::size_t i = 0; i < rule_of_x_.points.size(); ++i)
+    {
+      const Point<2> &x = rule_of_x_.points[i];
+      const double *const p = &rule_of_x_.phi[i * n_];
+      for (std::size_t j = 0; j < rule_of_y_.points.size(); ++j)
+      {
+        const double *const q = &rule_of_y_.phi[j * n_];
+        const double value = rule_of_x_.weights[i] * rule_of_y_.weights[j] *
+                             kernel_.radial(x.distance(rule_of_y_.points[j]));
         for (unsigned int a = 0; a < n_; ++a)
           for (unsigned int b = 0; b < n_; ++b)
           {
@@ -163,9 +199,9 @@ namespace plumbline::reference
     }
   }
 
-  const EdgeMoments &TrianglePairs::moments(unsigned int side, unsigned int edge, Part part)
+  const EdgeMoments &TrianglePairs::moments(std::size_t side, unsigned int edge, Part part)
   {
-    const std::size_t key = n_sides * edge + side;
+    const std::size_t key = shared_->most_sides * edge + side;
     if (place_[key] == 0)
     {
       place_[key] = static_cast<unsigned int>(kept_.size());
@@ -190,9 +226,12 @@ namespace plumbline::reference
 
   void TrianglePairs::find_traces(std::size_t cell, Traces &traces) const
   {
-    for (unsigned int k = 0; k < n_sides; ++k)
+    const std::vector<Side> &sides = shared_->sides[cell];
+    traces.sign.resize(sides.size());
+    traces.of.resize(sides.size());
+    for (unsigned int k = 0; k < sides.size(); ++k)
     {
-      const Side &side = shared_->sides[cell][k];
+      const Side &side = sides[k];
       const Vector2 &along = shared_->edges[side.edge].along;
       const double sign = side.is_forward ? 1 : -1;
       traces.sign[k] = sign;
@@ -265,11 +304,12 @@ namespace plumbline::reference
     find_traces(inner, of_inner_);
     SideTrace one;
     one.value[0][0] = 1;
-    const unsigned int degree = 2 * space_.shapes().degree();
-    for (unsigned int k = 0; k < n_sides; ++k)
-      for (unsigned int l = 0; l < n_sides; ++l)
+    const unsigned int degree = 2 * degree_;
+    const std::vector<Side> &sides = shared_->sides[inner];
+    for (std::size_t k = 0; k < of_outer_.of.size(); ++k)
+      for (std::size_t l = 0; l < sides.size(); ++l)
       {
-        const EdgeMoments &m = moments(k, shared_->sides[inner][l].edge, part);
+        const EdgeMoments &m = moments(k, sides[l].edge, part);
         const auto &p = of_outer_.of[k], &q = of_inner_.of[l];
         const double sign_p = of_outer_.sign[k], sign_q = of_inner_.sign[l];
         for (unsigned int b = 0; b < n_; ++b)

@@ -11,15 +11,16 @@
 
 namespace plumbline::reference
 {
-  /// Blocks of pairs of triangles with a scalar kernel of powers and shape functions of degree 2 at
-  /// most, exact to rounding: by Green's identity in x and in y, for polynomials p and q,
+  /// Blocks of pairs of cells with a scalar kernel of powers, exact to rounding: of triangles with
+  /// shape functions of degree 2 at most, of parallelograms with bilinear ones, of any convex
+  /// quadrilaterals with constants. By Green's identity in x and in y, for polynomials p and q,
   ///   ∬_{T×T', |x-y|<δ} C p(x) q(y) = Σ_{m,n} ∮_∂T ∮_∂T' (Δ^m p ∂_nx - ∂_n Δ^m p)
   ///     (Δ^n q ∂_ny - ∂_n Δ^n q) Ψ_{2+m+n}(y - x), Δ^k Ψ_k = C,
   /// with the potentials cut off at the circle, or what lies beyond it taken from all of the pair.
   /// Accuracy, of C |T| |T'| / 9 for degree 1 at most: 1e-11 where neither is slender, 2.5e-12 for
   /// δ >= 4 h, 1e-9 to where slender ones are left to quadrature; for degree 2 1e-11, and 1e-9 for
-  /// kernels with odd powers (10,240 pairs of moved meshes, δ = .7 to 5.5 h). Not thread safe: give
-  /// each thread its own copy.
+  /// kernels with odd powers (10,240 pairs of moved meshes, δ = .7 to 5.5 h); parallelograms with
+  /// bilinear functions as triangles of degree 2. Not thread safe: give each thread its own copy.
   class TrianglePairs
   {
   public:
@@ -28,8 +29,12 @@ namespace plumbline::reference
 
     TrianglePairs(const MeshSpace &space, const MeshCells &cells, const physics::Kernel<2> &kernel);
 
-    /// Neither is so slender that terms are much larger than their sum.
+    /// The shape functions of both are polynomials, and neither is so slender that terms are much
+    /// larger than their sum.
     bool is_exact(std::size_t a, std::size_t b) const;
+
+    /// Which pairs are not exact, in words; empty: all are.
+    std::string exceptions() const;
 
     void integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks);
 
@@ -47,17 +52,24 @@ namespace plumbline::reference
       const ShapeRule &rule(unsigned int degree) const { return rules[degree / 2]; }
 
       std::vector<Segment> edges;
-      std::vector<std::array<Side, 3>> sides; ///< of each cell
-      std::vector<char> is_slender;           ///< cells
-      std::vector<ShapeRule> rules;           ///< index i is exact to degree 2 i + 1
+      std::vector<std::vector<Side>> sides;    ///< of each cell
+      std::size_t most_sides = 0;              ///< of a cell
+      std::vector<char> is_slender, is_mapped; ///< cells; mapped: shapes that are no polynomials
+      std::vector<ShapeRule> rules;            ///< index i is exact to degree 2 i + 1
       SideTraces traces;
       std::unique_ptr<EdgePairs> pairs;
     };
     /// The functions of a cell on its sides.
     struct Traces
     {
-      std::array<double, 3> sign{}; ///< of outer normals in terms of the edges'
-      std::array<std::vector<SideTrace>, 3> of;
+      std::vector<double> sign; ///< of outer normals in terms of the edges'
+      std::vector<std::vector<SideTrace>> of;
+    };
+    /// A rule on a cell with the shape functions at its points.
+    struct CellRule
+    {
+      std::vector<Point<2>> points;
+      std::vector<double> weights, phi; ///< phi: shape (n_points, n_shapes)
     };
     enum class Part : char
     {
@@ -66,20 +78,19 @@ namespace plumbline::reference
       whole
     };
 
-    const EdgeMoments &moments(unsigned int side, unsigned int edge, Part part);
+    const EdgeMoments &moments(std::size_t side, unsigned int edge, Part part);
     void find_traces(std::size_t cell, Traces &traces) const;
     void add_sides(std::size_t inner, Part part, double factor, PairBlocks &blocks);
-    void add_product(std::size_t outer, std::size_t inner, PairBlocks &blocks) const;
-    void add_by_rule(std::size_t outer, std::size_t inner, const ShapeRule &rule,
-                     PairBlocks &blocks) const;
+    void find_rule(std::size_t cell, unsigned int degree, CellRule &rule) const;
+    void add_by_rule(std::size_t outer, std::size_t inner, unsigned int degree, PairBlocks &blocks);
     void add_whole(std::size_t outer, std::size_t inner, PairBlocks &blocks);
 
     const MeshSpace &space_;
     const MeshCells &cells_;
     physics::Kernel<2> kernel_;
     std::shared_ptr<const Shared> shared_;
-    unsigned int n_;    ///< shape functions
-    std::size_t outer_; ///< whose sides' moments are kept
+    unsigned int n_, degree_; ///< shape functions, and their degree in all
+    std::size_t outer_;       ///< whose sides' moments are kept
     struct Kept
     {
       EdgeMoments moments;
@@ -89,5 +100,6 @@ namespace plumbline::reference
     std::vector<unsigned int> place_; ///< in kept_, of each side of outer_ and edge; 0: none
     std::vector<std::size_t> used_;
     Traces of_outer_, of_inner_;
+    CellRule rule_of_x_, rule_of_y_;
   };
 } // namespace plumbline::reference
