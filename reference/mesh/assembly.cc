@@ -1,5 +1,7 @@
 #include "reference/mesh/assembly.h"
 
+#include "base/error.h"
+#include "reference/mesh/cell_rules.h"
 #include "reference/mesh/edge_assembly.h"
 #include "reference/mesh/number_set.h"
 #include "reference/mesh/pair_quadrature.h"
@@ -33,7 +35,7 @@ namespace plumbline::reference
     }
 
     /// The coefficient in each cell, if it has one value there as far as many points tell.
-    std::vector<double> constants_in_cells(const MeshSpace &space,
+    std::vector<double> constants_in_cells(const MeshSpace &space, const MeshCells &cells,
                                            const physics::Coefficient &coefficient)
     {
       const bool is_triangle = space.shapes().n_vertices() == 3;
@@ -47,8 +49,18 @@ namespace plumbline::reference
       for (const Point<2> &corner : linear.support())
         points.push_back(corner + inwards * (middle - corner));
       std::vector<double> values;
+      CellRule rule;
       for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
       {
+        if (cells.is_curved(cell))
+        {
+          rule_by_parts(space, cells, cell, 6, rule);
+          values.push_back(coefficient.at(rule.points.front()));
+          for (const Point<2> &x : rule.points)
+            if (coefficient.at(x) != values.back())
+              return {};
+          continue;
+        }
         values.push_back(coefficient.at(space.map(cell).point(middle)));
         for (const Point<2> &unit : points)
           if (coefficient.at(space.map(cell).point(unit)) != values.back())
@@ -66,7 +78,7 @@ namespace plumbline::reference
                      const std::optional<physics::Coefficient> &coefficient,
                      const AssemblyOptions &options)
           : cells_(cells), coefficient_(coefficient),
-            of_cells_(coefficient ? constants_in_cells(space, *coefficient)
+            of_cells_(coefficient ? constants_in_cells(space, cells, *coefficient)
                                   : std::vector<double>()),
             by_quadrature_(space, cells, profile, kernel.horizon(),
                            of_cells_.empty() ? coefficient : std::nullopt, options.refinement,
@@ -81,7 +93,15 @@ namespace plumbline::reference
           by_sides_.emplace(space, cells, kernel);
       }
 
+      /// Whether quadrature, which knows straight sides alone, would be asked for curved ones.
+      bool is_at_loss() const
+      {
+        return cells_.has_curves() && (!by_sides_ || !by_sides_->exceptions().empty());
+      }
+
       bool has_changing_coefficient() const { return coefficient_ && of_cells_.empty(); }
+
+      bool has_curves() const { return cells_.has_curves(); }
 
       bool are_rectangles() const
       {
@@ -102,7 +122,8 @@ namespace plumbline::reference
       /// Without coefficients that are constant in cells.
       void integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks)
       {
-        if (by_quadrature_.is_product(outer, inner) || !is_exact(outer, inner))
+        const bool is_straight = !cells_.is_curved(outer) && !cells_.is_curved(inner);
+        if ((is_straight && by_quadrature_.is_product(outer, inner)) || !is_exact(outer, inner))
           by_quadrature_.integrate(outer, inner, blocks);
         else if (is_correlation(outer, inner))
           by_correlation_->integrate(cells_[outer].box(), cells_[inner].box(), blocks);
@@ -249,6 +270,8 @@ namespace plumbline::reference
                          bool is_exact)
     {
       const std::string cells = space.shapes().n_vertices() == 3 ? "triangles" : "quadrilaterals";
+      if (is_exact && integrator.has_curves())
+        return "exact by sides of pairs of triangles, sides on curves by four straight parts each";
       if (is_exact)
         return integrator.are_rectangles() ? "of axis-aligned rectangles exact by correlation"
                                            : "exact by sides of pairs of " + cells;
@@ -272,7 +295,7 @@ namespace plumbline::reference
                       const AssemblyOptions &options, const base::Team &team)
   {
     if (options.exact_entries && !coefficient && is_linear_triangles(space) &&
-        refuse_edges(space, kernel).empty())
+        !cells.has_curves() && refuse_edges(space, kernel).empty())
       return {assemble_by_edges(space, kernel, team), true,
               "exact by pairs of sides of the triangles"};
     const KernelEntries profile(kernel);
@@ -289,8 +312,12 @@ namespace plumbline::reference
     const Scratch scratch{PairIntegrator(space, cells, kernel, profile, coefficient, options),
                           {},
                           std::vector<unsigned int>(space.n_dofs())};
+    if (scratch.integrator.is_at_loss())
+      throw InputError("Domain/sides = curved: entries would be " +
+                       tell_way(space, kernel, scratch.integrator, options, false) +
+                       "; write Domain/sides = straight, or change that");
     std::vector<PairBlocks> first_blocks;
-    if (!scratch.integrator.has_changing_coefficient())
+    if (!scratch.integrator.has_changing_coefficient() && !cells.has_curves())
     {
       std::vector<CellPairs> of_all;
       if (team.n_ranks() > 1)

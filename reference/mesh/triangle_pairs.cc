@@ -35,7 +35,6 @@ namespace plumbline::reference
                                 const physics::Kernel<2> &kernel)
       : traces(space.shapes())
   {
-    const geometry::Mesh &mesh = space.mesh();
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> index;
     const bool is_quads = space.shapes().n_vertices() == 4;
     double largest = 0, longest = 0;
@@ -51,7 +50,7 @@ namespace plumbline::reference
             index.try_emplace(std::minmax(a, b), static_cast<unsigned int>(edges.size()));
         const auto [first, second] = place->first;
         if (is_new)
-          edges.emplace_back(mesh.vertices[first], mesh.vertices[second]);
+          edges.emplace_back(cells.vertex(first), cells.vertex(second));
         of_cell.push_back({place->second, first == a});
         longest_side = std::max(longest_side, edges[place->second].along.norm());
       }
@@ -63,6 +62,9 @@ namespace plumbline::reference
       longest = std::max(longest, longest_side);
       largest = std::max(largest, cells.radius(cell));
     }
+    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+      if (cells.is_curved(cell))
+        find_traces(space, cells, cell, of_curved[cell]);
     const double reach = (kernel.horizon() + 4 * largest) / kernel.horizon();
     const unsigned int degree = SideTraces::total_degree(space.shapes());
     pairs = std::make_unique<EdgePairs>(kernel, degree, longest, 1 - reach * reach);
@@ -135,6 +137,50 @@ namespace plumbline::reference
       add_whole(outer, inner, blocks);
       add_sides(inner, Part::out, -1, blocks);
     }
+    take_own_functions(outer, inner, blocks);
+  }
+
+  namespace
+  {
+    /// A B Aᵀ of a block, entry by entry of the kernel.
+    void transform(const std::vector<double> &left, const std::vector<double> &right,
+                   unsigned int n, std::vector<double> &block)
+    {
+      const std::size_t n_entries = block.size() / (static_cast<std::size_t>(n) * n);
+      const auto multiply =
+          [&](const std::vector<double> &factor, std::size_t along, std::size_t across)
+      {
+        if (factor.empty())
+          return;
+        std::vector<double> before(n);
+        for (unsigned int k = 0; k < n; ++k)
+          for (std::size_t e = 0; e < n_entries; ++e)
+          {
+            double *const line = &block[k * across * n_entries + e];
+            for (unsigned int b = 0; b < n; ++b)
+              before[b] = line[b * along * n_entries];
+            for (unsigned int a = 0; a < n; ++a)
+            {
+              double sum = 0;
+              for (unsigned int b = 0; b < n; ++b)
+                sum += factor[a * n + b] * before[b];
+              line[a * along * n_entries] = sum;
+            }
+          }
+      };
+      multiply(left, n, 1);
+      multiply(right, 1, n);
+    }
+  } // namespace
+
+  /// Of cells whose nodes lie on curves.
+  void TrianglePairs::take_own_functions(std::size_t outer, std::size_t inner,
+                                         PairBlocks &blocks) const
+  {
+    const auto &of_outer = space_.own_functions(outer), &of_inner = space_.own_functions(inner);
+    transform(of_outer, of_outer, n_, blocks.outer);
+    transform(of_outer, of_inner, n_, blocks.cross);
+    transform(of_inner, of_inner, n_, blocks.inner);
   }
 
   void TrianglePairs::add_whole(std::size_t outer, std::size_t inner, PairBlocks &blocks)
@@ -153,7 +199,7 @@ namespace plumbline::reference
   void TrianglePairs::find_rule(std::size_t cell, unsigned int degree, CellRule &rule) const
   {
     const CellMap &map = space_.map(cell);
-    if (map.is_affine())
+    if (map.is_affine() && !cells_.is_curved(cell))
     {
       const ShapeRule &unit = shared_->rule(degree);
       const double determinant = map.determinant({});
@@ -167,10 +213,7 @@ namespace plumbline::reference
       rule.phi = unit.phi;
       return;
     }
-    geometry::CutRule gauss = geometry::polygon_rule(cells_[cell].vertices(), degree);
-    rule.points = std::move(gauss.points);
-    rule.weights = std::move(gauss.weights);
-    rule.phi.assign(rule.points.size(), 1); // constants: others are polynomials on affine cells
+    rule_by_parts(space_, cells_, cell, degree, rule);
   }
 
   /// Cells so far apart, or kernels so smooth, that a product of rules sees a polynomial.
@@ -224,20 +267,35 @@ namespace plumbline::reference
     return own.moments;
   }
 
-  void TrianglePairs::find_traces(std::size_t cell, Traces &traces) const
+  void TrianglePairs::Shared::find_traces(const MeshSpace &space, const MeshCells &cells,
+                                          std::size_t cell, Traces &of_cell) const
   {
-    const std::vector<Side> &sides = shared_->sides[cell];
-    traces.sign.resize(sides.size());
-    traces.of.resize(sides.size());
-    for (unsigned int k = 0; k < sides.size(); ++k)
+    const std::vector<Side> &own = sides[cell];
+    of_cell.sign.resize(own.size());
+    of_cell.of.resize(own.size());
+    for (unsigned int k = 0; k < own.size(); ++k)
     {
-      const Side &side = sides[k];
-      const Vector2 &along = shared_->edges[side.edge].along;
-      const double sign = side.is_forward ? 1 : -1;
-      traces.sign[k] = sign;
-      shared_->traces.find(space_.map(cell), k, side.is_forward,
-                           Point<2>(sign * along[1], -sign * along[0]), traces.of[k]);
+      const Segment &edge = edges[own[k].edge];
+      const double sign = own[k].is_forward ? 1 : -1;
+      const Point<2> normal(sign * edge.along[1], -sign * edge.along[0]);
+      of_cell.sign[k] = sign;
+      if (cells.is_curved(cell))
+        traces.find(space.map(cell), edge, normal, of_cell.of[k]);
+      else
+        traces.find(space.map(cell), k, own[k].is_forward, normal, of_cell.of[k]);
     }
+  }
+
+  void TrianglePairs::find_traces(std::size_t cell, Traces &own) const
+  {
+    if (!cells_.is_curved(cell))
+      shared_->find_traces(space_, cells_, cell, own);
+  }
+
+  /// @param own  found before, if none are kept
+  const TrianglePairs::Traces &TrianglePairs::traces(std::size_t cell, const Traces &own) const
+  {
+    return cells_.is_curved(cell) ? shared_->of_curved.at(cell) : own;
   }
 
   namespace
@@ -302,16 +360,17 @@ namespace plumbline::reference
   void TrianglePairs::add_sides(std::size_t inner, Part part, double factor, PairBlocks &blocks)
   {
     find_traces(inner, of_inner_);
+    const Traces &of_outer = traces(outer_, of_outer_), &of_inner = traces(inner, of_inner_);
     SideTrace one;
     one.value[0][0] = 1;
     const unsigned int degree = 2 * degree_;
     const std::vector<Side> &sides = shared_->sides[inner];
-    for (std::size_t k = 0; k < of_outer_.of.size(); ++k)
+    for (std::size_t k = 0; k < of_outer.of.size(); ++k)
       for (std::size_t l = 0; l < sides.size(); ++l)
       {
         const EdgeMoments &m = moments(k, sides[l].edge, part);
-        const auto &p = of_outer_.of[k], &q = of_inner_.of[l];
-        const double sign_p = of_outer_.sign[k], sign_q = of_inner_.sign[l];
+        const auto &p = of_outer.of[k], &q = of_inner.of[l];
+        const double sign_p = of_outer.sign[k], sign_q = of_inner.sign[l];
         for (unsigned int b = 0; b < n_; ++b)
         {
           const Functional functional = apply<true>(q[b], m, sign_p, sign_q, degree);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference/mesh/cells.h"
+#include "reference/mesh/cell_rules.h"
 #include "reference/mesh/edge_pairs.h"
 #include "reference/mesh/pair_blocks.h"
 #include "reference/mesh/shape_rules.h"
@@ -8,12 +8,14 @@
 #include "reference/mesh/space.h"
 
 #include <memory>
+#include <unordered_map>
 
 namespace plumbline::reference
 {
   /// Blocks of pairs of cells with a scalar kernel of powers, exact to rounding: of triangles with
   /// shape functions of degree 2 at most, of parallelograms with bilinear ones, of any convex
-  /// quadrilaterals with constants. By Green's identity in x and in y, for polynomials p and q,
+  /// quadrilaterals with constants; sides of triangles may follow curves, see MeshCells. By Green's
+  /// identity in x and in y, for polynomials p and q,
   ///   ∬_{T×T', |x-y|<δ} C p(x) q(y) = Σ_{m,n} ∮_∂T ∮_∂T' (Δ^m p ∂_nx - ∂_n Δ^m p)
   ///     (Δ^n q ∂_ny - ∂_n Δ^n q) Ψ_{2+m+n}(y - x), Δ^k Ψ_k = C,
   /// with the potentials cut off at the circle, or what lies beyond it taken from all of the pair.
@@ -44,11 +46,19 @@ namespace plumbline::reference
       unsigned int edge = 0;
       bool is_forward = true; ///< runs as the edge does
     };
+    /// The functions of a cell on its sides.
+    struct Traces
+    {
+      std::vector<double> sign; ///< of outer normals in terms of the edges'
+      std::vector<std::vector<SideTrace>> of;
+    };
     /// What all threads read.
     struct Shared
     {
       Shared(const MeshSpace &space, const MeshCells &cells, const physics::Kernel<2> &kernel);
 
+      void find_traces(const MeshSpace &space, const MeshCells &cells, std::size_t cell,
+                       Traces &of_cell) const;
       const ShapeRule &rule(unsigned int degree) const { return rules[degree / 2]; }
 
       std::vector<Segment> edges;
@@ -57,19 +67,8 @@ namespace plumbline::reference
       std::vector<char> is_slender, is_mapped; ///< cells; mapped: shapes that are no polynomials
       std::vector<ShapeRule> rules;            ///< index i is exact to degree 2 i + 1
       SideTraces traces;
+      std::unordered_map<std::size_t, Traces> of_curved; ///< cells, which cost more
       std::unique_ptr<EdgePairs> pairs;
-    };
-    /// The functions of a cell on its sides.
-    struct Traces
-    {
-      std::vector<double> sign; ///< of outer normals in terms of the edges'
-      std::vector<std::vector<SideTrace>> of;
-    };
-    /// A rule on a cell with the shape functions at its points.
-    struct CellRule
-    {
-      std::vector<Point<2>> points;
-      std::vector<double> weights, phi; ///< phi: shape (n_points, n_shapes)
     };
     enum class Part : char
     {
@@ -79,10 +78,12 @@ namespace plumbline::reference
     };
 
     const EdgeMoments &moments(std::size_t side, unsigned int edge, Part part);
-    void find_traces(std::size_t cell, Traces &traces) const;
+    void find_traces(std::size_t cell, Traces &own) const;
+    const Traces &traces(std::size_t cell, const Traces &own) const;
     void add_sides(std::size_t inner, Part part, double factor, PairBlocks &blocks);
     void find_rule(std::size_t cell, unsigned int degree, CellRule &rule) const;
     void add_by_rule(std::size_t outer, std::size_t inner, unsigned int degree, PairBlocks &blocks);
+    void take_own_functions(std::size_t outer, std::size_t inner, PairBlocks &blocks) const;
     void add_whole(std::size_t outer, std::size_t inner, PairBlocks &blocks);
 
     const MeshSpace &space_;
@@ -99,7 +100,7 @@ namespace plumbline::reference
     std::vector<std::array<Kept, 3>> kept_;
     std::vector<unsigned int> place_; ///< in kept_, of each side of outer_ and edge; 0: none
     std::vector<std::size_t> used_;
-    Traces of_outer_, of_inner_;
+    Traces of_outer_, of_inner_; ///< those of cells with straight sides
     CellRule rule_of_x_, rule_of_y_;
   };
 } // namespace plumbline::reference

@@ -35,7 +35,7 @@ namespace plumbline::scene
   {
     keys.add("entries", exact_entries, "quadrature", "exact",
              "Entries of Galerkin matrices on meshes. exact: to rounding where a way is known "
-             "(axis-aligned rectangles by correlation; continuous P1 on triangles by pairs of "
+             "(axis-aligned rectangles by correlation; triangles and parallelograms by pairs of "
              "sides), else by quadrature. quadrature: all of them.");
     keys.add("tolerance", tolerance, between(0, 1),
              "Outer quadrature on meshes is refined until the solution changes by less, relative "
