@@ -59,12 +59,13 @@ namespace plumbline::reference
       for (std::size_t k = 0; k < near.size(); ++k)
       {
         const unsigned int cell = near[(first + k) % near.size()];
-        const auto polygon = cells[cell].vertices();
+        const geometry::ConvexCell &one = cells.part(cells.first_part(cell));
+        const auto polygon = one.vertices();
         const auto is_in = [&](const Point<2> &v) { return v.distance(ball.centre) < horizon; };
         const auto n_in = std::count_if(polygon.begin(), polygon.end(), is_in);
         if (n_in == 0 || n_in == static_cast<std::ptrdiff_t>(polygon.size()))
           continue;
-        compare(ball, polygon, cells.area(cell), check);
+        compare(ball, polygon, one.moments().area, check);
         break;
       }
     }

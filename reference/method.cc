@@ -65,7 +65,7 @@ namespace plumbline::reference
           return "Solver/iteration = cg needs a symmetric operator, but harmonic means of "
                  "constants "
                  "that vary in space (LPS) make none; write automatic, gmres or bicgstab";
-        return {};
+        return refuse_curves(problem, is_continuous_, degree_);
       }
       unsigned int order() const override { return degree_ + 1; }
       std::shared_ptr<const method::Method> higher_degree() const override
@@ -114,6 +114,12 @@ namespace plumbline::reference
                 Capability::triangles,       Capability::heterogeneous,
                 Capability::dilatation,      Capability::zero_dilatation,
                 Capability::mixed_dilatation};
+      }
+      std::string why_not(const scene::Problem &problem) const override
+      {
+        return !problem.mesh || problem.mesh->wholes.empty()
+                   ? ""
+                   : "Domain/sides = curved is not for classical elements; write straight";
       }
       std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
                                                          const base::Team &) const override

@@ -257,13 +257,17 @@ namespace plumbline::geometry
   }
 
   std::string mesh_by_gmsh(const std::string &file, double h, double delta,
-                           const GmshLimits &limits, const std::string &source)
+                           const GmshLimits &limits, const std::string &source, unsigned int order)
   {
     const Folder folder;
     // read after the script, whose own settings would make another format
     const std::string last = (folder.path() / "last.geo").string();
     std::ofstream(last) << "Mesh.Format = 1; Mesh.MshFileVersion = 2.2; Mesh.Binary = 0; "
-                           "Mesh.SaveAll = 0; Mesh.SaveParametric = 0;\n";
+                           "Mesh.SaveAll = 0; Mesh.SaveParametric = 0;\n"
+                        << (order == 0 ? ""
+                                       : "Mesh.SecondOrderLinear = 0; Mesh.SecondOrderIncomplete "
+                                         "= 0; Mesh.HighOrderOptimize = 0; Mesh.ElementOrder = " +
+                                             std::to_string(order) + ";\n");
     const std::string mesh =
         run({fs::absolute(file).string(), last, "-2", "-setnumber", "h", base::to_text(h, 17),
              "-setnumber", "delta", base::to_text(delta, 17)},

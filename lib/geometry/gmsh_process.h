@@ -26,9 +26,12 @@ namespace plumbline::geometry
   /// only that is safe beside threads and MPI. It starts in .05 s, reads no settings of the user,
   /// and Ctrl-C is not for it.
   /// @param source  opens messages, e.g. "mesh file 'disk.geo'"
+  /// @param order   of the cells, whose points between corners lie on the script's curves; 0: as
+  /// the script has it
   /// @throws InputError  gmsh not there, its own errors by file and line, no time or memory left
   std::string mesh_by_gmsh(const std::string &file, double h, double delta,
-                           const GmshLimits &limits, const std::string &source);
+                           const GmshLimits &limits, const std::string &source,
+                           unsigned int order = 0);
   std::string convert_by_gmsh(const std::string &file, const GmshLimits &limits,
                               const std::string &source);
 } // namespace plumbline::geometry

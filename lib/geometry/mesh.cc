@@ -317,4 +317,30 @@ namespace plumbline::geometry
     }
     return fine;
   }
+
+  Mesh straightened(const Mesh &mesh)
+  {
+    if (mesh.wholes.empty())
+      return mesh;
+    Mesh result;
+    result.groups = mesh.groups;
+    constexpr auto unused = static_cast<unsigned int>(-1);
+    std::vector<unsigned int> number(mesh.vertices.size(), unused);
+    for (const WholeCell &whole : mesh.wholes)
+    {
+      MeshCell cell = whole.corners;
+      for (unsigned int k = 0; k < cell.n_vertices; ++k)
+      {
+        unsigned int &place = number[cell.vertex[k]];
+        if (place == unused)
+        {
+          place = static_cast<unsigned int>(result.vertices.size());
+          result.vertices.push_back(mesh.vertices[cell.vertex[k]]);
+        }
+        cell.vertex[k] = place;
+      }
+      result.cells.push_back(cell);
+    }
+    return result;
+  }
 } // namespace plumbline::geometry

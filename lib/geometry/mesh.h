@@ -17,13 +17,26 @@ namespace plumbline::geometry
     unsigned int group = 0;             ///< index into the mesh's groups, if it has any
   };
 
+  /// A triangle whose sides follow curves.
+  struct WholeCell
+  {
+    MeshCell corners;           ///< the triangle with straight sides
+    std::size_t first_part = 0; ///< of the mesh's cells; the last ends where the next whole begins
+    std::vector<unsigned int> outline; ///< vertices of its boundary, counter-clockwise
+    std::array<Point<2>, 3> middles;   ///< of its sides, on their curves
+  };
+
   /// A conforming mesh of Ω and its interaction collar.
   struct Mesh
   {
     std::vector<Point<2>> vertices; ///< [length]
     std::vector<MeshCell> cells;
     std::vector<std::string> groups; ///< gmsh's physical surfaces by name, for materials
+    /// Where sides follow curves: the triangles that `cells` are parts of, each of a run of them;
+    /// else empty, each cell being whole.
+    std::vector<WholeCell> wholes;
 
+    std::size_t n_wholes() const { return wholes.empty() ? cells.size() : wholes.size(); }
     Polygon polygon(std::size_t cell) const;
     bool is_triangles() const;   ///< all cells are
     bool is_quads() const;       ///< all cells are
@@ -45,6 +58,11 @@ namespace plumbline::geometry
   double collar_width(const Mesh &mesh);
 
   /// Every cell cut into four by the midpoints of its sides: cell c becomes cells 4 c ... 4 c + 3,
-  /// and the vertices keep their numbers.
+  /// and the vertices keep their numbers. Of a mesh that follows curves the parts are cut, as cells
+  /// of their own.
   Mesh refine(const Mesh &mesh);
+
+  /// The triangles with straight sides of a mesh that follows curves, in their order; of another
+  /// one, itself.
+  Mesh straightened(const Mesh &mesh);
 } // namespace plumbline::geometry

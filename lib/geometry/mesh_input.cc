@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "geometry/curved_mesh.h"
 #include "geometry/gmsh_process.h"
 #include "geometry/gmsh_script.h"
 #include "geometry/msh_file.h"
@@ -49,6 +50,13 @@ namespace plumbline::geometry
           }
           cell.vertex[i] = place;
         }
+      for (WholeCell &whole : mesh.wholes)
+      {
+        for (unsigned int i = 0; i < whole.corners.n_vertices; ++i)
+          whole.corners.vertex[i] = number[whole.corners.vertex[i]];
+        for (unsigned int &vertex : whole.outline)
+          vertex = number[vertex];
+      }
       mesh.vertices = std::move(used);
     }
 
@@ -161,7 +169,7 @@ namespace plumbline::geometry
 
     /// A .geo script as a .msh text. The cases of a scene ask for the same mesh at the same levels:
     /// the last few texts are kept, each under all that it was made from.
-    std::string mesh_script(const std::string &file, double h, double delta,
+    std::string mesh_script(const std::string &file, double h, double delta, unsigned int order,
                             const std::string &source)
     {
       constexpr std::size_t n_kept = 8, longest_kept = 20'000'000;
@@ -169,17 +177,40 @@ namespace plumbline::geometry
       static std::deque<std::pair<std::string, std::string>> kept;
 
       const std::string script = base::to_text(h, 17) + ' ' + base::to_text(delta, 17) + ' ' +
-                                 file + '\n' + check_script(file);
+                                 std::to_string(order) + ' ' + file + '\n' + check_script(file);
       const std::lock_guard<std::mutex> lock(mutex);
       for (const auto &[key, mesh] : kept)
         if (key == script)
           return mesh;
-      std::string mesh = mesh_by_gmsh(file, h, delta, GmshLimits::from_environment(), source);
+      std::string mesh =
+          mesh_by_gmsh(file, h, delta, GmshLimits::from_environment(), source, order);
       if (mesh.size() < longest_kept)
         kept.emplace_front(script, mesh);
       if (kept.size() > n_kept)
         kept.pop_back();
       return mesh;
+    }
+
+    /// Of triangles whose points between corners tell the curves: more than four would add nothing
+    /// to four straight parts of a side.
+    constexpr unsigned int order_of_curves = 4;
+
+    Mesh bend(const Mesh &mesh, const SideCurves &curves, const std::string &source)
+    {
+      try
+      {
+        Mesh bent = follow_curves(mesh, curves);
+        if (bent.cells.size() > mesh.cells.size())
+          return bent;
+      }
+      catch (const InputError &error)
+      {
+        throw InputError(source + ": " + error.what());
+      }
+      throw InputError(source +
+                       " has no curved side, but Domain/sides = curved asks for such; export a "
+                       ".msh file with Mesh.ElementOrder = 2, 3 or 4, take a .geo file with "
+                       "curves, or write Domain/sides = straight");
     }
 
     void turn_if_clockwise(Mesh &mesh)
@@ -245,7 +276,7 @@ namespace plumbline::geometry
     }
   } // namespace
 
-  Mesh read_mesh(const std::string &file, double h, double delta, bool has_collar)
+  Mesh read_mesh(const std::string &file, double h, double delta, bool has_collar, bool is_curved)
   {
     const std::string source = "mesh file '" + file + "'";
     const bool is_script = ends_with(file, ".geo");
@@ -256,7 +287,7 @@ namespace plumbline::geometry
                        " and delta = " + base::to_text(delta, 6) + " must be lengths");
     std::string msh;
     if (is_script)
-      msh = mesh_script(file, h, delta, source);
+      msh = mesh_script(file, h, delta, is_curved ? order_of_curves : 0, source);
     else
     {
       std::ifstream in(file, std::ios::binary);
@@ -266,8 +297,11 @@ namespace plumbline::geometry
       if (is_other_msh(msh))
         msh = convert_by_gmsh(file, GmshLimits::from_environment(), source);
     }
-    Mesh mesh = read_msh(msh, source, has_collar);
+    SideCurves curves;
+    Mesh mesh = read_msh(msh, source, has_collar, is_curved ? &curves : nullptr);
     turn_if_clockwise(mesh);
+    if (is_curved)
+      mesh = bend(mesh, curves, source);
     return finish(std::move(mesh), source);
   }
 

@@ -15,9 +15,12 @@ namespace plumbline::geometry
   /// clockwise, is turned around.
   /// gmsh runs as a process of its own with limits (GmshLimits), and scripts that would start
   /// programs or write files are refused (check_script).
+  /// @param is_curved  sides follow the curves of the .geo file, or the points between corners of a
+  /// .msh file of second to fourth order, see follow_curves; triangles alone
   /// @throws InputError  file not readable, as read_msh, check_script and mesh_by_gmsh, and as
-  /// `check`
-  Mesh read_mesh(const std::string &file, double h, double delta, bool has_collar = true);
+  /// `check`; curved sides asked for where none is curved
+  Mesh read_mesh(const std::string &file, double h, double delta, bool has_collar = true,
+                 bool is_curved = false);
 
   /// One of deal.II's GridGenerator functions by name, e.g. "hyper_ball_balanced" with "0, 0 : 1",
   /// refined until no side is longer than h, vertices on curved boundaries, sides straight. Ω: the

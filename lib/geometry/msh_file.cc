@@ -24,6 +24,14 @@ namespace plumbline::geometry
 
     // gmsh's types of elements
     constexpr long triangle = 2, quadrilateral = 3;
+    /// Of second, third and fourth order: corners, then points on the sides, then inner ones.
+    struct HighTriangle
+    {
+      long type;
+      unsigned int n_on_side, n_inside;
+    };
+    constexpr std::array high_triangles = {HighTriangle{9, 1, 0}, HighTriangle{21, 2, 1},
+                                           HighTriangle{23, 3, 3}};
     constexpr std::array points_and_lines = {1L, 8L, 15L, 26L, 27L, 28L, 62L, 63L, 64L, 65L, 66L};
     constexpr std::array other_surfaces = {9L,  10L, 16L, 20L, 21L, 22L, 23L, 24L, 25L,
                                            36L, 37L, 38L, 39L, 40L, 41L, 42L, 43L, 44L,
@@ -49,6 +57,13 @@ namespace plumbline::geometry
       return word.compare(0, begin.size(), begin) == 0;
     }
 
+    const HighTriangle *find_high(long type)
+    {
+      const auto found = std::find_if(high_triangles.begin(), high_triangles.end(),
+                                      [type](const HighTriangle &t) { return t.type == type; });
+      return found == high_triangles.end() ? nullptr : &*found;
+    }
+
     /// A cell as it stands in the file.
     struct FileCell
     {
@@ -60,8 +75,8 @@ namespace plumbline::geometry
     class Reader
     {
     public:
-      Reader(const std::string &text, const std::string &source)
-          : words_(text, source), source_(source)
+      Reader(const std::string &text, const std::string &source, SideCurves *curves)
+          : words_(text, source), source_(source), curves_(curves)
       {
       }
 
@@ -231,18 +246,36 @@ namespace plumbline::geometry
         }
       }
 
+      unsigned int node_of_cell()
+      {
+        const long tag = words_.integer("a node of a cell", 0, any_tag);
+        const auto found = number_.find(tag);
+        if (found == number_.end())
+          words_.fail("node " + std::to_string(tag) +
+                      " of a cell is none of $Nodes; export the "
+                      "file again");
+        return found->second;
+      }
+
       void add_cell(FileCell cell)
       {
-        for (long i = 0; i < (cell.type == triangle ? 3 : 4); ++i)
+        const HighTriangle *const high = find_high(cell.type);
+        for (long i = 0; i < (cell.type == quadrilateral ? 4 : 3); ++i)
+          cell.vertex[i] = node_of_cell();
+        for (unsigned int side = 0; high != nullptr && side < 3; ++side)
         {
-          const long tag = words_.integer("a node of a cell", 0, any_tag);
-          const auto found = number_.find(tag);
-          if (found == number_.end())
-            words_.fail("node " + std::to_string(tag) +
-                        " of a cell is none of $Nodes; export the "
-                        "file again");
-          cell.vertex[i] = found->second;
+          const unsigned int a = cell.vertex[side], b = cell.vertex[(side + 1) % 3];
+          std::vector<Point<2>> points;
+          for (unsigned int k = 0; k < high->n_on_side; ++k)
+            points.push_back(vertices_[node_of_cell()]);
+          if (a > b)
+            std::reverse(points.begin(), points.end());
+          curves_->emplace(std::minmax(a, b), std::move(points));
         }
+        for (unsigned int k = 0; high != nullptr && k < high->n_inside; ++k)
+          node_of_cell();
+        if (high != nullptr)
+          cell.type = triangle;
         cells_.push_back(cell);
       }
 
@@ -250,11 +283,16 @@ namespace plumbline::geometry
       /// surfaces that are not physical.
       bool is_taken(long type, long group) const
       {
-        const bool is_surface = type == triangle || type == quadrilateral;
-        if (group != 0 && is_one_of(other_surfaces, type))
-          words_.fail("has cells of gmsh's type " + std::to_string(type) +
-                      "; only triangles and quadrilaterals of first order are allowed "
-                      "(Mesh.ElementOrder = 1)");
+        const bool is_high = curves_ != nullptr && find_high(type) != nullptr;
+        const bool is_surface = type == triangle || type == quadrilateral || is_high;
+        if (group != 0 && is_one_of(other_surfaces, type) && !is_high)
+          words_.fail("has cells of gmsh's type " + std::to_string(type) + "; only " +
+                      (curves_ == nullptr
+                           ? "triangles and quadrilaterals of first order are allowed "
+                             "(Mesh.ElementOrder = 1), or triangles of second to fourth order with "
+                             "Domain/sides = curved"
+                           : "triangles of first to fourth order are allowed where sides are "
+                             "curved (Mesh.ElementOrder = 4, no Recombine)"));
         return is_surface && group != 0;
       }
 
@@ -370,6 +408,7 @@ namespace plumbline::geometry
       std::vector<Point<2>> vertices_;
       std::unordered_map<long, unsigned int> number_;
       double largest_ = 0, height_ = 0;
+      SideCurves *curves_;
       std::vector<FileCell> cells_;
     };
   } // namespace
@@ -388,8 +427,9 @@ namespace plumbline::geometry
     return section == begin_of(Section::format) && (kind == binary || others.count(version) > 0);
   }
 
-  Mesh read_msh(const std::string &text, const std::string &source, bool has_collar)
+  Mesh read_msh(const std::string &text, const std::string &source, bool has_collar,
+                SideCurves *curves)
   {
-    return Reader(text, source).read(has_collar);
+    return Reader(text, source, curves).read(has_collar);
   }
 } // namespace plumbline::geometry

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/mesh.h"
+#include "geometry/curved_mesh.h"
 
 #include <string>
 
@@ -13,10 +13,13 @@ namespace plumbline::geometry
   /// by surface; names and rules as `read_mesh`. Vertices are those of the whole file. Our own
   /// reader: gmsh's says "Error loading" to whatever is wrong, and some files crash it.
   /// @param source  opens messages, e.g. "mesh file 'disk.msh'"
+  /// @param curves  if given: triangles may be of second to fourth order, and their points between
+  /// corners are put there
   /// @throws InputError  naming the line: another format, a section that is missing, does not end
   /// or holds less than it announces, words that are no numbers, vertices that are not there or
   /// given twice; physical surfaces missing or others than these, a surface in two of them, cells
   /// of higher order, a mesh out of the plane z = 0 Limits: 2^31 vertices. Cost: .5 s for 1e6
   /// cells.
-  Mesh read_msh(const std::string &text, const std::string &source, bool has_collar);
+  Mesh read_msh(const std::string &text, const std::string &source, bool has_collar,
+                SideCurves *curves = nullptr);
 } // namespace plumbline::geometry

@@ -203,8 +203,23 @@ namespace plumbline::geometry
   std::vector<Point<2>> centroids(const Mesh &mesh)
   {
     std::vector<Point<2>> result;
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    for (std::size_t c = 0; c < mesh.cells.size() && mesh.wholes.empty(); ++c)
       result.push_back(centroid(view(mesh.polygon(c))));
+    for (std::size_t w = 0; w < mesh.wholes.size(); ++w)
+    {
+      Point<2> sum;
+      double all = 0;
+      const std::size_t end =
+          w + 1 < mesh.wholes.size() ? mesh.wholes[w + 1].first_part : mesh.cells.size();
+      for (std::size_t c = mesh.wholes[w].first_part; c < end; ++c)
+      {
+        const Polygon part = mesh.polygon(c);
+        const double of_part = area(view(part));
+        sum += of_part * centroid(view(part));
+        all += of_part;
+      }
+      result.push_back(sum / all);
+    }
     return result;
   }
 

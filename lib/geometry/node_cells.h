@@ -47,7 +47,7 @@ namespace plumbline::geometry
   /// that has cells Cost: .3 s for 1e5 nodes.
   NodeCells voronoi_cells(const std::vector<Point<2>> &nodes, const Mesh &mesh);
 
-  /// The centroids of a mesh's cells.
+  /// The centroids of a mesh's cells, of whole ones where they have parts.
   std::vector<Point<2>> centroids(const Mesh &mesh);
 
   /// Centres of the cells, of side h, of a lattice that begins at the lower corner of Ω's bounding

@@ -58,6 +58,18 @@ namespace plumbline::scene
             "lattice, squares, triangles and files .msh or .geo do without, any other name is a "
             "generator of deal.II; tell which of its cells are in Omega, the others being the "
             "collar, by an expression that is positive there");
+      needs(!mesh.is_curved || kind == MeshKind::file, "Domain/sides = curved",
+            "only a .geo file, or a .msh file of second to fourth order, has curves to follow; "
+            "take one, or write straight");
+      needs(!mesh.is_curved || !is_free, "Domain/sides = curved and Domain/boundary = free",
+            "a free body has straight sides; write straight");
+      needs(!mesh.is_curved || scene.quadrature.exact_entries,
+            "Domain/sides = curved and Quadrature/entries = quadrature",
+            "cells with curved sides have their entries by pairs of sides alone; write exact, or "
+            "Domain/sides = straight");
+      needs(!mesh.is_curved || !scene.has_dilatation(),
+            "Domain/sides = curved and a material with dilatations",
+            "these are integrated over cells with straight sides; write straight");
       needs(mesh.is_of_boxes() || scene.domain.boxes.exclude.empty(), "Domain/holes is given",
             "holes are for boxes; cut them out of the mesh itself");
       if (mesh.is_lattice())

@@ -48,7 +48,7 @@ namespace plumbline::scene
         try
         {
           return scene.domain.mesh_files->read(path(scene, source.name), level.h, level.horizon,
-                                               !scene.domain.is_free_body);
+                                               !scene.domain.is_free_body, source.is_curved);
         }
         catch (const InputError &error)
         {

@@ -3,12 +3,13 @@
 namespace plumbline::scene
 {
   const geometry::Mesh &MeshFiles::read(const std::string &file, double h, double delta,
-                                        bool has_collar)
+                                        bool has_collar, bool is_curved)
   {
-    const auto key = std::make_tuple(file, h, delta, has_collar);
+    const auto key = std::make_tuple(file, h, delta, has_collar, is_curved);
     const auto known = meshes_.find(key);
     if (known != meshes_.end())
       return known->second;
-    return meshes_.emplace(key, geometry::read_mesh(file, h, delta, has_collar)).first->second;
+    return meshes_.emplace(key, geometry::read_mesh(file, h, delta, has_collar, is_curved))
+        .first->second;
   }
 } // namespace plumbline::scene

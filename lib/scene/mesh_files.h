@@ -14,9 +14,10 @@ namespace plumbline::scene
   {
   public:
     /// As geometry::read_mesh, of a file that does not change meanwhile.
-    const geometry::Mesh &read(const std::string &file, double h, double delta, bool has_collar);
+    const geometry::Mesh &read(const std::string &file, double h, double delta, bool has_collar,
+                               bool is_curved);
 
   private:
-    std::map<std::tuple<std::string, double, double, bool>, geometry::Mesh> meshes_;
+    std::map<std::tuple<std::string, double, double, bool, bool>, geometry::Mesh> meshes_;
   };
 } // namespace plumbline::scene

@@ -30,7 +30,8 @@ namespace plumbline::scene
                                   ///< deal.II generator
     std::string arguments;        ///< of a generator
     std::string inside;           ///< of a generator: an expression, positive in Ω
-    std::string map; ///< of squares and triangles: where their vertices go; empty: they stay
+    std::string map;        ///< of squares and triangles: where their vertices go; empty: they stay
+    bool is_curved = false; ///< sides of a file's cells follow its curves
 
     MeshKind kind() const;
     bool is_lattice() const { return kind() == MeshKind::lattice; }

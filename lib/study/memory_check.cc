@@ -34,6 +34,8 @@ namespace plumbline::study
     method::ProblemSize mesh_size(const scene::Scene &scene, const geometry::Mesh &mesh,
                                   const scene::Level &level)
     {
+      if (!mesh.wholes.empty())
+        return mesh_size(scene, geometry::straightened(mesh), level);
       method::ProblemSize size = size_of(scene, level);
       size.n_cells = static_cast<double>(mesh.cells.size());
       for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)

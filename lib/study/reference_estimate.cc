@@ -118,7 +118,7 @@ namespace plumbline::study
       bool has_few_cells() const
       {
         constexpr std::size_t few = 500;
-        return problem_.lattice || problem_.mesh->cells.size() < few;
+        return problem_.lattice || problem_.mesh->n_wholes() < few;
       }
 
       Norms distance(const scene::Problem &cells, const ResizedSolution &a,
@@ -183,7 +183,7 @@ namespace plumbline::study
         by_h_ = {safety * change.averages / (1 - q.averages),
                  safety * change.field / (1 - q.field)};
         estimate_.is_of_polygon = fine.is_cut && geometry_order(scene_) > 0;
-        if (const auto higher = method_.higher_degree())
+        if (const auto higher = higher_degree())
         {
           const Solution other = analysis::solve(*higher, problem_);
           enter_p_change(distance(problem_, solution_, {other.averages, other.value}));
@@ -202,9 +202,16 @@ namespace plumbline::study
         by_h_ = {safety_of_coarse * change.averages * q.averages / (1 - q.averages),
                  safety_of_coarse * change.field * q.field / (1 - q.field)};
         estimate_.is_of_polygon = false; // the mesh of 2 h was made anew
-        if (const auto higher = method_.higher_degree())
+        if (const auto higher = higher_degree())
           enter_p_change(
               distance(problem_, solution_, solve_resized(coarse, scene_, problem_, *higher)));
+      }
+
+      /// Nothing where cells do not take it.
+      std::shared_ptr<const Method> higher_degree() const
+      {
+        const auto higher = method_.higher_degree();
+        return higher && higher->why_not(problem_).empty() ? higher : nullptr;
       }
 
       void enter_p_change(const Norms &change)

@@ -15,10 +15,10 @@ namespace plumbline::study
   /// practice. Changes d to h/2 and d' from 2 h to h give Richardson's e = d / (1 - q) with q the
   /// largest of 2^-(p+1), of 1/4 where sides stand for a curve (1/2 where cells are chosen by their
   /// centres), and of d / d' of averages and field; 3/2 of that, or 3/2 of the change to degree p +
-  /// 1 if that is larger, the last change by outer quadrature, and ten times the solver's tolerance
-  /// are the estimate. Meshes that a scene describes are made anew, so that they follow a curved
-  /// boundary; of others the estimate holds for the polygon, and says so. Accuracy: audited by
-  /// benchmarks/estimates, see there: no error is above its estimate.
+  /// 1 if that is larger (where cells take that degree), the last change by outer quadrature, and
+  /// ten times the solver's tolerance are the estimate. Meshes that a scene describes are made
+  /// anew, so that they follow a curved boundary; of others the estimate holds for the polygon, and
+  /// says so. Accuracy: audited by benchmarks/estimates, see there: no error is above its estimate.
   /// @param is_cheap  on meshes of 500 cells or more, compare with degrees p and p + 1 on a mesh of
   /// 2 h and with 4 h instead, where the scene has these: e = d' q / (1 - q), and 2 of that for
   /// 3/2. Cost: about that of the solution itself; else 17 times as much and more.

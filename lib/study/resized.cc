@@ -31,6 +31,8 @@ namespace plumbline::study
     /// √ of the mean area of the cells of Ω.
     double mean_size(const geometry::Mesh &mesh)
     {
+      if (!mesh.wholes.empty())
+        return mean_size(geometry::straightened(mesh));
       const auto n = std::count_if(mesh.cells.begin(), mesh.cells.end(),
                                    [](const geometry::MeshCell &cell) { return cell.is_inside; });
       return std::sqrt(area(mesh) / static_cast<double>(std::max<std::ptrdiff_t>(1, n)));
@@ -95,6 +97,8 @@ namespace plumbline::study
   {
     if (scene.domain.mesh.is_of_boxes())
       return scene.domain.mesh.map.empty() ? 0 : 2;
+    if (scene.domain.mesh.is_curved)
+      return 4;
     return scene.domain.mesh.inside.empty() ? 2 : 1;
   }
 

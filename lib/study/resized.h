@@ -37,7 +37,8 @@ namespace plumbline::study
 
   /// Whether a scene makes its mesh anew for each h from a description that may be curved, and how
   /// fast the domain's cells tend to what they stand for: a polygon's sides to its curve like h²,
-  /// cells chosen by their centres (Domain/inside) like h.
+  /// those that follow it like h⁴ (see geometry::follow_curves), cells chosen by their centres
+  /// (Domain/inside) like h.
   /// @return 0: nothing is curved
   unsigned int geometry_order(const scene::Scene &scene);
 } // namespace plumbline::study

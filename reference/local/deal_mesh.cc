@@ -76,7 +76,7 @@ namespace plumbline::reference
       {
         const auto x =
             mesh.mapping->transform_unit_to_real_cell(cell, element.unit_support_point(k));
-        field.space->shapes().values(field.space->map(own).unit(x), phi);
+        field.space->values(own, field.space->map(own).unit(x), phi);
         const unsigned int c = element.system_to_component_index(k).first;
         for (unsigned int a = 0; a < field.space->shapes().size(); ++a)
           values[indices[k]] +=

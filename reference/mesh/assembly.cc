@@ -1,5 +1,6 @@
 #include "reference/mesh/assembly.h"
 
+#include "base/error.h"
 #include "reference/mesh/cell_constants.h"
 #include "reference/mesh/edge_assembly.h"
 #include "reference/mesh/number_set.h"
@@ -41,9 +42,10 @@ namespace plumbline::reference
                      const std::optional<physics::Coefficient> &coefficient,
                      const AssemblyOptions &options)
           : cells_(cells), coefficient_(coefficient),
-            of_cells_(coefficient ? constants_in_cells(space, [&](const Point<2> &x)
-                                                       { return coefficient->at(x); })
-                                  : std::vector<double>()),
+            of_cells_(coefficient
+                          ? constants_in_cells(
+                                space, cells, [&](const Point<2> &x) { return coefficient->at(x); })
+                          : std::vector<double>()),
             by_quadrature_(space, cells, profile, kernel.horizon(),
                            of_cells_.empty() ? coefficient : std::nullopt, options.refinement,
                            options.backend)
@@ -52,26 +54,46 @@ namespace plumbline::reference
           return;
         if (space.shapes().n_vertices() == 4)
           by_correlation_.emplace(space.shapes(), profile, kernel.horizon(), options.backend);
-        else if (TrianglePairs::refuse(space, kernel).empty())
+        if ((!by_correlation_ || !are_rectangles()) && TrianglePairs::refuse(space, kernel).empty())
           for (const physics::Kernel<2> &part : kernel.parts())
             by_sides_.emplace_back(space, cells, part);
       }
 
+      /// Whether quadrature, which knows straight sides alone, would be asked for curved ones.
+      bool is_at_loss() const
+      {
+        return cells_.has_curves() && (by_sides_.empty() || !by_sides_[0].exceptions().empty());
+      }
+
       bool has_changing_coefficient() const { return coefficient_ && of_cells_.empty(); }
+
+      bool has_curves() const { return cells_.has_curves(); }
+
+      bool are_rectangles() const
+      {
+        for (std::size_t cell = 0; cell < cells_.size(); ++cell)
+          if (!cells_.is_rectangle(cell))
+            return false;
+        return true;
+      }
 
       bool is_exact(std::size_t a, std::size_t b) const
       {
-        if (!by_sides_.empty())
-          return by_sides_[0].is_exact(a, b);
-        return by_correlation_ && cells_.is_rectangle(a) && cells_.is_rectangle(b);
+        return is_correlation(a, b) || (!by_sides_.empty() && by_sides_[0].is_exact(a, b));
       }
+
+      /// Of pairs that are not exact though others are, in words; empty: there are none.
+      std::string exceptions() const { return by_sides_.empty() ? "" : by_sides_[0].exceptions(); }
 
       /// Without coefficients that are constant in cells.
       void integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks)
       {
-        if (by_quadrature_.is_product(outer, inner) || !is_exact(outer, inner))
+        const bool is_straight = !cells_.is_curved(outer) && !cells_.is_curved(inner);
+        if ((is_straight && by_quadrature_.is_product(outer, inner)) || !is_exact(outer, inner))
           by_quadrature_.integrate(outer, inner, blocks);
-        else if (!by_sides_.empty())
+        else if (is_correlation(outer, inner))
+          by_correlation_->integrate(cells_[outer].box(), cells_[inner].box(), blocks);
+        else
         {
           by_sides_[0].integrate(outer, inner, blocks);
           for (std::size_t part = 1; part < by_sides_.size(); ++part)
@@ -80,8 +102,6 @@ namespace plumbline::reference
             blocks.add(blocks_of_part_);
           }
         }
-        else
-          by_correlation_->integrate(cells_[outer].box(), cells_[inner].box(), blocks);
       }
 
       /// Of the blocks.
@@ -91,6 +111,11 @@ namespace plumbline::reference
       }
 
     private:
+      bool is_correlation(std::size_t a, std::size_t b) const
+      {
+        return by_correlation_ && cells_.is_rectangle(a) && cells_.is_rectangle(b);
+      }
+
       const MeshCells &cells_;
       std::optional<physics::Coefficient> coefficient_;
       std::vector<double> of_cells_; ///< empty: it changes inside of them
@@ -207,25 +232,34 @@ namespace plumbline::reference
       }
     }
 
+    bool is_linear_triangles(const MeshSpace &space)
+    {
+      return space.shapes().n_vertices() == 3 && space.is_continuous() &&
+             space.shapes().degree() == 1;
+    }
+
     /// How entries came about, in words.
     std::string tell_way(const MeshSpace &space, const physics::Kernel<2> &kernel,
                          const PairIntegrator &integrator, const AssemblyOptions &options,
                          bool is_exact)
     {
-      const bool is_triangles = space.shapes().n_vertices() == 3;
+      const std::string cells = space.shapes().n_vertices() == 3 ? "triangles" : "quadrilaterals";
+      if (is_exact && integrator.has_curves())
+        return "exact by sides of pairs of triangles, sides on curves by four straight parts each";
       if (is_exact)
-        return is_triangles ? "exact by sides of pairs of triangles"
-                            : "of axis-aligned rectangles exact by correlation";
-      if (!is_triangles || !options.exact_entries)
+        return integrator.are_rectangles() ? "of axis-aligned rectangles exact by correlation"
+                                           : "exact by sides of pairs of " + cells;
+      if (!options.exact_entries)
         return "by quadrature";
       std::string reason = TrianglePairs::refuse(space, kernel);
       if (integrator.has_changing_coefficient())
-        reason = "the material changes inside of triangles";
-      else if (!reason.empty() && space.is_continuous() && space.shapes().degree() == 1)
+        reason = "the material changes inside of " + cells;
+      else if (!reason.empty() && is_linear_triangles(space))
         reason = refuse_edges(space, kernel);
-      return reason.empty() ? "by sides of pairs of triangles, but by quadrature where one of them "
-                              "is more than 30 times longer than high"
-                            : "by quadrature, not exact by sides of triangles: " + reason;
+      return reason.empty()
+                 ? "by sides of pairs of " + cells + ", but by quadrature where one of " + "them " +
+                       integrator.exceptions()
+                 : "by quadrature, not exact by sides of " + cells + ": " + reason;
     }
   } // namespace
 
@@ -234,9 +268,8 @@ namespace plumbline::reference
                       const std::optional<physics::Coefficient> &coefficient,
                       const AssemblyOptions &options, const base::Team &team)
   {
-    const bool is_triangles = space.shapes().n_vertices() == 3;
-    if (options.exact_entries && !coefficient && is_triangles && space.is_continuous() &&
-        refuse_edges(space, kernel).empty())
+    if (options.exact_entries && !coefficient && is_linear_triangles(space) &&
+        !cells.has_curves() && refuse_edges(space, kernel).empty())
       return {assemble_by_edges(space, kernel, team), true,
               "exact by pairs of sides of the triangles"};
     const KernelEntries profile(kernel);
@@ -253,8 +286,12 @@ namespace plumbline::reference
     const Scratch scratch{PairIntegrator(space, cells, kernel, profile, coefficient, options),
                           {},
                           std::vector<unsigned int>(space.n_dofs())};
+    if (scratch.integrator.is_at_loss())
+      throw InputError("Domain/sides = curved: entries would be " +
+                       tell_way(space, kernel, scratch.integrator, options, false) +
+                       "; write Domain/sides = straight, or change that");
     std::vector<PairBlocks> first_blocks;
-    if (!scratch.integrator.has_changing_coefficient())
+    if (!scratch.integrator.has_changing_coefficient() && !cells.has_curves())
     {
       std::vector<CellPairs> of_all;
       if (team.n_ranks() > 1)

@@ -17,21 +17,54 @@ namespace plumbline::reference
     }
   } // namespace
 
-  MeshCells::MeshCells(const geometry::Mesh &mesh) : locator_(mesh)
+  MeshCells::MeshCells(const geometry::Mesh &mesh) : vertices_(mesh.vertices), locator_(mesh)
   {
-    for (std::size_t i = 0; i < locator_.size(); ++i)
+    for (std::size_t part = 0; part < locator_.size(); ++part)
+      parts_.emplace_back(locator_.polygon(part));
+    for (const geometry::WholeCell &whole : mesh.wholes)
     {
-      const geometry::Polygon &polygon = locator_.polygon(i);
-      cells_.emplace_back(polygon);
+      first_part_.push_back(whole.first_part);
+      outlines_.push_back(whole.outline);
+    }
+    for (std::size_t cell = 0; cell < mesh.cells.size() && mesh.wholes.empty(); ++cell)
+    {
+      first_part_.push_back(cell);
+      outlines_.emplace_back(mesh.cells[cell].vertex.begin(),
+                             mesh.cells[cell].vertex.begin() + mesh.cells[cell].n_vertices);
+    }
+    first_part_.push_back(parts_.size());
+    measure();
+  }
+
+  void MeshCells::measure()
+  {
+    for (std::size_t cell = 0; cell < outlines_.size(); ++cell)
+    {
+      geometry::Polygon polygon;
+      for (const unsigned int vertex : outlines_[cell])
+        polygon.push_back(vertices_[vertex]);
+      Point<2> centroid = parts_[first_part_[cell]].moments().centroid;
+      double area = parts_[first_part_[cell]].moments().area;
+      for (std::size_t part = first_part_[cell] + 1; part < first_part_[cell + 1]; ++part)
+      {
+        const double more = parts_[part].moments().area;
+        area += more;
+        centroid += more / area * (parts_[part].moments().centroid - centroid);
+      }
+      for (std::size_t part = first_part_[cell]; part < first_part_[cell + 1]; ++part)
+        cell_of_.push_back(cell);
       double radius = 0;
       // its first side is the lower one, so that shape functions are those of the unit square
       bool is_rectangle = polygon.size() == 4 && polygon[1][0] > polygon[0][0];
       for (std::size_t v = 0; v < polygon.size(); ++v)
       {
         const auto side = polygon[(v + 1) % polygon.size()] - polygon[v];
-        radius = std::max(radius, polygon[v].distance(centroid(i)));
+        radius = std::max(radius, polygon[v].distance(centroid));
         is_rectangle = is_rectangle && (side[0] == 0 || side[1] == 0);
       }
+      polygons_.push_back(std::move(polygon));
+      centroid_.push_back(centroid);
+      area_.push_back(area);
       radius_.push_back(radius);
       is_rectangle_.push_back(is_rectangle);
     }
@@ -53,20 +86,22 @@ namespace plumbline::reference
             return true;
       return false;
     };
-    return reaches(locator_.polygon(a), locator_.polygon(b)) ||
-           reaches(locator_.polygon(b), locator_.polygon(a));
+    return reaches(polygons_[a], polygons_[b]) || reaches(polygons_[b], polygons_[a]);
   }
 
   void MeshCells::find_near(std::size_t cell, double distance,
                             std::vector<unsigned int> &near) const
   {
-    geometry::Box reach = cells_[cell].box();
+    geometry::Box reach = geometry::bounding_box(geometry::view(polygons_[cell]));
     for (unsigned int d = 0; d < 2; ++d)
     {
       reach.lower[d] -= distance;
       reach.upper[d] += distance;
     }
     locator_.find(reach, near);
+    for (unsigned int &part : near)
+      part = static_cast<unsigned int>(cell_of_[part]);
+    near.erase(std::unique(near.begin(), near.end()), near.end()); // parts of a cell are a run
     near.erase(std::remove_if(near.begin(), near.end(),
                               [&](unsigned int other) { return !is_near(cell, other, distance); }),
                near.end());
@@ -75,8 +110,8 @@ namespace plumbline::reference
   double MeshCells::farthest(std::size_t a, std::size_t b) const
   {
     double square = 0;
-    for (const Point<2> &x : locator_.polygon(a))
-      for (const Point<2> &y : locator_.polygon(b))
+    for (const Point<2> &x : polygons_[a])
+      for (const Point<2> &y : polygons_[b])
         square = std::max(square, (x - y).norm_square());
     return std::sqrt(square);
   }

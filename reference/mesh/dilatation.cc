@@ -235,7 +235,7 @@ namespace plumbline::reference
     const std::vector<physics::Lame> materials =
         dilatation.is_homogeneous
             ? std::vector<physics::Lame>(cells.size(), dilatation.material({}))
-            : constants_in_cells(space, dilatation.material);
+            : constants_in_cells(space, cells, dilatation.material);
     const OuterRule rule = outer_rule(space.shapes(), options.refinement);
     std::optional<WeightedVolume> volume;
     if (options.is_normalised)

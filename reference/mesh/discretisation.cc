@@ -6,12 +6,13 @@
 #include "method/sparse_motion.h"
 #include "reference/geometry_check.h"
 #include "reference/mesh/assembly.h"
+#include "reference/mesh/cell_rules.h"
 #include "reference/mesh/dilatation.h"
 #include "reference/mesh/entry_check.h"
+#include "reference/mesh/triangle_pairs.h"
 #include "reference/mesh/weighted_volume.h"
 
 #include <deal.II/base/parallel.h>
-#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,16 +27,11 @@ namespace plumbline::reference
 
     /// ∫ b φ over this rank's share of the cells of Ω, shape (n_free n_components).
     Vector load_vector(const scene::Problem &problem, const MeshSpace &space,
-                       const base::Team &team)
+                       const MeshCells &cells, const base::Team &team)
     {
       const CellShapes &shapes = space.shapes();
       const unsigned int n_points = std::min(7u, shapes.degree() + 4), nc = problem.n_components;
-      dealii::Quadrature<2> gauss = dealii::QGauss<2>(n_points);
-      if (shapes.n_vertices() == 3)
-        gauss = dealii::QWitherdenVincentSimplex<2>(n_points);
-      std::vector<double> phi(gauss.size() * shapes.size());
-      for (unsigned int q = 0; q < gauss.size(); ++q)
-        shapes.values(gauss.point(q), &phi[q * shapes.size()]);
+      const CellRules rules = gauss_on_cells(space, cells, n_points);
 
       const auto [first, last] = team.share(space.mesh().cells.size());
       const std::size_t n_values = shapes.size() * nc;
@@ -43,19 +39,21 @@ namespace plumbline::reference
       const auto integrate = [&, first = first](std::size_t begin, std::size_t end)
       {
         const scene::Field b = problem.load; // a thread's own
+        CellRule rule;
         for (std::size_t cell = begin; cell < end; ++cell)
-          for (unsigned int q = 0; q < gauss.size() && space.mesh().cells[cell].is_inside; ++q)
-          {
-            const Point<2> x = space.map(cell).point(gauss.point(q));
-            const double weight = gauss.weight(q) * space.map(cell).determinant(gauss.point(q));
+        {
+          if (!space.mesh().cells[cell].is_inside)
+            continue;
+          rules.find(cell, rule);
+          for (std::size_t q = 0; q < rule.points.size(); ++q)
             for (unsigned int c = 0; c < nc; ++c)
             {
-              const double value = weight * b(x, c);
+              const double value = rule.weights[q] * b(rule.points[q], c);
               for (unsigned int a = 0; a < shapes.size(); ++a)
                 of_cells[(cell - first) * n_values + a * nc + c] +=
-                    value * phi[q * shapes.size() + a];
+                    value * rule.phi[q * shapes.size() + a];
             }
-          }
+        }
       };
       constexpr unsigned int grain = 256;
       dealii::parallel::apply_to_subranges(first, last, integrate, grain);
@@ -113,10 +111,22 @@ namespace plumbline::reference
       return matrix;
     }
 
+    /// Spaces stand on triangles with straight sides, whose functions go on up to the curves.
+    std::shared_ptr<const geometry::Mesh> mesh_of_space(const scene::Problem &problem)
+    {
+      if (problem.mesh->wholes.empty())
+        return problem.mesh;
+      return std::make_shared<const geometry::Mesh>(geometry::straightened(*problem.mesh));
+    }
+
     std::shared_ptr<const MeshSpace> make_space(const scene::Problem &problem, bool is_continuous,
                                                 unsigned int degree)
     {
-      auto space = std::make_shared<const MeshSpace>(problem.mesh, is_continuous, degree);
+      const auto mesh = mesh_of_space(problem);
+      MeshSpace::Middles middles;
+      for (const geometry::WholeCell &whole : problem.mesh->wholes)
+        middles.push_back(whole.middles);
+      auto space = std::make_shared<const MeshSpace>(mesh, is_continuous, degree, middles);
       if (space->n_free() == 0)
         throw NumericalError("no degree of freedom is free: every cell of the domain touches the "
                              "collar; refine the mesh");
@@ -134,29 +144,33 @@ namespace plumbline::reference
     }
 
     /// Exact for products of two shape functions on triangles and parallelograms.
-    dealii::Quadrature<2> mass_rule(const CellShapes &shapes)
+    CellRules mass_rules(const MeshSpace &space, const MeshCells &cells)
     {
-      if (shapes.n_vertices() == 3)
-        return dealii::QWitherdenVincentSimplex<2>(std::min(7u, shapes.degree() + 2));
-      return dealii::QGauss<2>(shapes.degree() + 2);
+      return gauss_on_cells(space, cells, std::min(7u, space.shapes().degree() + 2));
     }
 
     /// ∫_Ω φ_i φ_j of the free unknowns by all unknowns, components interleaved.
-    algebra::Rows mass_rows(const MeshSpace &space, unsigned int n_components)
+    algebra::Rows mass_rows(const MeshSpace &space, const MeshCells &cells,
+                            unsigned int n_components)
     {
-      const CellShapes &shapes = space.shapes();
-      const dealii::Quadrature<2> gauss = mass_rule(shapes);
+      const unsigned int n = space.shapes().size();
+      const CellRules rules = mass_rules(space, cells);
+      CellRule rule;
       std::vector<std::map<unsigned int, double>> entries(space.n_free());
-      std::vector<double> phi(shapes.size());
-      for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
-        for (unsigned int q = 0; q < gauss.size() && space.mesh().cells[cell].is_inside; ++q)
+      for (std::size_t cell = 0; cell < cells.size(); ++cell)
+      {
+        if (!space.mesh().cells[cell].is_inside)
+          continue;
+        rules.find(cell, rule);
+        for (std::size_t q = 0; q < rule.points.size(); ++q)
         {
-          const double weight = gauss.weight(q) * space.map(cell).determinant(gauss.point(q));
-          shapes.values(gauss.point(q), phi.data());
-          for (unsigned int a = 0; a < shapes.size(); ++a)
-            for (unsigned int b = 0; b < shapes.size() && space.dofs(cell)[a] < space.n_free(); ++b)
-              entries[space.dofs(cell)[a]][space.dofs(cell)[b]] += weight * phi[a] * phi[b];
+          const double *const phi = &rule.phi[q * n];
+          for (unsigned int a = 0; a < n; ++a)
+            for (unsigned int b = 0; b < n && space.dofs(cell)[a] < space.n_free(); ++b)
+              entries[space.dofs(cell)[a]][space.dofs(cell)[b]] +=
+                  rule.weights[q] * phi[a] * phi[b];
         }
+      }
       algebra::Rows rows;
       rows.start.assign(1, 0);
       for (const auto &row : entries)
@@ -173,27 +187,28 @@ namespace plumbline::reference
     }
 
     /// The diagonal of the mass matrix, scaled to the area of each cell.
-    std::vector<double> lumped_masses(const MeshSpace &space)
+    std::vector<double> lumped_masses(const MeshSpace &space, const MeshCells &cells)
     {
-      const CellShapes &shapes = space.shapes();
-      const dealii::Quadrature<2> gauss = mass_rule(shapes);
-      std::vector<double> masses(space.n_dofs()), squares, phi(shapes.size());
-      for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
+      const unsigned int n = space.shapes().size();
+      const CellRules rules = mass_rules(space, cells);
+      CellRule rule;
+      std::vector<double> masses(space.n_dofs()), squares;
+      for (std::size_t cell = 0; cell < cells.size(); ++cell)
       {
-        squares.assign(shapes.size(), 0);
+        squares.assign(n, 0);
         double area = 0, sum = 0;
-        for (unsigned int q = 0; q < gauss.size(); ++q)
+        rules.find(cell, rule);
+        for (std::size_t q = 0; q < rule.points.size(); ++q)
         {
-          const double weight = gauss.weight(q) * space.map(cell).determinant(gauss.point(q));
-          shapes.values(gauss.point(q), phi.data());
-          area += weight;
-          for (unsigned int a = 0; a < shapes.size(); ++a)
+          const double *const phi = &rule.phi[q * n];
+          area += rule.weights[q];
+          for (unsigned int a = 0; a < n; ++a)
           {
-            squares[a] += weight * phi[a] * phi[a];
-            sum += weight * phi[a] * phi[a];
+            squares[a] += rule.weights[q] * phi[a] * phi[a];
+            sum += rule.weights[q] * phi[a] * phi[a];
           }
         }
-        for (unsigned int a = 0; a < shapes.size(); ++a)
+        for (unsigned int a = 0; a < n; ++a)
           masses[space.dofs(cell)[a]] += area * squares[a] / sum;
       }
       masses.resize(space.n_free());
@@ -230,7 +245,7 @@ namespace plumbline::reference
             [&]
             {
               held_data = held_values(problem, *space_);
-              result.load = load_vector(problem, *space_, team());
+              result.load = load_vector(problem, *space_, *cells_, team());
             });
         method::subtract_held(held(), held_data, result.load);
         const auto around = std::make_shared<const std::vector<double>>(std::move(held_data));
@@ -248,7 +263,7 @@ namespace plumbline::reference
         result.is_collocated = false;
         for (std::size_t dof = 0; dof < space_->n_free(); ++dof)
           result.nodes.push_back(space_->support(dof));
-        result.mass = lumped_masses(*space_);
+        result.mass = lumped_masses(*space_, *cells_);
         result.rows = free();
         return result;
       }
@@ -260,13 +275,13 @@ namespace plumbline::reference
           nodes.push_back(space_->support(dof));
         method::PartedRows mass;
         if (!is_lumped)
-          mass = method::part(mass_rows(*space_, problem_.n_components),
+          mass = method::part(mass_rows(*space_, *cells_, problem_.n_components),
                               space_->n_free() * problem_.n_components);
         return method::move_by_rows(
             {nodes, problem_.n_components, free(), held(),
-             is_lumped ? lumped_masses(*space_) : std::vector<double>(), std::move(mass),
+             is_lumped ? lumped_masses(*space_, *cells_) : std::vector<double>(), std::move(mass),
              [this](const scene::Problem &instant)
-             { return load_vector(instant, *space_, team()); },
+             { return load_vector(instant, *space_, *cells_, team()); },
              [this](const scene::Problem &instant) { return held_values(instant, *space_); }});
       }
 
@@ -305,8 +320,9 @@ namespace plumbline::reference
         if (problem_.dilatation || problem_.body || team().n_ranks() > 1 ||
             (problem_.coefficient && !is_exact_))
           return;
-        const EntryCheck check = check_entries(*space_, problem_.kernel, problem_.coefficient,
-                                               free(), geometry.n_checks, geometry.seed);
+        const EntryCheck check =
+            check_entries(*space_, *cells_, problem_.kernel, problem_.coefficient, free(),
+                          geometry.n_checks, geometry.seed);
         if (check.n_entries == 0)
           return;
         constexpr double rounding = 1e-12;
@@ -350,6 +366,19 @@ namespace plumbline::reference
   {
     return std::make_unique<GalerkinOnMesh>(problem, make_space(problem, is_continuous, degree),
                                             exact_entries, team);
+  }
+
+  std::string refuse_curves(const scene::Problem &problem, bool is_continuous, unsigned int degree)
+  {
+    if (!problem.mesh || problem.mesh->wholes.empty())
+      return "";
+    const std::string reason = TrianglePairs::refuse(
+        MeshSpace(mesh_of_space(problem), is_continuous, degree), problem.kernel);
+    return reason.empty()
+               ? ""
+               : "Domain/sides = curved is for what pairs of sides can do, but " + reason +
+                     "; take a Galerkin method of degree 0 to 2 with a kernel of "
+                     "powers, or write Domain/sides = straight";
   }
 
   double expected_mesh_bytes(const method::ProblemSize &size, unsigned int n_vertices,

@@ -14,6 +14,9 @@ namespace plumbline::reference
   discretise_on_mesh(const scene::Problem &problem, bool is_continuous, unsigned int degree,
                      bool exact_entries, const base::Team &team);
 
+  /// Why a space cannot have its matrix where sides follow curves, and the remedy; empty: it can.
+  std::string refuse_curves(const scene::Problem &problem, bool is_continuous, unsigned int degree);
+
   /// Memory of its static solution at the peak [bytes], see method::Method::expected_bytes.
   double expected_mesh_bytes(const method::ProblemSize &size, unsigned int n_vertices,
                              bool is_continuous, unsigned int degree);

@@ -3,6 +3,7 @@
 #include "algebra/rows.h"
 #include "physics/coefficient.h"
 #include "physics/kernel.h"
+#include "reference/mesh/cells.h"
 #include "reference/mesh/space.h"
 
 #include <optional>
@@ -22,7 +23,13 @@ namespace plumbline::reference
   /// @param rows         free unknowns with free unknowns
   /// @param coefficient  constant in each cell
   /// @return  no entries where correlations do not serve: degrees beyond 2, cells that are no
-  ///          triangles or parallelograms
+  ///          triangles or parallelograms (constants: any convex ones)
+  EntryCheck check_entries(const MeshSpace &space, const MeshCells &cells,
+                           const physics::Kernel<2> &kernel,
+                           const std::optional<physics::Coefficient> &coefficient,
+                           const algebra::Rows &rows, unsigned int n_pairs, unsigned int seed);
+
+  /// Of cells with straight sides.
   EntryCheck check_entries(const MeshSpace &space, const physics::Kernel<2> &kernel,
                            const std::optional<physics::Coefficient> &coefficient,
                            const algebra::Rows &rows, unsigned int n_pairs, unsigned int seed);

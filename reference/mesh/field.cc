@@ -1,7 +1,8 @@
 #include "reference/mesh/field.h"
 
+#include "reference/mesh/cell_rules.h"
+
 #include <deal.II/base/parallel.h>
-#include <deal.II/base/quadrature_lib.h>
 
 #include <cmath>
 
@@ -21,9 +22,9 @@ namespace plumbline::reference
 
   double MeshField::value(const Point<2> &x, unsigned int component) const
   {
-    const std::size_t cell = cells->locator().at(x);
+    const std::size_t cell = cells->cell_of(cells->locator().at(x));
     double phi[CellShapes::most];
-    space->shapes().values(space->map(cell).unit(x), phi);
+    space->values(cell, space->map(cell).unit(x), phi);
     return on_cell(*this, cell, phi, component);
   }
 
@@ -41,11 +42,12 @@ namespace plumbline::reference
         {
           const auto polygon = geometry::view(nodes.pieces[piece]);
           cells->locator().find(geometry::bounding_box(polygon), found);
-          for (const unsigned int cell : found)
+          for (const unsigned int one : found)
           {
-            const geometry::Polygon part = geometry::overlap(polygon, (*cells)[cell].vertices());
+            const geometry::Polygon part = geometry::overlap(polygon, cells->part(one).vertices());
             if (part.empty())
               continue;
+            const std::size_t cell = cells->cell_of(one);
             const unsigned int degree = space->map(cell).is_affine() && shapes.n_vertices() == 3
                                             ? shapes.degree()
                                         : space->map(cell).is_affine() ? 2 * shapes.degree()
@@ -53,7 +55,7 @@ namespace plumbline::reference
             const geometry::CutRule rule = geometry::polygon_rule(geometry::view(part), degree);
             for (std::size_t q = 0; q < rule.points.size(); ++q)
             {
-              shapes.values(space->map(cell).unit(rule.points[q]), phi);
+              space->values(cell, space->map(cell).unit(rule.points[q]), phi);
               for (unsigned int c = 0; c < n_components; ++c)
                 result[node * n_components + c] +=
                     rule.weights[q] / nodes.area[node] * on_cell(*this, cell, phi, c);
@@ -69,21 +71,21 @@ namespace plumbline::reference
   double l2_norm(const MeshField &field)
   {
     const CellShapes &shapes = field.space->shapes();
-    dealii::Quadrature<2> gauss = dealii::QGauss<2>(shapes.degree() + 1);
-    if (shapes.n_vertices() == 3)
-      gauss = dealii::QWitherdenVincentSimplex<2>(shapes.degree() + 1);
-    double sum = 0, phi[CellShapes::most];
+    const CellRules rules = gauss_on_cells(*field.space, *field.cells, shapes.degree() + 1);
+    CellRule rule;
+    double sum = 0;
     for (std::size_t cell = 0; cell < field.cells->size(); ++cell)
-      for (unsigned int q = 0; q < gauss.size() && field.space->mesh().cells[cell].is_inside; ++q)
-      {
-        shapes.values(gauss.point(q), phi);
+    {
+      if (!field.space->mesh().cells[cell].is_inside)
+        continue;
+      rules.find(cell, rule);
+      for (std::size_t q = 0; q < rule.points.size(); ++q)
         for (unsigned int c = 0; c < field.n_components; ++c)
         {
-          const double value = on_cell(field, cell, phi, c);
-          sum +=
-              gauss.weight(q) * field.space->map(cell).determinant(gauss.point(q)) * value * value;
+          const double value = on_cell(field, cell, &rule.phi[q * shapes.size()], c);
+          sum += rule.weights[q] * value * value;
         }
-      }
+    }
     return std::sqrt(sum);
   }
 } // namespace plumbline::reference

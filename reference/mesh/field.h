@@ -20,7 +20,7 @@ namespace plumbline::reference
     /// @throws InputError  x outside
     double value(const Point<2> &x, unsigned int component) const;
 
-    /// Averages over the cells of the free nodes, shape (n_free, n_components): the parts that the
+    /// Averages over the cells of the free nodes, shape (n_free, n_components): the pieces that the
     /// mesh's cells cut out of them are integrated exactly (on cells with a bilinear map, to the
     /// degree of the rule).
     std::vector<double> averages(const geometry::NodeCells &nodes) const;
@@ -29,6 +29,7 @@ namespace plumbline::reference
   /// √ ∫_Ω |u|² of a field; the L2 distance of two fields is that of their difference.
   double l2_norm(const MeshField &field);
 
-  /// Write a field through deal.II's DataOut; cubic triangles are written as quadratic ones.
+  /// Write a field through deal.II's DataOut; cubic triangles are written as quadratic ones, cells
+  /// up to straight sides.
   void write_vtu(const MeshField &field, const std::string &file);
 } // namespace plumbline::reference

@@ -73,28 +73,28 @@ namespace plumbline::reference
     class Correlation
     {
     public:
-      Correlation(const MeshSpace &space, std::size_t outer, std::size_t inner)
-          : space_(space), outer_(outer), inner_(inner), n_(space.shapes().size()), p_(n_), q_(n_)
+      Correlation(const ShapedPolygon &outer, const ShapedPolygon &inner)
+          : outer_(outer), inner_(inner), n_(outer.space.shapes().size()), p_(n_), q_(n_)
       {
       }
 
       /// Add factors of the kernel's entries times the correlations at an offset.
       void add(const Vector2 &z, const std::vector<double> &factors, PairBlocks &blocks)
       {
-        Polygon shifted = space_.mesh().polygon(inner_);
+        Polygon shifted = inner_.polygon;
         for (Point<2> &vertex : shifted)
           vertex -= z;
-        const Polygon common = geometry::overlap(geometry::view(space_.mesh().polygon(outer_)),
-                                                 geometry::view(shifted));
+        const Polygon common =
+            geometry::overlap(geometry::view(outer_.polygon), geometry::view(shifted));
         if (common.empty())
           return;
-        const CellShapes &shapes = space_.shapes();
+        const CellShapes &shapes = outer_.space.shapes();
         const geometry::CutRule rule = geometry::polygon_rule(
             geometry::view(common), 2 * shapes.degree() * (shapes.n_vertices() - 2));
         for (std::size_t i = 0; i < rule.points.size(); ++i)
         {
-          shapes.values(space_.map(outer_).unit(rule.points[i]), p_.data());
-          shapes.values(space_.map(inner_).unit(rule.points[i] + z), q_.data());
+          find(outer_, rule.points[i], p_);
+          find(inner_, rule.points[i] + z, q_);
           for (std::size_t e = 0; e < factors.size(); ++e)
             for (unsigned int a = 0; a < n_; ++a)
               for (unsigned int b = 0; b < n_; ++b)
@@ -109,8 +109,12 @@ namespace plumbline::reference
       }
 
     private:
-      const MeshSpace &space_;
-      std::size_t outer_, inner_;
+      static void find(const ShapedPolygon &of, const Point<2> &x, std::vector<double> &phi)
+      {
+        of.space.values(of.cell, of.space.map(of.cell).unit(x), phi.data());
+      }
+
+      const ShapedPolygon &outer_, &inner_;
       unsigned int n_;
       std::vector<double> p_, q_;
     };
@@ -119,13 +123,20 @@ namespace plumbline::reference
   void integrate_correlation(const MeshSpace &space, std::size_t outer, std::size_t inner,
                              const physics::Kernel<2> &kernel, PairBlocks &blocks)
   {
+    const Polygon of_outer = space.mesh().polygon(outer), of_inner = space.mesh().polygon(inner);
+    integrate_correlation({space, outer, of_outer}, {space, inner, of_inner}, kernel, blocks);
+  }
+
+  void integrate_correlation(const ShapedPolygon &outer, const ShapedPolygon &inner,
+                             const physics::Kernel<2> &kernel, PairBlocks &blocks)
+  {
     constexpr unsigned int n_angles = 16, n_radii = 8;
     constexpr double widest = .25; // radians
     const auto &rule_of_angles = physics::gauss(n_angles), &rule_of_radii = physics::gauss(n_radii);
     std::vector<double> factors(kernel.n_components() == 1 ? 1 : 3);
-    blocks.reset(space.shapes().size(), static_cast<unsigned int>(factors.size()));
-    Correlation correlation(space, outer, inner);
-    const auto creases = find_creases(space.mesh().polygon(outer), space.mesh().polygon(inner));
+    blocks.reset(outer.space.shapes().size(), static_cast<unsigned int>(factors.size()));
+    Correlation correlation(outer, inner);
+    const auto creases = find_creases(outer.polygon, inner.polygon);
     const std::vector<double> angles = find_angles(creases, kernel.horizon());
     for (std::size_t k = 0; k + 1 < angles.size(); ++k)
     {

@@ -2,7 +2,10 @@
 
 #include "base/error.h"
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace plumbline::reference
@@ -50,7 +53,7 @@ namespace plumbline::reference
   } // namespace
 
   MeshSpace::MeshSpace(std::shared_ptr<const geometry::Mesh> mesh, bool is_continuous,
-                       unsigned int degree)
+                       unsigned int degree, const Middles &middles)
       : mesh_(std::move(mesh)), is_continuous_(is_continuous && degree > 0),
         shapes_(cell_size(*mesh_), degree)
   {
@@ -96,5 +99,58 @@ namespace plumbline::reference
     for (std::size_t cell = 0; cell < mesh_->cells.size(); ++cell)
       for (unsigned int a = 0; a < shapes_.size(); ++a)
         support_[dofs(cell)[a]] = maps_[cell].point(shapes_.support()[a]);
+    if (is_continuous_ && degree == 2 && !middles.empty())
+      move_nodes(middles);
+  }
+
+  void MeshSpace::move_nodes(const Middles &middles)
+  {
+    const unsigned int n = shapes_.size();
+    own_.resize(mesh_->cells.size());
+    dealii::FullMatrix<double> at_nodes(n, n); // row: function, column: node
+    std::vector<double> phi(n);
+    for (std::size_t cell = 0; cell < mesh_->cells.size(); ++cell)
+    {
+      bool is_moved = false;
+      for (unsigned int a = 0; a < n; ++a)
+      {
+        Point<2> node = maps_[cell].point(shapes_.support()[a]);
+        if (a >= 3 && middles[cell][a - 3].distance(node) > 0)
+        {
+          // what rounding moves is not worth functions of its own
+          constexpr double rounding = 1e-12;
+          const double size = std::sqrt(maps_[cell].determinant({}));
+          is_moved = is_moved || middles[cell][a - 3].distance(node) > rounding * size;
+          node = middles[cell][a - 3];
+          support_[dofs(cell)[a]] = node;
+        }
+        shapes_.values(maps_[cell].unit(node), phi.data());
+        for (unsigned int b = 0; b < n; ++b)
+          at_nodes(b, a) = phi[b];
+      }
+      if (!is_moved)
+        continue;
+      at_nodes.gauss_jordan();
+      own_[cell].resize(n * n);
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int b = 0; b < n; ++b)
+          own_[cell][a * n + b] = at_nodes(a, b);
+    }
+  }
+
+  void MeshSpace::values(std::size_t cell, const Point<2> &unit, double *phi) const
+  {
+    shapes_.values(unit, phi);
+    const std::vector<double> &own = own_functions(cell);
+    if (own.empty())
+      return;
+    const unsigned int n = shapes_.size();
+    const std::vector<double> before(phi, phi + n);
+    for (unsigned int a = 0; a < n; ++a)
+    {
+      phi[a] = 0;
+      for (unsigned int b = 0; b < n; ++b)
+        phi[a] += own[a * n + b] * before[b];
+    }
   }
 } // namespace plumbline::reference

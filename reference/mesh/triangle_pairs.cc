@@ -13,15 +13,15 @@ namespace plumbline::reference
 {
   namespace
   {
-    constexpr unsigned int n_sides = 3;
     constexpr unsigned int n_parts = 3; ///< in, out, whole
-    constexpr unsigned int next[n_sides] = {1, 2, 0};
 
     /// Of centroids, in sums of radii: beyond it pairs are apart.
     constexpr double near = 3;
     constexpr double accuracy = 1e-15; ///< of rules for them
     /// Cells, in horizons: beyond it the potential inside the circle needs few points.
     constexpr double apart = .35;
+    /// Longer in terms of the height, and terms are larger than their sum by its square.
+    constexpr double most_slender = 30;
 
     /// A bound of vertices' distances from the centroid.
     double largest_radius(const geometry::Mesh &mesh)
@@ -75,8 +75,9 @@ namespace plumbline::reference
 
   std::string TrianglePairs::refuse(const MeshSpace &space, const physics::Kernel<2> &kernel)
   {
-    if (space.shapes().degree() > 2)
-      return "the degree is more than 2";
+    constexpr unsigned int highest = 2; // in all, of potentials up to the fourth order
+    if (SideTraces::total_degree(space.shapes()) > highest)
+      return "the degree is more than " + std::to_string(space.shapes().n_vertices() == 3 ? 2 : 1);
     constexpr std::size_t most_breaks = 7; // each costs as much as a kernel
     if (kernel.breaks().size() > most_breaks)
       return "the kernel's profile has more than " + std::to_string(most_breaks) + " breaks";
@@ -85,10 +86,10 @@ namespace plumbline::reference
     {
       constexpr double farthest = 10; // potentials at so many horizons are much larger than pairs
       if (reach(largest, part.horizon()) > farthest)
-        return "triangles are large in relation to the horizon or a break of the kernel";
+        return "cells are large in relation to the horizon or a break of the kernel";
       constexpr unsigned int most = 60; // pairs by rules of it cost more than by quadrature
       if (degree(part, 4 * largest) > most || !near_powers(part, largest))
-        return "the kernel varies fast in relation to the horizon or the triangles";
+        return "the kernel varies fast in relation to the horizon or the cells";
     }
     return "";
   }
@@ -97,50 +98,58 @@ namespace plumbline::reference
                                 const physics::Kernel<2> &kernel)
       : traces(space.shapes())
   {
-    const geometry::Mesh &mesh = space.mesh();
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> index;
+    const bool is_quads = space.shapes().n_vertices() == 4;
     double largest = 0, longest = 0;
-    for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+    for (std::size_t cell = 0; cell < cells.size(); ++cell)
     {
-      std::array<Side, n_sides> of_cell;
+      const std::vector<unsigned int> &outline = cells.outline(cell);
+      std::vector<Side> of_cell;
       double longest_side = 0;
-      for (unsigned int k = 0; k < n_sides; ++k)
+      for (std::size_t k = 0; k < outline.size(); ++k)
       {
-        const unsigned int a = mesh.cells[cell].vertex[k], b = mesh.cells[cell].vertex[next[k]];
+        const unsigned int a = outline[k], b = outline[(k + 1) % outline.size()];
         const auto [place, is_new] =
             index.try_emplace(std::minmax(a, b), static_cast<unsigned int>(edges.size()));
         const auto [first, second] = place->first;
         if (is_new)
-          edges.emplace_back(mesh.vertices[first], mesh.vertices[second]);
-        of_cell[k] = {place->second, first == a};
+          edges.emplace_back(cells.vertex(first), cells.vertex(second));
+        of_cell.push_back({place->second, first == a});
         longest_side = std::max(longest_side, edges[place->second].along.norm());
       }
-      sides.push_back(of_cell);
-      constexpr double most_slender = 30; // terms are larger than their sum by its square
-      is_slender.push_back(longest_side * longest_side > 2 * most_slender * cells.area(cell));
+      most_sides = std::max(most_sides, of_cell.size());
+      sides.push_back(std::move(of_cell));
+      is_slender.push_back(longest_side * longest_side >
+                           (is_quads ? 1 : 2) * most_slender * cells.area(cell));
+      is_mapped.push_back(space.shapes().degree() > 0 && !space.map(cell).is_affine());
       longest = std::max(longest, longest_side);
       largest = std::max(largest, cells.radius(cell));
     }
+    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+      if (cells.is_curved(cell))
+        find_traces(space, cells, cell, of_curved[cell]);
+    const unsigned int total = SideTraces::total_degree(space.shapes());
     const double farthest = reach(largest, kernel.horizon());
     const auto make = [&](auto &pairs)
     {
       using Pairs = typename std::decay_t<decltype(pairs)>::element_type;
-      pairs = std::make_unique<Pairs>(kernel, *near_powers(kernel, largest),
-                                      space.shapes().degree(), longest, 1 - farthest * farthest);
+      pairs = std::make_unique<Pairs>(kernel, *near_powers(kernel, largest), total, longest,
+                                      1 - farthest * farthest);
     };
     kernel.structure() == physics::Structure::scalar ? make(scalar) : make(tensor);
 
     const unsigned int highest =
-        2 * space.shapes().degree() + degree(kernel, 4 * largest) +
+        2 * total + degree(kernel, 4 * largest) +
         (is_even(kernel) ? 0 : degree_away_from_singularity(near, 1, accuracy));
-    for (unsigned int degree = 1; degree <= highest + 1; degree += 2)
-      rules.emplace_back(space.shapes(), degree);
+    for (unsigned int of_rule = 1; of_rule <= highest + 1; of_rule += 2)
+      rules.emplace_back(space.shapes(), of_rule);
   }
 
   TrianglePairs::TrianglePairs(const MeshSpace &space, const MeshCells &cells,
                                const physics::Kernel<2> &kernel)
       : space_(space), cells_(cells), kernel_(kernel),
         shared_(std::make_shared<const Shared>(space, cells, kernel)), n_(space.shapes().size()),
+        degree_(SideTraces::total_degree(space.shapes())),
         n_entries_(kernel.structure() == physics::Structure::scalar ? 1 : 3),
         outer_(std::numeric_limits<std::size_t>::max())
   {
@@ -148,7 +157,20 @@ namespace plumbline::reference
 
   bool TrianglePairs::is_exact(std::size_t a, std::size_t b) const
   {
-    return shared_->is_slender[a] == 0 && shared_->is_slender[b] == 0;
+    const auto is_good = [&](std::size_t cell)
+    { return shared_->is_slender[cell] == 0 && shared_->is_mapped[cell] == 0; };
+    return is_good(a) && is_good(b);
+  }
+
+  std::string TrianglePairs::exceptions() const
+  {
+    const auto has = [](const std::vector<char> &some)
+    { return std::find(some.begin(), some.end(), 1) != some.end(); };
+    std::string text = has(shared_->is_mapped) ? "is no parallelogram" : "";
+    if (has(shared_->is_slender))
+      text += std::string(text.empty() ? "" : " or ") + "is more than " +
+              std::to_string(static_cast<int>(most_slender)) + " times longer than high";
+    return text;
   }
 
   void TrianglePairs::integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks)
@@ -156,7 +178,7 @@ namespace plumbline::reference
     blocks.reset(n_, n_entries_);
     if (outer != outer_)
     {
-      place_.resize(n_parts * n_sides * shared_->edges.size(), 0);
+      place_.resize(n_parts * shared_->most_sides * shared_->edges.size(), 0);
       for (const std::size_t place : used_)
         place_[place] = 0;
       used_.clear();
@@ -181,6 +203,7 @@ namespace plumbline::reference
     mirror(blocks);
     if (n_entries_ == 3)
       find_components(blocks);
+    take_own_functions(outer, inner, blocks);
   }
 
   /// xx, xy, yy of half the trace, ½(C_xx - C_yy) and C_xy.
@@ -197,19 +220,77 @@ namespace plumbline::reference
       }
   }
 
+  namespace
+  {
+    /// A B Aᵀ of a block, entry by entry of the kernel.
+    void transform(const std::vector<double> &left, const std::vector<double> &right,
+                   unsigned int n, std::vector<double> &block)
+    {
+      const std::size_t n_entries = block.size() / (static_cast<std::size_t>(n) * n);
+      const auto multiply =
+          [&](const std::vector<double> &factor, std::size_t along, std::size_t across)
+      {
+        if (factor.empty())
+          return;
+        std::vector<double> before(n);
+        for (unsigned int k = 0; k < n; ++k)
+          for (std::size_t e = 0; e < n_entries; ++e)
+          {
+            double *const line = &block[k * across * n_entries + e];
+            for (unsigned int b = 0; b < n; ++b)
+              before[b] = line[b * along * n_entries];
+            for (unsigned int a = 0; a < n; ++a)
+            {
+              double sum = 0;
+              for (unsigned int b = 0; b < n; ++b)
+                sum += factor[a * n + b] * before[b];
+              line[a * along * n_entries] = sum;
+            }
+          }
+      };
+      multiply(left, n, 1);
+      multiply(right, 1, n);
+    }
+  } // namespace
+
+  /// Of cells whose nodes lie on curves.
+  void TrianglePairs::take_own_functions(std::size_t outer, std::size_t inner,
+                                         PairBlocks &blocks) const
+  {
+    const auto &of_outer = space_.own_functions(outer), &of_inner = space_.own_functions(inner);
+    transform(of_outer, of_outer, n_, blocks.outer);
+    transform(of_outer, of_inner, n_, blocks.cross);
+    transform(of_inner, of_inner, n_, blocks.inner);
+  }
+
   void TrianglePairs::add_whole(std::size_t outer, std::size_t inner, PairBlocks &blocks)
   {
     const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
     const double both = cells_.radius(outer) + cells_.radius(inner);
     if (!is_even(kernel_) && between <= near * both)
       return add_sides(inner, Part::whole, 1, blocks);
-    // triangles so far apart, or kernels so smooth, that a product of rules sees a polynomial
-    unsigned int of_rule = 2 * space_.shapes().degree();
+    // cells so far apart, or kernels so smooth, that a product of rules sees a polynomial
+    unsigned int of_rule = 2 * degree_;
     if (is_even(kernel_) || kernel_.profile().is_function())
       of_rule += degree(kernel_, 2 * both);
     if (!is_even(kernel_))
       of_rule += degree_away_from_singularity(between, both, accuracy);
-    shared_->rule(of_rule).add(space_.map(outer), space_.map(inner), kernel_, blocks);
+    find_products(outer, of_rule, products_of_x_);
+    find_products(inner, of_rule, products_of_y_);
+    add_products(products_of_x_, products_of_y_, n_, kernel_, blocks);
+  }
+
+  void TrianglePairs::find_products(std::size_t cell, unsigned int degree,
+                                    CellProducts &products) const
+  {
+    const CellMap &map = space_.map(cell);
+    if (map.is_affine() && !cells_.is_curved(cell))
+      return shared_->rule(degree).map(map, products);
+    CellRule rule;
+    rule_by_parts(space_, cells_, cell, degree, rule);
+    products.clear();
+    for (std::size_t q = 0; q < rule.points.size(); ++q)
+      products.add(rule.points[q], rule.weights[q], &rule.phi[q * n_], n_);
   }
 
   /// Entries below the diagonal of what is symmetric.
@@ -222,9 +303,10 @@ namespace plumbline::reference
             (*block)[place(a, b, e)] = (*block)[place(b, a, e)];
   }
 
-  const EdgeMoments *TrianglePairs::moments(unsigned int side, unsigned int edge, Part part)
+  const EdgeMoments *TrianglePairs::moments(std::size_t side, unsigned int edge, Part part)
   {
-    const std::size_t key = n_parts * (n_sides * edge + side) + static_cast<std::size_t>(part);
+    const std::size_t key =
+        n_parts * (shared_->most_sides * edge + side) + static_cast<std::size_t>(part);
     if (place_[key] == 0)
     {
       used_.push_back(key);
@@ -246,17 +328,35 @@ namespace plumbline::reference
     return &kept_[place_[key] - 1];
   }
 
-  void TrianglePairs::find_traces(std::size_t cell, Traces &traces) const
+  void TrianglePairs::Shared::find_traces(const MeshSpace &space, const MeshCells &cells,
+                                          std::size_t cell, Traces &of_cell) const
   {
-    for (unsigned int k = 0; k < n_sides; ++k)
+    const std::vector<Side> &own = sides[cell];
+    of_cell.sign.resize(own.size());
+    of_cell.of.resize(own.size());
+    for (unsigned int k = 0; k < own.size(); ++k)
     {
-      const Side &side = shared_->sides[cell][k];
-      const Vector2 &along = shared_->edges[side.edge].along;
-      const double sign = side.is_forward ? 1 : -1;
-      traces.sign[k] = sign;
-      shared_->traces.find(space_.map(cell), k, side.is_forward,
-                           Point<2>(sign * along[1], -sign * along[0]), traces.of[k]);
+      const Segment &edge = edges[own[k].edge];
+      const double sign = own[k].is_forward ? 1 : -1;
+      const Point<2> normal(sign * edge.along[1], -sign * edge.along[0]);
+      of_cell.sign[k] = sign;
+      if (cells.is_curved(cell))
+        traces.find(space.map(cell), edge, normal, of_cell.of[k]);
+      else
+        traces.find(space.map(cell), k, own[k].is_forward, normal, of_cell.of[k]);
     }
+  }
+
+  void TrianglePairs::find_traces(std::size_t cell, Traces &own) const
+  {
+    if (!cells_.is_curved(cell))
+      shared_->find_traces(space_, cells_, cell, own);
+  }
+
+  /// @param own  found before, if none are kept
+  const TrianglePairs::Traces &TrianglePairs::traces(std::size_t cell, const Traces &own) const
+  {
+    return cells_.is_curved(cell) ? shared_->of_curved.at(cell) : own;
   }
 
   namespace
@@ -321,15 +421,17 @@ namespace plumbline::reference
   void TrianglePairs::add_sides(std::size_t inner, Part part, double factor, PairBlocks &blocks)
   {
     find_traces(inner, of_inner_);
+    const Traces &of_outer = traces(outer_, of_outer_), &of_inner = traces(inner, of_inner_);
     SideTrace one;
     one.value[0][0] = 1;
-    const unsigned int degree = 2 * space_.shapes().degree();
-    for (unsigned int k = 0; k < n_sides; ++k)
-      for (unsigned int l = 0; l < n_sides; ++l)
+    const unsigned int degree = 2 * degree_;
+    const std::vector<Side> &sides = shared_->sides[inner];
+    for (std::size_t k = 0; k < of_outer.of.size(); ++k)
+      for (std::size_t l = 0; l < sides.size(); ++l)
       {
-        const EdgeMoments *const m = moments(k, shared_->sides[inner][l].edge, part);
-        const auto &p = of_outer_.of[k], &q = of_inner_.of[l];
-        const double sign_p = of_outer_.sign[k], sign_q = of_inner_.sign[l];
+        const EdgeMoments *const m = moments(k, sides[l].edge, part);
+        const auto &p = of_outer.of[k], &q = of_inner.of[l];
+        const double sign_p = of_outer.sign[k], sign_q = of_inner.sign[l];
         for (unsigned int e = 0; e < n_entries_; ++e)
         {
           for (unsigned int b = 0; b < n_; ++b)

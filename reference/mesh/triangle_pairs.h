@@ -1,19 +1,22 @@
 #pragma once
 
-#include "reference/mesh/cells.h"
+#include "reference/mesh/cell_products.h"
+#include "reference/mesh/cell_rules.h"
 #include "reference/mesh/edge_pairs.h"
 #include "reference/mesh/pair_blocks.h"
-#include "reference/mesh/product_rule.h"
 #include "reference/mesh/side_traces.h"
 #include "reference/mesh/space.h"
 
 #include <memory>
+#include <unordered_map>
 
 namespace plumbline::reference
 {
-  /// Blocks of pairs of triangles with a scalar kernel or a bond tensor, its profile without breaks
-  /// (a kernel with breaks is a sum of such ones, see Kernel::parts), and shape functions of degree
-  /// 2 at most, exact to rounding: by Green's identity in x and in y, for polynomials p and q,
+  /// Blocks of pairs of cells with a scalar kernel or a bond tensor, its profile without breaks (a
+  /// kernel with breaks is a sum of such ones, see Kernel::parts), exact to rounding: of triangles
+  /// with shape functions of degree 2 at most, of parallelograms with bilinear ones, of any convex
+  /// quadrilaterals with constants; sides of triangles may follow curves, see MeshCells. By Green's
+  /// identity in x and in y, for polynomials p and q,
   ///   ∬_{T×T', |x-y|<δ} C p(x) q(y) = Σ_{m,n} ∮_∂T ∮_∂T' (Δ^m p ∂_nx - ∂_n Δ^m p)
   ///     (Δ^n q ∂_ny - ∂_n Δ^n q) Ψ_{2+m+n}(y - x), Δ^k Ψ_k = C,
   /// with the potentials cut off at the circle, or what lies beyond it taken from all of the pair.
@@ -21,8 +24,8 @@ namespace plumbline::reference
   /// apart. Accuracy, of C |T| |T'| / 9 for degree 1 at most: 1e-11 where neither is
   /// slender, 2.5e-12 for δ >= 4 h, 1e-9 to where slender ones are left to quadrature; for degree 2
   /// 2e-11, and 1e-9 for kernels that are no polynomials of ξ (10,000 pairs of moved meshes, δ = .7
-  /// to 5.5 h, against integrals in long double: 2e-12 and 2e-10). Not thread safe: give each
-  /// thread its own copy.
+  /// to 5.5 h, against integrals in long double: 2e-12 and 2e-10); parallelograms with bilinear
+  /// functions as triangles of degree 2. Not thread safe: give each thread its own copy.
   class TrianglePairs
   {
   public:
@@ -31,8 +34,12 @@ namespace plumbline::reference
 
     TrianglePairs(const MeshSpace &space, const MeshCells &cells, const physics::Kernel<2> &kernel);
 
-    /// Neither is so slender that terms are much larger than their sum.
+    /// The shape functions of both are polynomials, and neither is so slender that terms are much
+    /// larger than their sum.
     bool is_exact(std::size_t a, std::size_t b) const;
+
+    /// Which pairs are not exact, in words; empty: all are.
+    std::string exceptions() const;
 
     void integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks);
 
@@ -42,26 +49,30 @@ namespace plumbline::reference
       unsigned int edge = 0;
       bool is_forward = true; ///< runs as the edge does
     };
+    /// The functions of a cell on its sides.
+    struct Traces
+    {
+      std::vector<double> sign; ///< of outer normals in terms of the edges'
+      std::vector<std::vector<SideTrace>> of;
+    };
     /// What all threads read.
     struct Shared
     {
       Shared(const MeshSpace &space, const MeshCells &cells, const physics::Kernel<2> &kernel);
 
-      const ProductRule &rule(unsigned int degree) const { return rules[degree / 2]; }
+      void find_traces(const MeshSpace &space, const MeshCells &cells, std::size_t cell,
+                       Traces &of_cell) const;
+      const UnitProducts &rule(unsigned int degree) const { return rules[degree / 2]; }
 
       std::vector<Segment> edges;
-      std::vector<std::array<Side, 3>> sides; ///< of each cell
-      std::vector<char> is_slender;           ///< cells
-      std::vector<ProductRule> rules;         ///< index i is exact to degree 2 i + 1
+      std::vector<std::vector<Side>> sides;    ///< of each cell
+      std::size_t most_sides = 0;              ///< of a cell
+      std::vector<char> is_slender, is_mapped; ///< cells; mapped: shapes that are no polynomials
+      std::vector<UnitProducts> rules;         ///< index i is exact to degree 2 i + 1
       SideTraces traces;
-      std::unique_ptr<EdgePairs<1>> scalar; ///< one of both
+      std::unordered_map<std::size_t, Traces> of_curved; ///< cells, which cost more
+      std::unique_ptr<EdgePairs<1>> scalar;              ///< one of both
       std::unique_ptr<EdgePairs<3>> tensor;
-    };
-    /// The functions of a cell on its sides.
-    struct Traces
-    {
-      std::array<double, 3> sign{}; ///< of outer normals in terms of the edges'
-      std::array<std::vector<SideTrace>, 3> of;
     };
     enum class Part : char
     {
@@ -70,9 +81,12 @@ namespace plumbline::reference
       whole
     };
 
-    const EdgeMoments *moments(unsigned int side, unsigned int edge, Part part);
-    void find_traces(std::size_t cell, Traces &traces) const;
+    const EdgeMoments *moments(std::size_t side, unsigned int edge, Part part);
+    void find_traces(std::size_t cell, Traces &own) const;
+    const Traces &traces(std::size_t cell, const Traces &own) const;
     void add_sides(std::size_t inner, Part part, double factor, PairBlocks &blocks);
+    void find_products(std::size_t cell, unsigned int degree, CellProducts &products) const;
+    void take_own_functions(std::size_t outer, std::size_t inner, PairBlocks &blocks) const;
     void add_whole(std::size_t outer, std::size_t inner, PairBlocks &blocks);
     void mirror(PairBlocks &blocks) const;
     void find_components(PairBlocks &blocks) const;
@@ -85,12 +99,13 @@ namespace plumbline::reference
     const MeshCells &cells_;
     physics::Kernel<2> kernel_;
     std::shared_ptr<const Shared> shared_;
-    unsigned int n_;                  ///< shape functions
+    unsigned int n_, degree_;         ///< shape functions, and their degree in all
     unsigned int n_entries_;          ///< of the kernel, see EdgePairs
     std::size_t outer_;               ///< whose sides' moments are kept
     std::vector<EdgeMoments> kept_;   ///< shape (n kept, n_entries)
     std::vector<unsigned int> place_; ///< in kept_, of each edge, side of outer_ and part; 0: none
     std::vector<std::size_t> used_;
-    Traces of_outer_, of_inner_;
+    Traces of_outer_, of_inner_; ///< those of cells with straight sides
+    CellProducts products_of_x_, products_of_y_;
   };
 } // namespace plumbline::reference

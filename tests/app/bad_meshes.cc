@@ -152,6 +152,25 @@ TEST_F(BadMeshes, materials_that_do_not_fit_the_mesh_are_refused)
         {"are both given", "clear one"}}});
 }
 
+TEST_F(BadMeshes, curved_sides_where_nothing_can_follow_them_are_refused)
+{
+  const std::string curved = set("Domain/sides", "curved"),
+                    disk = set("Domain/mesh", std::string(PLUMBLINE_SCENES) + "/meshes/disk.geo") +
+                           set("Study/norms", "averages L2") +
+                           set("Study/decisive error", "averages L2 | exact");
+  expect_refusals(
+      {{curved, {"Domain/sides = curved with Domain/mesh = squares", "has curves to follow"}},
+       {curved + set("Domain/mesh", "triangles"), {"with Domain/mesh = triangles", "straight"}},
+       {set("Domain/sides", "round"), {"Domain/sides", "round"}},
+       {curved + disk + set("Quadrature/entries", "quadrature"),
+        {"Domain/sides = curved and Quadrature/entries = quadrature", "write exact, or"}},
+       {curved + disk + "--methods P3",
+        {"Domain/sides = curved is for what pairs of sides can do", "the degree is more than 2",
+         "write Domain/sides = straight"}},
+       {curved + disk + set("Kernel/coefficient", "1 + x^2") + "--methods P1",
+        {"Domain/sides = curved: entries would be by quadrature", "the material changes inside"}}});
+}
+
 TEST_F(BadMeshes, nodes_that_cannot_be_used_are_refused)
 {
   write("nox.csv", csv("a,y", ""));

@@ -64,6 +64,12 @@ namespace plumbline::scene
     keys.add("map", mesh.map,
              "Of squares and triangles: where their vertices go, 'x, y' as expressions; e.g. "
              "'sign(x)*abs(x)^1.5, y' grades the mesh. Empty: they stay.");
+    keys.add("sides", mesh.is_curved, "straight", "curved",
+             "Of the triangles of a .geo file, or of a .msh file of second to fourth order. "
+             "straight: between their corners. curved: sides on curves follow them, by four "
+             "straight parts that keep the area, so that Omega is the domain to h^4 and not to "
+             "h^2; for Galerkin methods of degree 2 at most with exact entries, and for meshfree "
+             "methods.");
     keys.add(
         "collar", "auto", any_text(),
         [this](const std::string &text)

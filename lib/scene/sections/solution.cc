@@ -35,9 +35,9 @@ namespace plumbline::scene
   {
     keys.add("entries", exact_entries, "quadrature", "exact",
              "Entries of Galerkin matrices on meshes. exact: to rounding where a way is known "
-             "(axis-aligned rectangles by correlation; triangles up to degree 2 by pairs of sides, "
-             "scalar kernels and bond tensors), else by quadrature, and the report says why. "
-             "quadrature: all of them.");
+             "(axis-aligned rectangles by correlation; triangles up to degree 2, parallelograms "
+             "up to degree 1 and constants by pairs of sides, scalar kernels and bond tensors), "
+             "else by quadrature, and the report says why. quadrature: all of them.");
     keys.add("tolerance", tolerance, between(0, 1),
              "Outer quadrature on meshes is refined until the solution changes by less, relative "
              "to it. 0: the first rule is taken as it is, and nothing is known of its error.");
