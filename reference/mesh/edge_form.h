@@ -56,7 +56,7 @@ namespace plumbline::reference
       const double both = form_.radius[i] + form_.radius[j];
       if (distance - both >= horizon_)
         return PairWay::none;
-      const bool is_apart = distance - both > apart * horizon_;
+      const bool is_apart = distance - both > apart_;
       if (is_apart && !is_product_)
         return PairWay::in;
       if (distance + both <= horizon_)
@@ -73,11 +73,9 @@ namespace plumbline::reference
     double farthest_near() const { return farthest_near_; }
 
   private:
-    static constexpr double apart = .35; ///< supports, so that Q needs few points
-
     const MeshSpace &space_;
     const EdgeForm &form_;
-    double horizon_, farthest_out_, farthest_near_;
+    double horizon_, apart_, farthest_out_, farthest_near_;
     bool is_product_;
   };
 } // namespace plumbline::reference
