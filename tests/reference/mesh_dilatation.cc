@@ -293,7 +293,7 @@ TEST(MeshDilatation, OfSurroundingsThatRepeatIsThatOfEachCell)
         for (const bool is_free : {true, false})
         {
           const Discrete discrete(is_free ? free_square(.125, is_triangles)
-                                          : square_mesh(.125, .8, is_triangles),
+                                          : square_mesh(.25, .8, is_triangles),
                                   is_continuous, 1);
           const auto rows = discrete.assemble(halves(0, is_two_point), 0, is_free),
                      of_each = discrete.assemble(halves(4e-15, is_two_point), 0, is_free);

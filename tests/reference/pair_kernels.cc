@@ -275,7 +275,7 @@ TEST(PairKernels, ThatAreNarrowOrHaveManyBreaksTakeQuadratureAndSayWhy)
   const std::string start = "by quadrature, not exact by sides of triangles: ";
   EXPECT_EQ(
       way(physics::RadialProfile::smooth([](double t) { return std::exp(-36 * t * t); }, true), 1),
-      start + "the kernel varies fast in relation to the horizon or the triangles");
+      start + "the kernel varies fast in relation to the horizon or the cells");
   EXPECT_EQ(way(physics::RadialProfile::table(rows), 1),
             start + "the kernel's profile has more than 7 breaks");
   EXPECT_EQ(way(profiles[1], .1),
