@@ -11,7 +11,7 @@ namespace plumbline::reference
   struct ShapedPolygon
   {
     const MeshSpace &space;
-    std::size_t cell;
+    std::size_t cell = 0;
     const geometry::Polygon &polygon;
   };
 

@@ -87,5 +87,7 @@ TEST(ExpectedMemory, of_meshes_and_scattered_nodes_is_within_a_factor_of_two)
   const std::string squares = "subsection Domain\n set mesh = squares\nend\n";
   expect_estimate(parse(scalar + squares + sizes("0.015625", "3"), "DGQ1"), reference::methods());
   expect_estimate(parse(scalar + squares + sizes("0.0078125", "4"), "IPA-AC"), meshfree::methods());
+  const std::string triangles = "subsection Domain\n set mesh = triangles\nend\n";
+  expect_estimate(parse(scalar + triangles + sizes("0.015625", "8"), "P1"), reference::methods());
 }
 #endif
