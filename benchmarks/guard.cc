@@ -61,6 +61,7 @@ namespace
       {"family IPA-AC", "family FA", 3, "at m = 3 the circle cuts every other cell"},
       {"family IPA-AC-R2", "family IPA-AC", 2.5, "a small system of moments"},
       {"pairs P1 constant, whole", "pairs P1 constant, cut", .3, "products of integrals"},
+      {"sides P1 tensor, cut", "sides P1 constant, cut", 5, "three entries and their potentials"},
   };
 
   struct Options

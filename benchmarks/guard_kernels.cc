@@ -10,6 +10,7 @@
 #include "parts.h"
 #include "reference/lattice/stencil.h"
 #include "reference/mesh/pair_quadrature.h"
+#include "reference/mesh/polygon_pairs.h"
 #include "reference/mesh/rectangle_pairs.h"
 
 #include <cmath>
@@ -188,6 +189,34 @@ namespace plumbline::benchmarks
               }};
     }
 
+    /// Exact entries of two cells in the middle with all others that the circle cuts: one after the
+    /// other, so that no moments of sides are left of the last pass.
+    GuardKernel side_pairs(const std::string &name, const physics::Kernel<2> &kernel,
+                           unsigned int n_passes)
+    {
+      const auto body = std::make_shared<const Body>(true, "constant");
+      std::vector<std::pair<std::size_t, unsigned int>> pairs;
+      for (const Point<2> &centre : {Point<2>(.53, .51), Point<2>(.51, .53)})
+      {
+        const auto own = body->cells.locator().at(centre);
+        std::vector<unsigned int> near;
+        body->cells.find_near(own, Body::horizon, near);
+        for (const unsigned int other : near)
+          if (body->cells.farthest(own, other) > Body::horizon)
+            pairs.emplace_back(own, other);
+      }
+      const auto blocks = std::make_shared<reference::PairBlocks>();
+      const auto by_sides =
+          std::make_shared<reference::PolygonPairs>(body->space, body->cells, kernel);
+      return {name, "pair", static_cast<double>(pairs.size()), n_passes,
+              [=, owner = body]
+              {
+                for (const auto &[own, other] : pairs)
+                  by_sides->integrate(own, other, *blocks);
+                sink = blocks->cross[0];
+              }};
+    }
+
     /// A linear peridynamic solid of varying material on 8 × 8 squares by OPT, m = 3, families
     /// included.
     GuardKernel solid_rows()
@@ -226,6 +255,12 @@ namespace plumbline::benchmarks
     kernels.push_back(mesh_pairs("pairs P1 constant, cut", true, "constant", true, false, 8));
     kernels.push_back(mesh_pairs("pairs P1 1/r, whole", true, "1/r", false, false, 4));
     kernels.push_back(mesh_pairs("pairs Q1 1/r, exact", false, "1/r", true, true, 4));
+    kernels.push_back(
+        side_pairs("sides P1 constant, cut", make_kernel("constant", Body::horizon), 4));
+    kernels.push_back(side_pairs("sides P1 tensor, cut",
+                                 physics::Kernel<2>::with_bulk_modulus(
+                                     physics::kernel_type("bond-tensor").profile, Body::horizon, 1),
+                                 4));
     kernels.push_back(solid_rows());
     return kernels;
   }

@@ -5,10 +5,10 @@
 #include "reference/mesh/edge_assembly.h"
 #include "reference/mesh/number_set.h"
 #include "reference/mesh/pair_quadrature.h"
+#include "reference/mesh/polygon_pairs.h"
 #include "reference/mesh/rectangle_pairs.h"
 #include "reference/mesh/repeated_pairs.h"
 #include "reference/mesh/rows.h"
-#include "reference/mesh/triangle_pairs.h"
 
 #include <deal.II/base/parallel.h>
 #include <deal.II/base/work_stream.h>
@@ -54,7 +54,7 @@ namespace plumbline::reference
           return;
         if (space.shapes().n_vertices() == 4)
           by_correlation_.emplace(space.shapes(), profile, kernel.horizon(), options.backend);
-        if ((!by_correlation_ || !are_rectangles()) && TrianglePairs::refuse(space, kernel).empty())
+        if ((!by_correlation_ || !are_rectangles()) && PolygonPairs::refuse(space, kernel).empty())
           for (const physics::Kernel<2> &part : kernel.parts())
             by_sides_.emplace_back(space, cells, part);
       }
@@ -121,7 +121,7 @@ namespace plumbline::reference
       std::vector<double> of_cells_; ///< empty: it changes inside of them
       PairQuadrature by_quadrature_;
       std::optional<RectanglePairs> by_correlation_;
-      std::vector<TrianglePairs> by_sides_; ///< of each smooth part of the kernel
+      std::vector<PolygonPairs> by_sides_; ///< of each smooth part of the kernel
       PairBlocks blocks_of_part_;
     };
 
@@ -251,7 +251,7 @@ namespace plumbline::reference
                                            : "exact by sides of pairs of " + cells;
       if (!options.exact_entries)
         return "by quadrature";
-      std::string reason = TrianglePairs::refuse(space, kernel);
+      std::string reason = PolygonPairs::refuse(space, kernel);
       if (integrator.has_changing_coefficient())
         reason = "the material changes inside of " + cells;
       else if (!reason.empty() && is_linear_triangles(space))

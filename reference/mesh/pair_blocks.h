@@ -29,4 +29,9 @@ namespace plumbline::reference
       }
     }
   };
+
+  /// L B Rᵀ of a block B, entry by entry of the kernel.
+  /// @param left, right  shape (n, n); empty: the identity
+  void transform(const std::vector<double> &left, const std::vector<double> &right, unsigned int n,
+                 std::vector<double> &block);
 } // namespace plumbline::reference

@@ -5,7 +5,7 @@
 #include "reference/mesh/assembly.h"
 #include "reference/mesh/cell_rules.h"
 #include "reference/mesh/entry_check.h"
-#include "reference/mesh/triangle_pairs.h"
+#include "reference/mesh/polygon_pairs.h"
 
 #include <gtest/gtest.h>
 
@@ -121,7 +121,7 @@ namespace
   }
 
   /// Parts are a quarter as wide as triangles: terms of near pairs are larger than their sum by
-  /// more than those of TrianglePairs.
+  /// more than those of PolygonPairs.
   double rounding(const Powers &powers, unsigned int degree)
   {
     const bool is_constant = powers.size() == 1 && powers.front().exponent == 0;
@@ -214,7 +214,7 @@ TEST(CurvedCells, HaveTheIntegralsOfTheirParts)
     {
       const physics::Kernel<2> kernel(physics::Structure::scalar, powers, horizon, 1);
       const System whole(mesh, false, 0), of_parts(parts, false, 0);
-      reference::TrianglePairs pairs(whole.space, whole.cells, kernel),
+      reference::PolygonPairs pairs(whole.space, whole.cells, kernel),
           pairs_of_parts(of_parts.space, of_parts.cells, kernel);
       PairBlocks one, part;
       std::vector<unsigned int> near;

@@ -4,8 +4,8 @@
 #include "geometry/mesh_input.h"
 #include "reference/mesh/assembly.h"
 #include "reference/mesh/entry_check.h"
+#include "reference/mesh/polygon_pairs.h"
 #include "reference/mesh/rows.h"
-#include "reference/mesh/triangle_pairs.h"
 #include "tests/reference/pair_oracle.h"
 
 #include <deal.II/base/multithread_info.h>
@@ -106,13 +106,13 @@ namespace
                     const tests::OracleKernel &exact, unsigned int n_pairs, unsigned int seed)
   {
     const MeshCells cells(space.mesh());
-    const reference::TrianglePairs pairs(space, cells, kernel);
+    const reference::PolygonPairs pairs(space, cells, kernel);
     std::vector<double> difference(n_pairs);
     reference::in_parallel(
         n_pairs,
         [&](std::size_t first, std::size_t last)
         {
-          reference::TrianglePairs own = pairs;
+          reference::PolygonPairs own = pairs;
           PairBlocks sides;
           std::vector<unsigned int> near;
           for (std::size_t k = first; k < last; ++k)
@@ -213,7 +213,7 @@ TEST(PairKernels, AgreeWithIntegralsInHigherPrecision)
           const MeshSpace space(std::make_shared<const Mesh>(triangles(h, m * h, .25)), false,
                                 degree);
           const physics::Kernel<2> kernel(structure, profile.profile, m * h, 1);
-          if (!reference::TrianglePairs::refuse(space, kernel).empty())
+          if (!reference::PolygonPairs::refuse(space, kernel).empty())
           {
             EXPECT_LT(m, 3); // functions vary fast in triangles
             continue;

@@ -4,8 +4,8 @@
 #include "reference/mesh/assembly.h"
 #include "reference/mesh/entry_check.h"
 #include "reference/mesh/pair_correlation.h"
+#include "reference/mesh/polygon_pairs.h"
 #include "reference/mesh/rectangle_pairs.h"
-#include "reference/mesh/triangle_pairs.h"
 
 #include <gtest/gtest.h>
 
@@ -116,7 +116,7 @@ namespace
     return true;
   }
 
-  /// Terms of near pairs of bilinear functions are larger than their sum, see TrianglePairs.
+  /// Terms of near pairs of bilinear functions are larger than their sum, see PolygonPairs.
   double rounding(const Powers &powers, unsigned int degree)
   {
     return degree == 0 ? 2e-13 : powers.front().exponent == 0 && powers.size() == 1 ? 1e-12 : 5e-11;
@@ -136,8 +136,8 @@ TEST(QuadrilateralPairs, HaveTheIntegralsOfTheirCorrelations)
         const MeshSpace space(mesh, false, degree);
         const MeshCells cells(*mesh);
         const physics::Kernel<2> kernel(physics::Structure::scalar, powers, m * h, 1);
-        ASSERT_EQ(reference::TrianglePairs::refuse(space, kernel), "");
-        reference::TrianglePairs pairs(space, cells, kernel);
+        ASSERT_EQ(reference::PolygonPairs::refuse(space, kernel), "");
+        reference::PolygonPairs pairs(space, cells, kernel);
         PairBlocks sides, correlation;
         std::vector<unsigned int> near;
         for (unsigned int trial = 0; trial < 4; ++trial)
@@ -170,7 +170,7 @@ TEST(QuadrilateralPairs, OfSquaresAreThoseOfRectangles)
       const MeshCells cells(*mesh);
       const physics::Kernel<2> kernel(physics::Structure::scalar, powers, horizon, 1);
       const reference::KernelEntries profile(kernel);
-      reference::TrianglePairs by_sides(space, cells, kernel);
+      reference::PolygonPairs by_sides(space, cells, kernel);
       reference::RectanglePairs by_correlation(space.shapes(), profile, horizon,
                                                geometry::Backend::fast);
       PairBlocks sides, correlation;
@@ -225,7 +225,7 @@ TEST(QuadrilateralPairs, AddUpToThoseOfTheirParts)
     const MeshSpace of_coarse(std::make_shared<const Mesh>(coarse), false, 0),
         of_fine(std::make_shared<const Mesh>(fine), false, 0);
     const MeshCells cells(coarse), parts(fine);
-    reference::TrianglePairs pairs(of_coarse, cells, kernel), of_parts(of_fine, parts, kernel);
+    reference::PolygonPairs pairs(of_coarse, cells, kernel), of_parts(of_fine, parts, kernel);
     PairBlocks whole, part;
     std::vector<unsigned int> near;
     const std::size_t outer = cells.size() / 2;

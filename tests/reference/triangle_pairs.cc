@@ -1,11 +1,11 @@
 // Pairs of triangles by their sides: against stored integrals, against the correlations of the
 // pairs, and against identities that only exact entries satisfy.
-#include "reference/mesh/triangle_pairs.h"
 #include "geometry/mesh_input.h"
 #include "reference/mesh/assembly.h"
 #include "reference/mesh/edge_assembly.h"
 #include "reference/mesh/entry_check.h"
 #include "reference/mesh/pair_correlation.h"
+#include "reference/mesh/polygon_pairs.h"
 #include "reference/mesh/repeated_pairs.h"
 
 #include <gtest/gtest.h>
@@ -221,7 +221,7 @@ TEST(TrianglePairs, HaveTheStoredIntegralsByTheirSidesAndByTheirCorrelations)
     const MeshSpace space(mesh, false, 1);
     const MeshCells cells(*mesh);
     const physics::Kernel<2> kernel = pair.kernel();
-    reference::TrianglePairs by_sides(space, cells, kernel);
+    reference::PolygonPairs by_sides(space, cells, kernel);
     PairBlocks sides, correlation;
     by_sides.integrate(0, 1, sides);
     const double scale = cells.area(0) * cells.area(1) / 9;
@@ -251,7 +251,7 @@ TEST(TrianglePairs, OfMovedMeshesHaveTheIntegralsOfTheirCorrelations)
         const MeshSpace space(mesh, false, degree);
         const MeshCells cells(*mesh);
         const physics::Kernel<2> kernel(physics::Structure::scalar, powers, m * h, 1);
-        reference::TrianglePairs pairs(space, cells, kernel);
+        reference::PolygonPairs pairs(space, cells, kernel);
         PairBlocks sides, correlation;
         std::vector<unsigned int> near;
         for (unsigned int trial = 0; trial < 4; ++trial)

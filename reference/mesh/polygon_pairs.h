@@ -26,13 +26,13 @@ namespace plumbline::reference
   /// 2e-11, and 1e-9 for kernels that are no polynomials of ξ (10,000 pairs of moved meshes, δ = .7
   /// to 5.5 h, against integrals in long double: 2e-12 and 2e-10); parallelograms with bilinear
   /// functions as triangles of degree 2. Not thread safe: give each thread its own copy.
-  class TrianglePairs
+  class PolygonPairs
   {
   public:
     /// Empty if this way is open to a space and all parts of a kernel, else why it is not.
     static std::string refuse(const MeshSpace &space, const physics::Kernel<2> &kernel);
 
-    TrianglePairs(const MeshSpace &space, const MeshCells &cells, const physics::Kernel<2> &kernel);
+    PolygonPairs(const MeshSpace &space, const MeshCells &cells, const physics::Kernel<2> &kernel);
 
     /// The shape functions of both are polynomials, and neither is so slender that terms are much
     /// larger than their sum.

@@ -1,7 +1,8 @@
-#include "reference/mesh/triangle_pairs.h"
+#include "reference/mesh/polygon_pairs.h"
 
 #include "geometry/polygon.h"
 #include "reference/mesh/kernel_entries.h"
+#include "reference/mesh/side_functional.h"
 #include "reference/mesh/whole_potential.h"
 
 #include <algorithm>
@@ -73,7 +74,7 @@ namespace plumbline::reference
     }
   } // namespace
 
-  std::string TrianglePairs::refuse(const MeshSpace &space, const physics::Kernel<2> &kernel)
+  std::string PolygonPairs::refuse(const MeshSpace &space, const physics::Kernel<2> &kernel)
   {
     constexpr unsigned int highest = 2; // in all, of potentials up to the fourth order
     if (SideTraces::total_degree(space.shapes()) > highest)
@@ -94,8 +95,8 @@ namespace plumbline::reference
     return "";
   }
 
-  TrianglePairs::Shared::Shared(const MeshSpace &space, const MeshCells &cells,
-                                const physics::Kernel<2> &kernel)
+  PolygonPairs::Shared::Shared(const MeshSpace &space, const MeshCells &cells,
+                               const physics::Kernel<2> &kernel)
       : traces(space.shapes())
   {
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> index;
@@ -145,8 +146,8 @@ namespace plumbline::reference
       rules.emplace_back(space.shapes(), of_rule);
   }
 
-  TrianglePairs::TrianglePairs(const MeshSpace &space, const MeshCells &cells,
-                               const physics::Kernel<2> &kernel)
+  PolygonPairs::PolygonPairs(const MeshSpace &space, const MeshCells &cells,
+                             const physics::Kernel<2> &kernel)
       : space_(space), cells_(cells), kernel_(kernel),
         shared_(std::make_shared<const Shared>(space, cells, kernel)), n_(space.shapes().size()),
         degree_(SideTraces::total_degree(space.shapes())),
@@ -155,14 +156,14 @@ namespace plumbline::reference
   {
   }
 
-  bool TrianglePairs::is_exact(std::size_t a, std::size_t b) const
+  bool PolygonPairs::is_exact(std::size_t a, std::size_t b) const
   {
     const auto is_good = [&](std::size_t cell)
     { return shared_->is_slender[cell] == 0 && shared_->is_mapped[cell] == 0; };
     return is_good(a) && is_good(b);
   }
 
-  std::string TrianglePairs::exceptions() const
+  std::string PolygonPairs::exceptions() const
   {
     const auto has = [](const std::vector<char> &some)
     { return std::find(some.begin(), some.end(), 1) != some.end(); };
@@ -173,7 +174,7 @@ namespace plumbline::reference
     return text;
   }
 
-  void TrianglePairs::integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks)
+  void PolygonPairs::integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks)
   {
     blocks.reset(n_, n_entries_);
     if (outer != outer_)
@@ -207,7 +208,7 @@ namespace plumbline::reference
   }
 
   /// xx, xy, yy of half the trace, ½(C_xx - C_yy) and C_xy.
-  void TrianglePairs::find_components(PairBlocks &blocks) const
+  void PolygonPairs::find_components(PairBlocks &blocks) const
   {
     for (auto *block : {&blocks.outer, &blocks.cross, &blocks.inner})
       for (std::size_t k = 0; k < block->size(); k += n_entries_)
@@ -220,42 +221,9 @@ namespace plumbline::reference
       }
   }
 
-  namespace
-  {
-    /// A B Aᵀ of a block, entry by entry of the kernel.
-    void transform(const std::vector<double> &left, const std::vector<double> &right,
-                   unsigned int n, std::vector<double> &block)
-    {
-      const std::size_t n_entries = block.size() / (static_cast<std::size_t>(n) * n);
-      const auto multiply =
-          [&](const std::vector<double> &factor, std::size_t along, std::size_t across)
-      {
-        if (factor.empty())
-          return;
-        std::vector<double> before(n);
-        for (unsigned int k = 0; k < n; ++k)
-          for (std::size_t e = 0; e < n_entries; ++e)
-          {
-            double *const line = &block[k * across * n_entries + e];
-            for (unsigned int b = 0; b < n; ++b)
-              before[b] = line[b * along * n_entries];
-            for (unsigned int a = 0; a < n; ++a)
-            {
-              double sum = 0;
-              for (unsigned int b = 0; b < n; ++b)
-                sum += factor[a * n + b] * before[b];
-              line[a * along * n_entries] = sum;
-            }
-          }
-      };
-      multiply(left, n, 1);
-      multiply(right, 1, n);
-    }
-  } // namespace
-
   /// Of cells whose nodes lie on curves.
-  void TrianglePairs::take_own_functions(std::size_t outer, std::size_t inner,
-                                         PairBlocks &blocks) const
+  void PolygonPairs::take_own_functions(std::size_t outer, std::size_t inner,
+                                        PairBlocks &blocks) const
   {
     const auto &of_outer = space_.own_functions(outer), &of_inner = space_.own_functions(inner);
     transform(of_outer, of_outer, n_, blocks.outer);
@@ -263,7 +231,7 @@ namespace plumbline::reference
     transform(of_inner, of_inner, n_, blocks.inner);
   }
 
-  void TrianglePairs::add_whole(std::size_t outer, std::size_t inner, PairBlocks &blocks)
+  void PolygonPairs::add_whole(std::size_t outer, std::size_t inner, PairBlocks &blocks)
   {
     const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
     const double both = cells_.radius(outer) + cells_.radius(inner);
@@ -280,8 +248,8 @@ namespace plumbline::reference
     add_products(products_of_x_, products_of_y_, n_, kernel_, blocks);
   }
 
-  void TrianglePairs::find_products(std::size_t cell, unsigned int degree,
-                                    CellProducts &products) const
+  void PolygonPairs::find_products(std::size_t cell, unsigned int degree,
+                                   CellProducts &products) const
   {
     const CellMap &map = space_.map(cell);
     if (map.is_affine() && !cells_.is_curved(cell))
@@ -294,7 +262,7 @@ namespace plumbline::reference
   }
 
   /// Entries below the diagonal of what is symmetric.
-  void TrianglePairs::mirror(PairBlocks &blocks) const
+  void PolygonPairs::mirror(PairBlocks &blocks) const
   {
     for (auto *block : {&blocks.outer, &blocks.inner})
       for (unsigned int a = 0; a < n_; ++a)
@@ -303,7 +271,7 @@ namespace plumbline::reference
             (*block)[place(a, b, e)] = (*block)[place(b, a, e)];
   }
 
-  const EdgeMoments *TrianglePairs::moments(std::size_t side, unsigned int edge, Part part)
+  const EdgeMoments *PolygonPairs::moments(std::size_t side, unsigned int edge, Part part)
   {
     const std::size_t key =
         n_parts * (shared_->most_sides * edge + side) + static_cast<std::size_t>(part);
@@ -328,8 +296,8 @@ namespace plumbline::reference
     return &kept_[place_[key] - 1];
   }
 
-  void TrianglePairs::Shared::find_traces(const MeshSpace &space, const MeshCells &cells,
-                                          std::size_t cell, Traces &of_cell) const
+  void PolygonPairs::Shared::find_traces(const MeshSpace &space, const MeshCells &cells,
+                                         std::size_t cell, Traces &of_cell) const
   {
     const std::vector<Side> &own = sides[cell];
     of_cell.sign.resize(own.size());
@@ -347,78 +315,20 @@ namespace plumbline::reference
     }
   }
 
-  void TrianglePairs::find_traces(std::size_t cell, Traces &own) const
+  void PolygonPairs::find_traces(std::size_t cell, Traces &own) const
   {
     if (!cells_.is_curved(cell))
       shared_->find_traces(space_, cells_, cell, own);
   }
 
   /// @param own  found before, if none are kept
-  const TrianglePairs::Traces &TrianglePairs::traces(std::size_t cell, const Traces &own) const
+  const PolygonPairs::Traces &PolygonPairs::traces(std::size_t cell, const Traces &own) const
   {
     return cells_.is_curved(cell) ? shared_->of_curved.at(cell) : own;
   }
 
-  namespace
-  {
-    /// Σ of a pair of sides for one function of the inner cell, as a functional of those of the
-    /// outer one.
-    struct Functional
-    {
-      std::array<std::array<double, 5>, 3> of_value{};
-      std::array<std::array<double, 4>, 2> of_normal{};
-
-      double operator()(const SideTrace &p) const
-      {
-        double sum = 0;
-        for (unsigned int m = 0; 2 * m <= p.degree; ++m)
-          for (unsigned int i = 0; i + 2 * m <= p.degree; ++i)
-          {
-            sum += p.value[m][i] * of_value[m][i];
-            if (i + 2 * m < p.degree)
-              sum += p.normal[m][i] * of_normal[m][i];
-          }
-        return sum;
-      }
-    };
-
-    /// The functions that are paired are of this degree in all at most, twice that of shapes.
-    template <bool is_outer>
-    Functional apply(const SideTrace &q, const EdgeMoments &moments, double sign_p, double sign_q,
-                     unsigned int degree)
-    {
-      // indices of outer functions come first
-      const auto at = [](const EdgeMoments::Table &table, unsigned int i, unsigned int j)
-      { return is_outer ? table[i][j] : table[j][i]; };
-      const auto &of_p = is_outer ? moments.of_x : moments.of_y,
-                 &of_q = is_outer ? moments.of_y : moments.of_x;
-      Functional result;
-      for (unsigned int n = 0; 2 * n <= q.degree; ++n)
-        for (unsigned int j = 0; j + 2 * n <= q.degree; ++j)
-        {
-          const double value = sign_q * q.value[n][j];
-          const bool has_normal = j + 2 * n < q.degree;
-          for (unsigned int m = 0; 2 * (m + n) + j <= degree; ++m)
-            for (unsigned int i = 0; 2 * (m + n) + i + j <= degree; ++i)
-            {
-              const unsigned int k = m + n, left = degree - 2 * k - i - j;
-              result.of_value[m][i] += sign_p * value * at(moments.both[k], i, j);
-              if (left < 1)
-                continue;
-              result.of_normal[m][i] -= value * at(of_q[k], i, j);
-              if (!has_normal)
-                continue;
-              result.of_value[m][i] -= sign_p * q.normal[n][j] * at(of_p[k], i, j);
-              if (left > 1 && k == 0)
-                result.of_normal[m][i] += q.normal[n][j] * at(moments.value, i, j);
-            }
-        }
-      return result;
-    }
-  } // namespace
-
   /// The outer cell is that of the kept moments.
-  void TrianglePairs::add_sides(std::size_t inner, Part part, double factor, PairBlocks &blocks)
+  void PolygonPairs::add_sides(std::size_t inner, Part part, double factor, PairBlocks &blocks)
   {
     find_traces(inner, of_inner_);
     const Traces &of_outer = traces(outer_, of_outer_), &of_inner = traces(inner, of_inner_);
@@ -436,12 +346,12 @@ namespace plumbline::reference
         {
           for (unsigned int b = 0; b < n_; ++b)
           {
-            const Functional functional = apply<true>(q[b], m[e], sign_p, sign_q, degree);
+            const SideFunctional functional = apply<true>(q[b], m[e], sign_p, sign_q, degree);
             for (unsigned int a = 0; a < n_; ++a)
               blocks.cross[place(a, b, e)] += factor * functional(p[a]);
           }
-          const Functional of_p = apply<true>(one, m[e], sign_p, sign_q, degree),
-                           of_q = apply<false>(one, m[e], sign_q, sign_p, degree);
+          const SideFunctional of_p = apply<true>(one, m[e], sign_p, sign_q, degree),
+                               of_q = apply<false>(one, m[e], sign_q, sign_p, degree);
           unsigned int product = n_;
           for (unsigned int a = 0; a < n_; ++a)
             for (unsigned int b = a; b < n_; ++b, ++product)
