@@ -65,6 +65,10 @@ namespace plumbline::reference
           return "Solver/iteration = cg needs a symmetric operator, but harmonic means of "
                  "constants "
                  "that vary in space (LPS) make none; write automatic, gmres or bicgstab";
+        if (by_quadrature_ && problem.mesh && !problem.mesh->wholes.empty())
+          return "Domain/sides = curved has no entries by quadrature; take " +
+                 GalerkinMethod(n_vertices_, is_continuous_, degree_).name() +
+                 ", or write Domain/sides = straight";
         return refuse_curves(problem, is_continuous_, degree_);
       }
       unsigned int order() const override { return degree_ + 1; }

@@ -164,6 +164,8 @@ TEST_F(BadMeshes, curved_sides_where_nothing_can_follow_them_are_refused)
        {set("Domain/sides", "round"), {"Domain/sides", "round"}},
        {curved + disk + set("Quadrature/entries", "quadrature"),
         {"Domain/sides = curved and Quadrature/entries = quadrature", "write exact, or"}},
+       {curved + disk + "--methods P1-quadrature",
+        {"'P1-quadrature' cannot do this scene", "no entries by quadrature; take P1, or"}},
        {curved + disk + "--methods P3",
         {"Domain/sides = curved is for what pairs of sides can do", "the degree is more than 2",
          "write Domain/sides = straight"}},
