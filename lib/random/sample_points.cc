@@ -1,0 +1,238 @@
+#include "random/sample_points.h"
+
+#include <boost/math/distributions/normal.hpp>
+#include <boost/random/sobol.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <random>
+
+namespace plumbline::random
+{
+  namespace
+  {
+    unsigned int n_points(Growth growth, unsigned int level)
+    {
+      switch (growth)
+      {
+      case Growth::linear:
+        return level;
+      case Growth::odd:
+        return 2 * level - 1;
+      case Growth::doubling:
+        return (1u << level) - 1;
+      default:
+        return level == 1 ? 1 : (1u << (level - 1)) + 1;
+      }
+    }
+
+    LineRule line_rule(Law law, Growth growth, unsigned int level)
+    {
+      const unsigned int n = n_points(growth, level);
+      return growth == Growth::nested ? clenshaw_curtis_rule(n) : gauss_rule(law, n);
+    }
+
+    double binomial(std::size_t n, std::size_t k)
+    {
+      double result = 1;
+      for (std::size_t i = 1; i <= k; ++i)
+        result = result * static_cast<double>(n - k + i) / static_cast<double>(i);
+      return std::round(result);
+    }
+
+    /// Calls f(point, weight) for each combination of the rules' points.
+    template <class F>
+    void for_each_combination(const std::vector<const LineRule *> &rules, const F &f)
+    {
+      std::vector<std::size_t> index(rules.size(), 0);
+      std::vector<double> point(rules.size());
+      while (true)
+      {
+        double weight = 1;
+        for (std::size_t d = 0; d < rules.size(); ++d)
+        {
+          point[d] = rules[d]->nodes[index[d]];
+          weight *= rules[d]->weights[index[d]];
+        }
+        f(point, weight);
+        std::size_t d = 0;
+        while (d < rules.size() && ++index[d] == rules[d]->nodes.size())
+          index[d++] = 0;
+        if (d == rules.size())
+          return;
+      }
+    }
+
+    /// Calls f(excess) for all ways to distribute a sum over n places.
+    void for_each_partition(std::size_t n, unsigned int sum,
+                            const std::function<void(const std::vector<unsigned int> &)> &f)
+    {
+      std::vector<unsigned int> excess(n, 0);
+      const std::function<void(std::size_t, unsigned int)> fill =
+          [&](std::size_t d, unsigned int left)
+      {
+        if (d + 1 == n)
+        {
+          excess[d] = left;
+          f(excess);
+          excess[d] = 0;
+          return;
+        }
+        for (unsigned int e = 0; e <= left; ++e)
+        {
+          excess[d] = e;
+          fill(d + 1, left - e);
+        }
+        excess[d] = 0;
+      };
+      fill(0, sum);
+    }
+
+    /// The value below which a standard variable is with probability p.
+    double quantile(Law law, double p)
+    {
+      return law == Law::uniform ? 2 * p - 1 : boost::math::quantile(boost::math::normal(), p);
+    }
+
+    /// Of equal weights.
+    SamplePoints random_points(const std::vector<Law> &laws, std::size_t n,
+                               const std::function<double()> &next_probability)
+    {
+      SamplePoints result;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        std::vector<double> point;
+        for (const Law law : laws)
+          point.push_back(quantile(law, next_probability()));
+        result.points.push_back(std::move(point));
+      }
+      result.weights.assign(n, 1. / static_cast<double>(n));
+      return result;
+    }
+  } // namespace
+
+  double SamplePoints::sum_of_sizes() const
+  {
+    double sum = 0;
+    for (const double w : weights)
+      sum += std::abs(w);
+    return sum;
+  }
+
+  double SamplePoints::noise() const
+  {
+    double sum = 0;
+    for (const double w : weights)
+      sum += w * w;
+    return std::sqrt(sum);
+  }
+
+  double n_tensor_points(std::size_t n_variables, unsigned int n)
+  {
+    return std::pow(n, static_cast<double>(n_variables));
+  }
+
+  double n_smolyak_points(std::size_t n_variables, unsigned int level, Growth growth)
+  {
+    // new points of a variable at each level, if none but those of the level before come again
+    std::vector<double> fresh;
+    for (unsigned int l = 0; l <= level; ++l)
+    {
+      const bool is_nested = growth == Growth::nested && l > 0;
+      fresh.push_back(n_points(growth, l + 1) - (is_nested ? n_points(growth, l) : 0.));
+    }
+    // of all variables, by the sum of what their levels exceed 1
+    std::vector<double> of_sum(level + 1, 0);
+    of_sum[0] = 1;
+    for (std::size_t d = 0; d < n_variables; ++d)
+    {
+      std::vector<double> next(level + 1, 0);
+      for (unsigned int s = 0; s <= level; ++s)
+        for (unsigned int e = 0; e <= s; ++e)
+          next[s] += of_sum[s - e] * fresh[e];
+      of_sum = next;
+    }
+    double sum = 0;
+    for (const double n : of_sum)
+      sum += n;
+    return sum;
+  }
+
+  SamplePoints tensor_points(const std::vector<Law> &laws, unsigned int n)
+  {
+    std::vector<LineRule> all;
+    for (const Law law : laws)
+      all.push_back(gauss_rule(law, n));
+    std::vector<const LineRule *> rules;
+    for (const LineRule &rule : all)
+      rules.push_back(&rule);
+    SamplePoints result;
+    for_each_combination(rules,
+                         [&](const std::vector<double> &point, double weight)
+                         {
+                           result.points.push_back(point);
+                           result.weights.push_back(weight);
+                         });
+    return result;
+  }
+
+  SamplePoints smolyak_points(const std::vector<Law> &laws, unsigned int level, Growth growth)
+  {
+    const std::size_t n = laws.size();
+    std::map<std::pair<Law, unsigned int>, LineRule> rules; // by law and excess
+    for (const Law law : laws)
+      for (unsigned int e = 0; e <= level; ++e)
+        if (const auto key = std::pair(law, e); rules.count(key) == 0)
+          rules.emplace(key, line_rule(law, growth, e + 1));
+    struct Sum
+    {
+      double weight = 0, size = 0;
+    };
+    std::map<std::vector<double>, Sum> sums;
+    for (unsigned int below = 0; below <= std::min<std::size_t>(level, n - 1); ++below)
+    {
+      const double factor = (below % 2 == 0 ? 1 : -1) * binomial(n - 1, below);
+      for_each_partition(n, level - below,
+                         [&](const std::vector<unsigned int> &excess)
+                         {
+                           std::vector<const LineRule *> chosen;
+                           for (std::size_t d = 0; d < n; ++d)
+                             chosen.push_back(&rules.at({laws[d], excess[d]}));
+                           for_each_combination(chosen,
+                                                [&](const std::vector<double> &point, double weight)
+                                                {
+                                                  Sum &sum = sums[point];
+                                                  sum.weight += factor * weight;
+                                                  sum.size += std::abs(factor * weight);
+                                                });
+                         });
+    }
+    constexpr double nothing = 1e-14; // rounding of weights that cancel
+    SamplePoints result;
+    for (const auto &[point, sum] : sums)
+      if (std::abs(sum.weight) > nothing * sum.size)
+      {
+        result.points.push_back(point);
+        result.weights.push_back(sum.weight);
+      }
+    return result;
+  }
+
+  SamplePoints monte_carlo_points(const std::vector<Law> &laws, std::size_t n, std::uint64_t seed)
+  {
+    std::mt19937_64 engine(seed);
+    constexpr unsigned int lower_bits = 11; // that a double has no room for
+    return random_points(
+        laws, n, [&] { return std::ldexp(static_cast<double>(engine() >> lower_bits) + .5, -53); });
+  }
+
+  SamplePoints quasi_monte_carlo_points(const std::vector<Law> &laws, std::size_t n)
+  {
+    boost::random::sobol engine(laws.size());
+    engine.discard(laws.size());
+    return random_points(laws, n,
+                         [&] { return std::ldexp(static_cast<double>(engine() >> 11) + .5, -53); });
+  }
+} // namespace plumbline::random

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "random/line_rule.h"
+
+namespace plumbline::random
+{
+  /// Where samples are taken.
+  enum class SampleRule
+  {
+    none,
+    tensor, ///< Gauss points in each variable
+    smolyak,
+    monte_carlo,
+    quasi_monte_carlo ///< Sobol's points
+  };
+
+  /// How many points a variable has at level l = 1, 2, ... of Smolyak's rule.
+  enum class Growth
+  {
+    linear,   ///< l Gauss points
+    odd,      ///< 2 l - 1 Gauss points, the middle one always among them
+    doubling, ///< 2^l - 1 Gauss points
+    nested    ///< 1, 3, 5, 9, ... points of Clenshaw and Curtis, each among the next; uniform laws
+  };
+
+  /// Points in the space of standard variables, with weights that sum to 1: the mean of a function
+  /// is the sum of its values times weights.
+  struct SamplePoints
+  {
+    std::vector<std::vector<double>> points; ///< shape (n, n_variables)
+    std::vector<double> weights;             ///< may be negative
+
+    double sum_of_sizes() const; ///< Σ|w|, at least 1: by how much errors of samples may grow
+    /// √Σw²: the mean's deviation over that of independent errors of samples.
+    double noise() const;
+  };
+
+  /// How many points there will be, before any is made; of Smolyak's rule at most.
+  double n_tensor_points(std::size_t n_variables, unsigned int n);
+  double n_smolyak_points(std::size_t n_variables, unsigned int level, Growth growth);
+
+  /// All combinations of n Gauss points each.
+  SamplePoints tensor_points(const std::vector<Law> &laws, unsigned int n);
+
+  /// Smolyak's combination of tensor products, of levels whose sum exceeds their number by at most
+  /// `level`: exact for polynomials of total degree 2 level + 1 with Gauss points. Points are
+  /// sorted; points that come twice are one, and none where their weights cancel.
+  /// Source: Wasilkowski & Wozniakowski 1995, doi:10.1006/jcom.1995.1001; Fan et al. 2022,
+  /// doi:10.1016/j.cma.2022.115340, eq. (3.8), ζ - N being the level.
+  /// @pre Growth::nested: all laws are uniform
+  SamplePoints smolyak_points(const std::vector<Law> &laws, unsigned int level, Growth growth);
+
+  /// Independent samples. The first ones of more are the same: numbers of the Mersenne twister
+  /// mt19937_64, the upper 53 bits plus a half, through the inverse distribution.
+  SamplePoints monte_carlo_points(const std::vector<Law> &laws, std::size_t n, std::uint64_t seed);
+
+  /// Sobol's points without the first, the origin, through the inverse distribution. The first ones
+  /// of more are the same.
+  /// Source: Joe & Kuo 2008, doi:10.1137/070709359, by Boost.
+  SamplePoints quasi_monte_carlo_points(const std::vector<Law> &laws, std::size_t n);
+} // namespace plumbline::random
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<random::SampleRule> =
+      std::array{"none", "tensor", "Smolyak", "Monte Carlo", "quasi-Monte Carlo"};
+  template <>
+  inline constexpr auto words<random::Growth> = std::array{"linear", "odd", "doubling", "nested"};
+} // namespace plumbline::base

@@ -1,0 +1,80 @@
+#include "random/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::random
+{
+  std::optional<double> Statistics::deviation() const
+  {
+    if (variance < 0)
+      return {};
+    return std::sqrt(variance);
+  }
+
+  Statistics statistics(const std::vector<double> &values, const std::vector<double> &weights,
+                        bool independent)
+  {
+    Statistics result;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      result.mean += weights[i] * values[i];
+    for (std::size_t i = 0; i < values.size(); ++i)
+      result.variance += weights[i] * (values[i] - result.mean) * (values[i] - result.mean);
+    const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+    result.least = *least;
+    result.largest = *largest;
+    const auto n = static_cast<double>(values.size());
+    if (independent && values.size() > 1)
+    {
+      result.variance *= n / (n - 1);
+      result.standard_error = std::sqrt(result.variance / n);
+    }
+    return result;
+  }
+
+  std::vector<std::size_t> histogram(const std::vector<double> &values, unsigned int n)
+  {
+    std::vector<std::size_t> counts(n, 0);
+    const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+    for (const double value : values)
+    {
+      const double part = *largest > *least ? (value - *least) / (*largest - *least) : 0;
+      ++counts[std::min(n - 1, static_cast<unsigned int>(part * n))];
+    }
+    return counts;
+  }
+
+  void FieldSums::add(const std::vector<double> &values, double weight)
+  {
+    if (first_.empty())
+    {
+      first_ = values;
+      sum_.assign(values.size(), 0);
+      squares_.assign(values.size(), 0);
+    }
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      const double d = values[i] - first_[i];
+      sum_[i] += weight * d;
+      squares_[i] += weight * d * d;
+    }
+  }
+
+  std::vector<double> FieldSums::mean() const
+  {
+    std::vector<double> result = first_;
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] += sum_[i];
+    return result;
+  }
+
+  std::vector<double> FieldSums::variance(std::size_t n_independent) const
+  {
+    const auto n = static_cast<double>(n_independent);
+    const double factor = n_independent > 1 ? n / (n - 1) : 1;
+    std::vector<double> result(sum_.size());
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] = factor * (squares_[i] - sum_[i] * sum_[i]);
+    return result;
+  }
+} // namespace plumbline::random

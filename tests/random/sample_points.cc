@@ -1,0 +1,249 @@
+// Rules for means over random variables: exactness, weights, and what negative ones do.
+
+#include "random/sample_points.h"
+#include "random/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+  using namespace plumbline::random;
+
+  template <class F>
+  double mean(const SamplePoints &rule, const F &f)
+  {
+    double sum = 0;
+    for (std::size_t i = 0; i < rule.points.size(); ++i)
+      sum += rule.weights[i] * f(rule.points[i]);
+    return sum;
+  }
+
+  /// E[x^p] of a standard variable.
+  double moment(Law law, unsigned int p)
+  {
+    if (p % 2 == 1)
+      return 0;
+    if (law == Law::uniform)
+      return 1. / (p + 1);
+    double result = 1;
+    for (unsigned int k = 1; k < p; k += 2)
+      result *= k;
+    return result;
+  }
+
+  double moment_of(const LineRule &rule, unsigned int p)
+  {
+    double sum = 0;
+    for (std::size_t i = 0; i < rule.nodes.size(); ++i)
+      sum += rule.weights[i] * std::pow(rule.nodes[i], p);
+    return sum;
+  }
+} // namespace
+
+TEST(LineRule, GaussIsExactToItsDegreeAndNoFurther)
+{
+  for (const Law law : {Law::normal, Law::uniform})
+    for (unsigned int n = 1; n <= 12; ++n)
+    {
+      const LineRule rule = gauss_rule(law, n);
+      ASSERT_EQ(rule.nodes.size(), n);
+      for (unsigned int p = 0; p < 2 * n; ++p)
+        EXPECT_NEAR(moment_of(rule, p), moment(law, p), 1e-12 * moment(law, p - p % 2))
+            << n << " points, degree " << p;
+      EXPECT_GT(std::abs(moment_of(rule, 2 * n) / moment(law, 2 * n) - 1), 1e-8);
+    }
+}
+
+TEST(LineRule, ClenshawCurtisIsExactToItsDegreeNestedAndPositive)
+{
+  for (const unsigned int n : {1u, 3u, 5u, 9u, 17u, 33u})
+  {
+    const LineRule rule = clenshaw_curtis_rule(n), finer = clenshaw_curtis_rule(2 * n - 1);
+    for (unsigned int p = 0; p < n; ++p)
+      EXPECT_NEAR(moment_of(rule, p), moment(Law::uniform, p), 1e-15) << n << ", degree " << p;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      EXPECT_GT(rule.weights[i], 0);
+      if (n > 1)
+      {
+        EXPECT_EQ(rule.nodes[i], finer.nodes[2 * i]);
+      }
+    }
+  }
+}
+
+TEST(SamplePoints, TensorRulesAreExactInEachVariable)
+{
+  const SamplePoints rule = tensor_points({Law::normal, Law::uniform}, 4);
+  EXPECT_EQ(rule.points.size(), 16);
+  EXPECT_EQ(n_tensor_points(2, 4), 16);
+  EXPECT_NEAR(mean(rule, [](const auto &x) { return std::pow(x[0], 6) * std::pow(x[1], 4); }),
+              15. / 5, 1e-13);
+}
+
+// The numbers that Fan et al. 2022, doi:10.1016/j.cma.2022.115340, section 5 rests on: 20
+// variables.
+TEST(SamplePoints, SmolyakOfTwentyVariablesHasAHeavyCentre)
+{
+  const std::vector<Law> normal(20, Law::normal), uniform(20, Law::uniform);
+  const auto centre = [](const SamplePoints &rule)
+  {
+    return rule.weights[static_cast<std::size_t>(
+        std::find(rule.points.begin(), rule.points.end(), std::vector<double>(20, 0)) -
+        rule.points.begin())];
+  };
+  struct Expected
+  {
+    const std::vector<Law> &laws;
+    Growth growth;
+    double centre, sizes;
+  };
+  // centre weights: two points 1 - N; three points 1 - N/3 (Hermite) and 1 - 5N/9 (Legendre)
+  for (const auto &[laws, growth, weight, sizes] :
+       {Expected{normal, Growth::linear, 1 - 20., 39},
+        Expected{normal, Growth::odd, 1 - 20. / 3, 12 + 1. / 3},
+        Expected{uniform, Growth::odd, 1 - 20 * 5. / 9, 21 + 2. / 9}})
+  {
+    const SamplePoints rule = smolyak_points(laws, 1, growth);
+    EXPECT_EQ(rule.points.size(), 41);
+    EXPECT_GE(n_smolyak_points(20, 1, growth), 41);
+    EXPECT_NEAR(centre(rule), weight, 1e-13);
+    EXPECT_NEAR(rule.sum_of_sizes(), sizes, 1e-12);
+    // it is exact for squares, and sees no product of squares
+    EXPECT_NEAR(mean(rule, [](const auto &x) { return x[3] * x[3]; }), moment(laws.front(), 2),
+                1e-13);
+    EXPECT_NEAR(mean(rule, [](const auto &x) { return x[3] * x[3] * x[7] * x[7]; }), 0, 1e-13);
+  }
+  EXPECT_NEAR(smolyak_points(normal, 1, Growth::linear).noise(), std::sqrt(361 + 40 * .25), 1e-12);
+  EXPECT_EQ(smolyak_points(normal, 2, Growth::linear).points.size(), 841);
+  EXPECT_EQ(smolyak_points(normal, 2, Growth::odd).points.size(), 881);
+  EXPECT_EQ(smolyak_points(normal, 2, Growth::doubling).points.size(), 921);
+}
+
+TEST(SamplePoints, SmolyakIsExactToTotalDegree)
+{
+  const std::vector<Law> laws = {Law::normal, Law::uniform, Law::normal};
+  for (unsigned int level = 0; level <= 4; ++level)
+    for (const Growth growth : {Growth::linear, Growth::odd, Growth::doubling})
+    {
+      const SamplePoints rule = smolyak_points(laws, level, growth);
+      EXPECT_LE(static_cast<double>(rule.points.size()), n_smolyak_points(3, level, growth));
+      for (unsigned int p = 0; p <= 2 * level + 1; ++p)
+        for (unsigned int q = 0; p + q <= 2 * level + 1; ++q)
+          for (unsigned int r = 0; p + q + r <= 2 * level + 1; ++r)
+            EXPECT_NEAR(mean(rule, [&](const auto &x)
+                             { return std::pow(x[0], p) * std::pow(x[1], q) * std::pow(x[2], r); }),
+                        moment(Law::normal, p) * moment(Law::uniform, q) * moment(Law::normal, r),
+                        1e-9)
+                << level << ": " << p << ' ' << q << ' ' << r;
+    }
+}
+
+TEST(SamplePoints, NestedSmolyakCountsItsPoints)
+{
+  const auto n_points = [](std::size_t n_variables, unsigned int level)
+  {
+    return smolyak_points(std::vector<Law>(n_variables, Law::uniform), level, Growth::nested)
+        .points.size();
+  };
+  for (unsigned int level = 0; level <= 4; ++level)
+    EXPECT_EQ(static_cast<double>(n_points(2, level)), n_smolyak_points(2, level, Growth::nested));
+  // of three variables and level 1 the middle one's weight is 1 - 3 + 3 · 2/3
+  EXPECT_EQ(n_points(3, 1), 6);
+}
+
+TEST(SamplePoints, VarianceOfSmolyakCanBeNegativeAndHasNoRoot)
+{
+  const SamplePoints rule = smolyak_points(std::vector<Law>(20, Law::normal), 1, Growth::odd);
+  std::vector<double> values;
+  for (const auto &x : rule.points)
+  {
+    double sum = 0;
+    for (const double one : x)
+      sum += one * one;
+    values.push_back(sum);
+  }
+  const Statistics found = statistics(values, rule.weights, false);
+  EXPECT_NEAR(found.mean, 20, 1e-12);
+  EXPECT_NEAR(found.variance, -340, 1e-9); // exact 40: 20 · 3 of x⁴ less 400, no products
+  EXPECT_FALSE(found.deviation());
+}
+
+TEST(SamplePoints, RandomOnesHaveTheirLawAndFirstOnesStay)
+{
+  const std::vector<Law> laws = {Law::normal, Law::uniform};
+  constexpr std::size_t n = 20000;
+  for (const bool is_quasi : {false, true})
+  {
+    const auto draw = [&](std::size_t count) {
+      return is_quasi ? quasi_monte_carlo_points(laws, count) : monte_carlo_points(laws, count, 7);
+    };
+    const SamplePoints few = draw(10), many = draw(n);
+    for (std::size_t i = 0; i < few.points.size(); ++i)
+      EXPECT_EQ(few.points[i], many.points[i]);
+    // five deviations of the mean of independent samples; quasi-random ones are ten times closer
+    const double five = 5 / std::sqrt(static_cast<double>(n)) * (is_quasi ? .1 : 1);
+    EXPECT_NEAR(mean(many, [](const auto &x) { return x[0]; }), 0, five);
+    EXPECT_NEAR(mean(many, [](const auto &x) { return x[0] * x[0]; }), 1, std::sqrt(2.) * five);
+    EXPECT_NEAR(mean(many, [](const auto &x) { return x[1] * x[1]; }), 1. / 3, .3 * five);
+    EXPECT_NEAR(mean(many, [](const auto &x) { return x[0] * x[1]; }), 0, .58 * five);
+    EXPECT_NEAR(mean(many, [](const auto &x) { return x[0] < 1 ? 1. : 0.; }),
+                .5 * std::erfc(-std::sqrt(.5)), .37 * five);
+  }
+  EXPECT_NE(monte_carlo_points(laws, 1, 1).points, monte_carlo_points(laws, 1, 2).points);
+}
+
+// Factors of tests 1 and 2 of Fan et al. 2022, sections 4.1 and 4.2: means and deviations of
+// 1/(2 + sin 5ξ), ξ ~ N(0, .1²), and 1/(3 + sin ξ1 + sin ξ2), to the digits that many points give.
+TEST(SamplePoints, FactorsOfPublishedTestsConverge)
+{
+  const auto one = [](const std::vector<double> &x) { return 1 / (2 + std::sin(.5 * x[0])); };
+  const auto two = [](const std::vector<double> &x)
+  { return 1 / (3 + std::sin(x[0]) + std::sin(x[1])); };
+  const auto moments = [](const SamplePoints &rule, const auto &f)
+  {
+    std::vector<double> values;
+    for (const auto &x : rule.points)
+      values.push_back(f(x));
+    return statistics(values, rule.weights, false);
+  };
+  const Statistics first = moments(tensor_points({Law::normal}, 60), one),
+                   second = moments(tensor_points({2, Law::normal}, 120), two);
+  EXPECT_NEAR(first.mean, .527867400302426, 1e-14);
+  EXPECT_NEAR(*first.deviation(), .130571622348726, 1e-13);
+  EXPECT_NEAR(second.mean, .375583946493748, 1e-12);
+  EXPECT_NEAR(*second.deviation(), .149155943140308, 1e-11);
+  const auto few = moments(tensor_points({Law::normal}, 3), one);
+  EXPECT_NEAR(std::abs(few.mean - first.mean), 4.1e-4, 5e-6);
+  EXPECT_NEAR(std::abs(*few.deviation() - *first.deviation()), 4.1e-3, 5e-5);
+}
+
+TEST(Statistics, OfIndependentSamplesTakeOneLess)
+{
+  const Statistics found = statistics({1, 2, 3, 6}, {.25, .25, .25, .25}, true);
+  EXPECT_EQ(found.mean, 3);
+  EXPECT_NEAR(found.variance, 14. / 3, 1e-15);
+  EXPECT_NEAR(found.standard_error, std::sqrt(14. / 12), 1e-15);
+  EXPECT_EQ(found.least, 1);
+  EXPECT_EQ(found.largest, 6);
+  EXPECT_EQ(histogram({1, 2, 3, 6}, 5), (std::vector<std::size_t>{1, 1, 1, 0, 1}));
+}
+
+TEST(Statistics, OfFieldsAreThoseOfEachValue)
+{
+  const SamplePoints rule = smolyak_points({2, Law::normal}, 2, Growth::odd);
+  FieldSums sums;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < rule.points.size(); ++i)
+  {
+    values.push_back(1e3 + std::sin(rule.points[i][0]) + rule.points[i][1]);
+    sums.add({values.back(), 7}, rule.weights[i]);
+  }
+  const Statistics one = statistics(values, rule.weights, false);
+  EXPECT_NEAR(sums.mean()[0], one.mean, 1e-11);
+  EXPECT_NEAR(sums.variance()[0], one.variance, 1e-12);
+  EXPECT_EQ(sums.mean()[1], 7);
+  EXPECT_EQ(sums.variance()[1], 0);
+}
