@@ -32,8 +32,8 @@ namespace plumbline::app
       solid.unbreaking = scene.fracture.unbreaking;
       solid.notch = scene.domain.cracks;
       const physics::Expression held("Problem/constraint", *scene.problem.constraint,
-                                     scene.constants(horizon)),
-          toughness("Fracture/toughness", scene.fracture.toughness, scene.constants(horizon));
+                                     scene.names(horizon)),
+          toughness("Fracture/toughness", scene.fracture.toughness, scene.names(horizon));
       solid.held = [held](const Point<2> &x)
       {
         Tensor<1, 2> u;
@@ -116,52 +116,86 @@ namespace plumbline::app
       return .5 * (lower + upper);
     }
 
-    study::GrowthResults run(const scene::Scene &scene, const scene::Level &level,
-                             const fs::path &folder)
+    /// The mean of E/(1 - nu²) in plane strain over nodes.
+    double mean_plane_modulus(const scene::Scene &scene, const std::vector<Point<2>> &nodes)
     {
-      const auto influence = physics::influence_function(scene.kernel.profile, level.horizon);
-      const meshfree::Rule rule = find_rule(scene.methods.names.front());
-      const meshfree::Recipe recipe = rule.recipe(physics::deviatoric_kernel(influence, 1));
-      const double trapping = scene.fracture.criterion == scene::Criterion::calibrated
-                                  ? find_trapping(scene, recipe, influence, level.h)
-                                  : 1;
-      meshfree::BreakingNetwork body(make_bond_network(make_solid(scene, level.horizon, trapping),
-                                                       recipe, influence, level.h,
-                                                       scene.geometry.backend),
-                                     scene.fracture.stretch);
-      report::write_file(folder / "grow.md", ""); // before the work: can it be written?
-      const study::GrowthModel model = make_model(body, scene.domain.cracks.front().back());
-      const base::CpuTimer timer;
-      study::GrowthResults results;
-      results.growth = study::run_growth(
-          model, {scene.fracture, "plumbline grow\n" + scene.text, folder / "checkpoint.h5"});
-      results.seconds = timer.seconds();
-      results.scene_name = scene.name;
-      results.purpose = scene.purpose;
-      results.method = rule.name;
-      results.model = body.network().dilatation.empty()
-                          ? "bond-based, for lambda = mu leaves the solid its bonds alone"
-                          : "LPS without surface terms";
-      results.rules = scene.fracture;
-      results.h = level.h;
-      results.horizon = level.horizon;
-      results.lattice_toughness =
-          lattice_toughness(recipe, influence, level.h, scene.geometry.backend);
-      results.trapping = trapping;
-      results.nodes = model.nodes;
-      results.notch_tip = model.notch_tip;
-      results.n_bonds = body.n_bonds();
-      results.n_unknowns = body.n_unknowns();
-      results.work = body.work();
-      results.path = find_path(model, results.growth.events);
-      results.moments = growth_moments(model, results.growth.events);
-      std::vector<std::size_t> broken;
-      for (const analysis::Event &event : results.growth.events)
-        broken.insert(broken.end(), event.bonds.begin(), event.bonds.end());
-      results.n_unpaired = n_unpaired(model, broken, middle(scene));
-      return results;
+      const auto lame = scene.material.lame();
+      double sum = 0;
+      for (const Point<2> &node : nodes)
+      {
+        const physics::Lame at = lame(node);
+        sum += 4 * at.mu * (at.lambda + at.mu) / (at.lambda + 2 * at.mu);
+      }
+      return sum / static_cast<double>(nodes.size());
+    }
+
+    /// G of each bond: the mean of its ends'.
+    std::vector<double> toughness_of_bonds(const scene::Scene &scene,
+                                           const study::GrowthModel &model, double horizon)
+    {
+      const physics::Expression toughness("Fracture/toughness", scene.fracture.toughness,
+                                          scene.names(horizon));
+      std::vector<double> at_nodes, result;
+      for (const Point<2> &node : model.nodes)
+        at_nodes.push_back(toughness(node));
+      for (const auto &bond : model.bonds)
+        result.push_back(.5 * (at_nodes[bond[0]] + at_nodes[bond[1]]));
+      return result;
     }
   } // namespace
+
+  study::GrowthResults grow_body(const scene::Scene &scene, const fs::path &checkpoint)
+  {
+    const scene::Level &level = scene.study.series.front().levels.front();
+    check_size(scene, level);
+    const auto influence = physics::influence_function(scene.kernel.profile, level.horizon);
+    const meshfree::Rule rule = find_rule(scene.methods.names.front());
+    const meshfree::Recipe recipe = rule.recipe(physics::deviatoric_kernel(influence, 1));
+    const double trapping = scene.fracture.criterion == scene::Criterion::calibrated
+                                ? find_trapping(scene, recipe, influence, level.h)
+                                : 1;
+    meshfree::BreakingNetwork body(make_bond_network(make_solid(scene, level.horizon, trapping),
+                                                     recipe, influence, level.h,
+                                                     scene.geometry.backend),
+                                   scene.fracture.stretch);
+    study::GrowthModel model = make_model(body, scene.domain.cracks.front().back());
+    model.bond_toughness = toughness_of_bonds(scene, model, level.horizon);
+    model.plane_modulus = mean_plane_modulus(scene, model.nodes);
+    const base::CpuTimer timer;
+    study::GrowthResults results;
+    results.growth =
+        study::run_growth(model, {scene.fracture, "plumbline grow\n" + scene.text, checkpoint});
+    results.seconds = timer.seconds();
+    results.scene_name = scene.name;
+    results.purpose = scene.purpose;
+    results.method = rule.name;
+    results.model = body.network().dilatation.empty()
+                        ? "bond-based, for lambda = mu leaves the solid its bonds alone"
+                        : "LPS without surface terms";
+    results.rules = scene.fracture;
+    results.h = level.h;
+    results.horizon = level.horizon;
+    results.lattice_toughness =
+        lattice_toughness(recipe, influence, level.h, scene.geometry.backend);
+    results.trapping = trapping;
+    results.nodes = model.nodes;
+    results.notch_tip = model.notch_tip;
+    results.n_bonds = body.n_bonds();
+    results.n_unknowns = body.n_unknowns();
+    results.work = body.work();
+    results.path = find_path(model, results.growth.events);
+    results.moments = growth_moments(model, results.growth.events);
+    const double bonds_across_line = bonds_across(model);
+    std::vector<std::size_t> broken;
+    for (const analysis::Event &event : results.growth.events)
+      broken.insert(broken.end(), event.bonds.begin(), event.bonds.end());
+    results.n_unpaired = n_unpaired(model, broken, middle(scene));
+    results.plane_modulus = model.plane_modulus;
+    results.parts = broken_parts(model, broken);
+    for (const std::size_t bond : broken)
+      results.bond_sum += model.bond_toughness[bond] * model.h / bonds_across_line;
+    return results;
+  }
 
   int grow(const GrowOptions &options)
   {
@@ -170,10 +204,10 @@ namespace plumbline::app
       throw InputError("scene '" + scene.name +
                        "': Fracture/toughness is empty, so that nothing breaks; give it, or use "
                        "'plumbline run' ('plumbline crack' where Crack/notch is given)");
-    const scene::Level &level = scene.study.series.front().levels.front();
-    check_size(scene, level);
+    check_size(scene, scene.study.series.front().levels.front());
     const fs::path folder = output_folder(options, scene);
-    const study::GrowthResults results = run(scene, level, folder);
+    report::write_file(folder / "grow.md", ""); // before the work: can it be written?
+    const study::GrowthResults results = grow_body(scene, folder / "checkpoint.h5");
     if (!options.quiet && results.growth.n_resumed > 0)
       std::cerr << "continued from event " << results.growth.n_resumed << " of '"
                 << (folder / "checkpoint.h5").string() << "'\n";

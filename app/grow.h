@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measures.h"
+#include "study/growth.h"
 
 namespace plumbline::app
 {
@@ -8,6 +9,11 @@ namespace plumbline::app
   {
     bool check = false; ///< Expected/growth, growth ends, and the audit of energy
   };
+
+  /// The growth of a scene at its one level, from the checkpoint if there is one.
+  /// @throws InputError, NumericalError  as grow
+  study::GrowthResults grow_body(const scene::Scene &scene,
+                                 const std::filesystem::path &checkpoint);
 
   /// Let a crack grow in equilibrium, bond by bond, as section Fracture of a scene says; print
   /// tables, write grow.html, .md and .json, grow/ with tables and pictures, and while it grows

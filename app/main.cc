@@ -9,6 +9,7 @@
 #include "grow.h"
 #include "requirements.h"
 #include "run.h"
+#include "sample.h"
 #include "stability.h"
 #include "unexpected.h"
 
@@ -65,7 +66,7 @@ namespace
         3);
   }
 
-  /// What `stability`, `dispersion`, `crack` and `grow` take.
+  /// What `stability`, `dispersion`, `crack`, `grow` and `sample` take.
   void add_options(CLI::App &command, plumbline::app::MeasureOptions &options,
                    std::vector<std::string> &settings)
   {
@@ -140,6 +141,17 @@ int main(int argc, char **argv)
   add_options(*grow, body, settings);
   grow->add_flag("--check", body.check, "Exit with 1 if Expected/growth fails");
 
+  plumbline::app::SampleOptions random;
+  auto *sample = app.add_subcommand("sample", "Take a random scene at many samples; statistics");
+  add_options(*sample, random, settings);
+  sample->add_flag("--check", random.check, "Exit with 1 if Expected/sampling fails");
+  sample
+      ->add_option("--jobs", random.n_jobs, "Processes that take samples side by side (default: 1)")
+      ->check(CLI::Range(1u, 4096u));
+  sample->add_option("--threads", random.n_threads,
+                     "Threads of each process (default: all cores, shared among them)");
+  sample->add_flag("--worker", random.is_worker)->group(""); // what it begins itself
+
   std::string folder, subject, model, key;
   auto *report = app.add_subcommand(
       "report",
@@ -170,6 +182,8 @@ int main(int argc, char **argv)
     return 2;
   }
 
+  if (random.is_worker)
+    n_threads = random.n_threads;
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(
       argc, argv, n_threads == 0 ? dealii::numbers::invalid_unsigned_int : n_threads);
   // whatever one rank alone fails at, all of them end with it
@@ -180,11 +194,13 @@ int main(int argc, char **argv)
   const auto command = [&]
   {
     options.overrides = weights.overrides = measures.overrides = waves.overrides = strip.overrides =
-        body.overrides = to_overrides(settings);
+        body.overrides = random.overrides = to_overrides(settings);
     if (*run)
       exit_code = plumbline::app::run(options);
     else if (*check)
       exit_code = plumbline::app::check(weights);
+    else if (*sample)
+      exit_code = plumbline::app::sample(random);
     else if (!is_first)
       return; // the first rank does it
     else if (*stability)

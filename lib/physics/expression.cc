@@ -105,12 +105,19 @@ namespace plumbline::physics
 
   struct Expression::Parsers
   {
+    /// A field's value where the expression is being evaluated.
+    struct Place
+    {
+      double value = 0;
+      const std::function<double(const Point<2> &)> *field = nullptr;
+    };
     double x = 0, y = 0;
+    std::map<std::string, Place> fields; ///< those that the expression names
     std::vector<mu::Parser> components;
   };
 
-  Expression::Expression(std::string key, std::string text, std::map<std::string, double> constants)
-      : key_(std::move(key)), text_(std::move(text)), constants_(std::move(constants)),
+  Expression::Expression(std::string key, std::string text, Names names)
+      : key_(std::move(key)), text_(std::move(text)), names_(std::move(names)),
         parsers_(std::make_unique<Parsers>())
   {
     for (const std::string &part : split_outside_brackets(text_, ','))
@@ -125,24 +132,31 @@ namespace plumbline::physics
         parser.DefineConst("pi", M_PI);
         parser.DefineFun("weierstrass", weierstrass);
         parser.DefineFun("weierstrass_mean", weierstrass_mean);
-        for (const auto &[name, value] : constants_)
+        for (const auto &[name, value] : names_.constants)
           parser.DefineConst(name, value);
+        for (const auto &[name, field] : names_.fields)
+          parser.DefineVar(name, &parsers_->fields[name].value);
         parser.SetExpr(part);
         parser.Eval();
+        for (const auto &[name, field] : names_.fields)
+          if (parser.GetUsedVar().count(name) > 0)
+            parsers_->fields[name].field = &field;
         parsers_->components.push_back(parser);
       }
       catch (const mu::Parser::exception_type &error)
       {
         std::string names = "x, y, pi";
-        for (const auto &constant : constants_)
+        for (const auto &constant : names_.constants)
           names += ", " + constant.first;
+        for (const auto &field : names_.fields)
+          names += ", " + field.first;
         throw InputError(key_ + " = '" + base::shown(part, 200) + "' does not parse: " +
                          reason(error) + "; write a muParser expression in " + names + ".");
       }
   }
 
   Expression::Expression(const Expression &other)
-      : Expression(other.key_, other.text_, other.constants_)
+      : Expression(other.key_, other.text_, other.names_)
   {
   }
 
@@ -151,7 +165,7 @@ namespace plumbline::physics
     Expression copy(other);
     std::swap(key_, copy.key_);
     std::swap(text_, copy.text_);
-    std::swap(constants_, copy.constants_);
+    std::swap(names_, copy.names_); // nodes of maps stay where they are, and pointers to them hold
     std::swap(parsers_, copy.parsers_);
     return *this;
   }
@@ -173,6 +187,9 @@ namespace plumbline::physics
   {
     parsers_->x = x[0];
     parsers_->y = x[1];
+    for (auto &[name, place] : parsers_->fields)
+      if (place.field != nullptr)
+        place.value = (*place.field)(x);
     const double value = parsers_->components[component].Eval();
     if (!std::isfinite(value))
     {

@@ -3,6 +3,7 @@
 #include <deal.II/base/point.h>
 
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <string>
@@ -12,6 +13,19 @@ namespace plumbline::physics
 {
   using dealii::Point;
 
+  /// What expressions may name besides x, y and pi.
+  struct Names
+  {
+    std::map<std::string, double> constants; ///< for example delta
+    /// Fields of the place, whose functions threads may share.
+    std::map<std::string, std::function<double(const Point<2> &)>> fields;
+
+    Names(std::initializer_list<std::pair<const std::string, double>> constants = {})
+        : constants(constants)
+    {
+    }
+  };
+
   /// A vector field R² → R^n_components given by muParser expressions in x and y.
   /// Copies share nothing: give each thread its own.
   class Expression
@@ -19,16 +33,15 @@ namespace plumbline::physics
   public:
     /// @param key        the scene key the text comes from, for messages
     /// @param text       one expression a component, separated by commas at depth 0
-    /// @param constants  names beside x, y and pi, for example delta
     /// @throws InputError  an expression that does not parse, with muParser's reason and position
-    Expression(std::string key, std::string text, std::map<std::string, double> constants = {});
+    Expression(std::string key, std::string text, Names names = {});
     Expression(const Expression &other);
     Expression &operator=(const Expression &other);
     ~Expression();
 
     unsigned int n_components() const;
     const std::string &text() const { return text_; }
-    bool is_constant() const; ///< neither x nor y is in it
+    bool is_constant() const; ///< neither x nor y nor a field is in it
 
     /// @throws InputError  the value is not a finite number
     double operator()(const Point<2> &x, unsigned int component = 0) const;
@@ -36,7 +49,7 @@ namespace plumbline::physics
   private:
     struct Parsers;
     std::string key_, text_;
-    std::map<std::string, double> constants_;
+    Names names_;
     std::unique_ptr<Parsers> parsers_;
   };
 

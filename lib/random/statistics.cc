@@ -52,6 +52,7 @@ namespace plumbline::random
       sum_.assign(values.size(), 0);
       squares_.assign(values.size(), 0);
     }
+    weights_ += weight;
     for (std::size_t i = 0; i < values.size(); ++i)
     {
       const double d = values[i] - first_[i];
@@ -64,7 +65,7 @@ namespace plumbline::random
   {
     std::vector<double> result = first_;
     for (std::size_t i = 0; i < result.size(); ++i)
-      result[i] += sum_[i];
+      result[i] += sum_[i] / weights_;
     return result;
   }
 
@@ -74,7 +75,7 @@ namespace plumbline::random
     const double factor = n_independent > 1 ? n / (n - 1) : 1;
     std::vector<double> result(sum_.size());
     for (std::size_t i = 0; i < result.size(); ++i)
-      result[i] = factor * (squares_[i] - sum_[i] * sum_[i]);
+      result[i] = factor * (squares_[i] - sum_[i] * sum_[i] / weights_) / weights_;
     return result;
   }
 } // namespace plumbline::random

@@ -32,6 +32,7 @@ namespace plumbline::random
   {
   public:
     /// @param values  as many each time
+    /// @param weight  over the sum of all that are added
     void add(const std::vector<double> &values, double weight);
 
     std::vector<double> mean() const;
@@ -39,6 +40,7 @@ namespace plumbline::random
     std::vector<double> variance(std::size_t n_independent = 0) const;
 
   private:
+    double weights_ = 0;
     std::vector<double> first_, sum_, squares_; ///< of differences to the first sample
   };
 } // namespace plumbline::random

@@ -30,13 +30,25 @@ namespace plumbline::report
             : std::string(name) == "peak reaction" ? "of the grips on what they do [force]"
             : std::string(name) == "advance"       ? "of the tip, from the notch's [length]"
             : std::string(name) == "events"        ? "at each a bond and its ties, or a batch"
-                                                   : "the notch's not counted");
+            : std::string(name) == "G by bonds" ? "of broken bonds, each by its part of a straight "
+                                                  "crack's length, over the advance [force/length]"
+            : std::string(name) == "G by energy"
+                ? "all that bonds held and that was released, over "
+                  "the advance [force/length]"
+            : std::string(name) == "K by bonds"  ? "root of that and the mean of E/(1 - nu²)"
+            : std::string(name) == "K by energy" ? "the same of G by energy"
+                                                 : "the notch's not counted");
       add("path", r.path.length, "sides of cells that the crack parts, L1 [length]");
       add("apart", static_cast<double>(r.path.n_elsewhere),
           "sides that parted elsewhere, not joined to the notch");
       add("bond energy / path", r.bond_energy_per_length(),
           "of broken bonds at their limits, for a length of the path [force/length]");
       add("energy / path", r.energy_per_length(), "the same with what was released");
+      for (const study::BrokenPart &part : r.parts)
+        add("length, G = " + rounded(part.toughness), part.length,
+            std::to_string(part.n_bonds) +
+                " broken bonds of this toughness, as a straight crack has "
+                "them [length]");
       add("G_h / G", r.lattice_toughness,
           "all bonds across a straight line of the lattice at their limits");
       if (r.rules.criterion == scene::Criterion::calibrated)
@@ -200,6 +212,11 @@ namespace plumbline::report
               {"peak_load", r.quantity("peak load")},
               {"peak_reaction", r.quantity("peak reaction")},
               {"advance", r.advance()},
+              {"G_by_bonds", known_number(r.quantity("G by bonds"))},
+              {"G_by_energy", known_number(r.quantity("G by energy"))},
+              {"K_by_bonds", known_number(r.quantity("K by bonds"))},
+              {"K_by_energy", known_number(r.quantity("K by energy"))},
+              {"plane_modulus", r.plane_modulus},
               {"path", r.path.length},
               {"n_apart", r.path.n_elsewhere},
               {"bond_energy_per_length", known_number(r.bond_energy_per_length())},

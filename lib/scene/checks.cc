@@ -98,12 +98,11 @@ namespace plumbline::scene
                   kernel.type + "'; write Kernel/limit = Navier, or none");
     }
 
-    using Constants = std::map<std::string, double>;
-
     void check_components(const std::string &key, const std::string &text, unsigned int n,
-                          const std::string &needed_by, const Constants &constants = {{"delta", 1}})
+                          const std::string &needed_by,
+                          const physics::Names &names = {{"delta", 1}})
     {
-      const physics::Expression parsed(key, text, constants);
+      const physics::Expression parsed(key, text, names);
       const std::string given = key + " = '" + text + "' has " +
                                 std::to_string(parsed.n_components()) + " component(s), ";
       require(parsed.n_components() == n,
@@ -120,7 +119,7 @@ namespace plumbline::scene
                                     : scene.is_vector()              ? "bond tensor"
                                                                      : "scalar kernel";
       const auto check = [&](const std::string &key, const std::string &text)
-      { check_components(key, text, scene.is_vector() ? 2 : 1, needed_by, scene.constants(1)); };
+      { check_components(key, text, scene.is_vector() ? 2 : 1, needed_by, scene.names(1)); };
       for (const Case &solution : problem.solutions)
         check("Problem/solution", solution.expression);
       for (const Case &load : problem.loads)
@@ -131,10 +130,10 @@ namespace plumbline::scene
         check("Problem/local solution", problem.local_expression);
       const auto check_start = [&](const std::string &key, const std::string &text)
       {
-        auto constants = scene.constants(1);
-        constants["h"] = 1; // of the level
+        auto names = scene.names(1);
+        names.constants["h"] = 1; // of the level
         if (!text.empty())
-          check_components(key, text, scene.is_vector() ? 2 : 1, needed_by, constants);
+          check_components(key, text, scene.is_vector() ? 2 : 1, needed_by, names);
       };
       check_start("Time/initial displacement", scene.time.initial_displacement);
       check_start("Time/initial velocity", scene.time.initial_velocity);
@@ -164,12 +163,13 @@ namespace plumbline::scene
                   "Kernel/coefficient");
       require(kernel.materials.empty() || kernel.coefficient.empty(),
               "Kernel/materials and Kernel/coefficient are both given; clear one of them");
-      const auto check = [](const std::string &key, const std::string &text, unsigned int n)
+      const auto check = [](const std::string &key, const std::string &text, unsigned int n,
+                            const physics::Names &names = {{"delta", 1}})
       {
         if (!text.empty())
-          check_components(key, text, n, "");
+          check_components(key, text, n, "", names);
       };
-      check("Kernel/coefficient", kernel.coefficient, 1);
+      check("Kernel/coefficient", kernel.coefficient, 1, scene.names(1));
       check("Domain/inside", scene.domain.mesh.inside, 1);
       check("Domain/outside", scene.domain.outside, 1);
       check("Domain/map", scene.domain.mesh.map, 2);

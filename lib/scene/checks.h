@@ -22,6 +22,9 @@ namespace plumbline::scene
   /// What moves, or cannot: Time, double wells and the torus fit the rest.
   void check_motion(const Scene &scene);
 
+  /// Where a random scene is taken, and in how many samples.
+  void check_sampling(const Scene &scene);
+
   /// A strip with a notch, and nothing else that would move it.
   void check_crack(const Scene &scene);
 

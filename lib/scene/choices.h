@@ -127,7 +127,8 @@ namespace plumbline::scene
     jitter,
     stability,
     orders, ///< in time
-    growth  ///< of waves on strains
+    growth, ///< of waves on strains
+    sampling
   };
 } // namespace plumbline::scene
 
@@ -164,6 +165,6 @@ namespace plumbline::base
       std::array{"automatic", "every", "reference", "none"};
   template <>
   inline constexpr auto words<scene::ExpectedKind> =
-      std::array{"verdicts", "errors",    "rates",  "bounds",       "monotone",
-                 "jitter",   "stability", "orders", "strain growth"};
+      std::array{"verdicts", "errors",    "rates",  "bounds",        "monotone",
+                 "jitter",   "stability", "orders", "strain growth", "sampling"};
 } // namespace plumbline::base

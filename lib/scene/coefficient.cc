@@ -49,8 +49,9 @@ namespace plumbline::scene
                           scene.material.model == Model::lps ? physics::Mean::harmonic
                                                              : physics::Mean::arithmetic);
     else if (scene.kernel.materials.empty())
-      coefficient.emplace(physics::Expression("Kernel/coefficient", scene.kernel.coefficient),
-                          scene.kernel.symmetrisation);
+      coefficient.emplace(
+          physics::Expression("Kernel/coefficient", scene.kernel.coefficient, scene.random.names()),
+          scene.kernel.symmetrisation);
     else
     {
       std::vector<double> values;

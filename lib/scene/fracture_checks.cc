@@ -15,7 +15,8 @@ namespace plumbline::scene
       if (!is_good)
         throw InputError(given + " needs " + what);
     };
-    const physics::Expression toughness("Fracture/toughness", fracture.toughness);
+    const physics::Expression toughness("Fracture/toughness", fracture.toughness,
+                                        scene.random.names());
     needs(toughness.n_components() == 1, "one component");
     if (toughness.is_constant() && !(toughness({}) > 0))
       throw InputError(given + " must be positive: it is the energy that a crack takes for its "

@@ -43,7 +43,7 @@ namespace plumbline::scene
     geometry::Mesh read_or_make(const Scene &scene, const Level &level)
     {
       const MeshSource &source = scene.domain.mesh;
-      const std::map<std::string, double> constants = {{"delta", level.horizon}};
+      const physics::Names constants = {{"delta", level.horizon}};
       if (source.is_file())
         try
         {

@@ -34,7 +34,7 @@ namespace plumbline::scene
       for (const Case &one : scene.problem.solutions)
       {
         const physics::Expression u("Problem/solution", one.expression,
-                                    scene.constants(1, .3 * scene.time.final_time));
+                                    scene.names(1, .3 * scene.time.final_time));
         double size = 0, jump = 0;
         for (int i = 0; i < n_samples; ++i)
           for (unsigned int axis = 0; axis < 2; ++axis)

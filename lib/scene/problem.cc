@@ -264,7 +264,7 @@ namespace plumbline::scene
       problem.coefficient = make_coefficient(scene, *problem.mesh);
     const Extent omega = problem.lattice ? extent(*problem.lattice) : extent(*problem.mesh);
     const auto expression = [&](const std::string &key, const std::string &text)
-    { return Expression(key, text, scene.constants(level.horizon, t)); };
+    { return Expression(key, text, scene.names(level.horizon, t)); };
     const auto field = [&](const std::string &key, const std::string &text)
     { return with_series(expression(key, text), n_components, omega, 0); };
 
@@ -305,7 +305,7 @@ namespace plumbline::scene
   operator_on_solution(const Scene &scene, unsigned int case_index, const Problem &problem)
   {
     const Expression u("Problem/solution", scene.problem.solutions[case_index].expression,
-                       scene.constants(problem.horizon(), 0));
+                       scene.names(problem.horizon(), 0));
     return manufactured_load(problem, u,
                              problem.lattice ? extent(*problem.lattice) : extent(*problem.mesh));
   }

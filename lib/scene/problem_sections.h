@@ -2,6 +2,7 @@
 
 #include "geometry/lattice.h"
 #include "physics/coefficient.h"
+#include "physics/expression.h"
 #include "physics/kernel.h"
 #include "physics/state_based.h"
 #include "scene/choices.h"
@@ -100,7 +101,8 @@ namespace plumbline::scene
     std::array<std::array<std::string, 2>, 3> given; ///< E and nu, lambda and mu, k and l
     std::array<std::string, 2> keys;                 ///< of the pair that is not empty
     std::array<std::string, 2> expressions;          ///< in x and y
-    bool is_homogeneous = true;                      ///< neither x nor y is in them
+    bool is_homogeneous = true;                      ///< they do not depend on the place
+    physics::Names names = {};                       ///< in them, of what is random
     bool has_collar_dilatation = true; ///< else θ counts as 0 there: wrong, to be shown
     double c = 1, beta = 1;            ///< of double wells, > 0, see physics::DoubleWell
     BoundaryFunction boundary_function = BoundaryFunction::one; ///< ω of double wells

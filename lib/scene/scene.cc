@@ -25,11 +25,13 @@ namespace plumbline::scene
         members.declare(keys);
       };
       section("Domain", scene.domain);
+      section("Random", scene.random);
       section("Kernel", scene.kernel);
       section("Material", scene.material);
       section("Problem", scene.problem);
       section("Methods", scene.methods);
       section("Study", scene.study);
+      section("Sampling", scene.sampling);
       section("Time", scene.time);
       section("Crack", scene.crack);
       section("Fracture", scene.fracture);
@@ -44,7 +46,9 @@ namespace plumbline::scene
     /// What follows from the keys, once all are read.
     void complete(Scene &scene)
     {
+      scene.random.complete();
       scene.kernel.complete(scene.folder);
+      scene.material.names = scene.random.names();
       scene.material.complete();
       scene.time.complete();
       scene.crack.complete();
@@ -60,6 +64,7 @@ namespace plumbline::scene
       check_mesh_and_nodes(scene);
       check_solver(scene);
       check_motion(scene);
+      check_sampling(scene);
       scene.expected.complete(scene.problem.case_names());
     }
 
@@ -119,12 +124,24 @@ namespace plumbline::scene
     return std::abs(lame.lambda - lame.mu) > 1e-14 * lame.mu;
   }
 
-  std::map<std::string, double> Scene::constants(double horizon, double t) const
+  physics::Names Scene::names(double horizon, double t) const
   {
-    std::map<std::string, double> names = {{"delta", horizon}};
+    physics::Names names = random.names();
+    names.constants["delta"] = horizon;
     if (time.is_dynamic())
-      names["t"] = t;
+      names.constants["t"] = t;
     return names;
+  }
+
+  Scene at_sample(Scene scene, const std::vector<double> &values, unsigned int realisation)
+  {
+    scene.random.values = values;
+    scene.random.realisation = realisation;
+    scene.random.complete();
+    scene.material.names = scene.random.names();
+    if (scene.material.is_state_based() && scene.material.is_homogeneous)
+      (void)scene.material.lame();
+    return scene;
   }
 
   bool Scene::is_steady() const
@@ -138,7 +155,11 @@ namespace plumbline::scene
     try // those that have t in them do not parse without it
     {
       for (const std::string &text : texts)
-        (void)physics::Expression("Problem", text, {{"delta", 1.}});
+      {
+        physics::Names steady = random.names();
+        steady.constants["delta"] = 1;
+        (void)physics::Expression("Problem", text, steady);
+      }
       return true;
     }
     catch (const InputError &)

@@ -4,10 +4,9 @@
 #include "scene/crack_section.h"
 #include "scene/fracture_section.h"
 #include "scene/problem_sections.h"
+#include "scene/random_section.h"
 #include "scene/study_sections.h"
 #include "scene/time_section.h"
-
-#include <map>
 
 namespace plumbline::scene
 {
@@ -19,11 +18,13 @@ namespace plumbline::scene
     std::string folder; ///< of the scene's file: other files are named from there
 
     DomainSection domain;
+    RandomSection random;
     KernelSection kernel;
     MaterialSection material;
     ProblemSection problem;
     MethodsSection methods;
     StudySection study;
+    SamplingSection sampling;
     TimeSection time;
     CrackSection crack;
     FractureSection fracture;
@@ -46,8 +47,8 @@ namespace plumbline::scene
     /// λ = μ leaves a state-based solid its bonds alone.
     bool has_dilatation() const;
 
-    /// Names besides x and y in expressions of this scene: delta, and t where it moves.
-    std::map<std::string, double> constants(double horizon, double t = 0) const;
+    /// Names in expressions of this scene: delta, t where it moves, and what is random.
+    physics::Names names(double horizon, double t = 0) const;
 
     /// No expression has t in it.
     bool is_steady() const;
@@ -68,6 +69,12 @@ namespace plumbline::scene
   /// What the dilatation adds to its bonds, or nothing.
   /// @throws InputError  (its material) a constant that is not allowed, naming key and place
   std::optional<physics::Dilatation> make_dilatation(const Scene &scene, double horizon);
+
+  /// The same scene at other values of its random variables.
+  /// @param values       of all of them, see RandomSection
+  /// @param realisation  of a field that is drawn as a whole
+  /// @throws InputError  constants of no solid
+  Scene at_sample(Scene scene, const std::vector<double> &values, unsigned int realisation);
 
   /// The same scene with nothing left out, to show that what is left out is not missed.
   Scene full_model(Scene scene);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace plumbline::study
 {
@@ -160,10 +161,52 @@ namespace plumbline::study
       return static_cast<double>(growth.events.size());
     if (name == "advance")
       return advance();
+    if (name == "G by bonds" || name == "K by bonds" || name == "G by energy" ||
+        name == "K by energy")
+    {
+      const double W = advance();
+      if (!(W > 0))
+        return std::numeric_limits<double>::quiet_NaN();
+      const bool is_of_bonds = name.find("bonds") != std::string::npos;
+      const double G =
+          (is_of_bonds ? bond_sum : growth.events.back().in_bonds + growth.events.back().released) /
+          W;
+      return name[0] == 'G' ? G : std::sqrt(G * plane_modulus);
+    }
     if (growth.events.empty())
       return 0;
     const Event &event = growth.events[peak()];
     return name == "peak load" ? event.load : event.reaction_before;
+  }
+
+  double bonds_across(const GrowthModel &model)
+  {
+    // of whole bonds by how far they reach up, for each node that has all of them: of the node
+    // whose bonds are most
+    std::vector<double> reach(model.nodes.size(), 0);
+    for (const auto *const bonds : {&model.bonds, &model.cut})
+      for (const auto &bond : *bonds)
+      {
+        const double rise = (model.nodes[bond[1]][1] - model.nodes[bond[0]][1]) / model.h;
+        reach[rise > 0 ? bond[0] : bond[1]] += std::abs(rise);
+      }
+    return reach.empty() ? 0 : std::round(*std::max_element(reach.begin(), reach.end()));
+  }
+
+  std::vector<BrokenPart> broken_parts(const GrowthModel &model,
+                                       const std::vector<std::size_t> &broken)
+  {
+    constexpr std::size_t most = 8;
+    const double of_bond = model.h / bonds_across(model);
+    std::map<double, std::size_t> counts;
+    for (const std::size_t bond : broken)
+      ++counts[model.bond_toughness[bond]];
+    std::vector<BrokenPart> parts;
+    for (const auto &[toughness, n] : counts)
+      parts.push_back({toughness, n, static_cast<double>(n) * of_bond});
+    if (parts.size() > most)
+      parts.clear();
+    return parts;
   }
 
   std::vector<std::string> growth_faults(const GrowthResults &results,

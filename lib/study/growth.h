@@ -14,7 +14,9 @@ namespace plumbline::study
   struct GrowthModel
   {
     method::BreakingBody *body = nullptr;
-    double h = 0; ///< of the lattice [length]
+    double h = 0;                       ///< of the lattice [length]
+    std::vector<double> bond_toughness; ///< G of each bond [force/length]
+    double plane_modulus = 0;           ///< mean of E/(1 - nu²) over the nodes [force/length²]
     std::vector<dealii::Point<2>> nodes;
     std::vector<std::array<unsigned int, 2>> bonds, cut; ///< their nodes; of those the notch cuts
     dealii::Point<2> notch_tip;
@@ -59,6 +61,21 @@ namespace plumbline::study
   std::size_t n_unpaired(const GrowthModel &model, const std::vector<std::size_t> &broken,
                          double middle);
 
+  /// What a crack has broken of a material, a phase or an interface of one toughness.
+  struct BrokenPart
+  {
+    double toughness = 0; ///< G [force/length]
+    std::size_t n_bonds = 0;
+    double length = 0; ///< of a straight crack that breaks as many bonds
+  };
+
+  /// By toughness, the weakest first; nothing where there are more than eight.
+  std::vector<BrokenPart> broken_parts(const GrowthModel &model,
+                                       const std::vector<std::size_t> &broken);
+
+  /// Bonds that a straight crack along a row of nodes breaks for each column of them: 18 at m = 3.
+  double bonds_across(const GrowthModel &model);
+
   /// A picture of the body, after so many events.
   struct GrowthMoment
   {
@@ -80,6 +97,11 @@ namespace plumbline::study
     double h = 0, horizon = 0;
     double lattice_toughness = 0; ///< energy of all bonds across a straight line, over G
     double trapping = 1;          ///< G was divided by this, see scene::Criterion
+    double plane_modulus = 0;     ///< see GrowthModel
+    /// Σ G of broken bonds times what each of them is of a straight crack's length, [force]: (5.2)
+    /// of Fan et al. 2022, doi:10.1016/j.cma.2022.115340, before it is divided by the advance W.
+    double bond_sum = 0;
+    std::vector<BrokenPart> parts;
     std::vector<dealii::Point<2>> nodes;
     dealii::Point<2> notch_tip;
     std::size_t n_bonds = 0, n_unknowns = 0;
@@ -97,7 +119,9 @@ namespace plumbline::study
     double largest_imbalance() const, largest_residual() const;
     /// Of broken bonds, and of all that was released, per length of the path.
     double bond_energy_per_length() const, energy_per_length() const;
-    /// One of scene::growth_quantities.
+    /// One of scene::growth_quantities. G by bonds: (G_1 L_1 + G_2 L_2 + G_i L_i) / W, lengths by
+    /// counts of bonds and W the advance (eq. 5.2); G by energy: what bonds held and what was
+    /// released, over W; K = √(G E/(1 - nu²)), the modulus' mean (eq. 5.3). NaN without an advance.
     double quantity(const std::string &name) const;
   };
 

@@ -15,9 +15,9 @@ namespace plumbline::study
     scene::Field given(const std::string &key, const std::string &text, const scene::Scene &scene,
                        const scene::Problem &problem)
     {
-      auto constants = scene.constants(problem.horizon());
-      constants["h"] = problem.h; // for averages over cells
-      const physics::Expression u(key, text, constants);
+      auto names = scene.names(problem.horizon());
+      names.constants["h"] = problem.h; // for averages over cells
+      const physics::Expression u(key, text, names);
       return {[u](const dealii::Point<2> &x, unsigned int c) { return u(x, c); }, {}};
     }
 

@@ -290,6 +290,8 @@ namespace plumbline::study
         run.round_off = round_off_error(problem, solution);
         run.diagnostics = solution.diagnostics;
         run.errors = errors(scene_, problem, solution, one.targets);
+        if (control_.on_solution)
+          control_.on_solution(problem, solution, run);
         if (is_against_own())
           own_finest_.keep(run, problem, solution.averages);
         for (const auto &[error, value] : run.errors)

@@ -23,6 +23,8 @@ namespace plumbline::study
     std::function<bool()> should_stop;              ///< asked before each solve
     std::function<void(const Solution &, const Run &)>
         on_finest; ///< solutions of the finest levels
+    std::function<void(const scene::Problem &, const Solution &, const Run &)>
+        on_solution; ///< of every level, their runs with errors
     /// How cases are solved; empty: analysis::solve.
     std::function<std::vector<analysis::Outcome>(const Method &,
                                                  const std::vector<const scene::Problem *> &)>

@@ -145,6 +145,9 @@ namespace plumbline::scene
              "that can break; unknown: nothing is expected.");
     add(ExpectedKind::stability,
         "'method: stable', 'conditionally stable' or 'unstable', of 'plumbline stability'.");
+    add(ExpectedKind::sampling,
+        "'method, quantity: value' of 'plumbline sample', of the largest set of samples at the "
+        "finest level, to Expected/error tolerance; quantities as its table calls them.");
     add(ExpectedKind::growth,
         "'method: d': growth rates that 'plumbline stability' observes on strained double wells "
         "differ from the symbol's by no more than d of the largest.");
@@ -153,8 +156,8 @@ namespace plumbline::scene
   void ExpectedSection::complete(const std::vector<std::string> &cases) const
   {
     for (const Expected &one : all)
-      if (one.kind != ExpectedKind::orders && !one.problem.empty() &&
-          std::find(cases.begin(), cases.end(), one.problem) == cases.end())
+      if (one.kind != ExpectedKind::orders && one.kind != ExpectedKind::sampling &&
+          !one.problem.empty() && std::find(cases.begin(), cases.end(), one.problem) == cases.end())
         throw InputError("Expected/" + base::word(one.kind) + ": '" + one.problem + "' in '" +
                          one.text + "' is neither a case of Problem nor a series like 'm = 3'");
   }

@@ -58,8 +58,8 @@ namespace plumbline::scene
 
   std::function<Lame(const Point<2> &)> MaterialSection::lame() const
   {
-    const Expression first("Material/" + keys[0], expressions[0]),
-        second("Material/" + keys[1], expressions[1]);
+    const Expression first("Material/" + keys[0], expressions[0], names),
+        second("Material/" + keys[1], expressions[1], names);
     const auto at = [material = *this, first, second](const Point<2> &x)
     {
       try
@@ -142,7 +142,7 @@ namespace plumbline::scene
       return;
     for (unsigned int i = 0; i < 2; ++i)
     {
-      const Expression expression("Material/" + keys[i], expressions[i]);
+      const Expression expression("Material/" + keys[i], expressions[i], names);
       if (expression.n_components() != 1)
         throw InputError("Material/" + keys[i] + " = '" + expressions[i] +
                          "' must be one expression");

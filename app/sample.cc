@@ -1,0 +1,256 @@
+#include "sample.h"
+
+#include "base/cost.h"
+#include "base/error.h"
+#include "base/team.h"
+#include "grow.h"
+#include "methods.h"
+#include "report/formats.h"
+#include "report/sample_files.h"
+#include "report/sampling_page.h"
+#include "run_parts.h"
+#include "study/preflight.h"
+#include "study/sample_sweep.h"
+#include "workers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+namespace plumbline::app
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    scene::Scene read(const SampleOptions &options)
+    {
+      auto overrides = options.overrides;
+      if (!options.methods.empty())
+        overrides.push_back({"Methods/names", options.methods});
+      scene::Scene scene = scene::read_scene(options.scene_file, overrides);
+      if (!scene.sampling.is_there())
+        throw InputError("scene '" + scene.name +
+                         "': Sampling/rule = none, so that there are no samples; write tensor, "
+                         "Smolyak, Monte Carlo or quasi-Monte Carlo, or use 'plumbline " +
+                         (scene.fracture.is_there() ? "grow'" : "run'"));
+      if (options.n_levels > 0)
+        for (scene::Series &series : scene.study.series)
+          series.levels.resize(std::min<std::size_t>(options.n_levels, series.levels.size()));
+      return scene;
+    }
+
+    /// One growth as the only case of its sample.
+    study::SampleCase grow_sample(const scene::Scene &scene, const fs::path &checkpoint)
+    {
+      const study::GrowthResults growth = grow_body(scene, checkpoint);
+      std::error_code not_there;
+      fs::remove(checkpoint, not_there);
+      study::SampleCase one;
+      one.method = growth.method;
+      one.problem = base::word(growth.rules.breaking);
+      one.series = scene.study.series.front().name;
+      one.h = growth.h;
+      one.horizon = growth.horizon;
+      one.seconds = growth.seconds;
+      for (const char *const name : scene::growth_quantities)
+        if (const double value = growth.quantity(name); std::isfinite(value))
+          one.quantities[name] = value;
+      one.field.values = growth.moments.back().damage;
+      for (const auto &node : growth.nodes)
+      {
+        one.field.x.push_back(node[0]);
+        one.field.y.push_back(node[1]);
+        one.field.area.push_back(growth.h * growth.h);
+      }
+      return one;
+    }
+
+    /// Whatever becomes of it.
+    study::SampleRecord take(const scene::Scene &scene, const study::SamplingPlan &plan,
+                             std::size_t sample, const report::SampleFiles &files)
+    {
+      study::SampleRecord record;
+      record.sample = sample;
+      try
+      {
+        const scene::Scene at = plan.at(scene, sample);
+        if (scene.fracture.is_there())
+          record.cases = {
+              grow_sample(at, files.folder() / ("checkpoint_" + std::to_string(sample) + ".h5"))};
+        else
+        {
+          const method::Methods available = all_methods();
+          record.cases = study::sweep_sample(at, study::choose_methods(at, available), available);
+        }
+      }
+      catch (const InputError &error)
+      {
+        record.failure = error.what();
+      }
+      catch (const NumericalError &error)
+      {
+        record.failure = error.what();
+      }
+      return record;
+    }
+
+    /// What a worker does: samples whose numbers come from standard input.
+    int take_samples(const scene::Scene &scene, const study::SamplingPlan &plan,
+                     const report::SampleFiles &files)
+    {
+      end_with_parent();
+      for (std::uint64_t number = 0; next_task(number);)
+        if (number < plan.values.size())
+          files.write(take(scene, plan, number, files));
+      return 0;
+    }
+
+    unsigned int n_cores()
+    {
+      return std::max(1u, std::thread::hardware_concurrency());
+    }
+
+    std::vector<std::string> worker_arguments(const SampleOptions &options, const fs::path &folder)
+    {
+      const unsigned int n_threads =
+          options.n_threads > 0 ? options.n_threads : std::max(1u, n_cores() / options.n_jobs);
+      std::vector<std::string> arguments = {
+          "sample",    options.scene_file,       "--worker", "-o", folder.string(),
+          "--threads", std::to_string(n_threads)};
+      for (const scene::Override &one : options.overrides)
+        arguments.insert(arguments.end(), {"--set", one.key + "=" + one.value});
+      if (!options.methods.empty())
+        arguments.insert(arguments.end(), {"--methods", options.methods});
+      if (options.n_levels > 0)
+        arguments.insert(arguments.end(), {"--levels", std::to_string(options.n_levels)});
+      return arguments;
+    }
+
+    /// How long the rest will take, once some samples are there.
+    class Forecast
+    {
+    public:
+      Forecast(std::size_t n_left, bool is_wanted) : n_left_(n_left), is_wanted_(is_wanted) {}
+
+      void tell(std::size_t n_done)
+      {
+        constexpr double worth_saying = 30; // [s]
+        if (!is_wanted_ || n_done == 0 || is_said_)
+          return;
+        is_said_ = true;
+        const double each = seconds() / static_cast<double>(n_done);
+        const double left = each * static_cast<double>(n_left_ - n_done);
+        if (left > worth_saying)
+          std::cerr << n_left_ << " samples; by the first of them the others will take some "
+                    << report::rounded_seconds(left) << '\n';
+      }
+
+    private:
+      double seconds() const
+      {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+      }
+      std::size_t n_left_;
+      bool is_wanted_, is_said_ = false;
+      std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    };
+
+    /// All samples that are not there yet.
+    void take_all(const SampleOptions &options, const study::SamplingPlan &plan,
+                  const report::SampleFiles &files, const fs::path &folder)
+    {
+      const base::Team team = base::Team::all();
+      std::vector<std::uint64_t> due;
+      for (std::size_t i = team.rank(); i < plan.values.size(); i += team.n_ranks())
+        if (!files.has(i))
+          due.push_back(i);
+      const bool is_talking = !options.quiet && team.rank() == 0;
+      if (is_talking && due.size() < plan.values.size() && team.n_ranks() == 1)
+        std::cerr << "continuing: " << plan.values.size() - due.size() << " samples are in '"
+                  << folder.string() << "' already\n";
+      ProgressLine progress(is_talking);
+      Forecast forecast(due.size(), is_talking);
+      const auto n_done = [&]
+      {
+        return static_cast<std::size_t>(
+            std::count_if(due.begin(), due.end(), [&](std::uint64_t i) { return files.has(i); }));
+      };
+      std::size_t n_waits = 0;
+      const auto wait = [&]
+      {
+        constexpr std::size_t rarely = 10; // of tenths of a second
+        if (is_talking && ++n_waits % rarely == 0)
+        {
+          const std::size_t n = n_done();
+          forecast.tell(n);
+          progress.show(std::to_string(n) + " of " + std::to_string(due.size()) + " samples",
+                        static_cast<double>(n) / static_cast<double>(due.size()));
+        }
+        return !is_interrupted();
+      };
+      const std::vector<std::string> endings =
+          work_off(due, options.n_jobs, worker_arguments(options, folder), wait);
+      for (const std::string &how : endings)
+        std::cerr << "plumbline: a process of samples " << how
+                  << "; its sample is not there, the same command tries it again\n";
+    }
+  } // namespace
+
+  int sample(const SampleOptions &options)
+  {
+    const scene::Scene scene = read(options);
+    const study::SamplingPlan plan = study::make_sampling_plan(scene);
+    const fs::path folder = output_folder(options, scene);
+    const report::SampleFiles files(folder / "samples", scene.text);
+    if (options.is_worker)
+      return take_samples(scene, plan, files);
+
+    if (!scene.fracture.is_there())
+    {
+      const method::Methods available = all_methods(),
+                            methods = study::choose_methods(scene, available);
+      study::check_memory(scene, methods, available, 0);
+      study::check_data(scene);
+    }
+    prepare_folder(folder);
+    const base::Team team = base::Team::all();
+    team.together(
+        [&]
+        {
+          if (team.rank() == 0)
+            files.prepare();
+        });
+    watch_interrupts();
+    take_all(options, plan, files, folder);
+    team.wait();
+    if (team.rank() != 0)
+      return 0;
+
+    const study::SamplingResults results =
+        conclude_samples(scene, plan, [&](std::size_t i) { return files.read(i); });
+    const std::vector<std::string> faults = sampling_faults(results, scene.expected);
+    report::write_sampling(results, faults, folder);
+    if (options.json)
+      std::cout << report::sampling_json(results);
+    else if (!options.quiet)
+      std::cout << report::sampling_text(results)
+                << "\nreport: " << (folder / "sample.html").string() << '\n';
+    for (const study::SampleFailure &failure : results.failures)
+      std::cerr << "sample " << failure.sample << " failed: " << failure.reason << '\n';
+    if (is_interrupted())
+    {
+      std::cerr << "interrupted: what is finished is in '" << folder.string()
+                << "'; the same command continues\n";
+      return 130;
+    }
+    if (!results.failures.empty() || !results.is_complete)
+      return 3;
+    for (const std::string &fault : faults)
+      if (options.check)
+        std::cerr << fault << '\n';
+    return options.check && !faults.empty() ? 1 : 0;
+  }
+} // namespace plumbline::app

@@ -1,0 +1,167 @@
+#include "report/damage_maps.h"
+#include "report/sampling_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    using study::CaseStatistics;
+    using study::SamplingResults;
+    using study::SetStatistics;
+
+    using Value = std::function<std::optional<double>(const SetStatistics &)>;
+
+    std::optional<double> mean_error(const SetStatistics &set)
+    {
+      return set.mean_error;
+    }
+
+    std::optional<double> deviation_error(const SetStatistics &set)
+    {
+      return set.deviation_error;
+    }
+
+    /// Lines by label.
+    Line &line_of(std::vector<Line> &lines, const std::string &label, bool is_dashed)
+    {
+      const auto found =
+          std::find_if(lines.begin(), lines.end(), [&](const Line &l) { return l.label == label; });
+      if (found != lines.end())
+        return *found;
+      lines.push_back(
+          {label, style_of(static_cast<unsigned int>(lines.size()), is_dashed), 1.8, {}, 1});
+      return lines.back();
+    }
+
+    bool has_several_methods(const SamplingResults &results)
+    {
+      return std::any_of(results.cases.begin(), results.cases.end(),
+                         [&](const CaseStatistics &c)
+                         { return c.of.method != results.cases.front().of.method; });
+    }
+
+    std::string name_of(const SamplingResults &results, const CaseStatistics &one)
+    {
+      return has_several_methods(results) ? one.of.method + ", " : "";
+    }
+
+    DataChart empty_chart(const std::string &name, const std::string &title,
+                          const std::string &x_label, const std::string &y_label,
+                          const std::string &caption)
+    {
+      DataChart chart;
+      chart.name = name;
+      chart.caption = caption;
+      chart.plot.file = name + ".svg";
+      chart.plot.title = title;
+      chart.plot.x_label = x_label;
+      chart.plot.y_label = y_label;
+      chart.data.columns = {"method", "h", "samples", "seconds", "value"};
+      return chart;
+    }
+
+    /// @param x  of a case and set; @param label  of their line
+    template <class X, class Label>
+    void fill(const SamplingResults &results, DataChart &chart, const Value &value, const X &x,
+              const Label &label)
+    {
+      for (const CaseStatistics &one : results.cases)
+        for (const SetStatistics &set : one.sets)
+          if (const auto y = value(set); y && *y > 0 && x(one, set) > 0)
+          {
+            line_of(chart.plot.lines, label(one, set), false).points.push_back({x(one, set), *y});
+            chart.data.rows.push_back({text_cell(one.of.method), number_cell(one.of.h),
+                                       count_cell(set.n_samples), number_cell(set.seconds),
+                                       error_cell(*y)});
+          }
+      for (Line &line : chart.plot.lines)
+        std::sort(line.points.begin(), line.points.end(),
+                  [](const Vertex &a, const Vertex &b) { return a.x < b.x; });
+    }
+
+    void add_errors(const SamplingResults &results, const std::string &what, const Value &value,
+                    std::vector<DataChart> &charts)
+    {
+      const auto samples = [](const CaseStatistics &, const SetStatistics &set)
+      { return static_cast<double>(set.n_samples); };
+      const auto h = [](const CaseStatistics &one, const SetStatistics &) { return one.of.h; };
+      const auto seconds = [](const CaseStatistics &, const SetStatistics &set)
+      { return set.seconds; };
+      const auto by_h = [&](const CaseStatistics &one, const SetStatistics &)
+      { return name_of(results, one) + "h = " + rounded(one.of.h); };
+      const auto by_set = [&](const CaseStatistics &one, const SetStatistics &set)
+      { return name_of(results, one) + std::to_string(set.n_samples) + " samples"; };
+      DataChart over_samples = empty_chart(
+          what + "-samples", "Error of the " + what + " over samples", "samples",
+          "error, L2 over the domain",
+          "Each line falls at the rule's rate until the error of the discretisation, which more "
+          "samples cannot mend.");
+      fill(results, over_samples, value, samples, by_h);
+      DataChart over_h = empty_chart(what + "-h", "Error of the " + what + " over h",
+                                     "mesh size h [length]", "error, L2 over the domain",
+                                     "Each line falls at the discretisation's rate until the error "
+                                     "of its samples, which finer "
+                                     "meshes cannot mend.");
+      over_h.plot.has_slopes = true;
+      fill(results, over_h, value, h, by_set);
+      DataChart over_time =
+          empty_chart(what + "-cost", "Error of the " + what + " over time", "CPU time [s]",
+                      "error, L2 over the domain",
+                      "All pairs of h and samples: where lines of two h cross, samples and mesh "
+                      "are worth the same.");
+      fill(results, over_time, value, seconds, by_h);
+      for (DataChart *const chart : {&over_samples, &over_h, &over_time})
+        if (!chart->plot.lines.empty())
+          charts.push_back(std::move(*chart));
+    }
+
+    /// Of independent samples, where there are enough to see something.
+    void add_histograms(const SamplingResults &results, std::vector<DataChart> &charts)
+    {
+      constexpr std::size_t least = 16;
+      for (const CaseStatistics &one : results.cases)
+        for (const auto &[name, values] : one.values)
+        {
+          if (values.size() < least || results.sampling.rule != random::SampleRule::monte_carlo)
+            continue;
+          const auto n = static_cast<unsigned int>(
+              std::ceil(2 * std::cbrt(static_cast<double>(values.size()))));
+          const auto counts = random::histogram(values, n);
+          const auto [least_value, largest] = std::minmax_element(values.begin(), values.end());
+          if (!(*largest > *least_value))
+            continue;
+          DataChart chart =
+              empty_chart(slug("histogram-" + one.of.method + "-" + rounded(one.of.h) + "-" + name),
+                          name + (has_several_methods(results) ? ", " + one.of.method : ""), name,
+                          "samples", "How samples of " + name + " are spread.");
+          chart.plot.is_x_log = chart.plot.is_y_log = false;
+          chart.data.columns = {"from", "to", "samples"};
+          Line bars{"", style_of(0, false), 1.8, {}, 1000000};
+          const double width = (*largest - *least_value) / n;
+          for (unsigned int i = 0; i < n; ++i)
+          {
+            const double from = *least_value + i * width;
+            for (const double x : {from, from + width})
+              bars.points.push_back({x, static_cast<double>(counts[i])});
+            chart.data.rows.push_back(
+                {number_cell(from), number_cell(from + width), count_cell(counts[i])});
+          }
+          chart.plot.lines = {bars};
+          charts.push_back(std::move(chart));
+        }
+    }
+  } // namespace
+
+  std::vector<DataChart> sampling_charts(const SamplingResults &results)
+  {
+    std::vector<DataChart> charts;
+    add_errors(results, "mean", mean_error, charts);
+    add_errors(results, "deviation", deviation_error, charts);
+    add_histograms(results, charts);
+    return charts;
+  }
+} // namespace plumbline::report

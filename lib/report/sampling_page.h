@@ -1,0 +1,32 @@
+#pragma once
+
+#include "report/data_charts.h"
+#include "study/sampling.h"
+
+#include <filesystem>
+
+namespace plumbline::report
+{
+  /// A row for each method, level and set: errors of mean and deviation, or the field's mean and
+  /// deviation where no exact one is known.
+  Table sampling_field_table(const study::SamplingResults &results);
+
+  /// A row for each quantity of each method at its finest level, over each set.
+  Table sampling_quantity_table(const study::SamplingResults &results);
+
+  /// Errors of mean and deviation over h and over the number of samples, and over CPU seconds;
+  /// histograms of quantities.
+  std::vector<DataChart> sampling_charts(const study::SamplingResults &results);
+
+  /// Tables and words, for a terminal.
+  std::string sampling_text(const study::SamplingResults &results);
+
+  /// All numbers but fields.
+  std::string sampling_json(const study::SamplingResults &results);
+
+  /// Write sample.html, .md and .json, and sample/ with tables and pictures.
+  /// @throws InputError  dir cannot be written
+  /// @throws NumericalError  pictures cannot be drawn; all else is written then
+  void write_sampling(const study::SamplingResults &results, const std::vector<std::string> &faults,
+                      const std::filesystem::path &dir);
+} // namespace plumbline::report

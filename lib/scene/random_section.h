@@ -1,0 +1,73 @@
+#pragma once
+
+#include "physics/expression.h"
+#include "random/sample_points.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace plumbline::scene
+{
+  class Keys;
+
+  /// A random field of the place, called R in expressions.
+  enum class FieldKind
+  {
+    none,
+    exponential, ///< of modes of a covariance, Karhunen and Loève's
+    separable,
+    gaussian,
+    matern,
+    ellipses ///< 1 in ellipses that lie at random, else 0
+  };
+
+  /// What is random in a scene: variables, and a field.
+  struct RandomSection
+  {
+    std::vector<random::Variable> variables;
+    std::vector<double> values;   ///< of all of them; empty: their means
+    unsigned int realisation = 1; ///< of a field that is drawn as a whole
+
+    FieldKind field = FieldKind::none;
+    double mean = 0, deviation = 1, length = 1, smoothness = 1.5; ///< of a field of modes
+    unsigned int n_modes = 0; ///< each a standard normal variable after the others; 0: drawn whole
+    double cell = 0;          ///< of the lattice that a field of modes lives on [length]
+    double fraction = .2;     ///< of the area, in ellipses
+    std::array<double, 2> semi_axes = {1, 1}; ///< of ellipses [length]
+    bool may_overlap = true;
+    unsigned int n_realisations = 1000; ///< that principal components are found from
+
+    bool is_there() const { return !variables.empty() || field != FieldKind::none; }
+    std::vector<random::Law> laws() const; ///< of all variables
+
+    /// Its variables at the values, in expressions.
+    physics::Names names() const;
+
+    void declare(Keys &keys);
+    /// @throws InputError  values that are not one for each variable, names that mean something
+    /// else
+    void complete() const;
+  };
+
+  /// Where a random scene is taken by `plumbline sample`.
+  struct SamplingSection
+  {
+    random::SampleRule rule = random::SampleRule::none;
+    /// Of each set of samples: points a variable (tensor), level (Smolyak), or samples.
+    std::vector<unsigned int> counts;
+    random::Growth growth = random::Growth::odd;
+    unsigned int seed = 1;
+
+    bool is_there() const { return rule != random::SampleRule::none; }
+
+    void declare(Keys &keys);
+  };
+} // namespace plumbline::scene
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<scene::FieldKind> =
+      std::array{"none", "exponential", "separable exponential", "Gaussian", "Matern", "ellipses"};
+} // namespace plumbline::base

@@ -1,0 +1,58 @@
+#include "base/error.h"
+#include "base/number_text.h"
+#include "scene/checks.h"
+#include "scene/values.h"
+
+#include <algorithm>
+
+namespace plumbline::scene
+{
+  using random::SampleRule;
+
+  namespace
+  {
+    constexpr double most_samples = 1e6;
+
+    double n_samples(const SamplingSection &sampling, std::size_t n_variables, unsigned int count)
+    {
+      if (sampling.rule == SampleRule::tensor)
+        return random::n_tensor_points(n_variables, count);
+      if (sampling.rule == SampleRule::smolyak)
+        return random::n_smolyak_points(n_variables, count, sampling.growth);
+      return count;
+    }
+  } // namespace
+
+  void check_sampling(const Scene &scene)
+  {
+    const SamplingSection &sampling = scene.sampling;
+    if (!sampling.is_there())
+      return;
+    const std::string rule = "Sampling/rule = " + base::word(sampling.rule);
+    const std::vector<random::Law> laws = scene.random.laws();
+    const bool is_drawn = sampling.rule == SampleRule::monte_carlo;
+    require(!laws.empty() || (is_drawn && scene.random.is_there()),
+            rule + " needs variables that it takes values of; give Random/variables, or Random/"
+                   "modes of a field");
+    require(!sampling.counts.empty(), rule + " needs Sampling/counts, which is empty");
+    require(std::is_sorted(sampling.counts.begin(), sampling.counts.end()) &&
+                std::adjacent_find(sampling.counts.begin(), sampling.counts.end()) ==
+                    sampling.counts.end(),
+            "Sampling/counts must rise: the last set is the best");
+    require(sampling.rule == SampleRule::smolyak || sampling.counts.front() > 0,
+            "Sampling/counts = 0 with " + rule + " is no sample; write 1 or more");
+    require(sampling.rule != SampleRule::smolyak || sampling.growth != random::Growth::nested ||
+                std::all_of(laws.begin(), laws.end(),
+                            [](random::Law law) { return law == random::Law::uniform; }),
+            "Sampling/growth = nested is of uniform variables, and one is normal; write odd");
+    const double n = n_samples(sampling, laws.size(), sampling.counts.back());
+    require(n <= most_samples,
+            "Sampling/counts = " + std::to_string(sampling.counts.back()) + " with " + rule +
+                " and " + std::to_string(laws.size()) + " variables takes " + base::to_text(n, 4) +
+                " samples, more than " + base::to_text(most_samples, 4) + "; take fewer" +
+                (sampling.rule == SampleRule::tensor ? ", or Sampling/rule = Smolyak" : ""));
+    require(!scene.time.is_dynamic() && !scene.crack.is_there(),
+            rule + " takes samples of statics and of growth (Fracture); write Time/final time = 0 "
+                   "and Crack/notch = 0");
+  }
+} // namespace plumbline::scene

@@ -1,0 +1,124 @@
+#include "study/exact_statistics.h"
+
+#include "physics/expression.h"
+#include "study/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::study
+{
+  namespace
+  {
+    using dealii::Point;
+    using random::SamplePoints;
+
+    constexpr std::array<unsigned int, 3> n_gauss = {60, 32, 12}; ///< of 1, 2, 3 variables
+
+    /// The key and text of what errors are against, if it is an expression.
+    std::optional<std::pair<std::string, std::string>> target_text(const scene::Scene &scene,
+                                                                   std::size_t case_index)
+    {
+      const scene::ProblemSection &problem = scene.problem;
+      const scene::Target target = scene.study.decisive_error.target;
+      const bool is_local = target == scene::Target::local &&
+                            problem.local_solution == scene::LocalSolution::expression;
+      if (is_local)
+        return std::pair("Problem/local solution", problem.local_expression);
+      if (target == scene::Target::exact && case_index < problem.solutions.size())
+        return std::pair("Problem/solution", problem.solutions[case_index].expression);
+      return {};
+    }
+
+    /// Values of the target at places, at a sample.
+    using Evaluate = std::function<std::vector<double>(const scene::Scene &)>;
+
+    Evaluate at_places(const std::pair<std::string, std::string> &target, const SampleCase &one,
+                       std::size_t stride)
+    {
+      return [=, places = one.field, horizon = one.horizon](const scene::Scene &scene)
+      {
+        const physics::Expression u(target.first, target.second, scene.names(horizon));
+        std::vector<double> values;
+        for (std::size_t i = 0; i < places.x.size(); i += stride)
+          for (unsigned int c = 0; c < places.n_components; ++c)
+            values.push_back(u(Point<2>(places.x[i], places.y[i]), c));
+        return values;
+      };
+    }
+
+    /// The same of averages over the comparison cells.
+    Evaluate averages_at(const scene::Scene &scene, std::size_t case_index, const SampleCase &one)
+    {
+      const scene::Field nothing{[](const Point<2> &, unsigned int) { return 0.; }, std::nullopt};
+      const scene::Level level{one.h, one.horizon};
+      const auto place = std::make_shared<const scene::Problem>(
+          make_problem(scene, static_cast<unsigned int>(case_index), level, 0, &nothing));
+      const bool is_local = scene.study.decisive_error.target == scene::Target::local;
+      return [=](const scene::Scene &at)
+      {
+        const scene::Problem problem = make_problem(at, static_cast<unsigned int>(case_index),
+                                                    level, 0, &nothing, place.get());
+        return cell_averages(is_local ? *problem.local_solution : *problem.solution, *place);
+      };
+    }
+
+    std::pair<std::vector<double>, std::vector<double>>
+    moments(const scene::Scene &scene, const SamplePoints &rule, const Evaluate &evaluate)
+    {
+      random::FieldSums sums;
+      for (std::size_t i = 0; i < rule.points.size(); ++i)
+      {
+        std::vector<double> values;
+        for (std::size_t d = 0; d < rule.points[i].size(); ++d)
+          values.push_back(d < scene.random.variables.size()
+                               ? scene.random.variables[d].at(rule.points[i][d])
+                               : rule.points[i][d]);
+        sums.add(evaluate(at_sample(scene, values, 1)), rule.weights[i]);
+      }
+      std::vector<double> deviation = sums.variance();
+      for (double &one : deviation)
+        one = std::sqrt(std::max(0., one)); // Gauss weights are positive: rounding
+      return {sums.mean(), deviation};
+    }
+  } // namespace
+
+  std::optional<ExactStatistics> exact_statistics(const scene::Scene &scene, const SampleCase &one)
+  {
+    const std::vector<random::Law> laws = scene.random.laws();
+    const bool is_drawn = scene.random.field != scene::FieldKind::none;
+    const std::vector<std::string> cases = scene.problem.case_names();
+    const auto case_index = static_cast<std::size_t>(
+        std::find(cases.begin(), cases.end(), one.problem) - cases.begin());
+    const auto target = target_text(scene, case_index);
+    if (!target || laws.empty() || laws.size() > n_gauss.size() || is_drawn ||
+        one.field.values.empty())
+      return {};
+    const bool is_nodal =
+        scene::quantity(scene.study.decisive_error.norm) == scene::Quantity::nodal;
+    const unsigned int n = n_gauss[laws.size() - 1];
+    const SamplePoints rule = tensor_points(laws, n);
+    ExactStatistics result;
+    std::tie(result.mean, result.deviation) = moments(
+        scene, rule, is_nodal ? at_places(*target, one, 1) : averages_at(scene, case_index, one));
+    // by fewer points, of values at some places, from which averages differ little
+    constexpr std::size_t n_places = 40;
+    const std::size_t stride = std::max<std::size_t>(1, one.field.x.size() / n_places);
+    const Evaluate some = at_places(*target, one, stride);
+    const auto fine = moments(scene, rule, some),
+               coarse = moments(scene, tensor_points(laws, 3 * n / 4), some);
+    double area = 0;
+    for (const double part : one.field.area)
+      area += part;
+    const auto change = [&](const std::vector<double> &a, const std::vector<double> &b)
+    {
+      double largest = 0;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        largest = std::max(largest, std::abs(a[i] - b[i]));
+      return largest * std::sqrt(area);
+    };
+    result.mean_uncertainty = change(fine.first, coarse.first);
+    result.deviation_uncertainty = change(fine.second, coarse.second);
+    return result;
+  }
+} // namespace plumbline::study

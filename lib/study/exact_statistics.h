@@ -1,0 +1,22 @@
+#pragma once
+
+#include "study/sampling.h"
+
+namespace plumbline::study
+{
+  /// Mean and deviation of the field that a scene's decisive error is held against, shape
+  /// (n_places, n_components), and their own L2 uncertainty.
+  struct ExactStatistics
+  {
+    std::vector<double> mean, deviation;
+    double mean_uncertainty = 0, deviation_uncertainty = 0;
+  };
+
+  /// By many Gauss points in each variable, without any solve: Problem/solution or Problem/local
+  /// solution at every one of them. The uncertainty is the change from three quarters as many, at
+  /// some of the places.
+  /// @param one  whose places are taken; its level says where averages are
+  /// @return nothing where the target is no expression, or there are more than three variables, or
+  /// a field that is drawn whole
+  std::optional<ExactStatistics> exact_statistics(const scene::Scene &scene, const SampleCase &one);
+} // namespace plumbline::study

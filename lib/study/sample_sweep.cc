@@ -1,0 +1,70 @@
+#include "study/sample_sweep.h"
+
+#include "base/error.h"
+#include "study/comparison.h"
+
+#include <numeric>
+
+namespace plumbline::study
+{
+  namespace
+  {
+    using dealii::Point;
+
+    double domain_area(const scene::Problem &problem)
+    {
+      if (problem.cells)
+        return std::accumulate(
+            problem.cells->area.begin(),
+            problem.cells->area.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free), 0.);
+      return problem.h * problem.h * static_cast<double>(comparison_points(problem).size());
+    }
+
+    SampleField field_of(const scene::Problem &problem, const Solution &solution, bool is_nodal)
+    {
+      SampleField field;
+      field.n_components = problem.n_components;
+      field.values = is_nodal ? solution.nodal : solution.averages;
+      const std::vector<Point<2>> places = is_nodal ? solution.nodes : comparison_points(problem);
+      for (std::size_t i = 0; i < places.size(); ++i)
+      {
+        field.x.push_back(places[i][0]);
+        field.y.push_back(places[i][1]);
+        field.area.push_back(!is_nodal && problem.cells
+                                 ? problem.cells->area[i]
+                                 : domain_area(problem) / static_cast<double>(places.size()));
+      }
+      return field;
+    }
+  } // namespace
+
+  std::vector<SampleCase> sweep_sample(const scene::Scene &scene, const Methods &methods,
+                                       const Methods &available)
+  {
+    const bool is_nodal =
+        scene::quantity(scene.study.decisive_error.norm) == scene::Quantity::nodal;
+    std::vector<SampleCase> cases;
+    SweepControl control;
+    control.on_solution =
+        [&](const scene::Problem &problem, const Solution &solution, const Run &run)
+    {
+      SampleCase one;
+      one.method = run.method;
+      one.problem = run.problem;
+      one.series = run.series;
+      one.level = run.level;
+      one.h = run.h;
+      one.horizon = run.horizon;
+      one.seconds = run.cost.setup_seconds + run.cost.solve_seconds;
+      one.quantities = run.errors;
+      one.field = field_of(problem, solution, is_nodal);
+      cases.push_back(std::move(one));
+    };
+    const Results results = run_sweep(scene, methods, available, control);
+    for (const Run &run : results.runs)
+      if (!run.failure.empty())
+        throw NumericalError(run.method + ", " + run.problem + ", " + run.series + ": " +
+                             run.failure);
+    return cases;
+  }
+} // namespace plumbline::study

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "study/sampling.h"
+#include "study/sweep.h"
+
+namespace plumbline::study
+{
+  /// All methods at all levels of a sample: errors as in results.json, and the field that the
+  /// decisive error is about, nodal values or averages over the comparison cells.
+  /// @throws NumericalError  a method has no solution
+  std::vector<SampleCase> sweep_sample(const scene::Scene &scene, const Methods &methods,
+                                       const Methods &available);
+} // namespace plumbline::study

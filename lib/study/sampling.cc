@@ -1,0 +1,367 @@
+#include "study/sampling.h"
+
+#include "base/number_text.h"
+#include "study/exact_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::study
+{
+  using random::SamplePoints;
+  using random::SampleRule;
+
+  namespace
+  {
+    SamplePoints draw(const scene::SamplingSection &sampling, const std::vector<random::Law> &laws,
+                      unsigned int count)
+    {
+      switch (sampling.rule)
+      {
+      case SampleRule::tensor:
+        return random::tensor_points(laws, count);
+      case SampleRule::smolyak:
+        return random::smolyak_points(laws, count, sampling.growth);
+      case SampleRule::quasi_monte_carlo:
+        return random::quasi_monte_carlo_points(laws, count);
+      default:
+        return random::monte_carlo_points(laws, count, sampling.seed);
+      }
+    }
+
+    /// √(Σ area f²) of a field.
+    double l2(const SampleField &places, const std::function<double(std::size_t)> &value)
+    {
+      double sum = 0;
+      for (std::size_t i = 0; i < places.area.size() * places.n_components; ++i)
+        sum += places.area[i / places.n_components] * value(i) * value(i);
+      return std::sqrt(sum);
+    }
+
+    /// Of a case what one set has gathered.
+    struct SetSums
+    {
+      std::vector<double> weights; ///< of the samples that there are
+      std::map<std::string, std::vector<double>> values;
+      random::FieldSums field;
+      double seconds = 0;
+    };
+
+    struct CaseSums
+    {
+      SampleCase first;
+      std::vector<SetSums> sets;
+    };
+
+    /// Where in each set a sample is, if it is.
+    std::vector<std::vector<std::optional<double>>> weights_of(const SamplingPlan &plan)
+    {
+      std::vector<std::vector<std::optional<double>>> weights(
+          plan.values.size(), std::vector<std::optional<double>>(plan.sets.size()));
+      for (std::size_t s = 0; s < plan.sets.size(); ++s)
+        for (std::size_t i = 0; i < plan.sets[s].samples.size(); ++i)
+          weights[plan.sets[s].samples[i]][s] = plan.sets[s].weights[i];
+      return weights;
+    }
+
+    void add(const SampleRecord &record, const std::vector<std::optional<double>> &weights,
+             std::vector<CaseSums> &cases)
+    {
+      for (const SampleCase &one : record.cases)
+      {
+        auto found = std::find_if(cases.begin(), cases.end(),
+                                  [&](const CaseSums &c) { return c.first.is_same(one); });
+        if (found == cases.end())
+        {
+          cases.push_back({one, std::vector<SetSums>(weights.size())});
+          found = cases.end() - 1;
+        }
+        for (std::size_t s = 0; s < weights.size(); ++s)
+        {
+          if (!weights[s])
+            continue;
+          SetSums &set = found->sets[s];
+          set.weights.push_back(*weights[s]);
+          set.seconds += one.seconds;
+          for (const auto &[name, value] : one.quantities)
+            set.values[name].push_back(value);
+          if (!one.field.values.empty())
+            set.field.add(one.field.values, *weights[s]);
+        }
+      }
+    }
+
+    void conclude_field(const SetSums &sums, const SampleField &places, bool independent,
+                        const std::optional<ExactStatistics> &exact, SetStatistics &set,
+                        std::vector<double> &mean, std::vector<double> &deviation)
+    {
+      mean = sums.field.mean();
+      deviation = sums.field.variance(independent ? sums.weights.size() : 0);
+      double area = 0;
+      for (const double part : places.area)
+        area += part;
+      for (std::size_t i = 0; i < deviation.size(); ++i)
+      {
+        if (deviation[i] < 0)
+          set.negative_part += places.area[i / places.n_components] / area / places.n_components;
+        deviation[i] = std::sqrt(std::max(0., deviation[i]));
+      }
+      set.mean_size = l2(places, [&](std::size_t i) { return mean[i]; });
+      set.deviation_size = l2(places, [&](std::size_t i) { return deviation[i]; });
+      if (independent)
+        set.standard_error =
+            set.deviation_size / std::sqrt(static_cast<double>(sums.weights.size()));
+      if (!exact)
+        return;
+      set.mean_error = l2(places, [&](std::size_t i) { return mean[i] - exact->mean[i]; });
+      set.deviation_error =
+          l2(places, [&](std::size_t i) { return deviation[i] - exact->deviation[i]; });
+      set.mean_uncertainty = exact->mean_uncertainty;
+      set.deviation_uncertainty = exact->deviation_uncertainty;
+    }
+
+    /// Weights that sum to 1 again where independent samples have failed.
+    std::vector<double> normalised(std::vector<double> weights)
+    {
+      double sum = 0;
+      for (const double weight : weights)
+        sum += weight;
+      for (double &weight : weights)
+        weight /= sum;
+      return weights;
+    }
+
+    SetStatistics conclude_set(const SampleSet &set, const SetSums &sums, bool independent)
+    {
+      SetStatistics result;
+      result.count = set.count;
+      result.n_samples = sums.weights.size();
+      result.n_missing = set.samples.size() - sums.weights.size();
+      result.sum_of_sizes = set.sum_of_sizes;
+      result.noise = set.noise;
+      result.seconds = sums.seconds;
+      if ((result.n_missing > 0 && !independent) || result.n_samples == 0)
+        return result; // a rule that lacks points says nothing
+      const std::vector<double> weights = normalised(sums.weights);
+      for (const auto &[name, values] : sums.values)
+        if (values.size() == weights.size())
+          result.quantities[name] = random::statistics(values, weights, independent);
+      return result;
+    }
+
+    CaseStatistics conclude_case(const scene::Scene &scene, const SamplingPlan &plan,
+                                 const CaseSums &sums, bool is_finest)
+    {
+      CaseStatistics result;
+      result.of = sums.first;
+      result.of.quantities.clear();
+      result.of.field = {};
+      const SampleField &places = sums.first.field;
+      const auto exact = exact_statistics(scene, sums.first);
+      for (std::size_t s = 0; s < plan.sets.size(); ++s)
+      {
+        SetStatistics set = conclude_set(plan.sets[s], sums.sets[s], plan.are_independent);
+        const bool is_known = !set.quantities.empty() && !places.values.empty();
+        FieldStatistics field;
+        if (is_known)
+          conclude_field(sums.sets[s], places, plan.are_independent, exact, set, field.mean,
+                         field.deviation);
+        if (is_known && is_finest && s + 1 == plan.sets.size())
+        {
+          field.places = places;
+          field.places.values.clear();
+          result.field = std::move(field);
+        }
+        result.sets.push_back(std::move(set));
+      }
+      result.values = sums.sets.back().values;
+      return result;
+    }
+
+    /// For targets 1e-1, 1e-2, ... as far as a pair reaches them.
+    std::vector<CheapestPair> find_cheapest(const std::vector<CaseStatistics> &cases)
+    {
+      constexpr unsigned int n_targets = 8;
+      std::vector<CheapestPair> result;
+      for (unsigned int k = 1; k <= n_targets; ++k)
+      {
+        const double target = std::pow(10., -static_cast<double>(k));
+        std::map<std::string, CheapestPair> best; // by problem and series
+        for (const CaseStatistics &one : cases)
+          for (const SetStatistics &set : one.sets)
+          {
+            if (!set.mean_error || !(*set.mean_error <= target))
+              continue;
+            const std::string key = one.of.problem + "\n" + one.of.series;
+            const auto known = best.find(key);
+            if (known == best.end() || set.seconds < known->second.seconds)
+              best[key] = {one.of.method,   one.of.problem, one.of.series, target,
+                           *set.mean_error, one.of.h,       set.seconds,   set.count};
+          }
+        for (const auto &[key, pair] : best)
+          result.push_back(pair);
+      }
+      return result;
+    }
+
+    /// What a reader should know of the rule and its samples.
+    std::vector<std::string> find_findings(const SamplingResults &results)
+    {
+      std::vector<std::string> findings;
+      const auto say = [&](const std::string &text) { findings.push_back(text); };
+      for (const CaseStatistics &one : results.cases)
+        for (const SetStatistics &set : one.sets)
+        {
+          const std::string where = one.of.method + ", h = " + base::to_text(one.of.h, 4) +
+                                    ", count " + std::to_string(set.count) + ": ";
+          for (const auto &[name, statistics] : set.quantities)
+            if (statistics.variance < 0)
+              say(where + "the variance of " + name + " is " +
+                  base::to_text(statistics.variance, 4) +
+                  ", which no quantity has: weights are negative (sum of sizes " +
+                  base::to_text(set.sum_of_sizes, 4) + "), and its deviation is not known");
+          if (set.negative_part > 0)
+            say(where + "the variance of the field is negative in " +
+                base::to_text(100 * set.negative_part, 3) +
+                " % of the domain, where it counts as "
+                "0");
+          if (set.mean_error && set.mean_uncertainty > .1 * *set.mean_error)
+            say(where + "the exact mean is known to " + base::to_text(set.mean_uncertainty, 3) +
+                " only, no tenth of its error");
+        }
+      return findings;
+    }
+  } // namespace
+
+  scene::Scene SamplingPlan::at(const scene::Scene &scene, std::size_t sample) const
+  {
+    return at_sample(scene, values[sample], static_cast<unsigned int>(sample) + 1);
+  }
+
+  SamplingPlan make_sampling_plan(const scene::Scene &scene)
+  {
+    const scene::SamplingSection &sampling = scene.sampling;
+    const std::vector<random::Law> laws = scene.random.laws();
+    SamplingPlan plan;
+    plan.are_independent = sampling.rule == SampleRule::monte_carlo;
+    const bool is_sequence = plan.are_independent || sampling.rule == SampleRule::quasi_monte_carlo;
+    std::map<std::vector<double>, std::size_t> known;
+    for (const unsigned int count : sampling.counts)
+    {
+      const SamplePoints points = draw(sampling, laws, count);
+      SampleSet set{count, {}, points.weights, points.sum_of_sizes(), points.noise()};
+      for (std::size_t i = 0; i < points.points.size(); ++i)
+      {
+        std::vector<double> values = points.points[i];
+        for (std::size_t d = 0; d < scene.random.variables.size(); ++d)
+          values[d] = scene.random.variables[d].at(values[d]);
+        // of sequences the first ones are the same; others share points that are equal
+        std::size_t place = i;
+        if (!is_sequence)
+          place = known.emplace(values, plan.values.size()).first->second;
+        if (place == plan.values.size())
+          plan.values.push_back(std::move(values));
+        set.samples.push_back(place);
+      }
+      plan.sets.push_back(std::move(set));
+    }
+    return plan;
+  }
+
+  bool SampleCase::is_same(const SampleCase &other) const
+  {
+    return method == other.method && problem == other.problem && series == other.series &&
+           level == other.level;
+  }
+
+  SamplingResults
+  conclude_samples(const scene::Scene &scene, const SamplingPlan &plan,
+                   const std::function<std::optional<SampleRecord>(std::size_t sample)> &read)
+  {
+    SamplingResults results;
+    results.scene_name = scene.name;
+    results.purpose = scene.purpose;
+    results.scene_text = scene.text;
+    results.random = scene.random;
+    results.sampling = scene.sampling;
+    results.target = base::word(scene.study.decisive_error.target);
+    results.n_samples = plan.values.size();
+    const auto weights = weights_of(plan);
+    std::vector<CaseSums> cases;
+    std::size_t n_read = 0;
+    for (std::size_t i = 0; i < plan.values.size(); ++i)
+    {
+      const std::optional<SampleRecord> record = read(i);
+      if (!record)
+        continue;
+      ++n_read;
+      if (!record->failure.empty())
+        results.failures.push_back({i, plan.values[i], record->failure});
+      add(*record, weights[i], cases);
+    }
+    results.is_complete = n_read == plan.values.size();
+    for (const CaseSums &one : cases)
+    {
+      const bool is_finest = std::none_of(cases.begin(), cases.end(),
+                                          [&](const CaseSums &other)
+                                          {
+                                            return other.first.method == one.first.method &&
+                                                   other.first.problem == one.first.problem &&
+                                                   other.first.series == one.first.series &&
+                                                   other.first.level > one.first.level;
+                                          });
+      results.cases.push_back(conclude_case(scene, plan, one, is_finest));
+    }
+    results.cheapest = find_cheapest(results.cases);
+    results.findings = find_findings(results);
+    return results;
+  }
+
+  std::optional<double> sampled_quantity(const CaseStatistics &one, const std::string &name)
+  {
+    if (one.sets.empty())
+      return {};
+    const SetStatistics &set = one.sets.back();
+    if (name == "error of the mean")
+      return set.mean_error;
+    if (name == "error of the deviation")
+      return set.deviation_error;
+    if (name == "sum of sizes")
+      return set.sum_of_sizes;
+    if (name == "noise")
+      return set.noise;
+    if (name == "samples")
+      return static_cast<double>(set.n_samples);
+    for (const auto &[quantity, statistics] : set.quantities)
+      if (name == "mean of " + quantity)
+        return statistics.mean;
+      else if (name == "deviation of " + quantity)
+        return statistics.deviation();
+      else if (name == "variance of " + quantity)
+        return statistics.variance;
+    return {};
+  }
+
+  std::vector<std::string> sampling_faults(const SamplingResults &results,
+                                           const scene::ExpectedSection &expected)
+  {
+    std::vector<std::string> faults;
+    for (const scene::Expected &one : expected.all)
+    {
+      if (one.kind != scene::ExpectedKind::sampling)
+        continue;
+      std::optional<double> found;
+      for (const CaseStatistics &known : results.cases) // coarse to fine: the finest is the last
+        if (known.of.method == one.method)
+          if (const auto value = sampled_quantity(known, one.problem))
+            found = value;
+      const std::string line = "Expected/sampling = '" + one.text + "', but ";
+      if (!found)
+        faults.push_back(line + "there is no such quantity of such a method");
+      else if (one.values.size() != 1 || !(std::abs(*found - one.values[0]) <=
+                                           expected.error_tolerance * std::abs(one.values[0])))
+        faults.push_back(line + "it is " + base::to_text(*found, 6));
+    }
+    return faults;
+  }
+} // namespace plumbline::study

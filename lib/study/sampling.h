@@ -1,0 +1,141 @@
+#pragma once
+
+#include "random/statistics.h"
+#include "scene/scene.h"
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+// Statistics of what a random scene yields, over sets of samples and levels alike.
+namespace plumbline::study
+{
+  /// Samples of one rule and count.
+  struct SampleSet
+  {
+    unsigned int count = 0;           ///< see scene::SamplingSection
+    std::vector<std::size_t> samples; ///< into SamplingPlan::values
+    std::vector<double> weights;
+    double sum_of_sizes = 1, noise = 1; ///< see random::SamplePoints
+  };
+
+  /// All samples that sets take, each once.
+  struct SamplingPlan
+  {
+    std::vector<std::vector<double>> values; ///< of the variables, shape (n_samples, n_variables)
+    std::vector<SampleSet> sets;             ///< few samples to many
+    bool are_independent = false;            ///< Monte Carlo
+
+    /// The scene at a sample; of fields that are drawn whole the realisation of its number.
+    scene::Scene at(const scene::Scene &scene, std::size_t sample) const;
+  };
+  SamplingPlan make_sampling_plan(const scene::Scene &scene);
+
+  /// A field of a sample at some places.
+  struct SampleField
+  {
+    std::vector<double> x, y, area; ///< of each place; area: of Ω that it stands for
+    unsigned int n_components = 1;
+    std::vector<double> values; ///< shape (n_places, n_components)
+  };
+
+  /// What a method, or a growth, makes of a sample at one level.
+  struct SampleCase
+  {
+    std::string method, problem, series;
+    unsigned int level = 0;
+    double h = 0, horizon = 0; ///< [length]
+    double seconds = 0;        ///< CPU time
+    std::map<std::string, double> quantities;
+    SampleField field;
+
+    bool is_same(const SampleCase &other) const;
+  };
+
+  struct SampleRecord
+  {
+    std::size_t sample = 0;
+    std::string failure; ///< empty, or why there is nothing
+    std::vector<SampleCase> cases;
+  };
+
+  /// Of a case over one set.
+  struct SetStatistics
+  {
+    unsigned int count = 0;
+    std::size_t n_samples = 0; ///< that there are
+    std::size_t n_missing = 0; ///< that failed: independent samples do without, rules say nothing
+    double sum_of_sizes = 1, noise = 1;
+    double seconds = 0; ///< CPU time of its samples
+    std::map<std::string, random::Statistics> quantities;
+    // of the field, L2 over Ω
+    double mean_size = 0, deviation_size = 0;
+    double negative_part = 0;  ///< of Ω, where the variance is negative; it counts as 0 there
+    double standard_error = 0; ///< of the mean of independent samples
+    std::optional<double> mean_error, deviation_error;      ///< against the exact field's
+    double mean_uncertainty = 0, deviation_uncertainty = 0; ///< of what these are held against
+
+    bool is_known() const { return n_missing == 0 || n_samples > 1; }
+  };
+
+  /// Mean and deviation of the largest set's field, for pictures.
+  struct FieldStatistics
+  {
+    SampleField places; ///< without values
+    std::vector<double> mean, deviation;
+  };
+
+  struct CaseStatistics
+  {
+    SampleCase of; ///< its names; no values
+    std::vector<SetStatistics> sets;
+    std::optional<FieldStatistics> field; ///< of the finest level of a method
+    /// Of each quantity over the largest set, sample by sample.
+    std::map<std::string, std::vector<double>> values;
+  };
+
+  struct SampleFailure
+  {
+    std::size_t sample = 0;
+    std::vector<double> values;
+    std::string reason;
+  };
+
+  /// The pair of level and set that reaches an error of the mean most cheaply.
+  struct CheapestPair
+  {
+    std::string method, problem, series;
+    double target = 0, error = 0, h = 0, seconds = 0;
+    unsigned int count = 0;
+  };
+
+  struct SamplingResults
+  {
+    std::string scene_name, purpose, scene_text;
+    scene::RandomSection random;
+    scene::SamplingSection sampling;
+    std::string target; ///< of errors of means, e.g. "local"; empty: none is known
+    std::size_t n_samples = 0;
+    std::vector<CaseStatistics> cases;
+    std::vector<SampleFailure> failures;
+    std::vector<CheapestPair> cheapest;
+    std::vector<std::string> findings; ///< sentences for the report
+    bool is_complete = false;
+  };
+
+  /// @param read  the record of a sample, if there is one; each is asked for once, so that fields
+  /// of many samples need no memory
+  SamplingResults
+  conclude_samples(const scene::Scene &scene, const SamplingPlan &plan,
+                   const std::function<std::optional<SampleRecord>(std::size_t sample)> &read);
+
+  /// What does not hold of Expected/sampling; one sentence each.
+  std::vector<std::string> sampling_faults(const SamplingResults &results,
+                                           const scene::ExpectedSection &expected);
+
+  /// What is known of a case over its largest set by the name that tables give it: "error of the
+  /// mean", "deviation of the field", "mean of ...", "deviation of ..."; nothing where it is not.
+  std::optional<double> sampled_quantity(const CaseStatistics &one, const std::string &name);
+} // namespace plumbline::study
