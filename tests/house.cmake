@@ -1,19 +1,20 @@
-# Walk the includes: base <- {physics, geometry} <- {scene, algebra} <- method <- analysis <- study <- report; reference and
-# meshfree include lib and never each other, and their folders some of their own alone; Trilinos is
+# Walk the includes: base <- {physics, geometry} <- random <- {scene, algebra} <- method <- analysis <- study <- report;
+# reference and meshfree include lib and never each other, and their folders some of their own alone; Trilinos is
 # named in algebra and reference alone; CGAL in sources alone. Members of structs have values from the
 # start.
 cmake_minimum_required(VERSION 3.22)
 set(may_include_base base)
 set(may_include_physics base physics)
 set(may_include_geometry base geometry)
-set(may_include_scene base physics geometry scene)
+set(may_include_random base physics geometry random)
+set(may_include_scene base physics geometry random scene)
 set(may_include_algebra base physics geometry algebra)
-set(may_include_method base physics geometry scene algebra method)
-set(may_include_analysis base physics geometry scene algebra method analysis)
-set(may_include_study base physics geometry scene algebra method analysis study)
-set(may_include_report base physics geometry scene algebra method analysis study report)
-set(may_include_reference base physics geometry scene algebra method reference)
-set(may_include_meshfree base physics geometry scene algebra method meshfree)
+set(may_include_method base physics geometry random scene algebra method)
+set(may_include_analysis base physics geometry random scene algebra method analysis)
+set(may_include_study base physics geometry random scene algebra method analysis study)
+set(may_include_report base physics geometry random scene algebra method analysis study report)
+set(may_include_reference base physics geometry random scene algebra method reference)
+set(may_include_meshfree base physics geometry random scene algebra method meshfree)
 # what a folder of a side may include of its side's other folders
 set(meshfree_rules)
 set(meshfree_lattice rules)
@@ -24,10 +25,10 @@ set(meshfree_check rules)
 set(reference_lattice)
 set(reference_mesh)
 set(reference_local mesh)
-set(ours base physics geometry scene algebra method analysis study report reference meshfree app tests)
+set(ours base physics geometry random scene algebra method analysis study report reference meshfree app tests)
 
 set(n_includes 0)
-foreach(folder base physics geometry scene algebra method analysis study report reference meshfree)
+foreach(folder base physics geometry random scene algebra method analysis study report reference meshfree)
   if(folder STREQUAL "reference" OR folder STREQUAL "meshfree")
     set(path ${ROOT}/${folder})
   else()
