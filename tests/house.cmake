@@ -1,5 +1,5 @@
-# Walk the includes: base <- {physics, geometry} <- random <- {scene, algebra} <- method <- analysis <- study <- report; reference and
-# meshfree include lib and never each other, and their folders some of their own alone; Trilinos is
+# Walk the includes: base <- {physics, geometry} <- random <- {scene, algebra} <- method <- analysis <- study <- report;
+# reference and meshfree include lib and never each other, and their folders some of their own alone; Trilinos is
 # named in algebra and reference alone; CGAL in sources alone. Members of structs have values from the
 # start.
 cmake_minimum_required(VERSION 3.22)
@@ -13,8 +13,8 @@ set(may_include_method base physics geometry random scene algebra method)
 set(may_include_analysis base physics geometry random scene algebra method analysis)
 set(may_include_study base physics geometry random scene algebra method analysis study)
 set(may_include_report base physics geometry random scene algebra method analysis study report)
-set(may_include_reference base physics geometry scene algebra method reference)
-set(may_include_meshfree base physics geometry scene algebra method meshfree)
+set(may_include_reference base physics geometry random scene algebra method reference)
+set(may_include_meshfree base physics geometry random scene algebra method meshfree)
 # what a folder of a side may include of its side's other folders
 set(meshfree_rules)
 set(meshfree_lattice rules)

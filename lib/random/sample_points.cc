@@ -1,5 +1,7 @@
 #include "random/sample_points.h"
 
+#include "random/generator.h"
+
 #include <boost/math/distributions/normal.hpp>
 #include <boost/random/sobol.hpp>
 
@@ -7,7 +9,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <random>
 
 namespace plumbline::random
 {
@@ -98,14 +99,14 @@ namespace plumbline::random
 
     /// Of equal weights.
     SamplePoints random_points(const std::vector<Law> &laws, std::size_t n,
-                               const std::function<double()> &next_probability)
+                               const std::function<double(Law)> &next)
     {
       SamplePoints result;
       for (std::size_t i = 0; i < n; ++i)
       {
         std::vector<double> point;
         for (const Law law : laws)
-          point.push_back(quantile(law, next_probability()));
+          point.push_back(next(law));
         result.points.push_back(std::move(point));
       }
       result.weights.assign(n, 1. / static_cast<double>(n));
@@ -222,17 +223,23 @@ namespace plumbline::random
 
   SamplePoints monte_carlo_points(const std::vector<Law> &laws, std::size_t n, std::uint64_t seed)
   {
-    std::mt19937_64 engine(seed);
-    constexpr unsigned int lower_bits = 11; // that a double has no room for
-    return random_points(
-        laws, n, [&] { return std::ldexp(static_cast<double>(engine() >> lower_bits) + .5, -53); });
+    Generator generator(seed);
+    return random_points(laws, n,
+                         [&](Law law) {
+                           return law == Law::normal ? generator.normal()
+                                                     : 2 * generator.uniform() - 1;
+                         });
   }
 
   SamplePoints quasi_monte_carlo_points(const std::vector<Law> &laws, std::size_t n)
   {
     boost::random::sobol engine(laws.size());
     engine.discard(laws.size());
-    return random_points(laws, n,
-                         [&] { return std::ldexp(static_cast<double>(engine() >> 11) + .5, -53); });
+    constexpr unsigned int lower_bits = 11; // that a double has no room for
+    return random_points(
+        laws, n,
+        [&](Law law) {
+          return quantile(law, std::ldexp(static_cast<double>(engine() >> lower_bits) + .5, -53));
+        });
   }
 } // namespace plumbline::random

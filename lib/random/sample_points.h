@@ -50,8 +50,7 @@ namespace plumbline::random
   /// @pre Growth::nested: all laws are uniform
   SamplePoints smolyak_points(const std::vector<Law> &laws, unsigned int level, Growth growth);
 
-  /// Independent samples. The first ones of more are the same: numbers of the Mersenne twister
-  /// mt19937_64, the upper 53 bits plus a half, through the inverse distribution.
+  /// Independent samples by Generator(seed), point by point. The first ones of more are the same.
   SamplePoints monte_carlo_points(const std::vector<Law> &laws, std::size_t n, std::uint64_t seed);
 
   /// Sobol's points without the first, the origin, through the inverse distribution. The first ones
