@@ -50,7 +50,7 @@ namespace plumbline::random
     /// Given grains.
     Ellipses(std::array<double, 2> semi_axes, const Box &box, std::vector<Ellipse> ellipses);
 
-    /// Whether a grain covers a point of the box. Cost: 20 ns.
+    /// Whether a grain covers a point of the box. Cost: 15 ns at f = .2, 35 ns at f = .8.
     bool covers(const Point<2> &x) const;
 
     const std::vector<Ellipse> &ellipses() const & { return ellipses_; } ///< those drawn

@@ -24,7 +24,7 @@ namespace
   /// The mean over many angles, of disks after the map to one.
   double by_many_angles(const std::array<double, 2> &axes, double r)
   {
-    constexpr int n_angles = 2'000'000;
+    constexpr int n_angles = 200'000;
     double sum = 0;
     for (int k = 0; k < n_angles; ++k)
     {
