@@ -2,8 +2,9 @@
 
 #include "random/grid_field.h"
 
+#include <array>
 #include <cstdint>
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace plumbline::random
@@ -49,10 +50,11 @@ namespace plumbline::random
     /// Given grains.
     Ellipses(std::array<double, 2> semi_axes, const Box &box, std::vector<Ellipse> ellipses);
 
-    /// Whether a grain covers a point of the box. Cost: 20 ns.
+    /// Whether a grain covers a point of the box. Cost: 15 ns at f = .2, 35 ns at f = .8.
     bool covers(const Point<2> &x) const;
 
-    const std::vector<Ellipse> &ellipses() const { return ellipses_; } ///< those drawn
+    const std::vector<Ellipse> &ellipses() const & { return ellipses_; } ///< those drawn
+    std::vector<Ellipse> ellipses() && { return std::move(ellipses_); }
     const std::array<double, 2> &semi_axes() const { return semi_axes_; }
     const Box &box() const { return box_; }
 

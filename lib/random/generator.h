@@ -9,7 +9,7 @@ namespace plumbline::random
   /// sequence, both specified to the bit by the C++ standard, with transforms of our own in place
   /// of the standard's distributions, which are not. Normal numbers and those of Poisson take sin,
   /// cos and log of the C library, whose last bits may differ.
-  /// Source: Matsumoto & Nishimura 1998, doi:10.1145/272991.272995.
+  /// Source: Nishimura 2000, doi:10.1145/369534.369540.
   class Generator
   {
   public:

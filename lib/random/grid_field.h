@@ -41,7 +41,7 @@ namespace plumbline::random
   };
 
   /// A field given by its values at the nodes of a grid. Beyond the box it is what it is at the
-  /// nearest point of the box. Cost: 4 ns for a point (linear).
+  /// nearest point of the box. Cost: 5 ns for a point (linear).
   class GridField
   {
   public:

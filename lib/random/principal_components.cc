@@ -1,0 +1,169 @@
+#include "random/principal_components.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "random/largest_modes.h"
+
+#include <deal.II/base/parallel.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace plumbline::random
+{
+  namespace
+  {
+    using Eigen::Index;
+    using Eigen::MatrixXd;
+    using Eigen::VectorXd;
+
+    constexpr std::size_t most_at_once = 64; ///< realisations in memory
+
+    /// All realisations, some at a time.
+    class Sample
+    {
+    public:
+      Sample(const Grid &grid, std::size_t n, const Realisation &realisation)
+          : size_(static_cast<Index>(grid.size())), n_(n), realisation_(realisation)
+      {
+      }
+
+      /// Call the action with matrices whose columns are realisations, in their order; it may alter
+      /// them.
+      template <class Action>
+      void for_chunks(const Action &action) const
+      {
+        MatrixXd chunk(size_, static_cast<Index>(std::min(n_, most_at_once)));
+        for (std::size_t start = 0; start < n_; start += most_at_once)
+        {
+          const std::size_t n = std::min(most_at_once, n_ - start);
+          dealii::parallel::apply_to_subranges(
+              std::size_t(0), n,
+              [&](std::size_t first, std::size_t last)
+              {
+                std::vector<double> values(static_cast<std::size_t>(size_));
+                for (std::size_t k = first; k < last; ++k)
+                {
+                  realisation_(start + k, values);
+                  chunk.col(static_cast<Index>(k)) = column(values, start + k);
+                }
+              },
+              1);
+          action(chunk.leftCols(static_cast<Index>(n)));
+        }
+      }
+
+    private:
+      Eigen::Map<const VectorXd> column(const std::vector<double> &values, std::size_t k) const
+      {
+        const Eigen::Map<const VectorXd> result(values.data(), size_);
+        if (values.size() != static_cast<std::size_t>(size_) || !result.allFinite())
+          throw NumericalError("realisation " + std::to_string(k) +
+                               " of a random field is not a finite number at each of its " +
+                               std::to_string(size_) + " nodes");
+        return result;
+      }
+
+      Index size_;
+      std::size_t n_;
+      const Realisation &realisation_;
+    };
+
+    void check_numbers(const Grid &grid, std::size_t n_realisations, unsigned int n_modes)
+    {
+      check(grid);
+      if (n_realisations < 2)
+        throw InputError("principal components need at least 2 realisations, not " +
+                         std::to_string(n_realisations) + "; give more");
+      const std::size_t most = std::min(grid.size(), n_realisations - 1);
+      if (n_modes < 1 || n_modes > most)
+        throw InputError(std::to_string(n_realisations) + " realisations at " +
+                         std::to_string(grid.size()) + " nodes have 1 to " + std::to_string(most) +
+                         " principal components, not " + std::to_string(n_modes) +
+                         "; ask for fewer, or give more realisations");
+    }
+
+    /// The mean, and the variance at each node.
+    std::pair<VectorXd, VectorXd> moments(const Sample &sample, Index size, std::size_t n)
+    {
+      // from the first one on, as a mean that is large beside the deviations would cost digits
+      VectorXd first, sum = VectorXd::Zero(size), squares = VectorXd::Zero(size);
+      sample.for_chunks(
+          [&](const auto &chunk)
+          {
+            if (first.size() == 0)
+              first = chunk.col(0);
+            for (Index k = 0; k < chunk.cols(); ++k)
+            {
+              const VectorXd difference = chunk.col(k) - first;
+              sum += difference;
+              squares += difference.cwiseAbs2();
+            }
+          });
+      const auto count = static_cast<double>(n);
+      const VectorXd variance = (squares - sum.cwiseAbs2() / count) / (count - 1);
+      return {first + sum / count, variance.cwiseMax(0.)};
+    }
+  } // namespace
+
+  PrincipalComponents principal_components(const Grid &grid, std::size_t n_realisations,
+                                           const Realisation &realisation, unsigned int n_modes,
+                                           const PassLimit &limit)
+  {
+    constexpr unsigned int wider = 20; // Halko et al. take 5 to 10; a pass costs more than columns
+    check_numbers(grid, n_realisations, n_modes);
+    const auto size = static_cast<Index>(grid.size());
+    base::require_memory(8. * static_cast<double>(std::min(n_realisations, most_at_once)) *
+                             static_cast<double>(size),
+                         std::to_string(most_at_once) + " realisations of a random field at " +
+                             std::to_string(size) + " nodes",
+                         "choose a coarser grid");
+    const Sample sample(grid, n_realisations, realisation);
+    const auto [mean, variance] = moments(sample, size, n_realisations);
+
+    const double scale = grid.cell_area() / static_cast<double>(n_realisations - 1);
+    const auto product = [&](const double *x, double *y, unsigned int n_columns)
+    {
+      const Eigen::Map<const MatrixXd> in(x, size, n_columns);
+      Eigen::Map<MatrixXd> out(y, size, n_columns);
+      out.setZero();
+      sample.for_chunks(
+          [&](auto chunk)
+          {
+            chunk.colwise() -= mean;
+            const MatrixXd shares = scale * (chunk.transpose() * in);
+            out.noalias() += chunk * shares;
+          });
+    };
+    ModeSearch search;
+    search.n_modes = n_modes;
+    search.block = std::min(n_modes + wider, static_cast<unsigned int>(grid.size()));
+    search.most_products = limit.most_passes;
+    search.tolerance = limit.tolerance;
+    LargestModes modes = largest_modes(grid.size(), product, search);
+
+    PrincipalComponents result;
+    result.residual = std::move(modes.residual);
+    result.n_passes = modes.n_products;
+    result.is_settled = modes.is_settled;
+    result.expansion.grid = grid;
+    result.expansion.mean.assign(mean.begin(), mean.end());
+    result.expansion.variance.assign(variance.begin(), variance.end());
+    for (const double value : modes.eigenvalue)
+      result.expansion.eigenvalue.push_back(std::max(value, 0.));
+    const double total = result.expansion.total_variance();
+    for (const double sum : modes.sum_so_far)
+      result.kept.push_back(total > 0 ? std::min(1., sum / total) : 1);
+    const double norm = 1 / std::sqrt(grid.cell_area());
+    for (std::vector<double> &vector : modes.vector)
+    {
+      for (double &value : vector)
+        value *= norm;
+      result.expansion.mode.push_back(std::move(vector));
+    }
+    return result;
+  }
+} // namespace plumbline::random
