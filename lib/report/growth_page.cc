@@ -31,13 +31,15 @@ namespace plumbline::report
             : std::string(name) == "advance"       ? "of the tip, from the notch's [length]"
             : std::string(name) == "events"        ? "at each a bond and its ties, or a batch"
             : std::string(name) == "G by bonds" ? "of broken bonds, each by its part of a straight "
-                                                  "crack's length, over the advance [force/length]"
+                                                  "crack's length, over the width [force/length]"
             : std::string(name) == "G by energy"
                 ? "all that bonds held and that was released, over "
-                  "the advance [force/length]"
+                  "the width [force/length]"
             : std::string(name) == "K by bonds"  ? "root of that and the mean of E/(1 - nu²)"
             : std::string(name) == "K by energy" ? "the same of G by energy"
                                                  : "the notch's not counted");
+      add("width", r.path.width,
+          "of all sides that parted, projected onto the x-axis [length]");
       add("path", r.path.length, "sides of cells that the crack parts, L1 [length]");
       add("apart", static_cast<double>(r.path.n_elsewhere),
           "sides that parted elsewhere, not joined to the notch");

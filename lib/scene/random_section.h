@@ -2,8 +2,10 @@
 
 #include "physics/expression.h"
 #include "random/sample_points.h"
+#include "scene/random_field.h"
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,13 +32,18 @@ namespace plumbline::scene
     unsigned int realisation = 1; ///< of a field that is drawn as a whole
 
     FieldKind field = FieldKind::none;
-    double mean = 0, deviation = 1, length = 1, smoothness = 1.5; ///< of a field of modes
+    double mean = 0, deviation = 1, smoothness = 1.5; ///< of a field of a covariance
+    std::array<double, 2> length = {1, 1};            ///< along x and y [length]
     unsigned int n_modes = 0; ///< each a standard normal variable after the others; 0: drawn whole
     double cell = 0;          ///< of the lattice that a field of modes lives on [length]
     double fraction = .2;     ///< of the area, in ellipses
     std::array<double, 2> semi_axes = {1, 1}; ///< of ellipses [length]
     bool may_overlap = true;
     unsigned int n_realisations = 1000; ///< that principal components are found from
+    unsigned int seed = 1;
+
+    std::shared_ptr<const RandomField> source; ///< of the field; copies share it
+    RandomField::Place place;                  ///< the field at the values, or empty
 
     bool is_there() const { return !variables.empty() || field != FieldKind::none; }
     std::vector<random::Law> laws() const; ///< of all variables
@@ -45,9 +52,10 @@ namespace plumbline::scene
     physics::Names names() const;
 
     void declare(Keys &keys);
+    /// @param domain  whose bounding box a field fills
     /// @throws InputError  values that are not one for each variable, names that mean something
-    /// else
-    void complete() const;
+    /// else, numbers that make no field
+    void complete(const geometry::Domain &domain);
   };
 
   /// Where a random scene is taken by `plumbline sample`.

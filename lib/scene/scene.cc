@@ -46,7 +46,7 @@ namespace plumbline::scene
     /// What follows from the keys, once all are read.
     void complete(Scene &scene)
     {
-      scene.random.complete();
+      scene.random.complete(scene.domain.boxes);
       scene.kernel.complete(scene.folder);
       scene.material.names = scene.random.names();
       scene.material.complete();
@@ -137,7 +137,7 @@ namespace plumbline::scene
   {
     scene.random.values = values;
     scene.random.realisation = realisation;
-    scene.random.complete();
+    scene.random.complete(scene.domain.boxes);
     scene.material.names = scene.random.names();
     if (scene.material.is_state_based() && scene.material.is_homogeneous)
       (void)scene.material.lame();

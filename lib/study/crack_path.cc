@@ -95,6 +95,12 @@ namespace plumbline::study
             tip = end;
       path.tips.push_back(tip);
     }
+    std::set<long> columns;
+    for (const CrackSide &side : path.sides)
+      if (const Place a = place_of(model, side.ends[0]), b = place_of(model, side.ends[1]);
+          a[0] != b[0])
+        columns.insert(a[0] + b[0]);
+    path.width = static_cast<double>(columns.size()) * model.h;
     for (const CrackSide &side : path.sides)
     {
       path.length += side.is_joined ? model.h : 0;

@@ -164,7 +164,7 @@ namespace plumbline::study
     if (name == "G by bonds" || name == "K by bonds" || name == "G by energy" ||
         name == "K by energy")
     {
-      const double W = advance();
+      const double W = path.width;
       if (!(W > 0))
         return std::numeric_limits<double>::quiet_NaN();
       const bool is_of_bonds = name.find("bonds") != std::string::npos;

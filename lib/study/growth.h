@@ -54,6 +54,7 @@ namespace plumbline::study
                                         ///< notch's tip, or that tip
     std::size_t n_elsewhere = 0;        ///< sides apart from the crack
     double length = 0;                  ///< of the sides that hang together, L1
+    double width = 0; ///< of all sides, joined or not, projected onto the x-axis, once each
   };
   CrackPath find_path(const GrowthModel &model, const std::vector<analysis::Event> &events);
 
@@ -99,7 +100,7 @@ namespace plumbline::study
     double trapping = 1;          ///< G was divided by this, see scene::Criterion
     double plane_modulus = 0;     ///< see GrowthModel
     /// Σ G of broken bonds times what each of them is of a straight crack's length, [force]: (5.2)
-    /// of Fan et al. 2022, doi:10.1016/j.cma.2022.115340, before it is divided by the advance W.
+    /// of Fan et al. 2022, doi:10.1016/j.cma.2022.115340, before it is divided by the path's width W.
     double bond_sum = 0;
     std::vector<BrokenPart> parts;
     std::vector<dealii::Point<2>> nodes;
@@ -120,8 +121,8 @@ namespace plumbline::study
     /// Of broken bonds, and of all that was released, per length of the path.
     double bond_energy_per_length() const, energy_per_length() const;
     /// One of scene::growth_quantities. G by bonds: (G_1 L_1 + G_2 L_2 + G_i L_i) / W, lengths by
-    /// counts of bonds and W the advance (eq. 5.2); G by energy: what bonds held and what was
-    /// released, over W; K = √(G E/(1 - nu²)), the modulus' mean (eq. 5.3). NaN without an advance.
+    /// counts of bonds and W the path's width (eq. 5.2); G by energy: what bonds held and what was
+    /// released, over W; K = √(G E/(1 - nu²)), the modulus' mean (eq. 5.3). NaN without a path.
     double quantity(const std::string &name) const;
   };
 

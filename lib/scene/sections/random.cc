@@ -56,6 +56,29 @@ namespace plumbline::scene
                          "' is no name; write a letter, then letters, digits and '_'");
       return variable;
     }
+
+    /// One number for both, or two.
+    std::array<double, 2> to_pair(const std::string &text)
+    {
+      std::vector<double> numbers;
+      for (const std::string &name : to_names(text))
+        numbers.push_back(to_number(name));
+      if (numbers.empty() || numbers.size() > 2)
+        throw InputError("'" + text + "' must be one number, or two separated by ','");
+      return {numbers.front(), numbers.back()};
+    }
+
+    geometry::Box bounding_box(const geometry::Domain &domain)
+    {
+      geometry::Box box = domain.include.front();
+      for (const geometry::Box &one : domain.include)
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          box.lower[d] = std::min(box.lower[d], one.lower[d]);
+          box.upper[d] = std::max(box.upper[d], one.upper[d]);
+        }
+      return box;
+    }
   } // namespace
 
   void RandomSection::declare(Keys &keys)
@@ -76,6 +99,35 @@ namespace plumbline::scene
         "values", values, numbers(),
         "At which the scene is taken, one for each variable, then one for each mode; 'plumbline "
         "sample' takes many. Empty: their means.");
+    keys.add(
+        "field", field,
+        "A random field, R in the same expressions. exponential, separable exponential, Gaussian, "
+        "Matern: of Karhunen and Loeve's modes of such a covariance. ellipses: 1 in ellipses that "
+        "lie at random, else 0, drawn whole, or, with Random/modes, of the principal components "
+        "of many.");
+    keys.add("modes", n_modes, count(0, 10000),
+             "Of the field, each a standard normal variable after Random/variables; 0: it is drawn "
+             "whole (ellipses).");
+    keys.add("cell", cell, any_number(),
+             "Mesh size of the lattice over the domain's box that modes are found on. [length]");
+    keys.add("mean", mean, any_number(), "Of a field of a covariance.");
+    keys.add("deviation", deviation, any_number(), "Of a field of a covariance, > 0.");
+    keys.add(
+        "length", "1", any_text(), [this](const std::string &text) { length = to_pair(text); },
+        "Correlation length > 0, or two, along x and y, separated by ','. [length]");
+    keys.add("smoothness", smoothness, any_number(),
+             "nu > 0 of Matern: 0.5 is exponential, large ones are Gaussian.");
+    keys.add("fraction", fraction, between(0, 1), "Of the area that lies in ellipses, on average.");
+    keys.add(
+        "semi-axes", "1, 1", any_text(),
+        [this](const std::string &text) { semi_axes = to_pair(text); },
+        "Of ellipses, two numbers > 0 separated by ','. [length]");
+    keys.add("overlap", may_overlap, "no", "yes", "Whether ellipses may overlap.");
+    keys.add("realisation", realisation, count(0),
+             "Which of the fields that are drawn whole; 'plumbline sample' takes many.");
+    keys.add("realisations", n_realisations, count(2, 1000000),
+             "Of ellipses, that principal components are found from.");
+    keys.add("seed", seed, count(0), "Of random fields.");
   }
 
   std::vector<Law> RandomSection::laws() const
@@ -92,10 +144,12 @@ namespace plumbline::scene
     physics::Names names;
     for (std::size_t i = 0; i < variables.size(); ++i)
       names.constants[variables[i].name] = values.empty() ? variables[i].centre : values[i];
+    if (place)
+      names.fields["R"] = place;
     return names;
   }
 
-  void RandomSection::complete() const
+  void RandomSection::complete(const geometry::Domain &domain)
   {
     std::set<std::string> taken = {"x", "y", "t", "h", "pi", "delta", "R"};
     for (const Variable &variable : variables)
@@ -106,5 +160,17 @@ namespace plumbline::scene
     require(values.empty() || values.size() == n,
             "Random/values has " + std::to_string(values.size()) + " numbers for " +
                 std::to_string(n) + " variables; give one for each, or none");
+    if (field == FieldKind::none)
+    {
+      require(n_modes == 0, "Random/modes = " + std::to_string(n_modes) +
+                                " needs a field; give Random/field, or write 0");
+      return;
+    }
+    if (!source)
+      source = std::make_shared<const RandomField>(*this, bounding_box(domain));
+    std::vector<double> modes(n_modes, 0);
+    if (!values.empty())
+      modes.assign(values.end() - n_modes, values.end());
+    place = source->at(modes, realisation);
   }
 } // namespace plumbline::scene

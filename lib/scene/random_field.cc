@@ -1,0 +1,158 @@
+#include "scene/random_field.h"
+
+#include "base/error.h"
+#include "random/karhunen_loeve.h"
+#include "random/principal_components.h"
+#include "scene/random_section.h"
+#include "scene/values.h"
+
+#include <algorithm>
+#include <mutex>
+
+namespace plumbline::scene
+{
+  using dealii::Point;
+  using geometry::Box;
+
+  namespace
+  {
+    random::Covariance covariance_of(const RandomSection &section)
+    {
+      const auto shape = static_cast<random::CovarianceShape>(
+          static_cast<int>(section.field) - static_cast<int>(FieldKind::exponential));
+      return {shape, section.deviation * section.deviation, section.length, section.smoothness};
+    }
+
+    random::EllipseModel ellipses_of(const RandomSection &section)
+    {
+      return {section.semi_axes, section.fraction, section.may_overlap};
+    }
+
+    /// In a box: what lies beyond it is moved to its side.
+    Point<2> into(const Box &box, const Point<2> &x)
+    {
+      return {std::clamp(x[0], box.lower[0], box.upper[0]),
+              std::clamp(x[1], box.lower[1], box.upper[1])};
+    }
+  } // namespace
+
+  struct RandomField::Shared
+  {
+    RandomSection section;
+    Box box;
+    std::once_flag once;
+    std::optional<random::Expansion> expansion;
+
+    random::Ellipses draw(std::size_t realisation) const
+    {
+      return random::Ellipses::draw(ellipses_of(section), box, section.seed, realisation);
+    }
+
+    /// What is in ellipses at the nodes of a grid.
+    void draw(std::size_t realisation, const random::Grid &grid, std::vector<double> &values) const
+    {
+      const random::Ellipses ellipses = draw(realisation);
+      values.clear();
+      for (int j = 0; j < grid.n[1]; ++j)
+        for (int i = 0; i < grid.n[0]; ++i)
+          values.push_back(ellipses.covers(grid.node(i, j)) ? 1 : 0);
+    }
+
+    const random::Expansion &find_expansion()
+    {
+      std::call_once(once,
+                     [this]
+                     {
+                       const random::Grid grid = random::make_grid(box, section.cell);
+                       if (section.field != FieldKind::ellipses)
+                         expansion = random::karhunen_loeve(covariance_of(section), grid,
+                                                            section.n_modes, section.mean);
+                       else // realisations that no sample takes
+                         expansion = random::principal_components(
+                                         grid, section.n_realisations,
+                                         [&](std::size_t k, std::vector<double> &values)
+                                         { draw((std::size_t{1} << 32) + k, grid, values); },
+                                         section.n_modes)
+                                         .expansion;
+                     });
+      return *expansion;
+    }
+  };
+
+  RandomField::RandomField(const RandomSection &section, const Box &box)
+      : shared_(std::make_shared<Shared>())
+  {
+    shared_->section = section;
+    shared_->section.source.reset(); // no circle
+    shared_->section.place = {};
+    shared_->box = box;
+    const auto saying = [](const std::string &key, const auto &check)
+    {
+      try
+      {
+        check();
+      }
+      catch (const InputError &error)
+      {
+        throw InputError(key + error.what());
+      }
+    };
+    const std::string field = "Random/field = " + base::word(section.field);
+    if (section.field == FieldKind::ellipses)
+    {
+      if (section.fraction < 1) // else all is covered
+        saying("Random/fraction, semi-axes: ", [&] { check(ellipses_of(section)); });
+    }
+    else
+    {
+      saying("Random/deviation, length, smoothness: ", [&] { check(covariance_of(section)); });
+      require(section.n_modes > 0, field + " needs Random/modes > 0, of how many it is made");
+    }
+    require(section.n_modes == 0 || section.cell > 0,
+            field + " with modes needs Random/cell > 0, the mesh size that modes are found on");
+    if (section.n_modes > 0)
+    {
+      const random::Grid grid = random::make_grid(box, section.cell);
+      require(section.n_modes <= grid.size(),
+              "Random/modes = " + std::to_string(section.n_modes) + ", but Random/cell = " +
+                  short_number(section.cell) + " makes " + std::to_string(grid.size()) +
+                  " cells, which have no more modes; take fewer, or a smaller cell");
+    }
+  }
+
+  RandomField::Place RandomField::at(const std::vector<double> &modes,
+                                     unsigned int realisation) const
+  {
+    const RandomSection &section = shared_->section;
+    if (section.n_modes > 0)
+    {
+      struct Lazy
+      {
+        std::once_flag once;
+        random::GridField field;
+      };
+      return [shared = shared_, lazy = std::make_shared<Lazy>(), modes](const Point<2> &x)
+      {
+        std::call_once(lazy->once, [&] { lazy->field = shared->find_expansion().realise(modes); });
+        return lazy->field(x);
+      };
+    }
+    if (section.fraction >= 1)
+      return [](const Point<2> &) { return 1.; };
+    struct Lazy
+    {
+      std::once_flag once;
+      std::optional<random::Ellipses> ellipses;
+    };
+    return [shared = shared_, lazy = std::make_shared<Lazy>(), realisation](const Point<2> &x)
+    {
+      std::call_once(lazy->once, [&] { lazy->ellipses = shared->draw(realisation); });
+      return lazy->ellipses->covers(into(shared->box, x)) ? 1. : 0.;
+    };
+  }
+
+  const random::Expansion *RandomField::expansion() const
+  {
+    return shared_->section.n_modes > 0 ? &shared_->find_expansion() : nullptr;
+  }
+} // namespace plumbline::scene
