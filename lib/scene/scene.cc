@@ -139,8 +139,6 @@ namespace plumbline::scene
     scene.random.realisation = realisation;
     scene.random.complete(scene.domain.boxes);
     scene.material.names = scene.random.names();
-    if (scene.material.is_state_based() && scene.material.is_homogeneous)
-      (void)scene.material.lame();
     return scene;
   }
 

@@ -70,10 +70,10 @@ namespace plumbline::scene
   /// @throws InputError  (its material) a constant that is not allowed, naming key and place
   std::optional<physics::Dilatation> make_dilatation(const Scene &scene, double horizon);
 
-  /// The same scene at other values of its random variables.
+  /// The same scene at other values of its random variables; whether its material is one there is
+  /// seen when it is needed.
   /// @param values       of all of them, see RandomSection
   /// @param realisation  of a field that is drawn as a whole
-  /// @throws InputError  constants of no solid
   Scene at_sample(Scene scene, const std::vector<double> &values, unsigned int realisation);
 
   /// The same scene with nothing left out, to show that what is left out is not missed.

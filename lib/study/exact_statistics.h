@@ -16,6 +16,7 @@ namespace plumbline::study
   /// solution at every one of them. The uncertainty is the change from three quarters as many, at
   /// some of the places.
   /// @param one  whose places are taken; its level says where averages are
+  /// @throws InputError  the target is not finite at such a point, which may be far out
   /// @return nothing where the target is no expression, or there are more than three variables, or
   /// a field that is drawn whole
   std::optional<ExactStatistics> exact_statistics(const scene::Scene &scene, const SampleCase &one);

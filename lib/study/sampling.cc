@@ -1,5 +1,6 @@
 #include "study/sampling.h"
 
+#include "base/error.h"
 #include "base/number_text.h"
 #include "study/exact_statistics.h"
 
@@ -150,14 +151,23 @@ namespace plumbline::study
     }
 
     CaseStatistics conclude_case(const scene::Scene &scene, const SamplingPlan &plan,
-                                 const CaseSums &sums, bool is_finest)
+                                 const CaseSums &sums, bool is_finest,
+                                 std::vector<std::string> &findings)
     {
       CaseStatistics result;
       result.of = sums.first;
       result.of.quantities.clear();
       result.of.field = {};
       const SampleField &places = sums.first.field;
-      const auto exact = exact_statistics(scene, sums.first);
+      std::optional<ExactStatistics> exact;
+      try
+      {
+        exact = exact_statistics(scene, sums.first);
+      }
+      catch (const InputError &error)
+      {
+        findings.push_back(std::string("errors of means are not known: ") + error.what());
+      }
       for (std::size_t s = 0; s < plan.sets.size(); ++s)
       {
         SetStatistics set = conclude_set(plan.sets[s], sums.sets[s], plan.are_independent);
@@ -310,10 +320,11 @@ namespace plumbline::study
                                                    other.first.series == one.first.series &&
                                                    other.first.level > one.first.level;
                                           });
-      results.cases.push_back(conclude_case(scene, plan, one, is_finest));
+      results.cases.push_back(conclude_case(scene, plan, one, is_finest, results.findings));
     }
     results.cheapest = find_cheapest(results.cases);
-    results.findings = find_findings(results);
+    for (const std::string &finding : find_findings(results))
+      results.findings.push_back(finding);
     return results;
   }
 

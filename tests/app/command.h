@@ -65,6 +65,21 @@ namespace plumbline::app
     return outcome;
   }
 
+  /// The same on two ranks.
+  inline Outcome run_on_two_ranks(const std::string &arguments)
+  {
+    const fs::path out = temporary("ranks_out"), err = temporary("ranks_err");
+    const int status =
+        std::system(("timeout 120 " PLUMBLINE_MPIRUN " --allow-run-as-root --oversubscribe --mca "
+                     "mpi_yield_when_idle 1 -np 2 " PLUMBLINE_COMMAND " " +
+                     arguments + " >" + out.string() + " 2>" + err.string())
+                        .c_str());
+    const Outcome outcome{WEXITSTATUS(status), read(out), read(err)};
+    fs::remove(out);
+    fs::remove(err);
+    return outcome;
+  }
+
   /// The command beside the test, silent. @return its process
   inline pid_t start(const std::string &arguments)
   {

@@ -5,20 +5,6 @@ namespace
 {
   using namespace plumbline::app;
 
-  Outcome on_two_ranks(const std::string &arguments)
-  {
-    const fs::path out = temporary("ranks_out"), err = temporary("ranks_err");
-    const int status =
-        std::system(("timeout 120 " PLUMBLINE_MPIRUN " --allow-run-as-root --oversubscribe --mca "
-                     "mpi_yield_when_idle 1 -np 2 " PLUMBLINE_COMMAND " " +
-                     arguments + " >" + out.string() + " 2>" + err.string())
-                        .c_str());
-    const Outcome outcome{WEXITSTATUS(status), read(out), read(err)};
-    fs::remove(out);
-    fs::remove(err);
-    return outcome;
-  }
-
   std::size_t count(const std::string &text, const std::string &part)
   {
     std::size_t n = 0;
@@ -42,7 +28,7 @@ TEST(Ranks, agree_on_a_budget_on_lattices_and_say_that_they_repeat_the_work)
   const fs::path folder = temporary("ranks");
   const std::string scene = small_scene("lattice") + " --threads 1 -o " + folder.string();
   // some solves take longer than the budget on one of the ranks and not on the other
-  const Outcome outcome = on_two_ranks("run " + scene + " --budget 0.002");
+  const Outcome outcome = run_on_two_ranks("run " + scene + " --budget 0.002");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(count(outcome.err, "note: each of the 2 ranks repeats all of the work, since lattices "
                                "are not shared among them"),
@@ -55,8 +41,8 @@ TEST(Ranks, agree_on_a_budget_on_lattices_and_say_that_they_repeat_the_work)
 TEST(Ranks, share_meshes_without_a_word)
 {
   const fs::path folder = temporary("ranks");
-  const Outcome outcome = on_two_ranks("run " + small_scene("squares") +
-                                       " --threads 1 --levels 2 --quiet -o " + folder.string());
+  const Outcome outcome = run_on_two_ranks("run " + small_scene("squares") +
+                                           " --threads 1 --levels 2 --quiet -o " + folder.string());
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.err, "");
   EXPECT_EQ(read(folder / "results.json").find("work of ranks"), std::string::npos);
@@ -66,7 +52,7 @@ TEST(Ranks, share_meshes_without_a_word)
 TEST(Ranks, refuse_with_one_voice)
 {
   const Outcome outcome =
-      on_two_ranks("run " + small_scene("lattice") + " --set Study/h=0.3 --threads 1");
+      run_on_two_ranks("run " + small_scene("lattice") + " --set Study/h=0.3 --threads 1");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(count(outcome.err, "plumbline: scene "), 1u) << outcome.err;
 }
@@ -75,8 +61,8 @@ TEST(Ranks, end_where_the_page_cannot_be_written)
 {
   const fs::path folder = temporary("ranks");
   fs::create_directories(folder / "report.html"); // a folder in its place
-  const Outcome outcome = on_two_ranks("run " + small_scene("squares") +
-                                       " --threads 1 --levels 1 -o " + folder.string());
+  const Outcome outcome = run_on_two_ranks("run " + small_scene("squares") +
+                                           " --threads 1 --levels 1 -o " + folder.string());
   EXPECT_EQ(outcome.exit_code, 2);
   expect_found(outcome.err,
                "output file '" + (folder / "report.html").string() + "' cannot be written");

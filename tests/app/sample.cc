@@ -1,0 +1,128 @@
+// `plumbline sample`: a random scene at many samples, in processes side by side, what it goes on
+// from, and what it refuses.
+
+#include "command.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace
+{
+  using namespace plumbline::app;
+  using Json = nlohmann::json;
+
+  std::string smooth()
+  {
+    return "sample " + std::string(PLUMBLINE_SCENES) +
+           "/random/smooth.prm --levels 1 --set Sampling/counts=1,3";
+  }
+
+  Json results(const fs::path &folder)
+  {
+    Json json = Json::parse(read(folder / "sample.json"));
+    for (Json &one : json["cases"]) // times differ
+      for (Json &set : one["sets"])
+        set.erase("seconds");
+    json.erase("cheapest");
+    return json;
+  }
+
+  void expect_refused(const std::string &arguments, const std::string &message)
+  {
+    const fs::path folder = temporary("sample");
+    const Outcome outcome = run(arguments + " -o " + folder.string());
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << '\n' << outcome.err;
+    expect_found(outcome.err, message);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_FALSE(fs::exists(folder)) << arguments;
+  }
+} // namespace
+
+TEST(SampleCommand, tells_mean_and_deviation_and_draws_them)
+{
+  const fs::path folder = temporary("sample");
+  const Outcome outcome = run(smooth() + " -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "error of the mean");
+  const Json json = results(folder);
+  EXPECT_EQ(json["n_samples"], 3); // the middle one is in both sets
+  const Json &sets = json["cases"][0]["sets"];
+  EXPECT_LT(sets[1]["mean_error"], .1 * sets[0]["mean_error"].get<double>());
+  const std::string page = read(folder / "sample.html");
+  expect_found(page, "<svg");
+  expect_found(page, "Error of the mean over samples");
+  for (const char *const name : {"fields.csv", "quantities.csv", "mean-samples.csv"})
+    EXPECT_TRUE(fs::exists(folder / "sample" / name)) << name;
+  fs::remove_all(folder);
+}
+
+TEST(SampleCommand, has_the_same_bits_by_any_number_of_processes_and_goes_on)
+{
+  const fs::path one = temporary("sample_one"), two = temporary("sample_two");
+  ASSERT_EQ(run(smooth() + " --quiet -o " + one.string()).exit_code, 0);
+  ASSERT_EQ(run(smooth() + " --quiet --jobs 2 -o " + two.string()).exit_code, 0);
+  EXPECT_EQ(results(one), results(two));
+  // as after a kill: one sample is not there, and one is not whole
+  fs::remove(two / "samples/000001.json");
+  const auto kept = fs::last_write_time(two / "samples/000000.json");
+  fs::remove(two / "sample.json");
+  const Outcome again = run(smooth() + " -o " + two.string());
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  expect_found(again.err, "continuing: 2 samples");
+  EXPECT_EQ(fs::last_write_time(two / "samples/000000.json"), kept);
+  EXPECT_EQ(results(one), results(two));
+  // samples of another scene are not taken for its own
+  const Outcome other = run(smooth() + " --set Study/m=4 -o " + two.string());
+  EXPECT_EQ(other.exit_code, 0) << other.err;
+  EXPECT_EQ(other.err.find("continuing"), std::string::npos) << other.err;
+  EXPECT_NE(results(one)["cases"][0]["sets"], results(two)["cases"][0]["sets"]);
+  fs::remove_all(one);
+  fs::remove_all(two);
+}
+
+TEST(SampleCommand, shares_samples_among_ranks)
+{
+  const fs::path one = temporary("sample_one"), two = temporary("sample_two");
+  ASSERT_EQ(run(smooth() + " --quiet -o " + one.string()).exit_code, 0);
+  const Outcome outcome = run_on_two_ranks(smooth() + " --quiet -o " + two.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(results(one), results(two));
+  fs::remove_all(one);
+  fs::remove_all(two);
+}
+
+// E = (2 + ...)(2 + 3 ξ), which is negative at the lowest of three points of deviation 1.
+TEST(SampleCommand, lists_a_sample_that_fails_and_keeps_the_rest)
+{
+  const fs::path folder = temporary("sample");
+  const Outcome outcome =
+      run(smooth() + " --set 'Random/variables=xi: normal 0 1' --set 'Material/E=2 + 3*xi' -o " +
+          folder.string());
+  EXPECT_EQ(outcome.exit_code, 3);
+  expect_found(outcome.err, "failed: Material/E");
+  const Json json = results(folder);
+  ASSERT_EQ(json["failures"].size(), 1);
+  EXPECT_NEAR(json["failures"][0]["values"][0], -std::sqrt(3.), 1e-14);
+  EXPECT_TRUE(json["cases"][0]["sets"][1]["quantities"].empty());
+  EXPECT_FALSE(json["cases"][0]["sets"][0]["quantities"].empty());
+  expect_found(read(folder / "sample.html"), "Samples that failed");
+  fs::remove_all(folder);
+}
+
+TEST(SampleCommand, a_scene_is_run_at_any_sample)
+{
+  const fs::path folder = temporary("run");
+  const std::string scene = std::string(PLUMBLINE_SCENES) + "/random/smooth.prm";
+  EXPECT_EQ(
+      run("run " + scene + " --levels 1 --quiet --set Random/values=0.1 -o " + folder.string())
+          .exit_code,
+      0);
+  fs::remove_all(folder);
+}
+
+TEST(SampleCommand, refuses_what_it_cannot_take)
+{
+  expect_refused(smooth() + " --set Sampling/rule=none", "Sampling/rule = none");
+  expect_refused(smooth() + " --set Sampling/counts=2000000", "2e+06 samples, more than");
+}

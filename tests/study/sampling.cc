@@ -1,0 +1,252 @@
+// Statistics over samples: sets that share them, samples that failed, negative variances, exact
+// fields, and what is expected.
+
+#include "study/sampling.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+  using namespace plumbline;
+  using study::CaseStatistics;
+  using study::make_sampling_plan;
+  using study::SampleCase;
+  using study::SampleRecord;
+  using study::SamplingPlan;
+  using study::SamplingResults;
+  using study::SetStatistics;
+
+  using Settings = std::vector<scene::Override>;
+
+  /// u = (1 + c) x on the unit square, c ~ N(0, .2²), and d uniform on (2, 4).
+  scene::Scene random_scene(const Settings &settings)
+  {
+    Settings all = {{"Random/variables", "c: normal 0 0.2; d: uniform 2 4"},
+                    {"Sampling/rule", "tensor"},
+                    {"Sampling/counts", "1, 2"},
+                    {"Problem/solution", "(1 + c)*x"},
+                    {"Methods/names", "PA-AC"},
+                    {"Study/h", "0.25"}};
+    all.insert(all.end(), settings.begin(), settings.end());
+    return scene::parse_scene("random", "", all);
+  }
+
+  /// A sample whose field at four places is the exact one, and whose quantity is a given function
+  /// of the variables.
+  SampleRecord exact_record(const SamplingPlan &plan, std::size_t sample,
+                            const std::function<double(const std::vector<double> &)> &quantity)
+  {
+    const std::vector<double> &values = plan.values[sample];
+    SampleCase one;
+    one.method = "PA-AC";
+    one.problem = "u";
+    one.series = "m = 3";
+    one.h = .25;
+    one.horizon = .75;
+    one.seconds = 1;
+    one.quantities["q"] = quantity(values);
+    one.field.x = {.1, .4, .6, .9};
+    one.field.y = {.1, .1, .9, .9};
+    one.field.area.assign(4, .25);
+    for (const double x : one.field.x)
+      one.field.values.push_back((1 + values[0]) * x);
+    return {sample, "", {one}};
+  }
+
+  double first(const std::vector<double> &values)
+  {
+    return values[0];
+  }
+
+  SamplingResults conclude(const scene::Scene &scene, const SamplingPlan &plan,
+                           const std::function<double(const std::vector<double> &)> &quantity)
+  {
+    return conclude_samples(scene, plan,
+                            [&](std::size_t i) { return exact_record(plan, i, quantity); });
+  }
+} // namespace
+
+TEST(SamplingPlan, TakesEachPointOnce)
+{
+  // the middle point of the odd rule is in all sets
+  const scene::Scene scene = random_scene({{"Sampling/counts", "1, 3"}});
+  const SamplingPlan plan = make_sampling_plan(scene);
+  EXPECT_EQ(plan.values.size(), 9);
+  ASSERT_EQ(plan.sets.size(), 2);
+  EXPECT_EQ(plan.sets[0].samples.size(), 1);
+  EXPECT_EQ(plan.values[plan.sets[0].samples[0]], (std::vector<double>{0, 3}));
+  EXPECT_EQ(plan.sets[1].samples.size(), 9);
+  EXPECT_NE(
+      std::find(plan.sets[1].samples.begin(), plan.sets[1].samples.end(), plan.sets[0].samples[0]),
+      plan.sets[1].samples.end());
+  for (const double d : {plan.values[1][1], plan.values[5][1]})
+    EXPECT_TRUE(d > 2 && d < 4);
+}
+
+TEST(SamplingPlan, SequencesBeginAlike)
+{
+  for (const char *const rule : {"Monte Carlo", "quasi-Monte Carlo"})
+  {
+    const SamplingPlan plan =
+        make_sampling_plan(random_scene({{"Sampling/rule", rule}, {"Sampling/counts", "4, 10"}}));
+    EXPECT_EQ(plan.values.size(), 10);
+    EXPECT_EQ(plan.sets[0].samples, (std::vector<std::size_t>{0, 1, 2, 3}));
+    EXPECT_EQ(plan.sets[0].weights, std::vector<double>(4, .25));
+  }
+}
+
+TEST(SamplingPlan, ScenesTakeItsValues)
+{
+  const scene::Scene scene = random_scene({});
+  const SamplingPlan plan = make_sampling_plan(scene);
+  const scene::Scene at = plan.at(scene, 1);
+  EXPECT_EQ(at.names(1).constants.at("c"), plan.values[1][0]);
+  EXPECT_EQ(at.names(1).constants.at("d"), plan.values[1][1]);
+  EXPECT_EQ(scene.names(1).constants.at("d"), 3); // its mean
+}
+
+TEST(SampleStatistics, OfExactFieldsHaveNoErrorButTheRules)
+{
+  const scene::Scene scene = random_scene({});
+  const SamplingPlan plan = make_sampling_plan(scene);
+  const SamplingResults results = conclude(scene, plan, first);
+  ASSERT_EQ(results.cases.size(), 1);
+  EXPECT_TRUE(results.is_complete);
+  const SetStatistics &one = results.cases[0].sets[0], &two = results.cases[0].sets[1];
+  ASSERT_TRUE(one.mean_error && two.deviation_error);
+  EXPECT_LT(*one.mean_error, 1e-14);
+  EXPECT_LT(*two.mean_error, 1e-14);
+  // of a linear field two points have the deviation, one has none
+  const double size = std::sqrt(.25 * (.01 + .16 + .36 + .81));
+  EXPECT_LT(*two.deviation_error, 1e-8); // √ of rounding
+  EXPECT_NEAR(*one.deviation_error, .2 * size, 1e-8);
+  EXPECT_NEAR(two.mean_size, size, 1e-14);
+  EXPECT_NEAR(two.deviation_size, .2 * size, 1e-14);
+  EXPECT_EQ(two.seconds, 4);
+  EXPECT_NEAR(two.quantities.at("q").mean, 0, 1e-15);
+  EXPECT_NEAR(*two.quantities.at("q").deviation(), .2, 1e-14);
+  ASSERT_TRUE(results.cases[0].field);
+  EXPECT_NEAR(results.cases[0].field->deviation[3], .2 * .9, 1e-14);
+  // the cheapest set that reaches all targets is the one of one sample
+  ASSERT_FALSE(results.cheapest.empty());
+  EXPECT_EQ(results.cheapest.back().count, 1);
+  EXPECT_EQ(results.cheapest.back().seconds, 1);
+}
+
+TEST(SampleStatistics, ThatWereMovedShowIt)
+{
+  const scene::Scene scene = random_scene({});
+  const SamplingPlan plan = make_sampling_plan(scene);
+  const SamplingResults results =
+      conclude_samples(scene, plan,
+                       [&](std::size_t i)
+                       {
+                         SampleRecord record = exact_record(plan, i, first);
+                         for (double &value : record.cases[0].field.values)
+                           value += .02;
+                         return record;
+                       });
+  EXPECT_NEAR(*results.cases[0].sets[1].mean_error, .02, 1e-14);
+  EXPECT_NEAR(*results.cases[0].sets[1].deviation_error, 0, 1e-8);
+  EXPECT_EQ(results.cheapest.size(), 1); // 1e-1
+}
+
+TEST(SampleStatistics, OfRulesSayNothingWithoutAPoint)
+{
+  const scene::Scene scene = random_scene({});
+  const SamplingPlan plan = make_sampling_plan(scene);
+  const SamplingResults results = conclude_samples(
+      scene, plan,
+      [&](std::size_t i) {
+        return i == 2 ? SampleRecord{2, "it was too much", {}} : exact_record(plan, i, first);
+      });
+  EXPECT_TRUE(results.is_complete);
+  ASSERT_EQ(results.failures.size(), 1);
+  EXPECT_EQ(results.failures[0].sample, 2);
+  EXPECT_EQ(results.failures[0].reason, "it was too much");
+  EXPECT_FALSE(results.cases[0].sets[0].quantities.empty()); // of the one point, which is there
+  EXPECT_TRUE(results.cases[0].sets[1].quantities.empty());
+  EXPECT_EQ(results.cases[0].sets[1].n_missing, 1);
+  EXPECT_FALSE(results.cases[0].sets[1].mean_error);
+}
+
+TEST(SampleStatistics, OfIndependentSamplesDoWithoutOne)
+{
+  const scene::Scene scene =
+      random_scene({{"Sampling/rule", "Monte Carlo"}, {"Sampling/counts", "4"}});
+  const SamplingPlan plan = make_sampling_plan(scene);
+  const SamplingResults results =
+      conclude_samples(scene, plan,
+                       [&](std::size_t i) {
+                         return i == 2 ? SampleRecord{2, "no", {}} : exact_record(plan, i, first);
+                       });
+  const double mean = (plan.values[0][0] + plan.values[1][0] + plan.values[3][0]) / 3;
+  const SetStatistics &set = results.cases[0].sets[0];
+  EXPECT_EQ(set.n_missing, 1);
+  EXPECT_NEAR(set.quantities.at("q").mean, mean, 1e-15);
+  EXPECT_NEAR(set.quantities.at("q").standard_error,
+              *set.quantities.at("q").deviation() / std::sqrt(3.), 1e-15);
+  EXPECT_NEAR(results.cases[0].field->mean[0], (1 + mean) * .1, 1e-15);
+}
+
+TEST(SampleStatistics, ThatAreNotThereLeaveResultsIncomplete)
+{
+  const scene::Scene scene = random_scene({});
+  const SamplingPlan plan = make_sampling_plan(scene);
+  const SamplingResults results = conclude_samples(scene, plan,
+                                                   [&](std::size_t i) -> std::optional<SampleRecord>
+                                                   {
+                                                     if (i > 0)
+                                                       return {};
+                                                     return exact_record(plan, i, first);
+                                                   });
+  EXPECT_FALSE(results.is_complete);
+  EXPECT_TRUE(results.failures.empty());
+}
+
+TEST(SampleStatistics, NegativeVariancesAreSaidAndHaveNoDeviation)
+{
+  std::string variables;
+  for (int i = 0; i < 20; ++i)
+    variables += "c" + std::to_string(i) + ": normal; ";
+  const scene::Scene scene = random_scene({{"Random/variables", variables},
+                                           {"Problem/solution", "(1 + c0)*x"},
+                                           {"Sampling/rule", "Smolyak"},
+                                           {"Sampling/counts", "1"}});
+  const SamplingPlan plan = make_sampling_plan(scene);
+  EXPECT_EQ(plan.values.size(), 41);
+  const SamplingResults results = conclude(scene, plan,
+                                           [](const std::vector<double> &values)
+                                           {
+                                             double sum = 0;
+                                             for (const double one : values)
+                                               sum += one * one;
+                                             return sum;
+                                           });
+  const random::Statistics &found = results.cases[0].sets[0].quantities.at("q");
+  EXPECT_NEAR(found.variance, -340, 1e-9);
+  EXPECT_FALSE(found.deviation());
+  ASSERT_EQ(results.findings.size(), 1);
+  EXPECT_NE(results.findings[0].find("-340"), std::string::npos) << results.findings[0];
+  EXPECT_FALSE(sampled_quantity(results.cases[0], "deviation of q"));
+  EXPECT_NEAR(*sampled_quantity(results.cases[0], "variance of q"), -340, 1e-9);
+}
+
+TEST(SampleStatistics, ExpectationsAreOfTheLargestSet)
+{
+  const scene::Scene scene = random_scene({});
+  const SamplingPlan plan = make_sampling_plan(scene);
+  const SamplingResults results = conclude(scene, plan, first);
+  const auto faults = [&](const std::string &expected)
+  {
+    return sampling_faults(results, random_scene({{"Expected/sampling", expected}}).expected)
+        .size();
+  };
+  EXPECT_EQ(faults("PA-AC, deviation of q: 0.2; PA-AC, samples: 4"), 0);
+  EXPECT_EQ(faults("PA-AC, deviation of q: 0.21"), 1);
+  EXPECT_EQ(faults("PA-AC, samples: 1"), 1);
+  EXPECT_EQ(faults("FA, samples: 4"), 1);
+  EXPECT_EQ(faults("PA-AC, mean of p: 4"), 1);
+}
