@@ -48,10 +48,23 @@ namespace plumbline::random
              x[1] <= box.upper[1];
     }
 
+    /// Before anything is drawn: too many would take all memory, or for ever.
+    void require_number(double expected, const EllipseModel &model)
+    {
+      constexpr double most = 1e7;
+      if (!(expected <= most))
+        throw InputError("ellipses of semi-axes " + base::to_text(model.semi_axes[0], 4) + " and " +
+                         base::to_text(model.semi_axes[1], 4) + " would be " +
+                         base::to_text(expected, 3) + " in number to cover the area fraction of " +
+                         base::to_text(model.fraction, 4) +
+                         "; choose larger ones, 1e7 are the most");
+    }
+
     std::vector<Ellipse> draw_boolean(const EllipseModel &model, const Box &box, Generator &numbers)
     {
       const Box window = enlarged(box, std::max(model.semi_axes[0], model.semi_axes[1]));
       const double expected = -std::log1p(-model.fraction) * area(window) / area(model.semi_axes);
+      require_number(expected, model);
       std::vector<Ellipse> ellipses(numbers.poisson(expected));
       for (Ellipse &ellipse : ellipses)
         ellipse = draw_ellipse(window, numbers);
@@ -66,6 +79,7 @@ namespace plumbline::random
       const Box torus = enlarged(box, 2 * reach);
       const double each = area(model.semi_axes) / area(torus);
       const double n_wanted = std::floor(model.fraction / each + numbers.uniform());
+      require_number(n_wanted, model);
       TorusPacking packing(model.semi_axes, torus);
       std::vector<Ellipse> near_box;
       for (double n = 0; n < n_wanted; ++n)

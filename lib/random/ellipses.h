@@ -42,8 +42,9 @@ namespace plumbline::random
     /// and 6.5, doi:10.1002/9781118658222; whether two meet: Perram & Wertheim 1985,
     /// doi:10.1016/0021-9991(85)90171-8.
     /// @param stream  see Generator: the number of the sample
-    /// @throws InputError  check(model); a box without area; a fraction that grains which do not
-    /// overlap did not reach (at 1e5 places in a row none was free), with the one they did
+    /// @throws InputError  check(model); a box without area; more than 1e7 grains; a fraction that
+    /// grains which do not overlap did not reach (at 1e5 places in a row none was free), with the
+    /// one they did
     static Ellipses draw(const EllipseModel &model, const Box &box, std::uint64_t seed,
                          std::uint64_t stream = 0);
 

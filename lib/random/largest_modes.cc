@@ -78,20 +78,19 @@ namespace plumbline::random
 
     private:
       /// Make next_ the basis' share, which is returned, plus Q · coupling_, and Q of it. Twice is
-      /// enough, the second time takes off what rounding left; but not for columns of chance.
+      /// enough: the second time takes off what rounding left, or the share of columns of chance.
       MatrixXd orthonormalise_next()
       {
         const auto basis = vectors_.leftCols(n_);
         coupling_.setIdentity();
         MatrixXd share = MatrixXd::Zero(n_, block());
         double size = next_.colwise().norm().maxCoeff();
-        bool has_chance = false;
-        for (int round = 0; round < 2 || has_chance; ++round)
+        for (int round = 0; round < 2; ++round)
         {
           const MatrixXd part = basis.transpose() * next_;
           next_.noalias() -= basis * part;
           share += part * coupling_;
-          has_chance = split_next(size);
+          split_next(size);
           size = 1;
         }
         return share;
@@ -100,12 +99,10 @@ namespace plumbline::random
       /// next_ = Q R by Gram & Schmidt, each column twice; leaves Q and multiplies coupling_ by R.
       /// Where a column lies in the span of those before or of the basis, Q has one of chance.
       /// @param size  of the columns before the basis' share was taken off
-      /// @return      whether there is one
-      bool split_next(double size)
+      void split_next(double size)
       {
         constexpr double nothing = 1e-14; // rounding of a product, relative to it
         MatrixXd triangle = MatrixXd::Zero(block(), block());
-        bool has_chance = false;
         for (Index j = 0; j < block(); ++j)
         {
           triangle.col(j).head(j) = remove_columns_before(j);
@@ -113,7 +110,6 @@ namespace plumbline::random
           if (triangle(j, j) <= nothing * size)
           {
             triangle(j, j) = 0;
-            has_chance = true;
             for (double &entry : next_.col(j))
               entry = numbers_.normal();
             remove_columns_before(j);
@@ -121,7 +117,6 @@ namespace plumbline::random
           next_.col(j).normalize();
         }
         coupling_ = triangle * coupling_;
-        return has_chance;
       }
 
       VectorXd remove_columns_before(Index j)

@@ -22,6 +22,21 @@ namespace plumbline::random
 
     constexpr std::size_t most_at_once = 64; ///< realisations in memory
 
+    /// Do something with all of 0 ... n - 1, on all threads, in pieces that do not depend on their
+    /// number, as rounding may on the size of a piece.
+    template <class Action>
+    void in_pieces(Index n, Index piece, const Action &action)
+    {
+      dealii::parallel::apply_to_subranges(
+          Index(0), (n + piece - 1) / piece,
+          [&](Index first, Index last)
+          {
+            for (Index k = first; k < last; ++k)
+              action(k * piece, std::min(piece, n - k * piece));
+          },
+          1);
+    }
+
     /// All realisations, some at a time.
     class Sample
     {
@@ -40,18 +55,14 @@ namespace plumbline::random
         for (std::size_t start = 0; start < n_; start += most_at_once)
         {
           const std::size_t n = std::min(most_at_once, n_ - start);
-          dealii::parallel::apply_to_subranges(
-              std::size_t(0), n,
-              [&](std::size_t first, std::size_t last)
-              {
-                std::vector<double> values(static_cast<std::size_t>(size_));
-                for (std::size_t k = first; k < last; ++k)
-                {
-                  realisation_(start + k, values);
-                  chunk.col(static_cast<Index>(k)) = column(values, start + k);
-                }
-              },
-              1);
+          in_pieces(static_cast<Index>(n), 1,
+                    [&](Index k, Index)
+                    {
+                      std::vector<double> values(static_cast<std::size_t>(size_));
+                      const std::size_t number = start + static_cast<std::size_t>(k);
+                      realisation_(number, values);
+                      chunk.col(k) = column(values, number);
+                    });
           action(chunk.leftCols(static_cast<Index>(n)));
         }
       }
@@ -86,8 +97,13 @@ namespace plumbline::random
                          "; ask for fewer, or give more realisations");
     }
 
-    /// The mean, and the variance at each node.
-    std::pair<VectorXd, VectorXd> moments(const Sample &sample, Index size, std::size_t n)
+    /// The mean and the variance at each node.
+    struct Moments
+    {
+      VectorXd mean, variance;
+    };
+
+    Moments moments(const Sample &sample, Index size, std::size_t n)
     {
       // from the first one on, as a mean that is large beside the deviations would cost digits
       VectorXd first, sum = VectorXd::Zero(size), squares = VectorXd::Zero(size);
@@ -107,6 +123,43 @@ namespace plumbline::random
       const VectorXd variance = (squares - sum.cwiseAbs2() / count) / (count - 1);
       return {first + sum / count, variance.cwiseMax(0.)};
     }
+
+    /// out = (C - mean meanᵀ) in, where C is the mean square of all realisations, times a number.
+    void multiply(const Sample &sample, const VectorXd &mean, double scale,
+                  const Eigen::Map<const MatrixXd> &in, Eigen::Map<MatrixXd> &out)
+    {
+      constexpr Index few = 16, strip = 4096; // realisations, nodes
+      out.setZero();
+      sample.for_chunks(
+          [&](auto chunk)
+          {
+            MatrixXd shares(chunk.cols(), in.cols());
+            in_pieces(chunk.cols(), few,
+                      [&](Index first, Index n)
+                      {
+                        chunk.middleCols(first, n).colwise() -= mean;
+                        shares.middleRows(first, n).noalias() =
+                            scale * (chunk.middleCols(first, n).transpose() * in);
+                      });
+            in_pieces(in.rows(), strip,
+                      [&](Index first, Index n) {
+                        out.middleRows(first, n).noalias() += chunk.middleRows(first, n) * shares;
+                      });
+          });
+    }
+
+    void store(const LargestModes &modes, const Moments &moments, Expansion &expansion)
+    {
+      expansion.mean.assign(moments.mean.begin(), moments.mean.end());
+      expansion.variance.assign(moments.variance.begin(), moments.variance.end());
+      for (const double value : modes.eigenvalue)
+        expansion.eigenvalue.push_back(std::max(value, 0.));
+      const double norm = 1 / std::sqrt(expansion.grid.cell_area());
+      expansion.mode = modes.vector;
+      for (std::vector<double> &mode : expansion.mode)
+        for (double &value : mode)
+          value *= norm;
+    }
   } // namespace
 
   PrincipalComponents principal_components(const Grid &grid, std::size_t n_realisations,
@@ -122,48 +175,30 @@ namespace plumbline::random
                              std::to_string(size) + " nodes",
                          "choose a coarser grid");
     const Sample sample(grid, n_realisations, realisation);
-    const auto [mean, variance] = moments(sample, size, n_realisations);
+    const Moments of_sample = moments(sample, size, n_realisations);
 
     const double scale = grid.cell_area() / static_cast<double>(n_realisations - 1);
     const auto product = [&](const double *x, double *y, unsigned int n_columns)
     {
-      const Eigen::Map<const MatrixXd> in(x, size, n_columns);
       Eigen::Map<MatrixXd> out(y, size, n_columns);
-      out.setZero();
-      sample.for_chunks(
-          [&](auto chunk)
-          {
-            chunk.colwise() -= mean;
-            const MatrixXd shares = scale * (chunk.transpose() * in);
-            out.noalias() += chunk * shares;
-          });
+      multiply(sample, of_sample.mean, scale, {x, size, n_columns}, out);
     };
     ModeSearch search;
     search.n_modes = n_modes;
     search.block = std::min(n_modes + wider, static_cast<unsigned int>(grid.size()));
     search.most_products = limit.most_passes;
     search.tolerance = limit.tolerance;
-    LargestModes modes = largest_modes(grid.size(), product, search);
+    const LargestModes modes = largest_modes(grid.size(), product, search);
 
     PrincipalComponents result;
-    result.residual = std::move(modes.residual);
+    result.residual = modes.residual;
     result.n_passes = modes.n_products;
     result.is_settled = modes.is_settled;
     result.expansion.grid = grid;
-    result.expansion.mean.assign(mean.begin(), mean.end());
-    result.expansion.variance.assign(variance.begin(), variance.end());
-    for (const double value : modes.eigenvalue)
-      result.expansion.eigenvalue.push_back(std::max(value, 0.));
+    store(modes, of_sample, result.expansion);
     const double total = result.expansion.total_variance();
     for (const double sum : modes.sum_so_far)
       result.kept.push_back(total > 0 ? std::min(1., sum / total) : 1);
-    const double norm = 1 / std::sqrt(grid.cell_area());
-    for (std::vector<double> &vector : modes.vector)
-    {
-      for (double &value : vector)
-        value *= norm;
-      result.expansion.mode.push_back(std::move(vector));
-    }
     return result;
   }
 } // namespace plumbline::random

@@ -226,4 +226,7 @@ TEST(Ellipses, refuse_what_is_none_with_the_number_and_the_remedy)
             std::string::npos);
   EXPECT_NE(refusal({{std::nan(""), 1}, .2, true}).find("semi-axis = nan"), std::string::npos);
   EXPECT_THROW(Ellipses::draw(model(.2), {{0, 0}, {0, 1}}, 1), InputError);
+  for (const bool overlap : {true, false})
+    EXPECT_NE(refusal({{1e-5, 1e-5}, .2, overlap}).find("choose larger ones, 1e7 are the most"),
+              std::string::npos);
 }
