@@ -62,7 +62,7 @@ namespace plumbline::reference
     const EdgeForm &form_;
     const PairWays &ways_;
     double horizon_, largest_radius_ = 0;
-    bool has_whole_;
+    bool has_inside_; ///< the whole potential is not zero there
     EdgeIntegrals<n> integrals_;
     geometry::BoxSearch middles_;
   };
