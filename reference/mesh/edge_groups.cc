@@ -1,6 +1,7 @@
 #include "reference/mesh/edge_groups.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace plumbline::reference
 {
@@ -19,6 +20,8 @@ namespace plumbline::reference
       const auto at = std::lower_bound(group.rows.begin(), group.rows.end(), node);
       return static_cast<std::size_t>(at - group.rows.begin());
     }
+
+    constexpr unsigned int none = std::numeric_limits<unsigned int>::max(); ///< no slot
 
     unsigned char bit(PairWay way)
     {
@@ -66,6 +69,8 @@ namespace plumbline::reference
       sum_partners(e, group, scratch);
       add_rows(form_.edges[e], group, scratch);
     }
+    for (const unsigned int column : group.columns)
+      scratch.slot[column] = none;
   }
 
   /// Whether nodes of theirs may be a pair that takes theirs.
@@ -131,22 +136,30 @@ namespace plumbline::reference
   void EdgeGroups<n>::find_nodes(std::size_t first, std::size_t last, Scratch &scratch,
                                  EdgeGroup &group) const
   {
-    group.rows.clear();
-    group.columns.clear();
-    const auto take = [](const Edge &edge, std::vector<unsigned int> &nodes)
-    { nodes.insert(nodes.end(), edge.node.begin(), edge.node.begin() + edge.n_nodes); };
-    const auto sort = [](std::vector<unsigned int> &nodes)
+    scratch.slot.resize(space_.n_dofs(), none);
+    const auto take = [&](const Edge &edge, std::vector<unsigned int> &nodes)
     {
-      std::sort(nodes.begin(), nodes.end());
-      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      for (unsigned int k = 0; k < edge.n_nodes; ++k)
+        if (unsigned int &slot = scratch.slot[edge.node[k]]; slot == none)
+        {
+          nodes.push_back(edge.node[k]);
+          slot = 0;
+        }
     };
+    const auto sort = [&](std::vector<unsigned int> &nodes)
+    {
+      for (const unsigned int node : nodes)
+        scratch.slot[node] = none;
+      std::sort(nodes.begin(), nodes.end());
+    };
+    group.rows.clear();
     for (std::size_t e = first; e < last; ++e)
       take(form_.edges[e], group.rows);
+    sort(group.rows);
+    group.columns.clear();
     for (const unsigned int f : scratch.near)
       take(form_.edges[f], group.columns);
-    sort(group.rows);
     sort(group.columns);
-    scratch.slot.resize(space_.n_dofs());
     for (unsigned int c = 0; c < group.columns.size(); ++c)
       scratch.slot[group.columns[c]] = c;
   }
