@@ -100,10 +100,10 @@ namespace plumbline::reference
     /// Sum of all groups of this rank's share.
     template <unsigned int n>
     void add_groups(const MeshSpace &space, const EdgeForm &form, const PairWays &ways,
-                    const physics::Kernel<2> &kernel, double lowest_rho,
-                    const WholePotential &whole, const base::Team &team, HalfMatrix &half)
+                    const physics::Kernel<2> &kernel, const WholePotential &whole,
+                    const base::Team &team, HalfMatrix &half)
     {
-      const typename EdgeIntegrals<n>::Tables potential(kernel, lowest_rho);
+      const typename EdgeIntegrals<n>::Tables potential(kernel, 0);
       const EdgeGroups<n> groups(space, form, ways, potential, whole);
       const std::vector<std::size_t> starts = group_starts(form);
       const auto [first, last] = team.share(starts.size() - 1);
@@ -157,7 +157,7 @@ namespace plumbline::reference
         for (unsigned int e = 0; e < n; ++e)
           value[e] = -(half_.value[k * n + e] + half_.value[other * n + e]);
         const PairWay way = ways_(i, j);
-        if (way == PairWay::whole || way == PairWay::out)
+        if (way == PairWay::whole)
           value[0] -= constant_ * (form_.integral[i] * form_.integral[j]);
         return value;
       }
@@ -228,26 +228,10 @@ namespace plumbline::reference
       return rows;
     }
 
-    /// The largest distance of points that potentials are asked for.
+    /// The largest distance of points that the whole potential is asked for.
     double reach(const EdgeForm &form, const PairWays &ways)
     {
-      double largest = 0;
-      for (const Edge &edge : form.edges)
-        largest = std::max(largest, edge.radius);
-      return ways.farthest_out() + 2 * largest + form.longest;
-    }
-
-    /// The same of the potential without a horizon.
-    double whole_reach(const EdgeForm &form, const PairWays &ways)
-    {
-      return ways.farthest_near() + 2 * *std::max_element(form.radius.begin(), form.radius.end());
-    }
-
-    bool is_constant(const physics::Kernel<2> &kernel)
-    {
-      const physics::RadialProfile &profile = kernel.profile();
-      return kernel.structure() == physics::Structure::scalar && !profile.is_function() &&
-             profile.degree() == 0 && profile.lowest_exponent() == 0;
+      return ways.farthest_whole() + 2 * *std::max_element(form.radius.begin(), form.radius.end());
     }
 
     template <unsigned int n>
@@ -256,11 +240,10 @@ namespace plumbline::reference
     {
       const double horizon = kernel.horizon();
       const EdgeForm form(space);
-      const PairWays ways(space, form, horizon, is_constant(kernel));
-      const WholePotential whole(kernel, whole_reach(form, ways), form.longest);
+      const PairWays ways(space, form, kernel);
+      const WholePotential whole(kernel, reach(form, ways), form.longest);
       HalfMatrix half = make_half(space, form, ways, horizon, n);
-      const double farthest = reach(form, ways) / horizon;
-      add_groups<n>(space, form, ways, kernel, 1 - farthest * farthest, whole, team, half);
+      add_groups<n>(space, form, ways, kernel, whole, team, half);
       const bool is_first = team.rank() == 0; // of ranks: what one alone must give
       if (is_first)
         subtract_mass(space, kernel.moment({0, 0}), n, half);
@@ -271,7 +254,7 @@ namespace plumbline::reference
     std::string refuse_smooth(const MeshSpace &space, const EdgeForm &form,
                               const physics::Kernel<2> &kernel)
     {
-      const PairWays ways(space, form, kernel.horizon(), false);
+      const PairWays ways(space, form, kernel);
       const double horizon = kernel.horizon(), width = geometry::collar_width(space.mesh());
       constexpr double rounding = 1e-8; // of meshes read from files
       const auto first_held =
@@ -283,10 +266,10 @@ namespace plumbline::reference
       for (std::size_t dof = space.n_free(); dof < space.n_dofs(); ++dof)
         if (form.is_at_outside[dof] != 0)
           widest = std::max(widest, form.radius[dof]);
-      constexpr double farthest = 8; // pairs of nodes, in horizons: the length of tables
+      constexpr double farthest = 7; // points, in horizons: the length of tables
       if (width - widest < .2 * horizon || reach(form, ways) > farthest * horizon)
         return "triangles are large in relation to the horizon";
-      return WholePotential::refuse(kernel, whole_reach(form, ways));
+      return WholePotential::refuse(kernel);
     }
   } // namespace
 

@@ -16,11 +16,12 @@ namespace plumbline::reference
   ///   ∬_{|x-y|<δ} C φ_i(x) φ_j(y) = Σ_{e,e'} J_i(e) J_j(e') ∬ Ψ(y - x) over e × e', Δ²Ψ = C,
   /// (Green's identity in x and in y), for which the potential may be cut off at the circle; Ψ has
   /// as many entries as C. ∬ C φ_i(x) φ_j(x) is the mass matrix times ∫C, the ball being in the
-  /// mesh. Accuracy, of the diagonal: 1e-14 for the constant kernel, 4e-13 for others up to δ = 8 h
-  /// and (δ/8h)³ times that beyond, 4e-12 where δ < 3 h: terms of pairs within the horizon are
-  /// larger than their sum by the fourth power of their distance, or of δ, over h. Profiles with
-  /// breaks are a sum of several without. Symmetric to the last bit. Memory: 24 bytes an entry.
-  /// Threads share the edges (the result does not depend on their number), ranks of the team too.
+  /// mesh. Accuracy: linear fields of slope 1/δ are annihilated to 1e-13 of the diagonal from
+  /// δ = 3 h to 8 h, h growing twofold, to 4e-13 below; to (δ/8h)³ times that beyond, as terms of
+  /// pairs within the horizon are larger than their sum by the fourth power of their distance, or
+  /// of δ, over h. Profiles with breaks are a sum of several without. Symmetric to the last bit.
+  /// Memory: 24 bytes an entry. Threads share the edges (the result does not depend on their
+  /// number), ranks of the team too.
   /// @pre     refuse_edges is empty
   /// @return  as MeshMatrix::rows
   algebra::Rows assemble_by_edges(const MeshSpace &space, const physics::Kernel<2> &kernel,

@@ -1,5 +1,7 @@
 #include "reference/mesh/edge_form.h"
 
+#include "reference/mesh/whole_potential.h"
+
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -108,14 +110,17 @@ namespace plumbline::reference
     std::sort(edges.begin(), held, [](const Edge &a, const Edge &b) { return a.node < b.node; });
   }
 
-  PairWays::PairWays(const MeshSpace &space, const EdgeForm &form, double horizon, bool is_product)
-      : space_(space), form_(form), horizon_(horizon), is_product_(is_product)
+  PairWays::PairWays(const MeshSpace &space, const EdgeForm &form, const physics::Kernel<2> &kernel)
+      : space_(space), form_(form), horizon_(kernel.horizon()),
+        is_product_(WholePotential::is_product(kernel))
   {
-    // of pairs wholly within the horizon the potential inside rounds off like (δ/h)^4, that without
-    // a horizon like (distance/h)^4: measured, both are alike here
-    apart_ = (horizon < 4 * form.longest ? .25 : .35) * horizon;
+    // the farther apart supports must be for the potential that ends at the circle, the larger the
+    // smooth one becomes; the nearer they may be, the former, and it is (δ/h)^4 times larger than
+    // the sum of its terms. Of bond tensors it has a pole at 0. Measured by linear fields
+    constexpr double wide = 3.5; // triangles, in horizons
+    const bool is_tensor = kernel.structure() == physics::Structure::tensor;
+    apart_ = (horizon_ < wide * form.longest ? .25 : is_tensor ? .4 : .35) * horizon_;
     const double both = 2 * *std::max_element(form.radius.begin(), form.radius.end());
-    farthest_near_ = apart_ + both;
-    farthest_out_ = std::max(horizon, farthest_near_);
+    farthest_whole_ = is_product_ ? std::max(horizon_, apart_ + both) : apart_ + both;
   }
 } // namespace plumbline::reference

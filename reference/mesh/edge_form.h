@@ -36,19 +36,15 @@ namespace plumbline::reference
   enum class PairWay : char
   {
     none,  ///< supports are farther apart
-    whole, ///< all of it counts
-    in,    ///< by the potential inside the circle: supports must be apart
-    out    ///< the whole without what the potential outside of it gives
+    whole, ///< by the potential that is smooth at 0
+    in     ///< by the potential that ends at the circle: supports must be apart
   };
 
   /// The way of each pair of nodes, symmetric.
   class PairWays
   {
   public:
-    /// @param is_product  the whole is a product, at no cost: else only near supports take it,
-    /// whose
-    ///                    potential is small
-    PairWays(const MeshSpace &space, const EdgeForm &form, double horizon, bool is_product);
+    PairWays(const MeshSpace &space, const EdgeForm &form, const physics::Kernel<2> &kernel);
 
     PairWay operator()(unsigned int i, unsigned int j) const
     {
@@ -63,19 +59,16 @@ namespace plumbline::reference
         return PairWay::whole;
       if (form_.is_at_outside[i] || form_.is_at_outside[j]) // not continuous: only this is valid
         return PairWay::in;
-      return is_apart && distance > horizon_ ? PairWay::in : PairWay::out;
+      return is_apart && distance > horizon_ ? PairWay::in : PairWay::whole;
     }
 
-    /// Nodes farther apart have no pair by the potential outside.
-    double farthest_out() const { return farthest_out_; }
-
-    /// Nodes farther apart have no pair that takes the potential without a horizon.
-    double farthest_near() const { return farthest_near_; }
+    /// Nodes farther apart have no pair by the potential that is smooth at 0.
+    double farthest_whole() const { return farthest_whole_; }
 
   private:
     const MeshSpace &space_;
     const EdgeForm &form_;
-    double horizon_, apart_, farthest_out_, farthest_near_;
-    bool is_product_;
+    double horizon_, apart_, farthest_whole_;
+    bool is_product_; ///< of pairs within the horizon the whole is one, at no cost
   };
 } // namespace plumbline::reference

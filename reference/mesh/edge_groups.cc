@@ -1,6 +1,7 @@
 #include "reference/mesh/edge_groups.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace plumbline::reference
 {
@@ -19,6 +20,8 @@ namespace plumbline::reference
       const auto at = std::lower_bound(group.rows.begin(), group.rows.end(), node);
       return static_cast<std::size_t>(at - group.rows.begin());
     }
+
+    constexpr unsigned int none = std::numeric_limits<unsigned int>::max(); ///< no slot
 
     unsigned char bit(PairWay way)
     {
@@ -45,7 +48,7 @@ namespace plumbline::reference
                             const typename EdgeIntegrals<n>::Tables &potential,
                             const WholePotential &whole)
       : space_(space), form_(form), ways_(ways), horizon_(potential.horizon()),
-        has_whole_(!whole.is_none()), integrals_(potential, whole),
+        has_inside_(!whole.is_none_inside()), integrals_(potential, whole),
         middles_(search_points(middles(form)))
   {
     for (const Edge &edge : form.edges)
@@ -66,6 +69,8 @@ namespace plumbline::reference
       sum_partners(e, group, scratch);
       add_rows(form_.edges[e], group, scratch);
     }
+    for (const unsigned int column : group.columns)
+      scratch.slot[column] = none;
   }
 
   /// Whether nodes of theirs may be a pair that takes theirs.
@@ -74,7 +79,8 @@ namespace plumbline::reference
   {
     const double distance = e.segment.middle().distance(f.segment.middle()),
                  both = e.radius + f.radius;
-    return distance < ways_.farthest_out() + both && (has_whole_ || distance > horizon_ - both);
+    return distance < std::max(horizon_, ways_.farthest_whole()) + both &&
+           (has_inside_ || distance > horizon_ - both);
   }
 
   /// Q, kept for the next who asks.
@@ -101,9 +107,8 @@ namespace plumbline::reference
     const auto has = [&](PairWay way) { return (ways & bit(way)) != 0; };
     const double distance = e.segment.middle().distance(f.segment.middle()),
                  both = .5 * (e.length + f.length);
-    return {(has(PairWay::in) && distance < horizon_ + both) ||
-                (has(PairWay::out) && distance > horizon_ - both),
-            (has(PairWay::whole) || has(PairWay::out)) && has_whole_};
+    return {has(PairWay::in) && distance < horizon_ + both,
+            has(PairWay::whole) && (has_inside_ || distance > horizon_ - both)};
   }
 
   /// Edges that an edge of the group has a pair with, each pair once: numbers from first on.
@@ -115,7 +120,9 @@ namespace plumbline::reference
     for (std::size_t e = first; e < last; ++e)
       reach =
           std::max(reach, form_.edges[e].radius + form_.edges[e].segment.middle().distance(center));
-    middles_.find(box_about(center, ways_.farthest_out() + reach + largest_radius_), scratch.found);
+    middles_.find(
+        box_about(center, std::max(horizon_, ways_.farthest_whole()) + reach + largest_radius_),
+        scratch.found);
     scratch.near.clear();
     for (const unsigned int f : scratch.found)
       if (f >= first && std::any_of(form_.edges.begin() + static_cast<std::ptrdiff_t>(first),
@@ -129,22 +136,30 @@ namespace plumbline::reference
   void EdgeGroups<n>::find_nodes(std::size_t first, std::size_t last, Scratch &scratch,
                                  EdgeGroup &group) const
   {
-    group.rows.clear();
-    group.columns.clear();
-    const auto take = [](const Edge &edge, std::vector<unsigned int> &nodes)
-    { nodes.insert(nodes.end(), edge.node.begin(), edge.node.begin() + edge.n_nodes); };
-    const auto sort = [](std::vector<unsigned int> &nodes)
+    scratch.slot.resize(space_.n_dofs(), none);
+    const auto take = [&](const Edge &edge, std::vector<unsigned int> &nodes)
     {
-      std::sort(nodes.begin(), nodes.end());
-      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      for (unsigned int k = 0; k < edge.n_nodes; ++k)
+        if (unsigned int &slot = scratch.slot[edge.node[k]]; slot == none)
+        {
+          nodes.push_back(edge.node[k]);
+          slot = 0;
+        }
     };
+    const auto sort = [&](std::vector<unsigned int> &nodes)
+    {
+      for (const unsigned int node : nodes)
+        scratch.slot[node] = none;
+      std::sort(nodes.begin(), nodes.end());
+    };
+    group.rows.clear();
     for (std::size_t e = first; e < last; ++e)
       take(form_.edges[e], group.rows);
+    sort(group.rows);
+    group.columns.clear();
     for (const unsigned int f : scratch.near)
       take(form_.edges[f], group.columns);
-    sort(group.rows);
     sort(group.columns);
-    scratch.slot.resize(space_.n_dofs());
     for (unsigned int c = 0; c < group.columns.size(); ++c)
       scratch.slot[group.columns[c]] = c;
   }
@@ -182,16 +197,16 @@ namespace plumbline::reference
         continue;
       const Segment &a = edge.segment, &b = other.segment;
       Potentials<n> d;
-      if (EdgeIntegrals<n>::is_parallel(a, b))
-        d = integrals_.between_parallel(a, b, asked);
-      else
+      const Wanted by_rule = integrals_.by_rule(a, b, asked), by_ends = asked.without(by_rule);
+      if (!by_ends.is_none())
         d = integrals_.between(
             a, b,
-            {ask(scratch.from_start[k], a.start, other, asked),
-             integrals_.from_point(a.end, b, asked)},
-            {ask(scratch.to_edge[scratch.slot[other.node[0]]], b.start, edge, asked),
-             ask(scratch.to_edge[scratch.slot[other.node[1]]], b.end, edge, asked)},
-            asked);
+            {ask(scratch.from_start[k], a.start, other, by_ends),
+             integrals_.from_point(a.end, b, by_ends)},
+            {ask(scratch.to_edge[scratch.slot[other.node[0]]], b.start, edge, by_ends),
+             ask(scratch.to_edge[scratch.slot[other.node[1]]], b.end, edge, by_ends)});
+      if (!by_rule.is_none())
+        d.take(by_rule, integrals_.between_parallel(a, b, by_rule));
       const double factor = f == e ? .5 : 1;
       for (unsigned int m = 0; m < other.n_nodes; ++m)
         scratch.sums[scratch.slot[other.node[m]]].add(factor * other.jump[m], d);
@@ -215,8 +230,6 @@ namespace plumbline::reference
             to[i] += edge.jump[k] * sum.whole[i];
           else if (way == PairWay::in)
             to[i] += edge.jump[k] * sum.in[i];
-          else if (way == PairWay::out)
-            to[i] += edge.jump[k] * (sum.whole[i] - sum.out[i]);
       }
     }
   }

@@ -36,11 +36,12 @@ namespace plumbline::reference
     /// A worker's own memory.
     struct Scratch
     {
-      std::vector<unsigned int> near, found, slot; ///< edges; of each node among the columns
-      std::vector<Known> from_start, to_edge;      ///< Q of near edges, of columns
-      std::vector<Potentials<n>> sums;             ///< Σ J D of columns
-      std::vector<PairWay> ways;                   ///< shape (n_rows, n_columns)
-      std::vector<unsigned char> edge_ways;        ///< of an edge's nodes: bits by PairWay
+      std::vector<unsigned int> near, found;  ///< edges
+      std::vector<unsigned int> slot;         ///< of each node among the columns
+      std::vector<Known> from_start, to_edge; ///< Q of near edges, of columns
+      std::vector<Potentials<n>> sums;        ///< Σ J D of columns
+      std::vector<PairWay> ways;              ///< shape (n_rows, n_columns)
+      std::vector<unsigned char> edge_ways;   ///< of an edge's nodes: bits by PairWay
     };
 
     /// The pairs of edges first ... last - 1, which have their first end in common, with later
@@ -62,7 +63,7 @@ namespace plumbline::reference
     const EdgeForm &form_;
     const PairWays &ways_;
     double horizon_, largest_radius_ = 0;
-    bool has_whole_;
+    bool has_inside_; ///< the whole potential is not zero there
     EdgeIntegrals<n> integrals_;
     geometry::BoxSearch middles_;
   };

@@ -7,42 +7,44 @@
 
 namespace plumbline::reference
 {
-  /// The same integral with three potentials.
+  /// Which of them are asked for.
+  struct Wanted
+  {
+    bool in = false, whole = false;
+
+    bool is_none() const { return !in && !whole; }
+    Wanted without(const Wanted &other) const { return {in && !other.in, whole && !other.whole}; }
+    void add(const Wanted &other)
+    {
+      in = in || other.in;
+      whole = whole || other.whole;
+    }
+  };
+
+  /// The same integral with two potentials.
   /// @tparam n  entries: 1 of scalar kernels; 3 of bond tensors: half the trace, then
   ///            ½(C_xx - C_yy) and C_xy
   template <unsigned int n>
   struct Potentials
   {
-    std::array<double, n>
-        in{},    ///< Ψ cut off at the circle: pairs of points nearer than the horizon
-        out{},   ///< what it would be outside
-        whole{}; ///< of the kernel without a horizon; 0 of its constant term
+    std::array<double, n> in{}, ///< zero beyond the circle, singular at 0
+        whole{};                ///< smooth at 0, see WholePotential
 
     void add(double factor, const Potentials &other)
     {
       for (unsigned int i = 0; i < n; ++i)
       {
         in[i] += factor * other.in[i];
-        out[i] += factor * other.out[i];
         whole[i] += factor * other.whole[i];
       }
     }
-  };
 
-  /// Which of them are asked for.
-  struct Wanted
-  {
-    bool circle = false, whole = false; ///< circle: in and out
-
-    bool is_none() const { return !circle && !whole; }
-    Wanted without(const Wanted &other) const
+    void take(const Wanted &some, const Potentials &other)
     {
-      return {circle && !other.circle, whole && !other.whole};
-    }
-    void add(const Wanted &other)
-    {
-      circle = circle || other.circle;
-      whole = whole || other.whole;
+      if (some.in)
+        in = other.in;
+      if (some.whole)
+        whole = other.whole;
     }
   };
 
@@ -68,19 +70,19 @@ namespace plumbline::reference
     /// @param from_e  Q(start of e, f) and Q(end of e, f)
     /// @param from_f  Q(start of f, e) and Q(end of f, e)
     Potentials<n> between(const Segment &e, const Segment &f, const Potentials<n> (&from_e)[2],
-                          const Potentials<n> (&from_f)[2], const Wanted &wanted) const;
+                          const Potentials<n> (&from_f)[2]) const;
 
-    /// Sides that are as good as parallel: there, other integrals are taken.
-    static bool is_parallel(const Segment &e, const Segment &f);
+    /// What of it is to be had by between_parallel, as the sides are nearly so.
+    Wanted by_rule(const Segment &e, const Segment &f, const Wanted &wanted) const;
     Potentials<n> between_parallel(const Segment &e, const Segment &f,
                                    const Wanted &wanted) const; ///< D
 
   private:
     std::array<double, n> at(const Vector2 &z, bool for_divergence) const;
     template <class Factor>
-    void split(const Vector2 &z, const Vector2 &along, double from, double to, const Factor &factor,
-               bool for_divergence, Potentials<n> &sum) const;
-    void add_whole(const Vector2 &z, const Vector2 &direction, double from, double to, double a,
+    void add_in(const Vector2 &z, const Vector2 &along, double from, double to,
+                const Factor &factor, bool for_divergence, Potentials<n> &sum) const;
+    void add_whole(const Vector2 &z, const Vector2 &direction, double from, double length, double a,
                    double b, bool for_divergence, Potentials<n> &sum) const;
     Potentials<n> on_one_line(const Segment &e, const Segment &f, const Wanted &wanted) const;
     Potentials<n> slanted(const Segment &e, const Segment &f, const Wanted &wanted) const;

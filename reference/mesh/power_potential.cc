@@ -8,38 +8,43 @@ namespace plumbline::reference
   PowerPotential::PowerPotential(const physics::Kernel<2> &kernel)
       : horizon_(kernel.horizon()), is_tensor_(kernel.structure() == physics::Structure::tensor)
   {
-    const auto at = [&](int p) -> Term & // of r^p
-    {
-      std::vector<Term> &series = p % 2 == 0 ? even_ : odd_;
-      (p % 2 == 0 ? has_even_ : has_odd_) = true;
-      const auto place = static_cast<std::size_t>(p / 2);
-      series.resize(std::max(series.size(), place + 1));
-      return series[place];
-    };
     const double of_trace = is_tensor_ ? .5 : 1;
-    for (const physics::PowerTerm &term : kernel.profile().powers())
+    for (const physics::PowerTerm &power : kernel.profile().powers())
     {
-      const int k = term.exponent;
-      const double c = kernel.constant() * term.coefficient * std::pow(horizon_, -k);
-      if (k == 0)
-        constant_ += of_trace * c;
-      else
-        at(k + 4).trace += of_trace * c / ((k + 2.) * (k + 2) * (k + 4) * (k + 4));
-      if (!is_tensor_)
-        continue;
-      if (k == 0)
-        logarithm_ += c / 48, has_even_ = true;
-      else
-        at(k + 2).rest += c / (k * (k + 2.) * (k + 4) * (k + 6));
+      const int k = power.exponent;
+      const double c = kernel.constant() * power.coefficient * std::pow(horizon_, -k);
+      term(k + 4).trace += of_trace * c / ((k + 2.) * (k + 2) * (k + 4) * (k + 4));
+      if (is_tensor_ && k == 0)
+        logarithm_ += c / 48;
+      else if (is_tensor_)
+        term(k + 2).rest += c / (k * (k + 2.) * (k + 4) * (k + 6));
     }
+  }
+
+  /// Of r^p.
+  PowerPotential::Term &PowerPotential::term(int p)
+  {
+    std::vector<Term> &series = p % 2 == 0 ? even_ : odd_;
+    const auto place = static_cast<std::size_t>(p / 2);
+    series.resize(std::max(series.size(), place + 1));
+    return series[place];
+  }
+
+  void PowerPotential::subtract(const std::array<double, 2> &a, const std::array<double, 2> &b)
+  {
+    const double square = horizon_ * horizon_;
+    term(0).trace -= a[0] * square * square;
+    term(2).trace -= a[1] * square;
+    term(0).rest -= b[0] * square;
+    term(2).rest -= b[1];
   }
 
   /// What integrals of r^p over a line are made of. Differences between its ends are formed from
   /// its length: those of powers would lose as many digits as it is far away.
   struct PowerPotential::Line
   {
-    double from, to, h, a, b;
-    double length = to - from, height2 = h * h;
+    double from, length, h, a, b;
+    double to = from + length, height2 = h * h;
     double r2_from = from * from + height2, r2_to = to * to + height2;
     double change = length * (from + to); ///< of r²
 
@@ -122,13 +127,13 @@ namespace plumbline::reference
       sum[i] += logarithm_ * result[i];
   }
 
-  PowerPotential::Entries PowerPotential::integrate(const Vector2 &e, double from, double to,
+  PowerPotential::Entries PowerPotential::integrate(const Vector2 &e, double from, double length,
                                                     double h, double a, double b,
                                                     bool for_divergence) const
   {
-    const Line line{from, to, h, a, b};
+    const Line line{from, length, h, a, b};
     Entries sum{};
-    if (has_odd_)
+    if (!odd_.empty())
       add_series(odd_, true, line, for_divergence, sum);
     if (!even_.empty())
       add_series(even_, false, line, for_divergence, sum);

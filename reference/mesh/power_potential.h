@@ -8,8 +8,8 @@
 
 namespace plumbline::reference
 {
-  /// The potential of a sum of powers c (|ξ|/δ)^k without a horizon: Δ²Ψ = C for all ξ ≠ 0, the
-  /// constant term left out, whose integrals are products. Scalar kernels:
+  /// The potential of a sum of powers c (|ξ|/δ)^k without a horizon: Δ²Ψ = C for all ξ ≠ 0. Scalar
+  /// kernels:
   ///   Ψ = c r^(k+4) / ((k+2)² (k+4)²);
   /// bond tensors: half of that for half the trace, and with H = ξ⊗ξ - ½|ξ|² 1 for the rest
   ///   Ψ = c H r^(k+2) / (k (k+2) (k+4) (k+6)), and c H r² ln r / 48 of k = 0.
@@ -23,14 +23,13 @@ namespace plumbline::reference
     /// @param kernel  its profile a sum of powers
     explicit PowerPotential(const physics::Kernel<2> &kernel);
 
-    bool is_none() const { return !has_odd_ && !has_even_; }
+    /// Take off δ⁴ (a_0 + a_1 q) and δ² H (b_0 + b_1 q), q = r²/δ², whose pair form is zero.
+    void subtract(const std::array<double, 2> &a, const std::array<double, 2> &b);
 
-    /// The kernel's constant term, of half the trace for bond tensors.
-    double constant() const { return constant_; }
-
-    /// ∫ (a + b x) Ψ(z) dx over [from, to], z = x e + h e', e' being e turned by π/2; or, for the
-    /// divergence, of what G has in place of Ψ in div (z G) = Ψ.
-    Entries integrate(const Vector2 &e, double from, double to, double h, double a, double b,
+    /// ∫ (a + b x) Ψ(z) dx over [from, from + length], z = x e + h e', e' being e turned by π/2;
+    /// or, for the divergence, of what G has in place of Ψ in div (z G) = Ψ. The length is given
+    /// with all its digits: a difference of ends would lose as many as it is far away.
+    Entries integrate(const Vector2 &e, double from, double length, double h, double a, double b,
                       bool for_divergence) const;
 
   private:
@@ -40,13 +39,14 @@ namespace plumbline::reference
       double trace = 0, rest = 0;
     };
     struct Line;
+    Term &term(int p);
     void add_series(const std::vector<Term> &series, bool is_odd, const Line &line,
                     bool for_divergence, Entries &sum) const;
     void add_logarithm(const Line &line, bool for_divergence, Entries &sum) const;
 
     std::vector<Term> odd_, even_;
     double logarithm_ = 0; ///< of H r² ln (r/δ)
-    double constant_ = 0, horizon_;
-    bool is_tensor_, has_odd_ = false, has_even_ = false;
+    double horizon_;
+    bool is_tensor_;
   };
 } // namespace plumbline::reference

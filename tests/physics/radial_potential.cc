@@ -2,6 +2,7 @@
 #include "physics/radial_potential.h"
 
 #include "physics/gauss.h"
+#include "physics/outer_potential.h"
 #include "physics/regular_potential.h"
 
 #include <gtest/gtest.h>
@@ -215,4 +216,69 @@ TEST(RegularPotential, is_of_smooth_kernels_alone)
   EXPECT_FALSE(can_have({{1, 0}, {-1, 1}}, 2));
   EXPECT_FALSE(
       can_have(physics::RadialProfile::smooth([](double t) { return std::exp(-t); }, false), 2));
+}
+
+TEST(OuterPotential, is_the_whole_without_what_the_circle_cuts_off)
+{
+  // both solve their equations with the same kernel beyond the circle
+  const physics::RadialProfile::Powers terms = {{.7, -1}, {1, 0}, {-2, 1}, {.5, 2}};
+  for (const Structure structure : {Structure::scalar, Structure::tensor})
+  {
+    const Kernel<2> kernel(structure, terms, horizon, 2);
+    const physics::OuterPotential outside(kernel);
+    const bool is_tensor = structure == Structure::tensor;
+    for (const double q : {1., 1.1, 1.7, 3., 4.5})
+    {
+      double trace = 0, rest = 0;
+      for (const auto &[coefficient, k] : terms)
+      {
+        const double c = 2 * coefficient;
+        trace +=
+            (is_tensor ? .5 : 1) * c * std::pow(q, k / 2. + 2) / std::pow((k + 2.) * (k + 4), 2);
+        rest += k == 0 ? c * q * std::log(q) / 96
+                       : c * std::pow(q, k / 2. + 1) / (k * (k + 2.) * (k + 4) * (k + 6));
+      }
+      const auto found = outside.f(q);
+      if (!is_tensor)
+      {
+        const double cut = RadialPotential(kernel, lowest).f(1 - q);
+        EXPECT_NEAR(static_cast<double>(found[0]), trace - cut, 1e-14 * std::abs(trace)) << q;
+        continue;
+      }
+      const auto cut = physics::PotentialTables<2>(kernel, lowest).f(1 - q);
+      EXPECT_NEAR(static_cast<double>(found[0]), trace - cut[0], 1e-14 * std::abs(trace)) << q;
+      EXPECT_NEAR(static_cast<double>(found[1]), rest - cut[1], 1e-14 * std::abs(rest)) << q;
+    }
+  }
+}
+
+TEST(OuterPotential, of_functions_is_that_of_their_moments)
+{
+  const auto profile =
+      physics::RadialProfile::smooth([](double t) { return std::exp(-3 * t * t); }, true);
+  const Kernel<2> kernel(Structure::scalar, profile, horizon, 2);
+  const auto outside = physics::OuterPotential::of_smooth(kernel);
+  const physics::RegularPotential whole(kernel, 2.2);
+  const RadialPotential cut(kernel, lowest);
+  for (const double q : {1., 1.1, 1.7, 3., 4.5})
+    EXPECT_NEAR(static_cast<double>(outside.f(q)[0]), whole.f(q) - cut.f(1 - q), 1e-14) << q;
+}
+
+TEST(OuterPotential, has_its_integral)
+{
+  const auto &rule = physics::gauss(40);
+  const Kernel<2> kernel(Structure::tensor, {{1, -1}, {.3, 0}}, horizon, 2);
+  const physics::OuterPotential outside(kernel);
+  for (const double q : {1.2, 2., 4.5})
+  {
+    long double trace = 0, rest = 0;
+    for (unsigned int i = 0; i < rule.size(); ++i)
+    {
+      const double s = 1 + (q - 1) * rule.point(i)[0];
+      trace += rule.weight(i) * (q - 1) * outside.f(s)[0];
+      rest += rule.weight(i) * (q - 1) * s * outside.f(s)[1];
+    }
+    EXPECT_NEAR(static_cast<double>(outside.integral(q)[0] - trace), 0, 1e-15);
+    EXPECT_NEAR(static_cast<double>(outside.integral(q)[1] - rest), 0, 1e-15);
+  }
 }

@@ -220,7 +220,7 @@ namespace
       ASSERT_EQ(n_found, n_expected[block(i)]) << "row " << i;
     }
     EXPECT_GT(rows.n_rows(), 0u);
-    EXPECT_LT(worst, 1e-12 * largest) << n_blocks << " blocks, reach " << reach;
+    EXPECT_LT(worst, 1e-13 * largest) << n_blocks << " blocks, reach " << reach;
   }
 
   /// A u for nodal values of a function at all dofs, in units of the largest |A_ij u_j| of the row.

@@ -156,7 +156,7 @@ namespace
   double rounding(const Powers &powers, unsigned int degree)
   {
     if (degree < 2)
-      return 2e-13;
+      return 1e-13;
     const bool is_even = std::all_of(powers.begin(), powers.end(),
                                      [](const auto &p) { return p.exponent % 2 == 0; });
     return is_even ? 1e-12 : 5e-11;
