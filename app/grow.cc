@@ -144,7 +144,8 @@ namespace plumbline::app
     }
   } // namespace
 
-  study::GrowthResults grow_body(const scene::Scene &scene, const fs::path &checkpoint)
+  study::GrowthResults grow_body(const scene::Scene &scene, const fs::path &checkpoint,
+                                 const std::function<void()> &before_it_grows)
   {
     const scene::Level &level = scene.study.series.front().levels.front();
     check_size(scene, level);
@@ -158,6 +159,8 @@ namespace plumbline::app
                                                      recipe, influence, level.h,
                                                      scene.geometry.backend),
                                    scene.fracture.stretch);
+    if (before_it_grows)
+      before_it_grows();
     study::GrowthModel model = make_model(body, scene.domain.cracks.front().back());
     model.bond_toughness = toughness_of_bonds(scene, model, level.horizon);
     model.plane_modulus = mean_plane_modulus(scene, model.nodes);
@@ -206,8 +209,9 @@ namespace plumbline::app
                        "'plumbline run' ('plumbline crack' where Crack/notch is given)");
     check_size(scene, scene.study.series.front().levels.front());
     const fs::path folder = output_folder(options, scene);
-    report::write_file(folder / "grow.md", ""); // before the work: can it be written?
-    const study::GrowthResults results = grow_body(scene, folder / "checkpoint.h5");
+    const study::GrowthResults results =
+        grow_body(scene, folder / "checkpoint.h5",
+                  [&] { report::write_file(folder / "grow.md", ""); }); // can it be written?
     if (!options.quiet && results.growth.n_resumed > 0)
       std::cerr << "continued from event " << results.growth.n_resumed << " of '"
                 << (folder / "checkpoint.h5").string() << "'\n";

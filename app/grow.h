@@ -11,9 +11,10 @@ namespace plumbline::app
   };
 
   /// The growth of a scene at its one level, from the checkpoint if there is one.
+  /// @param before_it_grows  called once the body stands
   /// @throws InputError, NumericalError  as grow
-  study::GrowthResults grow_body(const scene::Scene &scene,
-                                 const std::filesystem::path &checkpoint);
+  study::GrowthResults grow_body(const scene::Scene &scene, const std::filesystem::path &checkpoint,
+                                 const std::function<void()> &before_it_grows = {});
 
   /// Let a crack grow in equilibrium, bond by bond, as section Fracture of a scene says; print
   /// tables, write grow.html, .md and .json, grow/ with tables and pictures, and while it grows
