@@ -38,8 +38,7 @@ namespace plumbline::report
             : std::string(name) == "K by bonds"  ? "root of that and the mean of E/(1 - nu²)"
             : std::string(name) == "K by energy" ? "the same of G by energy"
                                                  : "the notch's not counted");
-      add("width", r.path.width,
-          "of all sides that parted, projected onto the x-axis [length]");
+      add("width", r.path.width, "of all sides that parted, projected onto the x-axis [length]");
       add("path", r.path.length, "sides of cells that the crack parts, L1 [length]");
       add("apart", static_cast<double>(r.path.n_elsewhere),
           "sides that parted elsewhere, not joined to the notch");

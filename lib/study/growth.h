@@ -100,7 +100,8 @@ namespace plumbline::study
     double trapping = 1;          ///< G was divided by this, see scene::Criterion
     double plane_modulus = 0;     ///< see GrowthModel
     /// Σ G of broken bonds times what each of them is of a straight crack's length, [force]: (5.2)
-    /// of Fan et al. 2022, doi:10.1016/j.cma.2022.115340, before it is divided by the path's width W.
+    /// of Fan et al. 2022, doi:10.1016/j.cma.2022.115340, before it is divided by the path's width
+    /// W.
     double bond_sum = 0;
     std::vector<BrokenPart> parts;
     std::vector<dealii::Point<2>> nodes;
