@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 namespace
@@ -71,6 +72,38 @@ TEST(Growth, a_path_hangs_together_with_the_notch)
   EXPECT_EQ(path.length, 2);
   EXPECT_EQ(path.n_elsewhere, 1u);
   EXPECT_EQ(path.sides[2].event, 2u);
+}
+
+TEST(Growth, toughness_counts_bonds_over_the_width_of_what_parted)
+{
+  GrowthModel model = comb(8);
+  model.bonds.push_back({8 + 5, 8 + 6}); // along a row: the side of its cells stands upright
+  const std::size_t along = model.bonds.size() - 1;
+  model.bond_toughness.assign(model.bonds.size(), 2);
+  const std::vector<std::size_t> broken = {bond(model, 3.5, 0), bond(model, 4.5, 0),
+                                           bond(model, 4.5, 1), along};
+  model.bond_toughness[broken[1]] = 5;
+  EXPECT_EQ(bonds_across(model), 1);
+  GrowthResults results;
+  results.growth.events = {event(broken)};
+  results.growth.events[0].in_bonds = 6;
+  results.growth.events[0].released = 4;
+  results.path = find_path(model, results.growth.events);
+  EXPECT_EQ(results.path.width, 2); // two columns, one of them twice
+  const auto parts = broken_parts(model, broken);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].toughness, 2);
+  EXPECT_EQ(parts[0].n_bonds, 3u);
+  EXPECT_EQ(parts[0].length, 3);
+  EXPECT_EQ(parts[1].length, 1);
+  results.bond_sum = 3 * 2 + 5;
+  results.plane_modulus = 8;
+  EXPECT_EQ(results.quantity("G by bonds"), 11. / 2);
+  EXPECT_EQ(results.quantity("G by energy"), 10. / 2);
+  EXPECT_NEAR(results.quantity("K by bonds"), std::sqrt(44), 1e-14);
+  EXPECT_NEAR(results.quantity("K by energy"), std::sqrt(40), 1e-14);
+  results.path.width = 0;
+  EXPECT_TRUE(std::isnan(results.quantity("G by bonds")));
 }
 
 TEST(Growth, mirror_images_are_paired)
