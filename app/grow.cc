@@ -129,6 +129,19 @@ namespace plumbline::app
       return sum / static_cast<double>(nodes.size());
     }
 
+    /// G of each node; nothing where it is the same everywhere.
+    std::vector<double> toughness_of_nodes(const scene::Scene &scene,
+                                           const study::GrowthModel &model, double horizon)
+    {
+      const physics::Expression toughness("Fracture/toughness", scene.fracture.toughness,
+                                          scene.names(horizon));
+      std::vector<double> at_nodes;
+      for (const Point<2> &node : model.nodes)
+        if (!toughness.is_constant())
+          at_nodes.push_back(toughness(node));
+      return at_nodes;
+    }
+
     /// G of each bond: the mean of its ends'.
     std::vector<double> toughness_of_bonds(const scene::Scene &scene,
                                            const study::GrowthModel &model, double horizon)
@@ -195,6 +208,7 @@ namespace plumbline::app
     results.n_unpaired = n_unpaired(model, broken, middle(scene));
     results.plane_modulus = model.plane_modulus;
     results.parts = broken_parts(model, broken);
+    results.toughness = toughness_of_nodes(scene, model, level.horizon);
     for (const std::size_t bond : broken)
       results.bond_sum += model.bond_toughness[bond] * model.h / bonds_across_line;
     return results;

@@ -130,20 +130,25 @@ namespace plumbline::report
           static_cast<int>(std::lround((upper[0] - lower[0]) / results.h)),
           static_cast<int>(std::lround((upper[1] - lower[1]) / results.h))};
       std::vector<DamageMap> maps;
-      for (const study::GrowthMoment &moment : results.moments)
+      const auto add = [&](const std::string &title, const std::vector<double> &values, double unit)
       {
-        DamageMap map{"load " + rounded(moment.load) + ", " + std::to_string(moment.n_events) +
-                          " events",
-                      std::vector<double>(static_cast<std::size_t>(n[0]) * n[1],
-                                          std::numeric_limits<double>::quiet_NaN())};
+        DamageMap map{title, std::vector<double>(static_cast<std::size_t>(n[0]) * n[1],
+                                                 std::numeric_limits<double>::quiet_NaN())};
         for (std::size_t i = 0; i < results.nodes.size(); ++i)
         {
           const auto column = std::lround((results.nodes[i][0] - lower[0]) / results.h - .5),
                      row = std::lround((results.nodes[i][1] - lower[1]) / results.h - .5);
-          map.values[static_cast<std::size_t>(row * n[0] + column)] = moment.damage[i];
+          map.values[static_cast<std::size_t>(row * n[0] + column)] = values[i] / unit;
         }
         maps.push_back(std::move(map));
-      }
+      };
+      for (const study::GrowthMoment &moment : results.moments)
+        if (moment.n_events == 0 && !results.toughness.empty())
+          add("the material: G over its largest", results.toughness,
+              *std::max_element(results.toughness.begin(), results.toughness.end()));
+        else
+          add("load " + rounded(moment.load) + ", " + std::to_string(moment.n_events) + " events",
+              moment.damage, 1);
       return damage_script(maps, "moments.svg", "Where bonds are broken", lower, results.h, n);
     }
 

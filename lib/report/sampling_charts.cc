@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace plumbline::report
@@ -155,6 +156,44 @@ namespace plumbline::report
         }
     }
   } // namespace
+
+  bool has_damage_maps(const SamplingResults &results)
+  {
+    const auto is_growth = [](const CaseStatistics &one)
+    { return one.field && one.values.count("broken bonds") > 0; };
+    return std::any_of(results.cases.begin(), results.cases.end(), is_growth);
+  }
+
+  void write_damage_maps(const SamplingResults &results, const std::filesystem::path &folder)
+  {
+    if (!has_damage_maps(results))
+      return;
+    const CaseStatistics &one = results.cases.front();
+    const study::SampleField &places = one.field->places;
+    const auto [x0, x1] = std::minmax_element(places.x.begin(), places.x.end());
+    const auto [y0, y1] = std::minmax_element(places.y.begin(), places.y.end());
+    const std::array<double, 2> lower = {*x0 - .5 * one.of.h, *y0 - .5 * one.of.h};
+    const std::array<int, 2> n = {static_cast<int>(std::lround((*x1 - *x0) / one.of.h)) + 1,
+                                  static_cast<int>(std::lround((*y1 - *y0) / one.of.h)) + 1};
+    std::vector<DamageMap> maps;
+    for (const auto &[title, values] :
+         {std::pair("mean", &one.field->mean), std::pair("deviation", &one.field->deviation)})
+    {
+      DamageMap map{title, std::vector<double>(static_cast<std::size_t>(n[0]) * n[1],
+                                               std::numeric_limits<double>::quiet_NaN())};
+      for (std::size_t i = 0; i < places.x.size(); ++i)
+      {
+        const auto column = std::lround((places.x[i] - lower[0]) / one.of.h - .5),
+                   row = std::lround((places.y[i] - lower[1]) / one.of.h - .5);
+        map.values[static_cast<std::size_t>(row * n[0] + column)] = (*values)[i];
+      }
+      maps.push_back(std::move(map));
+    }
+    write_file(folder / "damage.gp",
+               damage_script(maps, "damage.svg", "Where bonds are broken", lower, one.of.h, n));
+    run_gnuplot(folder, "damage.gp", {"damage.svg"});
+    sharpen(folder / "damage.svg");
+  }
 
   std::vector<DataChart> sampling_charts(const SamplingResults &results)
   {

@@ -70,6 +70,13 @@ namespace plumbline::report
       }
       for (const std::string &fault : faults)
         text += "EXPECTED: " + fault + ". ";
+      if (const SetStatistics *const set = best(r); set != nullptr && r.cheapest.empty())
+        for (const auto &[name, s] : set->quantities)
+          if (name.size() > 2 && name.compare(0, 2, "K ") == 0)
+            text += "Mean of " + name + " " + rounded(s.mean) +
+                    (s.deviation() ? ", deviation " + rounded(*s.deviation()) : "") +
+                    (s.standard_error > 0 ? ", standard error " + rounded(s.standard_error) : "") +
+                    ". ";
       return text.empty() ? "All samples are there." : text;
     }
 
@@ -136,15 +143,21 @@ namespace plumbline::report
     std::string page_of(const SamplingResults &r, const std::vector<std::string> &faults,
                         const std::filesystem::path &dir)
     {
-      const std::string header =
-          page::plain_header(r.scene_name, "sample", r.purpose,
-                             {base::word(r.sampling.rule), std::to_string(r.n_samples) + " samples",
-                              faults.empty() ? "✓ as expected" : "✗ not as expected"});
+      std::vector<std::string> facts = {base::word(r.sampling.rule),
+                                        std::to_string(r.n_samples) + " samples"};
+      if (r.n_expected > 0)
+        facts.push_back(faults.empty() ? "✓ as expected" : "✗ not as expected");
+      const std::string header = page::plain_header(r.scene_name, "sample", r.purpose, facts);
       std::string pictures;
       for (const DataChart &chart : sampling_charts(r))
         pictures += page::figure(
             dir / "sample" / chart.plot.file, chart.name + "-", chart.plot.title,
             chart.caption + " Data: <code>sample/" + chart.name + ".csv</code>", false);
+      if (has_damage_maps(r))
+        pictures += page::figure(dir / "sample/damage.svg", "damage-", "Where bonds are broken",
+                                 "Mean and deviation over the samples of the largest set, of the "
+                                 "part of each node's bonds that is broken or cut.",
+                                 false);
       std::string numbers = to_html(sampling_field_table(r));
       if (!r.cheapest.empty())
         numbers += page::paragraph("Pairs of h and samples that reach an error most cheaply.") +
@@ -350,7 +363,12 @@ namespace plumbline::report
                         ".csv"),
                  to_csv(samples_table(one)));
     write_with_pictures(
-        dir / "sample.html", [&] { write_charts(sampling_charts(results), dir / "sample"); },
+        dir / "sample.html",
+        [&]
+        {
+          write_charts(sampling_charts(results), dir / "sample");
+          write_damage_maps(results, dir / "sample");
+        },
         [&] { return page_of(results, faults, dir); });
   }
 } // namespace plumbline::report

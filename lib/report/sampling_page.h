@@ -18,6 +18,13 @@ namespace plumbline::report
   /// histograms of quantities.
   std::vector<DataChart> sampling_charts(const study::SamplingResults &results);
 
+  /// Whether samples are of growth, whose damage has a mean to be drawn.
+  bool has_damage_maps(const study::SamplingResults &results);
+
+  /// Draw it, and its deviation, into damage.svg of a folder; nothing where there is none.
+  void write_damage_maps(const study::SamplingResults &results,
+                         const std::filesystem::path &folder);
+
   /// Tables and words, for a terminal.
   std::string sampling_text(const study::SamplingResults &results);
 

@@ -104,6 +104,7 @@ namespace plumbline::study
     /// W.
     double bond_sum = 0;
     std::vector<BrokenPart> parts;
+    std::vector<double> toughness; ///< G of each node; empty: the same everywhere
     std::vector<dealii::Point<2>> nodes;
     dealii::Point<2> notch_tip;
     std::size_t n_bonds = 0, n_unknowns = 0;

@@ -296,6 +296,9 @@ namespace plumbline::study
     results.sampling = scene.sampling;
     results.target = base::word(scene.study.decisive_error.target);
     results.n_samples = plan.values.size();
+    results.n_expected = static_cast<std::size_t>(
+        std::count_if(scene.expected.all.begin(), scene.expected.all.end(),
+                      [](const auto &one) { return one.kind == scene::ExpectedKind::sampling; }));
     const auto weights = weights_of(plan);
     std::vector<CaseSums> cases;
     std::size_t n_read = 0;

@@ -122,6 +122,7 @@ namespace plumbline::study
     std::vector<SampleFailure> failures;
     std::vector<CheapestPair> cheapest;
     std::vector<std::string> findings; ///< sentences for the report
+    std::size_t n_expected = 0;        ///< lines of Expected/sampling
     bool is_complete = false;
   };
 
