@@ -77,12 +77,16 @@ namespace plumbline::reference
       return false;
     if (between < distance)
       return true;
+    // those that only touch the circle are not near, whichever way rounding goes: cells around
+    // translations of a cell are translations then
+    constexpr double rounding = 1e-12;
+    const double most = distance * distance * (1 - rounding);
     // cells of a mesh do not overlap: they are nearest at a vertex of one of them
     const auto reaches = [&](const geometry::Polygon &from, const geometry::Polygon &to)
     {
       for (const Point<2> &x : from)
         for (std::size_t w = 0; w < to.size(); ++w)
-          if (square_distance(x, to[w], to[(w + 1) % to.size()]) < distance * distance)
+          if (square_distance(x, to[w], to[(w + 1) % to.size()]) < most)
             return true;
       return false;
     };

@@ -11,7 +11,6 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 
 namespace plumbline::reference
@@ -20,6 +19,11 @@ namespace plumbline::reference
   {
     /// Σ w Eᵀ θ of one outer cell, shape (2 n_dofs, 2 n_dofs), by its dofs.
     using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+    /// The same without materials, shape ((2 n_near + 1) 2 n_shapes, 2 n_dofs): what each near cell
+    /// has of E for f = 1, by its own functions v(x+ξ) and by those of the outer cell, -v(x); at
+    /// the end the sum of the latter.
+    using Family = Block;
 
     struct OuterRule
     {
@@ -68,8 +72,20 @@ namespace plumbline::reference
       }
 
       void integrate(const OuterCell &outer, Block &block);
+      /// @pre  parts are there
+      void integrate_family(const OuterCell &outer, Family &family);
 
     private:
+      void find_slots(const OuterCell &outer)
+      {
+        for (unsigned int i = 0; i < outer.dofs.size(); ++i)
+          slot_[outer.dofs[i]] = i;
+      }
+      /// At all outer points of a cell θ, and E by what is to be done with it.
+      /// @param n_tests  numbers that `fill(q, weight)` writes to the row tests_(q)
+      template <class Fill>
+      void integrate(const OuterCell &outer, Eigen::Index n_tests, const Fill &fill, Block &block);
+
       const MeshSpace &space_;
       DilatationRow row_;
       const OuterRule &rule_;
@@ -81,18 +97,19 @@ namespace plumbline::reference
       Block thetas_, tests_; ///< by points
     };
 
-    void BlockIntegrator::integrate(const OuterCell &outer, Block &block)
+    template <class Fill>
+    void BlockIntegrator::integrate(const OuterCell &outer, Eigen::Index n_tests, const Fill &fill,
+                                    Block &block)
     {
       const auto n = static_cast<Eigen::Index>(outer.dofs.size());
-      for (Eigen::Index i = 0; i < n; ++i)
-        slot_[outer.dofs[i]] = static_cast<unsigned int>(i);
+      find_slots(outer);
       if (parts_.is_there())
         parts_.find(outer, known_);
       theta_.resize(2 * n);
       test_.resize(2 * n);
       const auto n_points = static_cast<Eigen::Index>(rule_.unit.size());
       thetas_.resize(n_points, 2 * n);
-      tests_.resize(n_points, 2 * n);
+      tests_.resize(n_points, n_tests);
       const CellMap &map = space_.map(outer.cell);
       for (Eigen::Index q = 0; q < n_points; ++q)
       {
@@ -105,11 +122,50 @@ namespace plumbline::reference
           weight *= factor * factor;
         }
         thetas_.row(q) = Eigen::Map<const Eigen::RowVectorXd>(theta_.data(), 2 * n);
-        tests_.row(q) = weight * Eigen::Map<const Eigen::RowVectorXd>(test_.data(), 2 * n);
+        fill(q, weight);
         for (const double *&known : known_)
           known += 2 * space_.shapes().size();
       }
       block.noalias() = tests_.transpose() * thetas_;
+    }
+
+    void BlockIntegrator::integrate(const OuterCell &outer, Block &block)
+    {
+      const auto n = static_cast<Eigen::Index>(2 * outer.dofs.size());
+      integrate(
+          outer, n,
+          [&](Eigen::Index q, double weight)
+          { tests_.row(q) = weight * Eigen::Map<const Eigen::RowVectorXd>(test_.data(), n); },
+          block);
+    }
+
+    void BlockIntegrator::integrate_family(const OuterCell &outer, Family &family)
+    {
+      const unsigned int n = space_.shapes().size();
+      std::vector<double> phi(n);
+      integrate(
+          outer, static_cast<Eigen::Index>(2 * n * (2 * outer.near.size() + 1)),
+          [&](Eigen::Index q, double weight)
+          {
+            space_.shapes().values(rule_.unit[q], phi.data());
+            double *to = &tests_(q, 0);
+            std::array<double, 2> all{};
+            for (const double *const part : known_)
+            {
+              std::array<double, 2> sum{};
+              for (unsigned int i = 0; i < 2 * n; ++i)
+              {
+                *to++ = weight * part[i];
+                sum[i % 2] += weight * part[i];
+                all[i % 2] += weight * part[i];
+              }
+              for (unsigned int i = 0; i < 2 * n; ++i)
+                *to++ = -phi[i / 2] * sum[i % 2];
+            }
+            for (unsigned int i = 0; i < 2 * n; ++i)
+              *to++ = -phi[i / 2] * all[i % 2];
+          },
+          family);
     }
 
     void keep_share(const base::Team &team, std::vector<OuterCell> &outer)
@@ -153,77 +209,96 @@ namespace plumbline::reference
       return rows;
     }
 
+    /// Add a row of a block to that of a component of a dof, if it is free.
+    void add_row(const MeshSpace &space, const OuterCell &outer, unsigned int dof, unsigned int c,
+                 double factor, const double *row, algebra::Rows &rows)
+    {
+      if (dof >= space.n_free())
+        return;
+      using Entries = Eigen::Array<double, Eigen::Dynamic, 1>;
+      std::size_t k = rows.start[2 * dof + c];
+      for (const OuterCell::Run &run : outer.runs)
+      {
+        while (rows.column[k] != 2 * run.dof)
+          k += 2;
+        Eigen::Map<Entries>(&rows.value[k], 2 * run.size) +=
+            factor * Eigen::Map<const Entries>(row + 2 * run.place, 2 * run.size);
+        k += 2 * run.size;
+      }
+    }
+
     void add(const MeshSpace &space, const OuterCell &outer, const Block &block,
              algebra::Rows &rows)
     {
-      for (std::size_t i = 0; i < outer.dofs.size(); ++i)
-        for (unsigned int c = 0; c < 2 && outer.dofs[i] < space.n_free(); ++c)
-        {
-          std::size_t k = rows.start[2 * outer.dofs[i] + c];
-          const double *const row = &block(static_cast<Eigen::Index>(2 * i + c), 0);
-          for (const OuterCell::Run &run : outer.runs)
-          {
-            while (rows.column[k] != 2 * run.dof)
-              k += 2;
-            const double *const from = row + 2 * run.place;
-            for (unsigned int e = 0; e < 2 * run.size; ++e)
-              rows.value[k + e] += from[e];
-            k += 2 * run.size;
-          }
-        }
+      Eigen::Index from = 0;
+      for (const unsigned int dof : outer.dofs)
+        for (unsigned int c = 0; c < 2; ++c)
+          add_row(space, outer, dof, c, 1, &block(from++, 0), rows);
     }
 
-    /// Numbers of materials that are one in each cell; empty: they change inside of cells.
-    std::vector<unsigned int> number(const std::vector<physics::Lame> &materials)
+    /// A family with the materials of the outer cell and of those near to it.
+    void add(const MeshSpace &space, const OuterCell &outer, const Family &family,
+             const DilatationRow &row, algebra::Rows &rows)
     {
-      std::map<std::pair<double, double>, unsigned int> known;
-      std::vector<unsigned int> numbers;
-      for (const physics::Lame &lame : materials)
-        numbers.push_back(
-            known.try_emplace({lame.lambda, lame.mu}, static_cast<unsigned int>(known.size()))
-                .first->second);
-      return numbers;
+      const Eigen::Index n = 2 * space.shapes().size();
+      const double own_factor = row.factor(outer.cell, outer.cell);
+      Block own = own_factor * family.bottomRows(n);
+      Eigen::Index from = 0;
+      for (const unsigned int near : outer.near)
+      {
+        const double factor = row.factor(outer.cell, near);
+        for (unsigned int i = 0; i < n; ++i)
+          add_row(space, outer, space.dofs(near)[i / 2], i % 2, factor, &family(from + i, 0), rows);
+        if (factor != own_factor)
+          own += (factor - own_factor) * family.middleRows(from + n, n);
+        from += 2 * n;
+      }
+      for (unsigned int i = 0; i < n; ++i)
+        add_row(space, outer, space.dofs(outer.cell)[i / 2], i % 2, 1, &own(i, 0), rows);
     }
 
-    /// Blocks that stand for several cells, no larger in all than the matrix.
-    class SharedBlocks
+    /// Families that stand for several cells, the most frequent ones, no larger in all than the
+    /// matrix.
+    class SharedFamilies
     {
     public:
       /// @param alike  see find_alike; empty: none is shared
       template <class Integrate>
-      SharedBlocks(const std::vector<OuterCell> &outer, const std::vector<std::size_t> &alike,
-                   std::size_t most_values, const Integrate &integrate)
+      SharedFamilies(const std::vector<OuterCell> &outer, const std::vector<std::size_t> &alike,
+                     std::size_t n_shapes, std::size_t most_values, const Integrate &integrate)
           : place_(outer.size(), none)
       {
-        std::vector<std::size_t> n_alike(outer.size()), first;
+        std::vector<std::size_t> n_alike(outer.size()), classes, first;
         for (const std::size_t i : alike)
-          ++n_alike[i];
+          if (n_alike[i]++ == 0)
+            classes.push_back(i);
+        std::stable_sort(classes.begin(), classes.end(),
+                         [&](std::size_t a, std::size_t b) { return n_alike[a] > n_alike[b]; });
         std::size_t n_values = 0;
         constexpr std::size_t often = 3;
-        for (std::size_t i = 0; i < alike.size(); ++i)
+        for (const std::size_t i : classes)
         {
-          const std::size_t size = 4 * outer[i].dofs.size() * outer[i].dofs.size();
-          if (alike[i] == i && n_alike[i] >= often && n_values + size <= most_values)
-          {
-            n_values += size;
-            place_[i] = first.size();
-            first.push_back(i);
-          }
-          place_[i] = place_[alike[i]];
+          n_values += 8 * n_shapes * (outer[i].near.size() + 1) * outer[i].dofs.size();
+          if (n_alike[i] < often || n_values > most_values)
+            break;
+          place_[i] = first.size();
+          first.push_back(i);
         }
-        blocks_.resize(first.size());
-        integrate(first, blocks_);
+        for (std::size_t i = 0; i < alike.size(); ++i)
+          place_[i] = place_[alike[i]];
+        families_.resize(first.size());
+        integrate(first, families_);
       }
 
-      const Block *find(std::size_t i) const
+      const Family *find(std::size_t i) const
       {
-        return place_[i] == none ? nullptr : &blocks_[place_[i]];
+        return place_[i] == none ? nullptr : &families_[place_[i]];
       }
 
     private:
       static constexpr std::size_t none = -1;
-      std::vector<std::size_t> place_; ///< of each outer cell in blocks_
-      std::vector<Block> blocks_;
+      std::vector<std::size_t> place_; ///< of each outer cell in families_
+      std::vector<Family> families_;
     };
   } // namespace
 
@@ -249,25 +324,30 @@ namespace plumbline::reference
     algebra::Rows rows = make_pattern(space, outer);
 
     dealii::Threads::ThreadLocalStorage<std::optional<BlockIntegrator>> integrators;
-    const auto integrate = [&](const std::vector<std::size_t> &some, std::vector<Block> &blocks)
+    const auto in_threads = [&](std::size_t n, const auto &action)
     {
       dealii::parallel::apply_to_subranges(
-          static_cast<std::size_t>(0), some.size(),
+          static_cast<std::size_t>(0), n,
           [&](std::size_t first, std::size_t last)
           {
             std::optional<BlockIntegrator> &own = integrators.get();
             if (!own)
               own.emplace(space, row, rule, parts, volume ? &*volume : nullptr);
             for (std::size_t i = first; i < last; ++i)
-              own->integrate(outer[some[i]], blocks[i]);
+              action(*own, i);
           },
           1);
     };
-    const bool can_share = translations.has_few_shapes() && !materials.empty();
-    const SharedBlocks shared(outer,
-                              can_share ? find_alike(outer, translations, number(materials))
-                                        : std::vector<std::size_t>(),
-                              rows.value.size(), integrate);
+    const SharedFamilies shared(
+        outer,
+        parts.is_there() && !materials.empty() ? find_alike(outer, translations)
+                                               : std::vector<std::size_t>(),
+        space.shapes().size(), rows.value.size(),
+        [&](const std::vector<std::size_t> &some, std::vector<Family> &families)
+        {
+          in_threads(some.size(), [&](BlockIntegrator &own, std::size_t i)
+                     { own.integrate_family(outer[some[i]], families[i]); });
+        });
     // blocks by threads, added in order
     std::vector<Block> blocks(4 * dealii::MultithreadInfo::n_threads());
     for (std::size_t begin = 0, end = 0; begin < outer.size(); begin = end)
@@ -276,10 +356,14 @@ namespace plumbline::reference
       for (end = begin; end < outer.size() && single.size() < blocks.size(); ++end)
         if (shared.find(end) == nullptr)
           single.push_back(end);
-      integrate(single, blocks);
+      in_threads(single.size(), [&](BlockIntegrator &own, std::size_t i)
+                 { own.integrate(outer[single[i]], blocks[i]); });
       auto next = blocks.begin();
       for (std::size_t i = begin; i < end; ++i)
-        add(space, outer[i], shared.find(i) != nullptr ? *shared.find(i) : *next++, rows);
+        if (const Family *const family = shared.find(i))
+          add(space, outer[i], *family, row, rows);
+        else
+          add(space, outer[i], *next++, rows);
     }
     return rows;
   }

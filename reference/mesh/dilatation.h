@@ -27,7 +27,9 @@ namespace plumbline::reference
   /// Accuracy, relative (δ = 3 h, K = c/|ξ|, continuous): degree 1 on squares 1e-3, 4e-5, 3e-6,
   /// 2e-7 for refinements 0 to 3, degree 2 and triangles half of that or less; degree 0 loses a
   /// factor 8 a refinement, 3e-3 at first.
-  /// Cost: .15 ms for each outer point on squares of degree 1, four of them a cell at first.
+  /// Cost: .15 ms for each outer point on squares of degree 1, four of them a cell at first; once
+  /// for all cells whose surroundings are translations of each other, whatever their materials, if
+  /// these are constant in each cell. What is left then is to add to the matrix.
   /// @param space  its mesh has a collar 2δ wide, or ends at a free boundary
   /// @return  rows of the free unknowns, columns of all, as MeshMatrix::rows
   /// Sources: Fan et al. 2022, eq. (2.5); with normalised θ and degree 0 on squares Pflug, Stingl &

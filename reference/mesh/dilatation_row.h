@@ -27,6 +27,13 @@ namespace plumbline::reference
     /// What a material has no part in is the same for pairs that are translations.
     bool is_geometry_alone() const { return dilatation_.is_symmetric() || !materials_.empty(); }
 
+    /// f of two cells.
+    /// @pre  is_geometry_alone(), materials are given
+    double factor(std::size_t cell, std::size_t inner) const
+    {
+      return dilatation_.factor(materials_[cell], materials_[inner]);
+    }
+
     /// ∫Kξφ over ball(x) ∩ cell, shape (n_shapes, 2), until the next call.
     const std::vector<double> &integrate(const Point<2> &x, std::size_t inner);
 

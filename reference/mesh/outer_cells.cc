@@ -68,17 +68,16 @@ namespace plumbline::reference
   }
 
   std::vector<std::size_t> find_alike(const std::vector<OuterCell> &outer,
-                                      const Translations &translations,
-                                      const std::vector<unsigned int> &kind)
+                                      const Translations &translations)
   {
-    using Surroundings = std::vector<std::pair<Translations::Pair, unsigned int>>;
+    using Surroundings = std::vector<Translations::Pair>;
     std::map<Surroundings, std::size_t> known;
     std::vector<std::size_t> first;
     for (std::size_t i = 0; i < outer.size(); ++i)
     {
       Surroundings own;
       for (const unsigned int near : outer[i].near)
-        own.emplace_back(translations.pair(outer[i].cell, near), kind[near]);
+        own.push_back(translations.pair(outer[i].cell, near));
       first.push_back(known.try_emplace(std::move(own), i).first->second);
     }
     return first;

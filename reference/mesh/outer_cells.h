@@ -26,8 +26,6 @@ namespace plumbline::reference
                                     const Translations &translations, double horizon);
 
   /// Of each outer cell the first one whose surroundings are a translation of its own.
-  /// @param kind  of each cell: only alike ones stand for each other
   std::vector<std::size_t> find_alike(const std::vector<OuterCell> &outer,
-                                      const Translations &translations,
-                                      const std::vector<unsigned int> &kind);
+                                      const Translations &translations);
 } // namespace plumbline::reference
