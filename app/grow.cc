@@ -129,31 +129,15 @@ namespace plumbline::app
       return sum / static_cast<double>(nodes.size());
     }
 
-    /// G of each node; nothing where it is the same everywhere.
     std::vector<double> toughness_of_nodes(const scene::Scene &scene,
-                                           const study::GrowthModel &model, double horizon)
+                                           const std::vector<Point<2>> &nodes, double horizon)
     {
       const physics::Expression toughness("Fracture/toughness", scene.fracture.toughness,
                                           scene.names(horizon));
       std::vector<double> at_nodes;
-      for (const Point<2> &node : model.nodes)
-        if (!toughness.is_constant())
-          at_nodes.push_back(toughness(node));
-      return at_nodes;
-    }
-
-    /// G of each bond: the mean of its ends'.
-    std::vector<double> toughness_of_bonds(const scene::Scene &scene,
-                                           const study::GrowthModel &model, double horizon)
-    {
-      const physics::Expression toughness("Fracture/toughness", scene.fracture.toughness,
-                                          scene.names(horizon));
-      std::vector<double> at_nodes, result;
-      for (const Point<2> &node : model.nodes)
+      for (const Point<2> &node : nodes)
         at_nodes.push_back(toughness(node));
-      for (const auto &bond : model.bonds)
-        result.push_back(.5 * (at_nodes[bond[0]] + at_nodes[bond[1]]));
-      return result;
+      return at_nodes;
     }
   } // namespace
 
@@ -175,8 +159,7 @@ namespace plumbline::app
     if (before_it_grows)
       before_it_grows();
     study::GrowthModel model = make_model(body, scene.domain.cracks.front().back());
-    model.bond_toughness = toughness_of_bonds(scene, model, level.horizon);
-    model.plane_modulus = mean_plane_modulus(scene, model.nodes);
+    model.toughness = toughness_of_nodes(scene, model.nodes, level.horizon);
     const base::CpuTimer timer;
     study::GrowthResults results;
     results.growth =
@@ -201,16 +184,13 @@ namespace plumbline::app
     results.work = body.work();
     results.path = find_path(model, results.growth.events);
     results.moments = growth_moments(model, results.growth.events);
-    const double bonds_across_line = bonds_across(model);
     std::vector<std::size_t> broken;
     for (const analysis::Event &event : results.growth.events)
       broken.insert(broken.end(), event.bonds.begin(), event.bonds.end());
     results.n_unpaired = n_unpaired(model, broken, middle(scene));
-    results.plane_modulus = model.plane_modulus;
+    results.plane_modulus = mean_plane_modulus(scene, model.nodes);
     results.parts = broken_parts(model, broken);
-    results.toughness = toughness_of_nodes(scene, model, level.horizon);
-    for (const std::size_t bond : broken)
-      results.bond_sum += model.bond_toughness[bond] * model.h / bonds_across_line;
+    results.toughness = model.toughness;
     return results;
   }
 

@@ -42,6 +42,12 @@ namespace plumbline::app
       return scene;
     }
 
+    /// All that samples depend on.
+    std::string subject_of(const SampleOptions &options, const scene::Scene &scene)
+    {
+      return "# levels: " + std::to_string(options.n_levels) + "\n" + scene.text;
+    }
+
     /// One growth as the only case of its sample.
     study::SampleCase grow_sample(const scene::Scene &scene, const fs::path &checkpoint)
     {
@@ -86,11 +92,7 @@ namespace plumbline::app
           record.cases = study::sweep_sample(at, study::choose_methods(at, available), available);
         }
       }
-      catch (const InputError &error)
-      {
-        record.failure = error.what();
-      }
-      catch (const NumericalError &error)
+      catch (const std::exception &error) // of any kind, out of memory too: the others go on
       {
         record.failure = error.what();
       }
@@ -204,7 +206,7 @@ namespace plumbline::app
     const scene::Scene scene = read(options);
     const study::SamplingPlan plan = study::make_sampling_plan(scene);
     const fs::path folder = output_folder(options, scene);
-    const report::SampleFiles files(folder / "samples", scene.text);
+    const report::SampleFiles files(folder / "samples", subject_of(options, scene));
     if (options.is_worker)
       return take_samples(scene, plan, files);
 
@@ -220,8 +222,9 @@ namespace plumbline::app
     team.together(
         [&]
         {
-          if (team.rank() == 0)
-            files.prepare();
+          if (team.rank() == 0 &&
+              (!files.are_there() || has_newer_files(scene, files.subject_file())))
+            files.begin();
         });
     watch_interrupts();
     take_all(options, plan, files, folder);

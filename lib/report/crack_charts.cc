@@ -111,7 +111,7 @@ namespace plumbline::report
         maps.push_back({"t = " + rounded(moment.t), moment.damage});
       const double h = results.h();
       return damage_script(maps, "moments.svg", "Where bonds are soft",
-                           {results.lower[0] - .5 * h, results.lower[1] - .5 * h}, h, results.n);
+                           {{results.lower[0] - .5 * h, results.lower[1] - .5 * h}, h, results.n});
     }
   } // namespace
 

@@ -36,10 +36,38 @@ namespace plumbline::report
     }
   } // namespace
 
-  std::string damage_script(const std::vector<DamageMap> &maps, const std::string &file,
-                            const std::string &title, const std::array<double, 2> &lower, double h,
-                            const std::array<int, 2> &n)
+  MapCells cells_of(const std::vector<dealii::Point<2>> &nodes, double h)
   {
+    MapCells cells{{}, h, {}};
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      const auto [first, last] = std::minmax_element(
+          nodes.begin(), nodes.end(), [d](const auto &a, const auto &b) { return a[d] < b[d]; });
+      cells.lower[d] = (*first)[d] - .5 * h;
+      cells.n[d] = static_cast<int>(std::lround(((*last)[d] - (*first)[d]) / h)) + 1;
+    }
+    return cells;
+  }
+
+  DamageMap map_of(const std::string &title, const std::vector<dealii::Point<2>> &nodes,
+                   const std::vector<double> &values, const MapCells &cells)
+  {
+    const auto &[lower, h, n] = cells;
+    DamageMap map{title, std::vector<double>(static_cast<std::size_t>(n[0]) * n[1],
+                                             std::numeric_limits<double>::quiet_NaN())};
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      const auto column = std::lround((nodes[i][0] - lower[0]) / h - .5),
+                 row = std::lround((nodes[i][1] - lower[1]) / h - .5);
+      map.values[static_cast<std::size_t>(row * n[0] + column)] = values[i];
+    }
+    return map;
+  }
+
+  std::string damage_script(const std::vector<DamageMap> &maps, const std::string &file,
+                            const std::string &title, const MapCells &cells)
+  {
+    const auto &[lower, h, n] = cells;
     constexpr int most_columns = 300;
     const Panels panels(maps.size(), 2, lower, {lower[0] + h * n[0], lower[1] + h * n[1]});
     const int size = (n[0] + most_columns - 1) / most_columns;

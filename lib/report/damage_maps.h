@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deal.II/base/point.h>
+
 #include <array>
 #include <filesystem>
 #include <string>
@@ -14,13 +16,26 @@ namespace plumbline::report
     std::vector<double> values; ///< shape (n[1], n[0]); NaN: no node
   };
 
+  /// The cells of such a map.
+  struct MapCells
+  {
+    std::array<double, 2> lower{}; ///< half an h before the first node
+    double h = 0;
+    std::array<int, 2> n{};
+  };
+
+  /// The rectangle that some nodes of a lattice lie in.
+  MapCells cells_of(const std::vector<dealii::Point<2>> &nodes, double h);
+
+  /// @param values  of the nodes; a cell without one has none
+  DamageMap map_of(const std::string &title, const std::vector<dealii::Point<2>> &nodes,
+                   const std::vector<double> &values, const MapCells &cells);
+
   /// Maps side by side as one picture, as commands of gnuplot. Where there are too many nodes to be
   /// seen, blocks of them with the largest damage of each: a thin crack is seen at any size.
-  /// @param lower  of the body, half an h before its first node
-  /// @pre          at least one map
+  /// @pre  at least one map
   std::string damage_script(const std::vector<DamageMap> &maps, const std::string &file,
-                            const std::string &title, const std::array<double, 2> &lower, double h,
-                            const std::array<int, 2> &n);
+                            const std::string &title, const MapCells &cells);
 
   /// Blocks of a picture with sharp edges, see with_sharp_blocks.
   void sharpen(const std::filesystem::path &picture);

@@ -2,6 +2,16 @@
 
 namespace plumbline::report
 {
+  DataChart named(const std::string &name, const std::string &title, const std::string &caption)
+  {
+    DataChart chart;
+    chart.name = name;
+    chart.caption = caption;
+    chart.plot.file = name + ".svg";
+    chart.plot.title = title;
+    return chart;
+  }
+
   void write_charts(const std::vector<DataChart> &charts, const std::filesystem::path &folder)
   {
     if (charts.empty())

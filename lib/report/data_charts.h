@@ -18,6 +18,10 @@ namespace plumbline::report
     Table data;
   };
 
+  /// An empty one whose picture is NAME.svg.
+  DataChart named(const std::string &name, const std::string &title,
+                  const std::string &caption = {});
+
   /// Draw them into a folder, in one gnuplot process; charts.gp draws them again.
   /// @throws NumericalError  gnuplot is missing or fails; InputError  the folder cannot be written
   void write_charts(const std::vector<DataChart> &charts, const std::filesystem::path &folder);

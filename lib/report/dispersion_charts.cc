@@ -39,15 +39,6 @@ namespace plumbline::report
       return series.empty() ? "" : "_" + slug(series);
     }
 
-    DataChart named(const std::string &name, const std::string &title)
-    {
-      DataChart chart;
-      chart.name = name;
-      chart.plot.file = name + ".svg";
-      chart.plot.title = title;
-      return chart;
-    }
-
     DataChart errors_chart(const DispersionResults &results, const std::string &series)
     {
       const auto methods = methods_of(results);

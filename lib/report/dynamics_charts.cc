@@ -59,16 +59,6 @@ namespace plumbline::report
       return label(results, run.method, run.problem, run.series, run.scheme);
     }
 
-    DataChart named(const std::string &name, const std::string &title, const std::string &caption)
-    {
-      DataChart chart;
-      chart.name = name;
-      chart.caption = caption;
-      chart.plot.file = name + ".svg";
-      chart.plot.title = title;
-      return chart;
-    }
-
     std::string error_words(const DynamicResults &results)
     {
       return "error at the end, " + results.decisive_error;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace plumbline::report
 {
@@ -16,11 +15,7 @@ namespace plumbline::report
     DataChart chart(const std::string &name, const std::string &title, const std::string &x_label,
                     const std::string &y_label, const std::string &caption)
     {
-      DataChart result;
-      result.name = name;
-      result.caption = caption;
-      result.plot.file = name + ".svg";
-      result.plot.title = title;
+      DataChart result = named(name, title, caption);
       result.plot.x_label = x_label;
       result.plot.y_label = y_label;
       result.plot.is_x_log = result.plot.is_y_log = false;
@@ -117,39 +112,23 @@ namespace plumbline::report
 
     std::string moments_picture(const GrowthResults &results)
     {
-      std::array<double, 2> lower{}, upper{};
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        const auto [first, last] =
-            std::minmax_element(results.nodes.begin(), results.nodes.end(),
-                                [d](const auto &a, const auto &b) { return a[d] < b[d]; });
-        lower[d] = (*first)[d] - .5 * results.h;
-        upper[d] = (*last)[d] + .5 * results.h;
-      }
-      const std::array<int, 2> n = {
-          static_cast<int>(std::lround((upper[0] - lower[0]) / results.h)),
-          static_cast<int>(std::lround((upper[1] - lower[1]) / results.h))};
+      const MapCells cells = cells_of(results.nodes, results.h);
       std::vector<DamageMap> maps;
-      const auto add = [&](const std::string &title, const std::vector<double> &values, double unit)
-      {
-        DamageMap map{title, std::vector<double>(static_cast<std::size_t>(n[0]) * n[1],
-                                                 std::numeric_limits<double>::quiet_NaN())};
-        for (std::size_t i = 0; i < results.nodes.size(); ++i)
-        {
-          const auto column = std::lround((results.nodes[i][0] - lower[0]) / results.h - .5),
-                     row = std::lround((results.nodes[i][1] - lower[1]) / results.h - .5);
-          map.values[static_cast<std::size_t>(row * n[0] + column)] = values[i] / unit;
-        }
-        maps.push_back(std::move(map));
-      };
+      const auto [least, largest] =
+          std::minmax_element(results.toughness.begin(), results.toughness.end());
       for (const study::GrowthMoment &moment : results.moments)
-        if (moment.n_events == 0 && !results.toughness.empty())
-          add("the material: G over its largest", results.toughness,
-              *std::max_element(results.toughness.begin(), results.toughness.end()));
+        if (moment.n_events == 0 && *least < *largest)
+        {
+          std::vector<double> parts;
+          for (const double toughness : results.toughness)
+            parts.push_back(toughness / *largest);
+          maps.push_back(map_of("the material: G over its largest", results.nodes, parts, cells));
+        }
         else
-          add("load " + rounded(moment.load) + ", " + std::to_string(moment.n_events) + " events",
-              moment.damage, 1);
-      return damage_script(maps, "moments.svg", "Where bonds are broken", lower, results.h, n);
+          maps.push_back(map_of("load " + rounded(moment.load) + ", " +
+                                    std::to_string(moment.n_events) + " events",
+                                results.nodes, moment.damage, cells));
+      return damage_script(maps, "moments.svg", "Where bonds are broken", cells);
     }
 
     Table sides_table(const GrowthResults &results)

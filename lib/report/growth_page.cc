@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <map>
 
 namespace plumbline::report
 {
@@ -16,8 +17,27 @@ namespace plumbline::report
     using study::GrowthResults;
     using Json = nlohmann::ordered_json;
 
+    /// Of one of scene::growth_quantities.
+    std::string meaning_of(const std::string &quantity)
+    {
+      static const std::map<std::string, std::string> words = {
+          {"broken bonds", "the notch's not counted"},
+          {"events", "at each a bond and its ties, or a batch"},
+          {"peak load", "where the reaction is largest"},
+          {"peak reaction", "of the grips on what they do [force]"},
+          {"advance", "of the tip, from the notch's [length]"},
+          {"G by bonds", "of broken bonds, each by its part of a straight crack's length, over the "
+                         "width [force/length]"},
+          {"K by bonds", "root of that and the mean of E/(1 - nu²)"},
+          {"G by energy", "all that bonds held and that was released, over the width: above the "
+                          "material's where growth is unstable [force/length]"},
+          {"K by energy", "the same of G by energy"}};
+      return words.at(quantity);
+    }
+
     Table facts_table(const GrowthResults &r)
     {
+      constexpr std::size_t most_parts = 8; // of a material that varies from place to place
       Table table;
       table.columns = {"quantity", "value", "meaning"};
       const auto add = [&](const std::string &name, double value, const std::string &words) {
@@ -25,19 +45,7 @@ namespace plumbline::report
       };
       const auto &work = r.work;
       for (const char *const name : scene::growth_quantities)
-        add(name, r.quantity(name),
-            std::string(name) == "peak load"       ? "where the reaction is largest"
-            : std::string(name) == "peak reaction" ? "of the grips on what they do [force]"
-            : std::string(name) == "advance"       ? "of the tip, from the notch's [length]"
-            : std::string(name) == "events"        ? "at each a bond and its ties, or a batch"
-            : std::string(name) == "G by bonds" ? "of broken bonds, each by its part of a straight "
-                                                  "crack's length, over the width [force/length]"
-            : std::string(name) == "G by energy"
-                ? "all that bonds held and that was released, over "
-                  "the width [force/length]"
-            : std::string(name) == "K by bonds"  ? "root of that and the mean of E/(1 - nu²)"
-            : std::string(name) == "K by energy" ? "the same of G by energy"
-                                                 : "the notch's not counted");
+        add(name, r.quantity(name), meaning_of(name));
       add("width", r.path.width, "of all sides that parted, projected onto the x-axis [length]");
       add("path", r.path.length, "sides of cells that the crack parts, L1 [length]");
       add("apart", static_cast<double>(r.path.n_elsewhere),
@@ -45,11 +53,10 @@ namespace plumbline::report
       add("bond energy / path", r.bond_energy_per_length(),
           "of broken bonds at their limits, for a length of the path [force/length]");
       add("energy / path", r.energy_per_length(), "the same with what was released");
-      for (const study::BrokenPart &part : r.parts)
-        add("length, G = " + rounded(part.toughness), part.length,
-            std::to_string(part.n_bonds) +
-                " broken bonds of this toughness, as a straight crack has "
-                "them [length]");
+      for (std::size_t i = 0; i < r.parts.size() && r.parts.size() <= most_parts; ++i)
+        add("length, G = " + rounded(r.parts[i].toughness), r.parts[i].length,
+            std::to_string(r.parts[i].n_bonds) +
+                " broken bonds of this toughness, as a straight crack has them [length]");
       add("G_h / G", r.lattice_toughness,
           "all bonds across a straight line of the lattice at their limits");
       if (r.rules.criterion == scene::Criterion::calibrated)

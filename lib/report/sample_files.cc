@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <regex>
 
 namespace plumbline::report
 {
@@ -77,10 +78,17 @@ namespace plumbline::report
           all.insert(all.end(), values->begin(), values->end());
       return all;
     }
+
+    /// A file that samples write, by its name: 000000.json, 000000.h5, checkpoint_0.h5.
+    bool is_record(const fs::path &file)
+    {
+      return std::regex_match(file.filename().string(),
+                              std::regex("([0-9]+\\.(json|h5)|checkpoint_[0-9]+\\.h5)"));
+    }
   } // namespace
 
-  SampleFiles::SampleFiles(fs::path folder, std::string scene_text)
-      : folder_(std::move(folder)), scene_text_(std::move(scene_text))
+  SampleFiles::SampleFiles(fs::path folder, std::string subject)
+      : folder_(std::move(folder)), subject_(std::move(subject))
   {
   }
 
@@ -91,14 +99,26 @@ namespace plumbline::report
     return folder_ / (name.data() + ending);
   }
 
-  void SampleFiles::prepare() const
+  bool SampleFiles::are_there() const
   {
-    const fs::path scene = folder_ / "scene.prm";
-    if (fs::exists(scene) && text_of(scene) == scene_text_)
-      return;
-    std::error_code error;
-    fs::remove_all(folder_, error);
-    write_file(scene, scene_text_);
+    return fs::exists(subject_file()) && text_of(subject_file()) == subject_;
+  }
+
+  void SampleFiles::begin() const
+  {
+    std::vector<fs::path> records;
+    if (fs::is_directory(folder_))
+      for (const auto &entry : fs::directory_iterator(folder_))
+        if (entry.path() != subject_file())
+          records.push_back(entry.path());
+    if ((fs::exists(folder_) && !fs::is_directory(folder_)) ||
+        (!records.empty() && !fs::exists(subject_file())))
+      throw InputError("'" + folder_.string() +
+                       "' holds what no samples wrote; name another folder with -o");
+    for (const fs::path &record : records)
+      if (is_record(record))
+        fs::remove(record);
+    write_file(subject_file(), subject_);
   }
 
   bool SampleFiles::has(std::size_t sample) const
@@ -110,7 +130,7 @@ namespace plumbline::report
   {
     const std::vector<double> fields = fields_of(record);
     if (!fields.empty()) // before the record, which says that all is there
-      analysis::write_checkpoint(file(record.sample, ".h5").string(), {scene_text_, {}, fields});
+      analysis::write_checkpoint(file(record.sample, ".h5").string(), {subject_, {}, fields});
     Json json{{"sample", record.sample}, {"failure", record.failure}, {"cases", Json::array()}};
     for (const SampleCase &one : record.cases)
       json["cases"].push_back(to_json(one));

@@ -11,12 +11,15 @@ namespace plumbline::report
   class SampleFiles
   {
   public:
-    /// @param scene_text  records of another are not taken for its own
-    SampleFiles(std::filesystem::path folder, std::string scene_text);
+    /// @param subject  all that the records depend on; those of another are not taken for its own
+    SampleFiles(std::filesystem::path folder, std::string subject);
 
-    /// Make the folder; records of another scene are removed.
-    /// @throws InputError  it cannot be written
-    void prepare() const;
+    /// Whether the folder is of this subject.
+    bool are_there() const;
+
+    /// Make the folder, without the records of another subject.
+    /// @throws InputError  it cannot be written, or holds what no samples wrote
+    void begin() const;
 
     bool has(std::size_t sample) const;
 
@@ -27,11 +30,12 @@ namespace plumbline::report
     std::optional<study::SampleRecord> read(std::size_t sample) const;
 
     std::filesystem::path folder() const { return folder_; }
+    std::filesystem::path subject_file() const { return folder_ / "subject.prm"; }
 
   private:
     std::filesystem::path file(std::size_t sample, const std::string &ending) const;
 
     std::filesystem::path folder_;
-    std::string scene_text_;
+    std::string subject_;
   };
 } // namespace plumbline::report

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 namespace plumbline::report
@@ -54,11 +53,7 @@ namespace plumbline::report
                           const std::string &x_label, const std::string &y_label,
                           const std::string &caption)
     {
-      DataChart chart;
-      chart.name = name;
-      chart.caption = caption;
-      chart.plot.file = name + ".svg";
-      chart.plot.title = title;
+      DataChart chart = named(name, title, caption);
       chart.plot.x_label = x_label;
       chart.plot.y_label = y_label;
       chart.data.columns = {"method", "h", "samples", "seconds", "value"};
@@ -170,27 +165,14 @@ namespace plumbline::report
       return;
     const CaseStatistics &one = results.cases.front();
     const study::SampleField &places = one.field->places;
-    const auto [x0, x1] = std::minmax_element(places.x.begin(), places.x.end());
-    const auto [y0, y1] = std::minmax_element(places.y.begin(), places.y.end());
-    const std::array<double, 2> lower = {*x0 - .5 * one.of.h, *y0 - .5 * one.of.h};
-    const std::array<int, 2> n = {static_cast<int>(std::lround((*x1 - *x0) / one.of.h)) + 1,
-                                  static_cast<int>(std::lround((*y1 - *y0) / one.of.h)) + 1};
-    std::vector<DamageMap> maps;
-    for (const auto &[title, values] :
-         {std::pair("mean", &one.field->mean), std::pair("deviation", &one.field->deviation)})
-    {
-      DamageMap map{title, std::vector<double>(static_cast<std::size_t>(n[0]) * n[1],
-                                               std::numeric_limits<double>::quiet_NaN())};
-      for (std::size_t i = 0; i < places.x.size(); ++i)
-      {
-        const auto column = std::lround((places.x[i] - lower[0]) / one.of.h - .5),
-                   row = std::lround((places.y[i] - lower[1]) / one.of.h - .5);
-        map.values[static_cast<std::size_t>(row * n[0] + column)] = (*values)[i];
-      }
-      maps.push_back(std::move(map));
-    }
+    std::vector<dealii::Point<2>> nodes;
+    for (std::size_t i = 0; i < places.x.size(); ++i)
+      nodes.push_back({places.x[i], places.y[i]});
+    const MapCells cells = cells_of(nodes, one.of.h);
     write_file(folder / "damage.gp",
-               damage_script(maps, "damage.svg", "Where bonds are broken", lower, one.of.h, n));
+               damage_script({map_of("mean", nodes, one.field->mean, cells),
+                              map_of("deviation", nodes, one.field->deviation, cells)},
+                             "damage.svg", "Where bonds are broken", cells));
     run_gnuplot(folder, "damage.gp", {"damage.svg"});
     sharpen(folder / "damage.svg");
   }

@@ -259,18 +259,10 @@ namespace plumbline::report
                      "deviation", "standard error", "least",   "largest"};
     for (const CaseStatistics &one : results.cases)
     {
-      const bool is_finest = std::none_of(results.cases.begin(), results.cases.end(),
-                                          [&](const CaseStatistics &other)
-                                          {
-                                            return other.of.method == one.of.method &&
-                                                   other.of.problem == one.of.problem &&
-                                                   other.of.series == one.of.series &&
-                                                   other.of.level > one.of.level;
-                                          });
       for (const SetStatistics &set : one.sets)
         for (const auto &[name, s] : set.quantities)
         {
-          if (!is_finest)
+          if (!one.is_finest)
             continue;
           std::vector<Cell> row = names(one);
           for (const Cell &cell :

@@ -100,8 +100,12 @@ namespace plumbline::scene
     const std::string field = "Random/field = " + base::word(section.field);
     if (section.field == FieldKind::ellipses)
     {
-      if (section.fraction < 1) // else all is covered
+      if (section.fraction < 1)
         saying("Random/fraction, semi-axes: ", [&] { check(ellipses_of(section)); });
+      else // all is covered
+        require(section.n_modes == 0, "Random/fraction = " + short_number(section.fraction) +
+                                          " is the same everywhere, which has no modes; write "
+                                          "Random/modes = 0");
     }
     else
     {

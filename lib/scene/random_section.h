@@ -46,6 +46,8 @@ namespace plumbline::scene
     RandomField::Place place;                  ///< the field at the values, or empty
 
     bool is_there() const { return !variables.empty() || field != FieldKind::none; }
+    /// A realisation a sample, not values of variables.
+    bool is_drawn_whole() const { return field != FieldKind::none && n_modes == 0; }
     std::vector<random::Law> laws() const; ///< of all variables
 
     /// Its variables at the values, in expressions.

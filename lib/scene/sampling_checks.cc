@@ -34,6 +34,10 @@ namespace plumbline::scene
     require(!laws.empty() || (is_drawn && scene.random.is_there()),
             rule + " needs variables that it takes values of; give Random/variables, or Random/"
                    "modes of a field");
+    require(is_drawn || !scene.random.is_drawn_whole(),
+            rule +
+                " takes values of variables, and Random/field = " + base::word(scene.random.field) +
+                " is drawn as a whole; write Random/modes, or Sampling/rule = Monte Carlo");
     require(!sampling.counts.empty(), rule + " needs Sampling/counts, which is empty");
     require(std::is_sorted(sampling.counts.begin(), sampling.counts.end()) &&
                 std::adjacent_find(sampling.counts.begin(), sampling.counts.end()) ==

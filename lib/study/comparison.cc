@@ -77,24 +77,6 @@ namespace plumbline::study
                          { return scene::quantity(norm) == quantity; });
     }
 
-    /// Area of a comparison cell.
-    double cell_area(const scene::Problem &problem, std::size_t cell)
-    {
-      return problem.cells ? problem.cells->area[cell] : problem.h * problem.h;
-    }
-
-    /// Every node stands for an equal part of Ω.
-    double node_area(const scene::Problem &problem, const Solution &solution)
-    {
-      if (problem.lattice)
-        return problem.h * problem.h;
-      const auto &area = problem.cells->area;
-      return std::accumulate(area.begin(),
-                             area.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free),
-                             0.) /
-             static_cast<double>(std::max<std::size_t>(1, solution.nodes.size()));
-    }
-
     Accumulator nodal_difference(const scene::Problem &problem, const Solution &solution,
                                  const Field &field)
     {
@@ -222,6 +204,21 @@ namespace plumbline::study
       return cell_averages(field, *problem.cells, problem.n_components);
     return cell_averages(field, *problem.lattice,
                          method::comparison_nodes(problem, problem.n_components));
+  }
+
+  double cell_area(const scene::Problem &problem, std::size_t cell)
+  {
+    return problem.cells ? problem.cells->area[cell] : problem.h * problem.h;
+  }
+
+  double node_area(const scene::Problem &problem, const Solution &solution)
+  {
+    if (problem.lattice)
+      return problem.h * problem.h;
+    const auto &area = problem.cells->area;
+    return std::accumulate(area.begin(),
+                           area.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free), 0.) /
+           static_cast<double>(std::max<std::size_t>(1, solution.nodes.size()));
   }
 
   std::vector<dealii::Point<2>> comparison_points(const scene::Problem &problem)

@@ -24,6 +24,12 @@ namespace plumbline::study
   /// The node of each comparison cell.
   std::vector<dealii::Point<2>> comparison_points(const scene::Problem &problem);
 
+  /// Of a comparison cell [length^2].
+  double cell_area(const scene::Problem &problem, std::size_t cell);
+
+  /// Of Ω that each node stands for: all of them alike [length^2].
+  double node_area(const scene::Problem &problem, const Solution &solution);
+
   /// Averages over the comparison cells at h from averages over the lattice cells at h/2, which
   /// each square of side h is made of four of.
   /// @param fine  shape (n_fine_cells, n_components), of the lattice of h/2 with nodes at its

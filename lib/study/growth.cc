@@ -153,6 +153,21 @@ namespace plumbline::study
                : std::numeric_limits<double>::quiet_NaN();
   }
 
+  double GrowthResults::toughness_by_bonds() const
+  {
+    double sum = 0;
+    for (const BrokenPart &part : parts)
+      sum += part.toughness * part.length;
+    return path.width > 0 ? sum / path.width : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  double GrowthResults::toughness_by_energy() const
+  {
+    return path.width > 0
+               ? (growth.events.back().in_bonds + growth.events.back().released) / path.width
+               : std::numeric_limits<double>::quiet_NaN();
+  }
+
   double GrowthResults::quantity(const std::string &name) const
   {
     if (name == "broken bonds")
@@ -161,18 +176,14 @@ namespace plumbline::study
       return static_cast<double>(growth.events.size());
     if (name == "advance")
       return advance();
-    if (name == "G by bonds" || name == "K by bonds" || name == "G by energy" ||
-        name == "K by energy")
-    {
-      const double W = path.width;
-      if (!(W > 0))
-        return std::numeric_limits<double>::quiet_NaN();
-      const bool is_of_bonds = name.find("bonds") != std::string::npos;
-      const double G =
-          (is_of_bonds ? bond_sum : growth.events.back().in_bonds + growth.events.back().released) /
-          W;
-      return name[0] == 'G' ? G : std::sqrt(G * plane_modulus);
-    }
+    if (name == "G by bonds")
+      return toughness_by_bonds();
+    if (name == "G by energy")
+      return toughness_by_energy();
+    if (name == "K by bonds")
+      return std::sqrt(toughness_by_bonds() * plane_modulus);
+    if (name == "K by energy")
+      return std::sqrt(toughness_by_energy() * plane_modulus);
     if (growth.events.empty())
       return 0;
     const Event &event = growth.events[peak()];
@@ -196,16 +207,14 @@ namespace plumbline::study
   std::vector<BrokenPart> broken_parts(const GrowthModel &model,
                                        const std::vector<std::size_t> &broken)
   {
-    constexpr std::size_t most = 8;
     const double of_bond = model.h / bonds_across(model);
     std::map<double, std::size_t> counts;
     for (const std::size_t bond : broken)
-      ++counts[model.bond_toughness[bond]];
+      ++counts[.5 *
+               (model.toughness[model.bonds[bond][0]] + model.toughness[model.bonds[bond][1]])];
     std::vector<BrokenPart> parts;
     for (const auto &[toughness, n] : counts)
       parts.push_back({toughness, n, static_cast<double>(n) * of_bond});
-    if (parts.size() > most)
-      parts.clear();
     return parts;
   }
 

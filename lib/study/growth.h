@@ -14,10 +14,9 @@ namespace plumbline::study
   struct GrowthModel
   {
     method::BreakingBody *body = nullptr;
-    double h = 0;                       ///< of the lattice [length]
-    std::vector<double> bond_toughness; ///< G of each bond [force/length]
-    double plane_modulus = 0;           ///< mean of E/(1 - nu²) over the nodes [force/length²]
+    double h = 0; ///< of the lattice [length]
     std::vector<dealii::Point<2>> nodes;
+    std::vector<double> toughness; ///< G of each node; a bond's is its ends' mean [force/length]
     std::vector<std::array<unsigned int, 2>> bonds, cut; ///< their nodes; of those the notch cuts
     dealii::Point<2> notch_tip;
     /// The part of each node's bonds that is broken or cut.
@@ -70,7 +69,7 @@ namespace plumbline::study
     double length = 0; ///< of a straight crack that breaks as many bonds
   };
 
-  /// By toughness, the weakest first; nothing where there are more than eight.
+  /// By toughness, the weakest first.
   std::vector<BrokenPart> broken_parts(const GrowthModel &model,
                                        const std::vector<std::size_t> &broken);
 
@@ -98,14 +97,10 @@ namespace plumbline::study
     double h = 0, horizon = 0;
     double lattice_toughness = 0; ///< energy of all bonds across a straight line, over G
     double trapping = 1;          ///< G was divided by this, see scene::Criterion
-    double plane_modulus = 0;     ///< see GrowthModel
-    /// Σ G of broken bonds times what each of them is of a straight crack's length, [force]: (5.2)
-    /// of Fan et al. 2022, doi:10.1016/j.cma.2022.115340, before it is divided by the path's width
-    /// W.
-    double bond_sum = 0;
+    double plane_modulus = 0;     ///< mean of E/(1 - nu²) over the nodes [force/length²]
     std::vector<BrokenPart> parts;
-    std::vector<double> toughness; ///< G of each node; empty: the same everywhere
     std::vector<dealii::Point<2>> nodes;
+    std::vector<double> toughness; ///< see GrowthModel
     dealii::Point<2> notch_tip;
     std::size_t n_bonds = 0, n_unknowns = 0;
     analysis::Growth growth;
@@ -122,9 +117,13 @@ namespace plumbline::study
     double largest_imbalance() const, largest_residual() const;
     /// Of broken bonds, and of all that was released, per length of the path.
     double bond_energy_per_length() const, energy_per_length() const;
-    /// One of scene::growth_quantities. G by bonds: (G_1 L_1 + G_2 L_2 + G_i L_i) / W, lengths by
-    /// counts of bonds and W the path's width (eq. 5.2); G by energy: what bonds held and what was
-    /// released, over W; K = √(G E/(1 - nu²)), the modulus' mean (eq. 5.3). NaN without a path.
+    /// (G_1 L_1 + G_2 L_2 + G_i L_i) / W, lengths by counts of bonds and W the path's width: Fan et
+    /// al. 2022, doi:10.1016/j.cma.2022.115340, eq. (5.2) [force/length]. NaN without a path.
+    double toughness_by_bonds() const;
+    /// What bonds held and what was released, over W: above the material's where growth is
+    /// unstable, for then more is released than bonds take. NaN without a path.
+    double toughness_by_energy() const;
+    /// One of scene::growth_quantities; K = √(G E/(1 - nu²)), the modulus' mean (ibid., (5.3)).
     double quantity(const std::string &name) const;
   };
 

@@ -3,22 +3,11 @@
 #include "base/error.h"
 #include "study/comparison.h"
 
-#include <numeric>
-
 namespace plumbline::study
 {
   namespace
   {
     using dealii::Point;
-
-    double domain_area(const scene::Problem &problem)
-    {
-      if (problem.cells)
-        return std::accumulate(
-            problem.cells->area.begin(),
-            problem.cells->area.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free), 0.);
-      return problem.h * problem.h * static_cast<double>(comparison_points(problem).size());
-    }
 
     SampleField field_of(const scene::Problem &problem, const Solution &solution, bool is_nodal)
     {
@@ -26,13 +15,12 @@ namespace plumbline::study
       field.n_components = problem.n_components;
       field.values = is_nodal ? solution.nodal : solution.averages;
       const std::vector<Point<2>> places = is_nodal ? solution.nodes : comparison_points(problem);
+      const double of_node = node_area(problem, solution);
       for (std::size_t i = 0; i < places.size(); ++i)
       {
         field.x.push_back(places[i][0]);
         field.y.push_back(places[i][1]);
-        field.area.push_back(!is_nodal && problem.cells
-                                 ? problem.cells->area[i]
-                                 : domain_area(problem) / static_cast<double>(places.size()));
+        field.area.push_back(is_nodal ? of_node : cell_area(problem, i));
       }
       return field;
     }

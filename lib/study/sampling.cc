@@ -2,10 +2,12 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "study/cheapest.h"
 #include "study/exact_statistics.h"
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace plumbline::study
 {
@@ -156,6 +158,7 @@ namespace plumbline::study
     {
       CaseStatistics result;
       result.of = sums.first;
+      result.is_finest = is_finest;
       result.of.quantities.clear();
       result.of.field = {};
       const SampleField &places = sums.first.field;
@@ -168,6 +171,12 @@ namespace plumbline::study
       {
         findings.push_back(std::string("errors of means are not known: ") + error.what());
       }
+      if (!sums.sets.empty())
+        for (const auto &[name, values] : sums.sets.back().values)
+          if (const std::size_t n = sums.sets.back().weights.size(); values.size() < n)
+            findings.push_back(name + " of " + sums.first.method + " is there for " +
+                               std::to_string(values.size()) + " of " + std::to_string(n) +
+                               " samples, so that it has no statistics");
       for (std::size_t s = 0; s < plan.sets.size(); ++s)
       {
         SetStatistics set = conclude_set(plan.sets[s], sums.sets[s], plan.are_independent);
@@ -188,6 +197,38 @@ namespace plumbline::study
       return result;
     }
 
+    /// Whether errors are below a target in a set and stay there, in larger ones and at finer
+    /// levels: what falls below by chance, where errors of h and of samples cancel, does not count.
+    bool stays_below(double target, const std::vector<CaseStatistics> &cases,
+                     const CaseStatistics &one, std::size_t set)
+    {
+      return std::all_of(cases.begin(), cases.end(),
+                         [&](const CaseStatistics &other)
+                         {
+                           return !other.of.is_same_method(one.of) ||
+                                  other.of.level < one.of.level ||
+                                  std::all_of(other.sets.begin() + static_cast<std::ptrdiff_t>(set),
+                                              other.sets.end(),
+                                              [&](const SetStatistics &s)
+                                              { return s.mean_error && *s.mean_error <= target; });
+                         });
+    }
+
+    /// Of pairs of one problem and series that are as cheap as the cheapest, the simplest.
+    CheapestPair simplest(const std::vector<CheapestPair> &pairs)
+    {
+      const auto least = std::min_element(pairs.begin(), pairs.end(),
+                                          [](const CheapestPair &a, const CheapestPair &b)
+                                          { return a.seconds < b.seconds; });
+      const double most = tie_ratio * least->seconds + tie_seconds;
+      CheapestPair best = *least;
+      for (const CheapestPair &pair : pairs)
+        if (pair.seconds <= most && std::make_tuple(pair.count, -pair.h, pair.method) <
+                                        std::make_tuple(best.count, -best.h, best.method))
+          best = pair;
+      return best;
+    }
+
     /// For targets 1e-1, 1e-2, ... as far as a pair reaches them.
     std::vector<CheapestPair> find_cheapest(const std::vector<CaseStatistics> &cases)
     {
@@ -196,20 +237,15 @@ namespace plumbline::study
       for (unsigned int k = 1; k <= n_targets; ++k)
       {
         const double target = std::pow(10., -static_cast<double>(k));
-        std::map<std::string, CheapestPair> best; // by problem and series
+        std::map<std::string, std::vector<CheapestPair>> pairs; // by problem and series
         for (const CaseStatistics &one : cases)
-          for (const SetStatistics &set : one.sets)
-          {
-            if (!set.mean_error || !(*set.mean_error <= target))
-              continue;
-            const std::string key = one.of.problem + "\n" + one.of.series;
-            const auto known = best.find(key);
-            if (known == best.end() || set.seconds < known->second.seconds)
-              best[key] = {one.of.method,   one.of.problem, one.of.series, target,
-                           *set.mean_error, one.of.h,       set.seconds,   set.count};
-          }
-        for (const auto &[key, pair] : best)
-          result.push_back(pair);
+          for (std::size_t s = 0; s < one.sets.size(); ++s)
+            if (const SetStatistics &set = one.sets[s]; stays_below(target, cases, one, s))
+              pairs[one.of.problem + "\n" + one.of.series].push_back(
+                  {one.of.method, one.of.problem, one.of.series, target, *set.mean_error, one.of.h,
+                   set.seconds, set.count});
+        for (const auto &[key, known] : pairs)
+          result.push_back(simplest(known));
       }
       return result;
     }
@@ -278,10 +314,14 @@ namespace plumbline::study
     return plan;
   }
 
+  bool SampleCase::is_same_method(const SampleCase &other) const
+  {
+    return method == other.method && problem == other.problem && series == other.series;
+  }
+
   bool SampleCase::is_same(const SampleCase &other) const
   {
-    return method == other.method && problem == other.problem && series == other.series &&
-           level == other.level;
+    return is_same_method(other) && level == other.level;
   }
 
   SamplingResults
@@ -316,11 +356,8 @@ namespace plumbline::study
     for (const CaseSums &one : cases)
     {
       const bool is_finest = std::none_of(cases.begin(), cases.end(),
-                                          [&](const CaseSums &other)
-                                          {
-                                            return other.first.method == one.first.method &&
-                                                   other.first.problem == one.first.problem &&
-                                                   other.first.series == one.first.series &&
+                                          [&](const CaseSums &other) {
+                                            return other.first.is_same_method(one.first) &&
                                                    other.first.level > one.first.level;
                                           });
       results.cases.push_back(conclude_case(scene, plan, one, is_finest, results.findings));

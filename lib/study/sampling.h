@@ -51,6 +51,7 @@ namespace plumbline::study
     std::map<std::string, double> quantities;
     SampleField field;
 
+    bool is_same_method(const SampleCase &other) const; ///< at whatever level
     bool is_same(const SampleCase &other) const;
   };
 
@@ -76,8 +77,6 @@ namespace plumbline::study
     double standard_error = 0; ///< of the mean of independent samples
     std::optional<double> mean_error, deviation_error;      ///< against the exact field's
     double mean_uncertainty = 0, deviation_uncertainty = 0; ///< of what these are held against
-
-    bool is_known() const { return n_missing == 0 || n_samples > 1; }
   };
 
   /// Mean and deviation of the largest set's field, for pictures.
@@ -89,9 +88,10 @@ namespace plumbline::study
 
   struct CaseStatistics
   {
-    SampleCase of; ///< its names; no values
+    SampleCase of;          ///< its names; no values
+    bool is_finest = false; ///< level of its method
     std::vector<SetStatistics> sets;
-    std::optional<FieldStatistics> field; ///< of the finest level of a method
+    std::optional<FieldStatistics> field; ///< of the finest level
     /// Of each quantity over the largest set, sample by sample.
     std::map<std::string, std::vector<double>> values;
   };
@@ -103,7 +103,9 @@ namespace plumbline::study
     std::string reason;
   };
 
-  /// The pair of level and set that reaches an error of the mean most cheaply.
+  /// The pair of level and set that most cheaply brings the error of the mean below a target and
+  /// keeps it there: with more samples, and at finer levels. Of pairs that are as cheap (see
+  /// cheapest.h) the one with fewer samples, then the larger h.
   struct CheapestPair
   {
     std::string method, problem, series;

@@ -12,10 +12,10 @@ namespace
   using namespace plumbline::app;
   using Json = nlohmann::json;
 
-  std::string smooth()
+  std::string smooth(int n_levels = 1)
   {
-    return "sample " + std::string(PLUMBLINE_SCENES) +
-           "/random/smooth.prm --levels 1 --set Sampling/counts=1,3";
+    return "sample " + std::string(PLUMBLINE_SCENES) + "/random/smooth.prm --levels " +
+           std::to_string(n_levels) + " --set Sampling/counts=1,3";
   }
 
   Json results(const fs::path &folder)
@@ -77,8 +77,31 @@ TEST(SampleCommand, has_the_same_bits_by_any_number_of_processes_and_goes_on)
   EXPECT_EQ(other.exit_code, 0) << other.err;
   EXPECT_EQ(other.err.find("continuing"), std::string::npos) << other.err;
   EXPECT_NE(results(one)["cases"][0]["sets"], results(two)["cases"][0]["sets"]);
+  // nor are those of other levels
+  const Outcome levels = run(smooth(2) + " --set Study/m=4 -o " + two.string());
+  EXPECT_EQ(levels.exit_code, 0) << levels.err;
+  EXPECT_EQ(levels.err.find("continuing"), std::string::npos) << levels.err;
+  EXPECT_EQ(results(two)["cases"].size(), 2);
   fs::remove_all(one);
   fs::remove_all(two);
+}
+
+TEST(SampleCommand, touches_no_files_that_are_not_its_own)
+{
+  const fs::path folder = temporary("sample");
+  fs::create_directories(folder / "samples");
+  std::ofstream(folder / "samples/measured.json") << "{}";
+  const Outcome outcome = run(smooth() + " -o " + folder.string());
+  EXPECT_EQ(outcome.exit_code, 2);
+  expect_found(outcome.err, "holds what no samples wrote");
+  EXPECT_EQ(read(folder / "samples/measured.json"), "{}");
+  fs::remove_all(folder);
+  // beside its own: they stay when those are made anew
+  ASSERT_EQ(run(smooth() + " --quiet -o " + folder.string()).exit_code, 0);
+  std::ofstream(folder / "samples/measured.json") << "{}";
+  ASSERT_EQ(run(smooth() + " --quiet --set Study/m=4 -o " + folder.string()).exit_code, 0);
+  EXPECT_EQ(read(folder / "samples/measured.json"), "{}");
+  fs::remove_all(folder);
 }
 
 TEST(SampleCommand, shares_samples_among_ranks)

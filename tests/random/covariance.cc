@@ -1,6 +1,7 @@
 // Covariances by few numbers: limits, closed forms, refusals.
 #include "random/covariance.h"
 #include "base/error.h"
+#include "refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -22,17 +23,9 @@ namespace
     return covariance;
   }
 
-  std::string refusal(const Covariance &covariance)
+  std::string refusal_of(const Covariance &covariance)
   {
-    try
-    {
-      check(covariance);
-    }
-    catch (const InputError &error)
-    {
-      return error.what();
-    }
-    return {};
+    return refusal([&] { check(covariance); });
   }
 } // namespace
 
@@ -96,18 +89,19 @@ TEST(Covariance, separable_ones_are_products)
 
 TEST(Covariance, refuses_what_is_none_with_the_number_and_the_remedy)
 {
-  EXPECT_EQ(refusal(make(CovarianceShape::matern)), "");
+  EXPECT_EQ(refusal_of(make(CovarianceShape::matern)), "");
   Covariance c = make(CovarianceShape::matern);
   c.length[1] = 0;
-  EXPECT_EQ(refusal(c), "covariance: correlation length = 0 cannot be used; give lengths > 0, in "
-                        "the unit of the domain");
+  EXPECT_EQ(refusal_of(c),
+            "covariance: correlation length = 0 cannot be used; give lengths > 0, in "
+            "the unit of the domain");
   c = make(CovarianceShape::matern, -.5);
-  EXPECT_NE(refusal(c).find("smoothness = -0.5 cannot be used; give one in (0, 1000]"),
+  EXPECT_NE(refusal_of(c).find("smoothness = -0.5 cannot be used; give one in (0, 1000]"),
             std::string::npos);
   c.shape = CovarianceShape::exponential; // has none
-  EXPECT_EQ(refusal(c), "");
+  EXPECT_EQ(refusal_of(c), "");
   c.variance = -1;
-  EXPECT_NE(refusal(c).find("variance = -1"), std::string::npos);
+  EXPECT_NE(refusal_of(c).find("variance = -1"), std::string::npos);
   c.variance = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(refusal(c).find("variance = nan"), std::string::npos);
+  EXPECT_NE(refusal_of(c).find("variance = nan"), std::string::npos);
 }

@@ -2,6 +2,7 @@
 #include "random/ellipses.h"
 #include "base/error.h"
 #include "random/torus_packing.h"
+#include "refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -57,17 +58,9 @@ namespace
                         second.centre[1] - first.centre[1]);
   }
 
-  std::string refusal(const EllipseModel &model)
+  std::string refusal_of(const EllipseModel &model)
   {
-    try
-    {
-      Ellipses::draw(model, {{0, 0}, {200, 100}}, 1);
-    }
-    catch (const InputError &error)
-    {
-      return error.what();
-    }
-    return {};
+    return refusal([&] { Ellipses::draw(model, {{0, 0}, {200, 100}}, 1); });
   }
 
   /// How often points of a box are covered that lie in corners, at edges and inside, over samples,
@@ -198,7 +191,7 @@ TEST(Ellipses, that_do_not_overlap_refuse_a_fraction_beyond_jamming_with_the_one
 {
   // disks jam at .547 (Hinrichsen, Feder & Jossang 1986, doi:10.1007/BF01011908); a finite number
   // of places tried stops before, here by some .01, and a torus of this size spreads by .005
-  const std::string text = refusal({{3, 3}, .6, false});
+  const std::string text = refusal_of({{3, 3}, .6, false});
   EXPECT_EQ(text.substr(0, 74),
             "area fraction = 0.6 of ellipses that do not overlap is not reached by addi");
   const std::size_t at = text.find("at 0.");
@@ -221,12 +214,12 @@ TEST(Ellipses, are_those_of_their_seed_and_sample)
 
 TEST(Ellipses, refuse_what_is_none_with_the_number_and_the_remedy)
 {
-  EXPECT_EQ(refusal(model(1)), "ellipses: area fraction = 1 cannot be used; give one in [0, 1)");
-  EXPECT_NE(refusal({{12, 0}, .2, true}).find("semi-axis = 0 cannot be used; give lengths > 0"),
+  EXPECT_EQ(refusal_of(model(1)), "ellipses: area fraction = 1 cannot be used; give one in [0, 1)");
+  EXPECT_NE(refusal_of({{12, 0}, .2, true}).find("semi-axis = 0 cannot be used; give lengths > 0"),
             std::string::npos);
-  EXPECT_NE(refusal({{std::nan(""), 1}, .2, true}).find("semi-axis = nan"), std::string::npos);
+  EXPECT_NE(refusal_of({{std::nan(""), 1}, .2, true}).find("semi-axis = nan"), std::string::npos);
   EXPECT_THROW(Ellipses::draw(model(.2), {{0, 0}, {0, 1}}, 1), InputError);
   for (const bool overlap : {true, false})
-    EXPECT_NE(refusal({{1e-5, 1e-5}, .2, overlap}).find("choose larger ones, 1e7 are the most"),
+    EXPECT_NE(refusal_of({{1e-5, 1e-5}, .2, overlap}).find("choose larger ones, 1e7 are the most"),
               std::string::npos);
 }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "physics/gauss.h"
 #include "random/boolean_covariance.h"
+#include "refusal.h"
 
 #include <Eigen/Dense>
 #include <fftw3.h>
@@ -109,20 +110,6 @@ namespace
           product += e.mode[k][i] * e.mode[l][i];
         EXPECT_NEAR(product * e.grid.cell_area(), k == l ? 1 : 0, 1e-12) << k << ' ' << l;
       }
-  }
-
-  template <class Action>
-  std::string refusal(const Action &action)
-  {
-    try
-    {
-      action();
-    }
-    catch (const std::runtime_error &error)
-    {
-      return error.what();
-    }
-    return {};
   }
 } // namespace
 

@@ -4,6 +4,7 @@
 #include "random/boolean_covariance.h"
 #include "random/generator.h"
 #include "random/karhunen_loeve.h"
+#include "refusal.h"
 
 #include <deal.II/base/multithread_info.h>
 
@@ -83,20 +84,6 @@ namespace
     for (std::size_t i = 0; i < grid.size(); ++i)
       EXPECT_NEAR(pca.expansion.variance[i] * grid.cell_area(), all.row(i).squaredNorm(),
                   1e-10 * largest);
-  }
-
-  template <class Action>
-  std::string refusal(const Action &action)
-  {
-    try
-    {
-      action();
-    }
-    catch (const std::runtime_error &error)
-    {
-      return error.what();
-    }
-    return {};
   }
 } // namespace
 

@@ -45,10 +45,11 @@ namespace
   /// A solid whose modulus follows a field.
   Settings solid(const Settings &settings)
   {
-    Settings all = {{"Kernel/type", "1/r"},       {"Kernel/limit", "Navier"},
-                    {"Material/model", "LPS"},    {"Material/E", "2 + c + R"},
-                    {"Material/nu", "0.25"},      {"Problem/solution", "x, y"},
-                    {"Random/field", "ellipses"}, {"Random/semi-axes", "0.1, 0.06"}};
+    Settings all = {{"Kernel/type", "1/r"},          {"Kernel/limit", "Navier"},
+                    {"Material/model", "LPS"},       {"Material/E", "2 + c + R"},
+                    {"Material/nu", "0.25"},         {"Problem/solution", "x, y"},
+                    {"Random/field", "ellipses"},    {"Random/semi-axes", "0.1, 0.06"},
+                    {"Sampling/rule", "Monte Carlo"}};
     all.insert(all.end(), settings.begin(), settings.end());
     return all;
   }
@@ -173,4 +174,9 @@ TEST(RandomScene, IsRefusedWithTheRemedy)
   expect_refused(matern("smoothness", "-1"), "smoothness");
   expect_refused(matern("length", "1, 2, 3"), "one number, or two");
   expect_refused(solid({{"Random/semi-axes", "1, -1"}}), "semi-ax");
+  // realisations are no values of variables
+  for (const char *const rule : {"tensor", "Smolyak", "quasi-Monte Carlo"})
+    expect_refused(solid({{"Sampling/rule", rule}}), "is drawn as a whole");
+  expect_refused(solid({{"Random/fraction", "1"}, {"Random/modes", "2"}, {"Random/cell", "0.1"}}),
+                 "is the same everywhere");
 }

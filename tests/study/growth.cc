@@ -79,10 +79,10 @@ TEST(Growth, toughness_counts_bonds_over_the_width_of_what_parted)
   GrowthModel model = comb(8);
   model.bonds.push_back({8 + 5, 8 + 6}); // along a row: the side of its cells stands upright
   const std::size_t along = model.bonds.size() - 1;
-  model.bond_toughness.assign(model.bonds.size(), 2);
+  model.toughness.assign(model.nodes.size(), 2);
+  model.toughness[8 + 4] = 8; // one end of the second bond that breaks, and of the third
   const std::vector<std::size_t> broken = {bond(model, 3.5, 0), bond(model, 4.5, 0),
                                            bond(model, 4.5, 1), along};
-  model.bond_toughness[broken[1]] = 5;
   EXPECT_EQ(bonds_across(model), 1);
   GrowthResults results;
   results.growth.events = {event(broken)};
@@ -95,8 +95,9 @@ TEST(Growth, toughness_counts_bonds_over_the_width_of_what_parted)
   EXPECT_EQ(parts[0].toughness, 2);
   EXPECT_EQ(parts[0].n_bonds, 3u);
   EXPECT_EQ(parts[0].length, 3);
+  EXPECT_EQ(parts[1].toughness, 5);
   EXPECT_EQ(parts[1].length, 1);
-  results.bond_sum = 3 * 2 + 5;
+  results.parts = parts;
   results.plane_modulus = 8;
   EXPECT_EQ(results.quantity("G by bonds"), 11. / 2);
   EXPECT_EQ(results.quantity("G by energy"), 10. / 2);

@@ -153,6 +153,57 @@ TEST(SampleStatistics, ThatWereMovedShowIt)
   EXPECT_EQ(results.cheapest.size(), 1); // 1e-1
 }
 
+// At h = 1/4 errors of mesh and of two samples cancel; at h = 1/8 they do not.
+TEST(SampleStatistics, CheapestPairStaysBelowItsTarget)
+{
+  const scene::Scene scene = random_scene({{"Study/h", "0.25, 0.125"}});
+  const SamplingPlan plan = make_sampling_plan(scene);
+  const auto cheapest = [&](double error_of_fine, double seconds_of_fine)
+  {
+    return conclude_samples(scene, plan,
+                            [&](std::size_t i)
+                            {
+                              SampleRecord record = exact_record(plan, i, first);
+                              record.cases.push_back(record.cases[0]);
+                              SampleCase &fine = record.cases[1];
+                              fine.level = 1;
+                              fine.h = .125;
+                              fine.seconds = seconds_of_fine;
+                              for (double &value : fine.field.values)
+                                value += error_of_fine;
+                              return record;
+                            })
+        .cheapest;
+  };
+  EXPECT_EQ(cheapest(.5, 4).size(), 0); // the coarse level's 0 is chance
+  const auto pairs = cheapest(.02, 4);
+  ASSERT_EQ(pairs.size(), 1);
+  EXPECT_EQ(pairs[0].h, .25);
+  EXPECT_EQ(pairs[0].count, 1);
+  EXPECT_EQ(cheapest(.02, 1.1)[0].h, .25); // a tie: the larger h
+  EXPECT_EQ(cheapest(.02, .5)[0].h, .125);
+}
+
+TEST(SampleStatistics, OfAQuantityThatIsPartlyThereAreNoneAndThatIsSaid)
+{
+  const scene::Scene scene = random_scene({});
+  const SamplingPlan plan = make_sampling_plan(scene);
+  const SamplingResults results = conclude_samples(scene, plan,
+                                                   [&](std::size_t i)
+                                                   {
+                                                     SampleRecord record =
+                                                         exact_record(plan, i, first);
+                                                     if (i != 2)
+                                                       record.cases[0].quantities["K"] = 1;
+                                                     return record;
+                                                   });
+  EXPECT_EQ(results.cases[0].sets[1].quantities.count("K"), 0);
+  EXPECT_EQ(results.cases[0].sets[1].quantities.count("q"), 1);
+  EXPECT_EQ(std::count(results.findings.begin(), results.findings.end(),
+                       "K of PA-AC is there for 3 of 4 samples, so that it has no statistics"),
+            1);
+}
+
 TEST(SampleStatistics, OfRulesSayNothingWithoutAPoint)
 {
   const scene::Scene scene = random_scene({});
