@@ -1,8 +1,8 @@
 #include "algebra/rectangle_solver.h"
 
-#include "algebra/fftw.h"
 #include "algebra/sine_row.h"
 #include "base/error.h"
+#include "base/fftw.h"
 
 #include <Eigen/Dense>
 
@@ -12,6 +12,10 @@
 
 namespace plumbline::algebra
 {
+  using base::AlignedArray;
+  using base::Plan;
+  using base::set_plan_threads;
+
   namespace
   {
     using Complex = std::complex<double>;

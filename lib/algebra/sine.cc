@@ -1,8 +1,8 @@
 #include "algebra/rectangle_solver.h"
 
-#include "algebra/fftw.h"
 #include "algebra/sine_row.h"
 #include "base/error.h"
+#include "base/fftw.h"
 
 #include <Eigen/Core>
 
@@ -11,6 +11,10 @@
 
 namespace plumbline::algebra
 {
+  using base::AlignedArray;
+  using base::Plan;
+  using base::set_plan_threads;
+
   namespace
   {
     /// The transform along one axis: its modes have the frequencies 2π (p + offset) / length.

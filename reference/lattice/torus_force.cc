@@ -1,7 +1,7 @@
 #include "reference/lattice/torus_force.h"
 
-#include "algebra/fftw.h"
 #include "base/error.h"
+#include "base/fftw.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -47,10 +47,10 @@ namespace plumbline::reference
     double side;
     std::size_t n_points, n_modes;
     std::vector<Direction<dim>> directions;
-    algebra::AlignedArray<double> field;  ///< shape (dim, n_points)
-    algebra::AlignedArray<Complex> modes; ///< of u, shape (dim, n_modes)
-    algebra::AlignedArray<Complex> moved; ///< of u(x + ξ), one component
-    algebra::Plan forward, backward;
+    base::AlignedArray<double> field;  ///< shape (dim, n_points)
+    base::AlignedArray<Complex> modes; ///< of u, shape (dim, n_modes)
+    base::AlignedArray<Complex> moved; ///< of u(x + ξ), one component
+    base::Plan forward, backward;
 
     Data(const physics::DoubleWell &the_law, unsigned int n_side, double the_side);
     void transform(const std::vector<double> &u);
@@ -68,8 +68,8 @@ namespace plumbline::reference
   {
     const int extents[] = {static_cast<int>(n), static_cast<int>(n)};
     const auto to = reinterpret_cast<fftw_complex *>(moved.data());
-    forward = algebra::Plan(fftw_plan_dft_r2c(dim, extents, field.data(), to, FFTW_ESTIMATE));
-    backward = algebra::Plan(fftw_plan_dft_c2r(dim, extents, to, field.data(), FFTW_ESTIMATE));
+    forward = base::Plan(fftw_plan_dft_r2c(dim, extents, field.data(), to, FFTW_ESTIMATE));
+    backward = base::Plan(fftw_plan_dft_c2r(dim, extents, to, field.data(), FFTW_ESTIMATE));
   }
 
   template <int dim>

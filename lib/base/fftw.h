@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace plumbline::algebra
+namespace plumbline::base
 {
   /// An FFTW plan that is destroyed with its owner.
   class Plan
@@ -63,6 +63,7 @@ namespace plumbline::algebra
   /// The smallest 2^a 3^b 5^c 7^d >= n with d <= 1: a length that FFTW transforms fast.
   int fast_length(int n);
 
-  /// Let the plans that follow use the threads that deal.II may use, if the transform is large.
+  /// Let the plans that follow use the threads that deal.II may use, if the transform is large: one
+  /// thread for 0 points.
   void set_plan_threads(std::size_t n_points);
-} // namespace plumbline::algebra
+} // namespace plumbline::base
