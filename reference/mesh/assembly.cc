@@ -263,13 +263,20 @@ namespace plumbline::reference
     }
   } // namespace
 
+  bool goes_by_edges(const MeshSpace &space, const MeshCells &cells,
+                     const physics::Kernel<2> &kernel,
+                     const std::optional<physics::Coefficient> &coefficient)
+  {
+    return !coefficient && is_linear_triangles(space) && !cells.has_curves() &&
+           refuse_edges(space, kernel).empty();
+  }
+
   MeshMatrix assemble(const MeshSpace &space, const MeshCells &cells,
                       const physics::Kernel<2> &kernel,
                       const std::optional<physics::Coefficient> &coefficient,
                       const AssemblyOptions &options, const base::Team &team)
   {
-    if (options.exact_entries && !coefficient && is_linear_triangles(space) &&
-        !cells.has_curves() && refuse_edges(space, kernel).empty())
+    if (options.exact_entries && goes_by_edges(space, cells, kernel, coefficient))
       return {assemble_by_edges(space, kernel, team), true,
               "exact by pairs of sides of the triangles"};
     const KernelEntries profile(kernel);

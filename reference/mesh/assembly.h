@@ -28,6 +28,11 @@ namespace plumbline::reference
     std::string way;      ///< how the entries came, in words
   };
 
+  /// Whether assemble takes the exact entries of pairs of sides of all of the mesh.
+  bool goes_by_edges(const MeshSpace &space, const MeshCells &cells,
+                     const physics::Kernel<2> &kernel,
+                     const std::optional<physics::Coefficient> &coefficient);
+
   /// A(u, v) = ½ ∬ a C (u(y) - u(x)) · (v(y) - v(x)) over all pairs of points of Ω and its collar
   /// but those with both ends in the collar; a the mean of the coefficients, C the kernel. Each
   /// unordered pair of cells is visited once, outer points on the smaller of the two; threads share

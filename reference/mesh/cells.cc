@@ -119,4 +119,12 @@ namespace plumbline::reference
         square = std::max(square, (x - y).norm_square());
     return std::sqrt(square);
   }
+
+  geometry::PairPosition MeshCells::position(std::size_t a, std::size_t b, double horizon) const
+  {
+    using geometry::PairPosition;
+    return !is_near(a, b, horizon)     ? PairPosition::apart
+           : farthest(a, b) <= horizon ? PairPosition::inside
+                                       : PairPosition::cut;
+  }
 } // namespace plumbline::reference

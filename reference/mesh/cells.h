@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/cell_locator.h"
+#include "geometry/pair_position.h"
 
 namespace plumbline::reference
 {
@@ -45,6 +46,9 @@ namespace plumbline::reference
 
     /// The largest distance between points of two cells.
     double farthest(std::size_t a, std::size_t b) const;
+
+    /// Where they stand to a horizon: apart are those that are not near.
+    geometry::PairPosition position(std::size_t a, std::size_t b, double horizon) const;
 
   private:
     bool is_near(std::size_t a, std::size_t b, double distance) const;

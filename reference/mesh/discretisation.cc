@@ -9,6 +9,7 @@
 #include "reference/mesh/cell_rules.h"
 #include "reference/mesh/dilatation.h"
 #include "reference/mesh/entry_check.h"
+#include "reference/mesh/inclusion_check.h"
 #include "reference/mesh/mass.h"
 #include "reference/mesh/polygon_pairs.h"
 #include "reference/mesh/weighted_volume.h"
@@ -226,6 +227,7 @@ namespace plumbline::reference
         const auto check =
             check_geometry(*cells_, problem_.horizon(), geometry.n_checks, geometry.seed);
         add_entry_check(geometry, result);
+        add_inclusion_check(geometry, result);
         result.n_geometry_checks = check.n_checked;
         result.geometry_difference = check.worst_difference;
         return result;
@@ -260,6 +262,20 @@ namespace plumbline::reference
         result.notes.push_back("a sample of entries, made again by correlations of pairs of cells, "
                                "agrees to " +
                                base::to_text(decade, 1) + " of the diagonal");
+      }
+
+      /// Whether decisions of an exact assembly are those of exact predicates.
+      void add_inclusion_check(const scene::GeometrySection &geometry,
+                               method::Diagnostics &result) const
+      {
+        if (!is_exact_ || geometry.n_checks == 0)
+          return;
+        const bool by_edges =
+            goes_by_edges(*space_, *cells_, problem_.kernel, problem_.coefficient);
+        result.notes.push_back(check_inclusions(*space_, *cells_, problem_.kernel,
+                                                by_edges ? Decider::edges : Decider::sides_of_pairs,
+                                                geometry.n_checks, geometry.seed)
+                                   .text());
       }
 
       void make_rows()

@@ -18,6 +18,13 @@ namespace plumbline::reference
     double length = 0, radius = 0; ///< radius: about its middle, of the nodes
   };
 
+  /// Where the two sides stand to a horizon.
+  inline geometry::PairPosition position(const Edge &e, const Edge &f, double horizon)
+  {
+    return position_of_circles(e.segment.middle().distance(f.segment.middle()),
+                               .5 * (e.length + f.length), horizon);
+  }
+
   /// What continuous piecewise linears on triangles are by their sides: Δφ = Σ_e J(e) along e.
   struct EdgeForm
   {
@@ -50,16 +57,24 @@ namespace plumbline::reference
     {
       const double distance = space_.support(i).distance(space_.support(j));
       const double both = form_.radius[i] + form_.radius[j];
-      if (distance - both >= horizon_)
+      const geometry::PairPosition position = position_of_circles(distance, both, horizon_);
+      if (position == geometry::PairPosition::apart)
         return PairWay::none;
       const bool is_apart = distance - both > apart_;
       if (is_apart && !is_product_)
         return PairWay::in;
-      if (distance + both <= horizon_)
+      if (position == geometry::PairPosition::inside)
         return PairWay::whole;
       if (form_.is_at_outside[i] || form_.is_at_outside[j]) // not continuous: only this is valid
         return PairWay::in;
       return is_apart && distance > horizon_ ? PairWay::in : PairWay::whole;
+    }
+
+    /// Where supports stand to the horizon.
+    geometry::PairPosition position(unsigned int i, unsigned int j) const
+    {
+      return position_of_circles(space_.support(i).distance(space_.support(j)),
+                                 form_.radius[i] + form_.radius[j], horizon_);
     }
 
     /// Nodes farther apart have no pair by the potential that is smooth at 0.

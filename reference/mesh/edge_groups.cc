@@ -63,6 +63,7 @@ namespace plumbline::reference
     find_nodes(first, last, scratch, group);
     find_ways(group, scratch);
     group.values.assign(group.rows.size() * group.columns.size() * n, 0);
+    group.n_pairs = 0;
     scratch.from_start.assign(scratch.near.size(), {});
     for (std::size_t e = first; e < last; ++e)
     {
@@ -105,10 +106,9 @@ namespace plumbline::reference
     for (unsigned int k = 0; k < f.n_nodes; ++k)
       ways |= scratch.edge_ways[scratch.slot[f.node[k]]];
     const auto has = [&](PairWay way) { return (ways & bit(way)) != 0; };
-    const double distance = e.segment.middle().distance(f.segment.middle()),
-                 both = .5 * (e.length + f.length);
-    return {has(PairWay::in) && distance < horizon_ + both,
-            has(PairWay::whole) && (has_inside_ || distance > horizon_ - both)};
+    const geometry::PairPosition where = position(e, f, horizon_);
+    return {has(PairWay::in) && where != geometry::PairPosition::apart,
+            has(PairWay::whole) && (has_inside_ || where != geometry::PairPosition::inside)};
   }
 
   /// Edges that an edge of the group has a pair with, each pair once: numbers from first on.
@@ -175,7 +175,7 @@ namespace plumbline::reference
 
   /// Σ_f J(f) D(e, f) over later edges f, e itself by half.
   template <unsigned int n>
-  void EdgeGroups<n>::sum_partners(std::size_t e, const EdgeGroup &group, Scratch &scratch) const
+  void EdgeGroups<n>::sum_partners(std::size_t e, EdgeGroup &group, Scratch &scratch) const
   {
     const Edge &edge = form_.edges[e];
     const std::size_t n_columns = group.columns.size();
@@ -195,6 +195,7 @@ namespace plumbline::reference
       const Wanted asked = f < e ? Wanted() : wanted(edge, other, scratch);
       if (asked.is_none())
         continue;
+      ++group.n_pairs;
       const Segment &a = edge.segment, &b = other.segment;
       Potentials<n> d;
       const Wanted by_rule = integrals_.by_rule(a, b, asked), by_ends = asked.without(by_rule);

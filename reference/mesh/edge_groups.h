@@ -4,6 +4,8 @@
 #include "reference/mesh/edge_form.h"
 #include "reference/mesh/edge_integrals.h"
 
+#include <cstdint>
+
 namespace plumbline::reference
 {
   geometry::Box box_about(const Point<2> &x, double radius);
@@ -14,6 +16,7 @@ namespace plumbline::reference
   {
     std::vector<unsigned int> rows, columns; ///< nodes, ascending
     std::vector<double> values;              ///< shape (n_rows, n_columns, n entries)
+    std::uint64_t n_pairs = 0;               ///< of edges that were integrated
   };
 
   /// Sums over pairs of edges, Σ_{e,f} J_i(e) J_j(f) D(e, f), each pair once and an edge with
@@ -56,7 +59,7 @@ namespace plumbline::reference
     void find_near(std::size_t first, std::size_t last, Scratch &scratch) const;
     void find_nodes(std::size_t first, std::size_t last, Scratch &scratch, EdgeGroup &group) const;
     void find_ways(const EdgeGroup &group, Scratch &scratch) const;
-    void sum_partners(std::size_t e, const EdgeGroup &group, Scratch &scratch) const;
+    void sum_partners(std::size_t e, EdgeGroup &group, Scratch &scratch) const;
     void add_rows(const Edge &edge, EdgeGroup &group, const Scratch &scratch) const;
 
     const MeshSpace &space_;

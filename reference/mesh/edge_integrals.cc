@@ -55,18 +55,14 @@ namespace plumbline::reference
   void EdgeIntegrals<n>::add_in(const Vector2 &z, const Vector2 &along, double from, double to,
                                 const Factor &factor, bool for_divergence, Potentials<n> &sum) const
   {
-    // |z + x along|² = c + 2 b x + a x²
-    const double a = along.norm_square(), b = z * along, c = z.norm_square();
-    const double discriminant = b * b - a * (c - square_);
-    if (!(discriminant > 0))
+    const SquaredDistance square(z, along);
+    if (!(square.discriminant(square_) > 0))
       return;
-    const double root = std::sqrt(discriminant);
-    const double first = std::clamp((-b - root) / a, from, to),
-                 last = std::clamp((-b + root) / a, from, to);
+    const auto [first, last] = square.below(square_, from, to);
     if (!(last > first))
       return;
-    const double middle = .5 * (first + last), length = last - first;
-    const auto &rule = line_rules().of(c + (2 * b + a * middle) * middle, std::sqrt(a) * length);
+    const double length = last - first;
+    const auto &rule = line_rules().of(square(.5 * (first + last)), std::sqrt(square.a) * length);
     for (std::size_t i = 0; i < rule.size(); ++i)
     {
       const double x = first + length * rule.point(i)[0];

@@ -10,6 +10,8 @@
 
 namespace plumbline::reference
 {
+  using geometry::PairPosition;
+
   namespace
   {
     double distance(const Point<2> &x, const Segment &e)
@@ -134,6 +136,13 @@ namespace plumbline::reference
         {distance(e.start, f), distance(e.end, f), distance(f.start, e), distance(f.end, e)});
   }
 
+  geometry::PairPosition position(const Segment &e, const Segment &f, double horizon)
+  {
+    return farthest(e, f) <= horizon   ? PairPosition::inside
+           : distance(e, f) >= horizon ? PairPosition::apart
+                                       : PairPosition::cut;
+  }
+
   namespace
   {
     /// By the length of sides over δ: potentials are analytic up to |z| = 0, one δ from the circle.
@@ -180,17 +189,12 @@ namespace plumbline::reference
   void EdgePairs<n>::at_circle_as(const Segment &e, const Segment &f, EdgeMoments *in,
                                   EdgeMoments *out) const
   {
-    const double square = circle_.square(), horizon = std::sqrt(square);
-    if (farthest(e, f) <= horizon)
+    const double square = circle_.square();
+    if (const auto where = position(e, f, std::sqrt(square)); where != PairPosition::cut)
     {
-      if (in != nullptr)
-        add_smooth<degree>(e, f, in);
-      return;
-    }
-    if (distance(e, f) >= horizon)
-    {
-      if (out != nullptr)
-        add_smooth<degree>(e, f, out);
+      EdgeMoments *const sum = where == PairPosition::inside ? in : out;
+      if (sum != nullptr)
+        add_smooth<degree>(e, f, sum);
       return;
     }
     std::vector<double> tangents;
@@ -247,11 +251,7 @@ namespace plumbline::reference
                               EdgeMoments *in, EdgeMoments *out) const
   {
     const Vector2 w = f.start - (e.start + s * e.along);
-    const double a = f.along.norm_square(), b = w * f.along, c = w.norm_square();
-    const double discriminant = b * b - a * (c - circle_.square());
-    const double root = discriminant > 0 ? std::sqrt(discriminant) : 0;
-    const double enter = std::clamp((-b - root) / a, 0., 1.),
-                 leave = std::clamp((-b + root) / a, 0., 1.);
+    const auto [enter, leave] = SquaredDistance(w, f.along).below(circle_.square(), 0, 1);
     const auto add = [&](double from, double to, EdgeMoments *sum)
     {
       if (sum == nullptr || !(to > from))

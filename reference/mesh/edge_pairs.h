@@ -3,6 +3,8 @@
 #include "physics/potential_jet.h"
 #include "reference/mesh/edge_integrals.h"
 
+#include <deal.II/base/quadrature.h>
+
 #include <array>
 
 namespace plumbline::reference
@@ -74,4 +76,5 @@ namespace plumbline::reference
   };
 
   double distance(const Segment &e, const Segment &f); ///< of sides that do not cross
+  geometry::PairPosition position(const Segment &e, const Segment &f, double horizon);
 } // namespace plumbline::reference

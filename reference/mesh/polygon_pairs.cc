@@ -190,9 +190,10 @@ namespace plumbline::reference
     const double horizon = kernel_.horizon();
     const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
     const double both = cells_.radius(outer) + cells_.radius(inner);
-    if (between - both >= horizon)
+    const geometry::PairPosition position = cells_.position(outer, inner, horizon);
+    if (position == geometry::PairPosition::apart)
       return;
-    if (cells_.farthest(outer, inner) <= horizon)
+    if (position == geometry::PairPosition::inside)
       add_whole(outer, inner, blocks);
     else if (between - both > apart * horizon)
       add_sides(inner, Part::in, 1, blocks);

@@ -326,3 +326,31 @@ TEST(MeshGalerkin, DoesNotDependOnTheFirstVertexOfRectangles)
   const auto direct = analysis::solve(*method_named("Q2"), half);
   EXPECT_LT(study::averages_l2(problem, refined.averages, direct.averages), 1e-11);
 }
+
+TEST(MeshGalerkin, TellsWhatExactPredicatesSayOfPairsOfCells)
+{
+  const auto notes = [](const std::string &mesh, const std::string &name, const std::string &more)
+  {
+    auto scene = make_scene(mesh, "sin(x)", more);
+    scene.geometry.n_checks = 12;
+    const auto problem = make_problem(scene, 0, {.125, .5});
+    std::string all;
+    for (const std::string &note :
+         analysis::solve(*method_named(name), problem, base::Team::alone()).diagnostics.notes)
+      all += note + "; ";
+    return all;
+  };
+  const std::string right = "apart as CGAL's exact predicates say in all of them";
+  for (const auto &[mesh, name] : {std::pair<std::string, std::string>("triangles", "P1"),
+                                   {"triangles", "DGP1"},
+                                   {"squares", "Q1"}})
+  {
+    const std::string text = notes(mesh, name, "");
+    EXPECT_NE(text.find("12 pairs of cells, "), std::string::npos) << text;
+    EXPECT_NE(text.find(right), std::string::npos) << text;
+  }
+  const std::string by_quadrature =
+      notes("triangles", "P1",
+            "subsection Quadrature\n set entries = quadrature\n set tolerance = 0\nend\n");
+  EXPECT_EQ(by_quadrature.find(right), std::string::npos) << by_quadrature;
+}
