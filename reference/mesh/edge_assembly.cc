@@ -20,6 +20,7 @@ namespace plumbline::reference
       std::vector<std::size_t> start;
       std::vector<unsigned int> column;
       std::vector<double> value; ///< shape (n_columns, n_entries)
+      std::uint64_t n_pairs = 0; ///< of edges in it
 
       std::size_t find(unsigned int row, unsigned int col) const
       {
@@ -43,14 +44,16 @@ namespace plumbline::reference
           space.n_dofs(),
           [&](std::size_t first, std::size_t last)
           {
-            std::vector<unsigned int> found;
+            std::vector<unsigned int> found, own;
             for (std::size_t row = first; row < last; ++row)
             {
               const auto i = static_cast<unsigned int>(row);
               nodes.find(box_about(points[row], horizon + form.radius[row] + largest), found);
+              own.clear();
               for (const unsigned int j : found)
                 if ((i < space.n_free() || j < space.n_free()) && ways(i, j) != PairWay::none)
-                  columns[row].push_back(j);
+                  own.push_back(j);
+              columns[row] = own; // no longer than it must be
             }
           });
       HalfMatrix half;
@@ -61,7 +64,7 @@ namespace plumbline::reference
       for (auto &row : columns)
       {
         half.column.insert(half.column.end(), row.begin(), row.end());
-        row = {};
+        std::vector<unsigned int>().swap(row); // clearing would keep its memory
       }
       half.value.assign(half.column.size() * n_entries, 0);
       return half;
@@ -70,6 +73,7 @@ namespace plumbline::reference
     template <unsigned int n>
     void add(const EdgeGroup &group, HalfMatrix &half)
     {
+      half.n_pairs += group.n_pairs;
       const double *value = group.values.data();
       for (const unsigned int row : group.rows)
       {
@@ -236,7 +240,7 @@ namespace plumbline::reference
 
     template <unsigned int n>
     algebra::Rows assemble_entries(const MeshSpace &space, const physics::Kernel<2> &kernel,
-                                   const base::Team &team)
+                                   const base::Team &team, std::uint64_t &n_pairs)
     {
       const double horizon = kernel.horizon();
       const EdgeForm form(space);
@@ -244,10 +248,26 @@ namespace plumbline::reference
       const WholePotential whole(kernel, reach(form, ways), form.longest);
       HalfMatrix half = make_half(space, form, ways, horizon, n);
       add_groups<n>(space, form, ways, kernel, whole, team, half);
+      n_pairs += half.n_pairs;
       const bool is_first = team.rank() == 0; // of ranks: what one alone must give
       if (is_first)
         subtract_mass(space, kernel.moment({0, 0}), n, half);
       return combine(space, Entries<n>(form, ways, half, is_first ? whole.constant() : 0), half);
+    }
+
+    /// sum += rows in place, whose horizon is shorter: their places are some of its.
+    void add(const algebra::Rows &rows, algebra::Rows &sum)
+    {
+      for (std::size_t row = 0; row < sum.n_rows(); ++row)
+      {
+        std::size_t to = sum.start[row];
+        for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
+        {
+          while (sum.column[to] < rows.column[k])
+            ++to;
+          sum.value[to] += rows.value[k];
+        }
+      }
     }
 
     /// Why a kernel whose profile has no breaks cannot have its matrix; empty: it can.
@@ -292,16 +312,32 @@ namespace plumbline::reference
   }
 
   algebra::Rows assemble_by_edges(const MeshSpace &space, const physics::Kernel<2> &kernel,
-                                  const base::Team &team)
+                                  const base::Team &team, std::uint64_t *n_pairs)
   {
     algebra::Rows sum;
-    for (const physics::Kernel<2> &part : kernel.parts())
+    std::uint64_t n_done = 0;
+    auto parts = kernel.parts();
+    std::sort(parts.begin(), parts.end(),
+              [](const auto &a, const auto &b) { return a.horizon() > b.horizon(); });
+    for (const physics::Kernel<2> &part : parts)
     {
       algebra::Rows rows = part.structure() == physics::Structure::scalar
-                               ? assemble_entries<1>(space, part, team)
-                               : assemble_entries<3>(space, part, team);
-      sum = sum.start.empty() ? std::move(rows) : algebra::add(sum, rows);
+                               ? assemble_entries<1>(space, part, team, n_done)
+                               : assemble_entries<3>(space, part, team, n_done);
+      if (sum.start.empty())
+      {
+        sum = std::move(rows);
+        if (parts.size() > 1) // the half's memory is a little more
+        {
+          sum.column.shrink_to_fit();
+          sum.value.shrink_to_fit();
+        }
+      }
+      else
+        add(rows, sum);
     }
+    if (n_pairs != nullptr)
+      *n_pairs = n_done;
     return sum;
   }
 } // namespace plumbline::reference

@@ -4,6 +4,7 @@
 #include "physics/kernel.h"
 #include "reference/mesh/space.h"
 
+#include <cstdint>
 #include <string>
 
 namespace plumbline::reference
@@ -17,13 +18,14 @@ namespace plumbline::reference
   /// (Green's identity in x and in y), for which the potential may be cut off at the circle; Ψ has
   /// as many entries as C. ∬ C φ_i(x) φ_j(x) is the mass matrix times ∫C, the ball being in the
   /// mesh. Accuracy: linear fields of slope 1/δ are annihilated to 1e-13 of the diagonal from
-  /// δ = 3 h to 8 h, h growing twofold, to 4e-13 below; to (δ/8h)³ times that beyond, as terms of
-  /// pairs within the horizon are larger than their sum by the fourth power of their distance, or
-  /// of δ, over h. Profiles with breaks are a sum of several without. Symmetric to the last bit.
-  /// Memory: 24 bytes an entry. Threads share the edges (the result does not depend on their
-  /// number), ranks of the team too.
+  /// δ = 3 h to 8 h, h growing twofold, to 4e-13 below; beyond, to 2e-12 at 16 h, as terms of pairs
+  /// within the horizon are larger than their sum by the fourth power of their distance, or of δ,
+  /// over h. Profiles with breaks are a sum of several without. Symmetric to the last bit.
+  /// Memory: 24 bytes an entry, 30 where the profile breaks close to the horizon. Threads share the
+  /// edges (the result does not depend on their number), ranks of the team too.
   /// @pre     refuse_edges is empty
+  /// @param n_pairs  of edges that this rank has integrated, if asked for
   /// @return  as MeshMatrix::rows
   algebra::Rows assemble_by_edges(const MeshSpace &space, const physics::Kernel<2> &kernel,
-                                  const base::Team &team);
+                                  const base::Team &team, std::uint64_t *n_pairs = nullptr);
 } // namespace plumbline::reference

@@ -1,5 +1,7 @@
 // Run on 1, 2 and 4 ranks: the solution on all of them is the solution on each one alone.
 #include "analysis/statics.h"
+#include "geometry/mesh_input.h"
+#include "reference/mesh/edge_assembly.h"
 #include "reference/method.h"
 
 #include <gtest/gtest.h>
@@ -55,4 +57,31 @@ TEST(Ranks, FindTheSolutionThatOneOfThemFindsAlone)
           EXPECT_EQ(together.cost.n_bonds, alone.cost.n_bonds);
         }
       }
+}
+
+TEST(Ranks, SharePairsOfSidesOfWhichEachIsIntegratedOnce)
+{
+  const double h = 1. / 24, horizon = 4 * h;
+  const auto mesh = std::make_shared<const geometry::Mesh>(geometry::lattice_mesh(
+      {{{dealii::Point<2>(0, 0), dealii::Point<2>(1, 1)}}, {}}, h, horizon, true));
+  const reference::MeshSpace space(mesh, true, 1);
+  const auto kernel = physics::Kernel<2>::with_diffusion(
+      physics::RadialProfile::Powers{{1, 0}, {-1, 1}}, horizon, 1);
+  ASSERT_EQ(reference::refuse_edges(space, kernel), "");
+  const base::Team all = base::Team::all();
+  std::uint64_t n_own = 0, n_alone = 0;
+  const auto own = reference::assemble_by_edges(space, kernel, all, &n_own);
+  const auto alone = reference::assemble_by_edges(space, kernel, base::Team::alone(), &n_alone);
+  EXPECT_GT(n_alone, 100000u);
+  // none twice, none by nobody, and nobody has much more than a share
+  EXPECT_EQ(all.sum(static_cast<double>(n_own)), static_cast<double>(n_alone));
+  EXPECT_LT(static_cast<double>(n_own), 1.4 * static_cast<double>(n_alone) / all.n_ranks());
+  ASSERT_EQ(own.value.size(), alone.value.size());
+  double worst = 0, largest = 0;
+  for (std::size_t k = 0; k < own.value.size(); k += 97)
+  {
+    worst = std::max(worst, std::abs(all.sum(own.value[k]) - alone.value[k]));
+    largest = std::max(largest, std::abs(alone.value[k]));
+  }
+  EXPECT_LT(worst, 1e-13 * largest);
 }
