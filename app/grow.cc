@@ -9,6 +9,7 @@
 #include "physics/expression.h"
 #include "report/formats.h"
 #include "report/growth_page.h"
+#include "study/sampling.h"
 #include "study/strip_growth.h"
 
 #include <cmath>
@@ -191,6 +192,7 @@ namespace plumbline::app
     results.plane_modulus = mean_plane_modulus(scene, model.nodes);
     results.parts = broken_parts(model, broken);
     results.toughness = model.toughness;
+    results.spectrum = study::field_spectrum(scene.random);
     return results;
   }
 

@@ -12,6 +12,7 @@
 #include "study/conclusions.h"
 #include "study/preflight.h"
 #include "study/refusal.h"
+#include "study/sampling.h"
 #include "study/sweep.h"
 
 #include <algorithm>
@@ -227,6 +228,8 @@ namespace plumbline::app
       std::cerr << "continuing: " << earlier.runs.size() << " solves are in '" << folder.string()
                 << "' already\n";
     earlier.provenance = provenance();
+    if (const auto spectrum = study::field_spectrum(scene.random))
+      earlier.provenance["random field"] = words_of(*spectrum);
     if (team.n_ranks() > 1 && repeats_work(scene, methods))
     {
       earlier.provenance["work of ranks"] = "repeated by each: lattices are not shared among ranks";

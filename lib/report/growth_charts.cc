@@ -1,6 +1,7 @@
 #include "report/growth_charts.h"
 
 #include "report/damage_maps.h"
+#include "report/spectrum_chart.h"
 
 #include <algorithm>
 #include <cmath>
@@ -147,7 +148,11 @@ namespace plumbline::report
   {
     if (results.growth.events.empty())
       return {};
-    return {load_chart(results), energy_chart(results), tip_chart(results)};
+    std::vector<DataChart> charts = {load_chart(results), energy_chart(results),
+                                     tip_chart(results)};
+    if (results.spectrum && results.spectrum->variance_kept() > 0)
+      charts.push_back(spectrum_chart(*results.spectrum));
+    return charts;
   }
 
   Table growth_events_table(const GrowthResults &results)

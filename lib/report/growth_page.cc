@@ -133,7 +133,8 @@ namespace plumbline::report
                   ? ": " + rounded(r.trapping) +
                         " G, as a strip shows, by the root of which s0 was lowered (Fracture/"
                         "criterion = calibrated)."
-                  : ".");
+                  : ".") +
+             (r.spectrum ? " Of the random field " + words_of(*r.spectrum) + "." : "");
     }
 
     std::string page_of(const GrowthResults &r, const std::vector<std::string> &faults,
@@ -225,6 +226,7 @@ namespace plumbline::report
               {"K_by_bonds", known_number(r.quantity("K by bonds"))},
               {"K_by_energy", known_number(r.quantity("K by energy"))},
               {"plane_modulus", r.plane_modulus},
+              {"variance_kept", r.spectrum ? Json(r.spectrum->variance_kept()) : Json()},
               {"path", r.path.length},
               {"n_apart", r.path.n_elsewhere},
               {"bond_energy_per_length", known_number(r.bond_energy_per_length())},

@@ -1,5 +1,6 @@
 #include "report/damage_maps.h"
 #include "report/sampling_page.h"
+#include "report/spectrum_chart.h"
 
 #include <algorithm>
 #include <cmath>
@@ -183,6 +184,8 @@ namespace plumbline::report
     add_errors(results, "mean", mean_error, charts);
     add_errors(results, "deviation", deviation_error, charts);
     add_histograms(results, charts);
+    if (results.spectrum && results.spectrum->variance_kept() > 0)
+      charts.push_back(spectrum_chart(*results.spectrum));
     return charts;
   }
 } // namespace plumbline::report

@@ -46,6 +46,8 @@ namespace plumbline::report
         text += " (seed " + std::to_string(sampling.seed) + ")";
       text += ", " + std::to_string(r.random.laws().size()) + " variables, " +
               std::to_string(r.n_samples) + " samples in all sets";
+      if (r.spectrum)
+        text += ". " + words_of(*r.spectrum);
       if (const SetStatistics *const set = best(r))
         text += ". Weights of the largest set: sum of sizes " + rounded(set->sum_of_sizes) +
                 ", noise √Σw² " + rounded(set->noise) +
@@ -297,6 +299,8 @@ namespace plumbline::report
               {"seed", r.sampling.seed},
               {"target", r.target},
               {"n_samples", r.n_samples},
+              {"variance_kept", r.spectrum ? Json(r.spectrum->variance_kept()) : Json()},
+              {"spectrum", r.spectrum ? Json(r.spectrum->share) : Json::array()},
               {"is_complete", r.is_complete},
               {"findings", r.findings},
               {"failures", Json::array()},

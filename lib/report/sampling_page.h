@@ -15,7 +15,7 @@ namespace plumbline::report
   Table sampling_quantity_table(const study::SamplingResults &results);
 
   /// Errors of mean and deviation over h and over the number of samples, and over CPU seconds;
-  /// histograms of quantities.
+  /// histograms of quantities; the spectrum of a field of modes.
   std::vector<DataChart> sampling_charts(const study::SamplingResults &results);
 
   /// Whether samples are of growth, whose damage has a mean to be drawn.

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "analysis/fracture.h"
+#include "random/spectrum.h"
 #include "scene/scene.h"
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 // How a crack grows in equilibrium: run, found out and held against what is expected.
@@ -100,7 +102,8 @@ namespace plumbline::study
     double plane_modulus = 0;     ///< mean of E/(1 - nu²) over the nodes [force/length²]
     std::vector<BrokenPart> parts;
     std::vector<dealii::Point<2>> nodes;
-    std::vector<double> toughness; ///< see GrowthModel
+    std::vector<double> toughness;            ///< see GrowthModel
+    std::optional<random::Spectrum> spectrum; ///< of a random field of modes
     dealii::Point<2> notch_tip;
     std::size_t n_bonds = 0, n_unknowns = 0;
     analysis::Growth growth;

@@ -4,6 +4,7 @@
 #include "base/number_text.h"
 #include "study/cheapest.h"
 #include "study/exact_statistics.h"
+#include "study/sampling_findings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -249,35 +250,14 @@ namespace plumbline::study
       }
       return result;
     }
-
-    /// What a reader should know of the rule and its samples.
-    std::vector<std::string> find_findings(const SamplingResults &results)
-    {
-      std::vector<std::string> findings;
-      const auto say = [&](const std::string &text) { findings.push_back(text); };
-      for (const CaseStatistics &one : results.cases)
-        for (const SetStatistics &set : one.sets)
-        {
-          const std::string where = one.of.method + ", h = " + base::to_text(one.of.h, 4) +
-                                    ", count " + std::to_string(set.count) + ": ";
-          for (const auto &[name, statistics] : set.quantities)
-            if (statistics.variance < 0)
-              say(where + "the variance of " + name + " is " +
-                  base::to_text(statistics.variance, 4) +
-                  ", which no quantity has: weights are negative (sum of sizes " +
-                  base::to_text(set.sum_of_sizes, 4) + "), and its deviation is not known");
-          if (set.negative_part > 0)
-            say(where + "the variance of the field is negative in " +
-                base::to_text(100 * set.negative_part, 3) +
-                " % of the domain, where it counts as "
-                "0");
-          if (set.mean_error && set.mean_uncertainty > .1 * *set.mean_error)
-            say(where + "the exact mean is known to " + base::to_text(set.mean_uncertainty, 3) +
-                " only, no tenth of its error");
-        }
-      return findings;
-    }
   } // namespace
+
+  std::optional<random::Spectrum> field_spectrum(const scene::RandomSection &section)
+  {
+    if (!section.source || section.n_modes == 0)
+      return {};
+    return random::spectrum_of(*section.source->expansion());
+  }
 
   scene::Scene SamplingPlan::at(const scene::Scene &scene, std::size_t sample) const
   {
@@ -336,6 +316,14 @@ namespace plumbline::study
     results.sampling = scene.sampling;
     results.target = base::word(scene.study.decisive_error.target);
     results.n_samples = plan.values.size();
+    try
+    {
+      results.spectrum = field_spectrum(scene.random);
+    }
+    catch (const std::exception &error) // samples failed of it as well, and are listed
+    {
+      results.findings.push_back(std::string("the variance kept is not known: ") + error.what());
+    }
     results.n_expected = static_cast<std::size_t>(
         std::count_if(scene.expected.all.begin(), scene.expected.all.end(),
                       [](const auto &one) { return one.kind == scene::ExpectedKind::sampling; }));
@@ -402,6 +390,8 @@ namespace plumbline::study
       if (one.kind != scene::ExpectedKind::sampling)
         continue;
       std::optional<double> found;
+      if (results.spectrum && one.problem == "variance kept")
+        found = results.spectrum->variance_kept();
       for (const CaseStatistics &known : results.cases) // coarse to fine: the finest is the last
         if (known.of.method == one.method)
           if (const auto value = sampled_quantity(known, one.problem))

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "random/spectrum.h"
 #include "random/statistics.h"
 #include "scene/scene.h"
 
@@ -12,6 +13,9 @@
 // Statistics of what a random scene yields, over sets of samples and levels alike.
 namespace plumbline::study
 {
+  /// Of a field's modes; nothing where it has none. Finds them where nobody did yet.
+  std::optional<random::Spectrum> field_spectrum(const scene::RandomSection &section);
+
   /// Samples of one rule and count.
   struct SampleSet
   {
@@ -120,6 +124,7 @@ namespace plumbline::study
     scene::SamplingSection sampling;
     std::string target; ///< of errors of means, e.g. "local"; empty: none is known
     std::size_t n_samples = 0;
+    std::optional<random::Spectrum> spectrum; ///< of a field of modes
     std::vector<CaseStatistics> cases;
     std::vector<SampleFailure> failures;
     std::vector<CheapestPair> cheapest;
@@ -134,7 +139,8 @@ namespace plumbline::study
   conclude_samples(const scene::Scene &scene, const SamplingPlan &plan,
                    const std::function<std::optional<SampleRecord>(std::size_t sample)> &read);
 
-  /// What does not hold of Expected/sampling; one sentence each.
+  /// What does not hold of Expected/sampling, where "variance kept" is that of the modes; one
+  /// sentence each.
   std::vector<std::string> sampling_faults(const SamplingResults &results,
                                            const scene::ExpectedSection &expected);
 

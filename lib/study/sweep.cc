@@ -8,6 +8,7 @@
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
 #include "study/round_off.h"
+#include "study/sampling.h"
 #include "study/saving.h"
 #include "study/self_convergence.h"
 #include "study/timing.h"
@@ -156,6 +157,8 @@ namespace plumbline::study
       {
         if (level + 1 < n_levels(series) || series.name != scene_.study.series.front().name)
           return;
+        if (const auto spectrum = field_spectrum(scene_.random); spectrum && spectrum->is_grey())
+          results_.warnings.push_back("Random/modes: " + words_of(*spectrum));
         for (const Case &one : open)
           if (const auto found = measure_contradiction(scene_, one.index, one.problem);
               found && found->is_clear())

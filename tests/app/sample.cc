@@ -133,6 +133,36 @@ TEST(SampleCommand, lists_a_sample_that_fails_and_keeps_the_rest)
   fs::remove_all(folder);
 }
 
+TEST(SampleCommand, charts_the_variance_that_modes_hold)
+{
+  const fs::path folder = temporary("sample");
+  const Outcome outcome = run(
+      "sample " + std::string(PLUMBLINE_SCENES) +
+      "/failures/twenty_modes.prm --set Study/h=10 --set Random/cell=10 --set Sampling/counts=0 "
+      "--set Random/realisations=40 -o " +
+      folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "20 modes hold");
+  const Json json = Json::parse(read(folder / "sample.json"));
+  double sum = 0;
+  for (const Json &share : json["spectrum"])
+    sum += share.get<double>();
+  EXPECT_EQ(json["spectrum"].size(), 20);
+  EXPECT_NEAR(json["variance_kept"], sum, 1e-12);
+  expect_found(read(folder / "sample.html"), "Variance that modes hold");
+  EXPECT_TRUE(fs::exists(folder / "sample/spectrum.csv"));
+  fs::remove_all(folder);
+  // so do pages of one sample
+  const Outcome one = run("grow " + std::string(PLUMBLINE_SCENES) +
+                          "/failures/twenty_modes.prm --set Sampling/rule=none --set Study/h=10 "
+                          "--set Random/cell=10 --set Random/realisations=40 -o " +
+                          folder.string());
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  expect_found(one.out, "20 modes hold");
+  expect_found(read(folder / "grow.html"), "Variance that modes hold");
+  fs::remove_all(folder);
+}
+
 TEST(SampleCommand, a_scene_is_run_at_any_sample)
 {
   const fs::path folder = temporary("run");

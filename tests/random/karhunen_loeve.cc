@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "physics/gauss.h"
 #include "random/boolean_covariance.h"
+#include "random/spectrum.h"
 #include "refusal.h"
 
 #include <Eigen/Dense>
@@ -323,4 +324,23 @@ TEST(KarhunenLoeve, refuses_what_it_cannot_do_with_numbers_and_remedy)
   EXPECT_NE(refusal([&] { karhunen_loeve([](double d, double) { return 1 / d; }, grid, 1); })
                 .find("is inf at distance (0, 0)"),
             std::string::npos);
+}
+
+TEST(Spectrum, tells_what_modes_hold)
+{
+  Expansion expansion;
+  expansion.grid = {{{0, 0}, {2, 1}}, {2, 1}};
+  expansion.variance = {3, 1}; // 4 in all
+  expansion.eigenvalue = {2, 1};
+  const Spectrum spectrum = spectrum_of(expansion);
+  EXPECT_EQ(spectrum.share, (std::vector<double>{.5, .25}));
+  EXPECT_EQ(spectrum.kept, (std::vector<double>{.5, .75}));
+  EXPECT_NEAR(spectrum.deviation, std::sqrt(1.5), 1e-15);
+  EXPECT_NEAR(spectrum.whole_deviation, std::sqrt(2.), 1e-15);
+  EXPECT_FALSE(spectrum.is_grey());
+  EXPECT_EQ(words_of(spectrum), "2 modes hold 75 % of the variance: the field deviates by 1.22 "
+                                "where the whole deviates by 1.41");
+  expansion.variance = {0, 0}; // nothing to hold
+  expansion.eigenvalue = {0, 0};
+  EXPECT_EQ(spectrum_of(expansion).variance_kept(), 1);
 }

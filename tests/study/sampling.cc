@@ -279,10 +279,50 @@ TEST(SampleStatistics, NegativeVariancesAreSaidAndHaveNoDeviation)
   const random::Statistics &found = results.cases[0].sets[0].quantities.at("q");
   EXPECT_NEAR(found.variance, -340, 1e-9);
   EXPECT_FALSE(found.deviation());
-  ASSERT_EQ(results.findings.size(), 1);
+  ASSERT_EQ(results.findings.size(), 2);
   EXPECT_NE(results.findings[0].find("-340"), std::string::npos) << results.findings[0];
+  // which is the mean of a sum, all the same
+  EXPECT_NE(results.findings[1].find("mean of q is 20, and samples are between 0 and 3"),
+            std::string::npos)
+      << results.findings[1];
   EXPECT_FALSE(sampled_quantity(results.cases[0], "deviation of q"));
   EXPECT_NEAR(*sampled_quantity(results.cases[0], "variance of q"), -340, 1e-9);
+}
+
+// Of exp(-|x-y|/l) in x and y, l = .2: the first eigenvalue in one dimension is .3309, the second
+// .2098.
+TEST(SampleStatistics, OfModesSayWhatVarianceTheyHold)
+{
+  const Settings field = {{"Random/field", "separable exponential"},
+                          {"Random/length", "0.2"},
+                          {"Random/cell", "0.01"},
+                          {"Random/deviation", "3"},
+                          {"Sampling/counts", "1"}};
+  const auto with_modes = [&](const std::string &n)
+  {
+    Settings settings = field;
+    settings.push_back({"Random/modes", n});
+    const scene::Scene scene = random_scene(settings);
+    return conclude(scene, make_sampling_plan(scene), first);
+  };
+  const SamplingResults few = with_modes("3");
+  ASSERT_TRUE(few.spectrum);
+  const double kept = .3309206 * (.3309206 + 2 * .2097761);
+  EXPECT_NEAR(few.spectrum->variance_kept(), kept, 1e-3);
+  EXPECT_NEAR(few.spectrum->deviation, 3 * std::sqrt(kept), 5e-3);
+  ASSERT_EQ(few.findings.size(), 1);
+  EXPECT_NE(few.findings[0].find(words_of(*few.spectrum)), std::string::npos) << few.findings[0];
+  const auto faults = [&](const std::string &expected)
+  {
+    return sampling_faults(few, random_scene({{"Expected/sampling", expected},
+                                              {"Expected/error tolerance", "0.01"}})
+                                    .expected)
+        .size();
+  };
+  EXPECT_EQ(faults("PA-AC, variance kept: 0.248"), 0);
+  EXPECT_EQ(faults("PA-AC, variance kept: 0.26"), 1);
+  EXPECT_TRUE(with_modes("20").findings.empty());
+  EXPECT_FALSE(conclude(random_scene({}), make_sampling_plan(random_scene({})), first).spectrum);
 }
 
 TEST(SampleStatistics, ExpectationsAreOfTheLargestSet)

@@ -147,7 +147,8 @@ namespace plumbline::scene
         "'method: stable', 'conditionally stable' or 'unstable', of 'plumbline stability'.");
     add(ExpectedKind::sampling,
         "'method, quantity: value' of 'plumbline sample', of the largest set of samples at the "
-        "finest level, to Expected/error tolerance; quantities as its table calls them.");
+        "finest level, to Expected/error tolerance; quantities as its table calls them, or "
+        "variance kept, the share of a field's modes.");
     add(ExpectedKind::growth,
         "'method: d': growth rates that 'plumbline stability' observes on strained double wells "
         "differ from the symbol's by no more than d of the largest.");
