@@ -49,21 +49,12 @@ namespace plumbline::app
     }
 
     /// Nothing is made before its memory is there.
-    void check_size(const scene::Scene &scene, const scene::Level &level)
+    void check_size(const scene::Scene &scene)
     {
-      const double m = level.horizon / level.h;
-      double n_nodes = 0;
-      for (const geometry::Box &box : scene.domain.boxes.include)
-        n_nodes +=
-            (box.upper[0] - box.lower[0]) * (box.upper[1] - box.lower[1]) / (level.h * level.h);
-      // bonds with their books and entries of the matrix while it is made; the factor's grow with
-      // the logarithm of n (nested dissection), and are more with dilatations, of twice the reach
-      const physics::Lame lame = scene.material.lame()(scene.domain.cracks.front().back());
-      const double n_bonds = .5 * M_PI * m * m * n_nodes,
-                   n_factor = (std::abs(lame.lambda - lame.mu) <= 1e-12 * lame.mu ? 6 : 18) * m *
-                              m * n_nodes * std::log2(std::max(2., n_nodes));
-      base::require_memory(400 * n_bonds + 16 * n_factor,
-                           "a body of " + base::to_text(n_nodes, 3) + " nodes",
+      const GrowthSize size = expected_size(scene);
+      // bonds with their books and entries of the matrix while it is made
+      base::require_memory(400 * size.n_bonds + 16 * size.n_factor,
+                           "a body of " + base::to_text(size.n_nodes, 3) + " nodes",
                            "choose a larger h (Study/h)");
     }
 
@@ -142,11 +133,38 @@ namespace plumbline::app
     }
   } // namespace
 
+  GrowthSize expected_size(const scene::Scene &scene)
+  {
+    const scene::Level &level = scene.study.series.front().levels.front();
+    const double m = level.horizon / level.h;
+    const Point<2> tip = scene.domain.cracks.front().back(), mouth = scene.domain.cracks.front()[0];
+    GrowthSize size;
+    double way = 0; // along x from the notch's tip to the far side
+    for (const geometry::Box &box : scene.domain.boxes.include)
+    {
+      size.n_nodes +=
+          (box.upper[0] - box.lower[0]) * (box.upper[1] - box.lower[1]) / (level.h * level.h);
+      way = std::max(way, tip[0] >= mouth[0] ? box.upper[0] - tip[0] : tip[0] - box.lower[0]);
+    }
+    size.n_bonds = .5 * M_PI * m * m * size.n_nodes;
+    // nested dissection: they grow with the logarithm of n; with dilatations, of twice the reach,
+    // there are more
+    const physics::Lame lame = scene.material.lame()(tip);
+    size.n_factor = (std::abs(lame.lambda - lame.mu) <= 1e-12 * lame.mu ? 6 : 18) * m * m *
+                    size.n_nodes * std::log2(std::max(2., size.n_nodes));
+    size.n_breaks = 2. / 3 * m * m * m * way / level.h; // 18 a column of nodes at m = 3
+    // a solution for each bond, 2 ns an entry of the factor; updates and new factors take as long
+    // as half of that
+    constexpr double seconds_per_entry = 1.5 * 2e-9;
+    size.seconds = seconds_per_entry * size.n_factor * size.n_breaks;
+    return size;
+  }
+
   study::GrowthResults grow_body(const scene::Scene &scene, const fs::path &checkpoint,
                                  const std::function<void()> &before_it_grows)
   {
     const scene::Level &level = scene.study.series.front().levels.front();
-    check_size(scene, level);
+    check_size(scene);
     const auto influence = physics::influence_function(scene.kernel.profile, level.horizon);
     const meshfree::Rule rule = find_rule(scene.methods.names.front());
     const meshfree::Recipe recipe = rule.recipe(physics::deviatoric_kernel(influence, 1));
@@ -203,7 +221,7 @@ namespace plumbline::app
       throw InputError("scene '" + scene.name +
                        "': Fracture/toughness is empty, so that nothing breaks; give it, or use "
                        "'plumbline run' ('plumbline crack' where Crack/notch is given)");
-    check_size(scene, scene.study.series.front().levels.front());
+    check_size(scene);
     const fs::path folder = output_folder(options, scene);
     const study::GrowthResults results =
         grow_body(scene, folder / "checkpoint.h5",

@@ -10,6 +10,17 @@ namespace plumbline::app
     bool check = false; ///< Expected/growth, growth ends, and the audit of energy
   };
 
+  /// What a growth that is not begun is expected to be.
+  struct GrowthSize
+  {
+    double n_nodes = 0, n_bonds = 0, n_factor = 0; ///< n_factor: entries of the equations' factor
+    double n_breaks = 0; ///< bonds that a straight crack breaks, the fewest; one that winds breaks
+                         ///< up to three times as many
+    double seconds = 0;  ///< CPU time of those, by rates that were measured on one machine; to a
+                         ///< factor of two on others
+  };
+  GrowthSize expected_size(const scene::Scene &scene);
+
   /// The growth of a scene at its one level, from the checkpoint if there is one.
   /// @param before_it_grows  called once the body stands
   /// @throws InputError, NumericalError  as grow

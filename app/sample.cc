@@ -2,6 +2,7 @@
 
 #include "base/cost.h"
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/team.h"
 #include "grow.h"
 #include "methods.h"
@@ -131,6 +132,22 @@ namespace plumbline::app
       return arguments;
     }
 
+    /// How long samples of growth will take, before there is one.
+    void tell_size(const scene::Scene &scene, std::size_t n, unsigned int n_jobs)
+    {
+      constexpr double worth_saying = 30; // [s]
+      const GrowthSize size = expected_size(scene);
+      const double all = size.seconds * static_cast<double>(n) / n_jobs;
+      if (all > worth_saying)
+        std::cerr << n << (n > 1 ? " samples of " : " sample of ") << base::to_text(size.n_nodes, 6)
+                  << " nodes: some " << report::rounded_seconds(size.seconds) << " each, "
+                  << report::rounded_seconds(all) << " in all by " << n_jobs
+                  << (n_jobs > 1 ? " processes" : " process")
+                  << ", to a factor of two and for straight cracks of "
+                  << base::to_text(size.n_breaks, 4)
+                  << " bonds; those that wind take up to three times as long\n";
+    }
+
     /// How long the rest will take, once some samples are there.
     class Forecast
     {
@@ -161,8 +178,9 @@ namespace plumbline::app
     };
 
     /// All samples that are not there yet.
-    void take_all(const SampleOptions &options, const study::SamplingPlan &plan,
-                  const report::SampleFiles &files, const fs::path &folder)
+    void take_all(const SampleOptions &options, const scene::Scene &scene,
+                  const study::SamplingPlan &plan, const report::SampleFiles &files,
+                  const fs::path &folder)
     {
       const base::Team team = base::Team::all();
       std::vector<std::uint64_t> due;
@@ -173,6 +191,8 @@ namespace plumbline::app
       if (is_talking && due.size() < plan.values.size() && team.n_ranks() == 1)
         std::cerr << "continuing: " << plan.values.size() - due.size() << " samples are in '"
                   << folder.string() << "' already\n";
+      if (is_talking && scene.fracture.is_there())
+        tell_size(scene, due.size(), options.n_jobs * team.n_ranks());
       ProgressLine progress(is_talking);
       Forecast forecast(due.size(), is_talking);
       const auto n_done = [&]
@@ -227,7 +247,7 @@ namespace plumbline::app
             files.begin();
         });
     watch_interrupts();
-    take_all(options, plan, files, folder);
+    take_all(options, scene, plan, files, folder);
     team.wait();
     if (team.rank() != 0)
       return 0;

@@ -106,7 +106,9 @@ namespace plumbline::report
       return digits(1e6 * seconds) + " µs";
     if (seconds < .1)
       return digits(1e3 * seconds) + " ms";
-    return digits(seconds) + " s";
+    if (seconds < 1e4)
+      return digits(seconds) + " s";
+    return digits(seconds / 3600) + " h";
   }
 
   std::string slug(const std::string &name)

@@ -22,7 +22,7 @@ namespace plumbline::report
   /// A target such as 1e-2: three significant digits at most, always with an exponent.
   std::string short_power(double value);
 
-  /// A time as people say it: "85 µs", "0.51 ms", "3.2 s", "410 s"; two significant digits.
+  /// A time as people say it: "85 µs", "0.51 ms", "3.2 s", "410 s", "22 h"; two significant digits.
   std::string rounded_seconds(double seconds);
 
   /// Lower-case letters, digits, '.' and '-' for file names: "δ = 0.4" becomes "delta-0.4".

@@ -163,6 +163,21 @@ TEST(SampleCommand, charts_the_variance_that_modes_hold)
   fs::remove_all(folder);
 }
 
+TEST(SampleCommand, says_what_growths_will_take_before_the_first)
+{
+  const fs::path folder = temporary("sample");
+  const std::string command = "sample " + std::string(PLUMBLINE_SCENES) +
+                              "/glass_ceramics/half_plate.prm --set 'Fracture/largest load=0.1'";
+  const Outcome outcome = run(command + " --set Sampling/counts=3 -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  // 5000 nodes, 350 um to go, 4 um a column, 18 bonds each: 54 log2(5000) entries a node, 3 ns
+  expect_found(outcome.err, "3 samples of 5000 nodes: some 16 s each, 47 s in all by 1 process, ");
+  expect_found(outcome.err, "straight cracks of 1575 bonds");
+  const Outcome again = run(command + " --set Sampling/counts=1 -o " + folder.string());
+  EXPECT_EQ(again.err.find("1 sample"), std::string::npos) << again.err; // not worth it
+  fs::remove_all(folder);
+}
+
 TEST(SampleCommand, a_scene_is_run_at_any_sample)
 {
   const fs::path folder = temporary("run");

@@ -69,6 +69,8 @@ namespace plumbline::report
     EXPECT_EQ(rounded_seconds(.123), "0.12 s");
     EXPECT_EQ(rounded_seconds(3.21), "3.2 s");
     EXPECT_EQ(rounded_seconds(412), "410 s");
+    EXPECT_EQ(rounded_seconds(9940), "9940 s");
+    EXPECT_EQ(rounded_seconds(80300), "22 h");
     EXPECT_EQ(rounded_seconds(std::nan("")), "–");
     EXPECT_EQ(exact(.1), "0.10000000000000001");
     EXPECT_EQ(exact(std::numeric_limits<double>::infinity()), "");
