@@ -261,13 +261,24 @@ namespace plumbline::report
       {
         if (line.points.empty() && line.label.empty())
           continue;
+        const Style &style = line.style;
+        if (!line.bars.empty()) // below the symbols
+        {
+          data << "$d" << ++n << " << EOD\n";
+          for (std::size_t i = 0; i < line.bars.size(); ++i)
+            if (line.bars[i] > 0)
+              data << two(line.points[i].x, line.points[i].y) << " " << exact(line.bars[i]) << "\n";
+          data << "EOD\n";
+          commands << std::exchange(separator, ", \\\n  ") << "$d" << n
+                   << " using 1:2:3 with yerrorbars lc rgb '" << style.colour
+                   << "' lw 1.2 pt 0 notitle";
+        }
         // A method without a point keeps its line of the legend: gnuplot needs one value to draw
         // it.
         block(line.points.empty() ? std::vector<Vertex>{{x.low / 10, y.high * 10}}
               : has_strip         ? strip.enter(line)
                                   : line.points,
               has_strip);
-        const Style &style = line.style;
         commands << "linespoints lc rgb '" << style.colour << "' lw " << line.width << " pt "
                  << point_types[style.symbol][style.is_dashed ? 0 : 1] << " ps " << .85
                  << (style.is_dashed ? " dt (6,4)" : "")

@@ -38,6 +38,8 @@ namespace plumbline::report
     double width = 1.8;
     std::vector<Vertex> points;       ///< positive on logarithmic axes
     unsigned int symbol_interval = 1; ///< every so many points one has a symbol
+    std::vector<double> bars =
+        {}; ///< how far error bars reach up and down from the points, or empty
   };
 
   struct Plot
