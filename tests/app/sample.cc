@@ -161,6 +161,14 @@ TEST(SampleCommand, charts_the_variance_that_modes_hold)
   expect_found(one.out, "20 modes hold");
   expect_found(read(folder / "grow.html"), "Variance that modes hold");
   fs::remove_all(folder);
+  const Outcome statics =
+      run("run " + std::string(PLUMBLINE_SCENES) +
+          "/random/smooth.prm --levels 1 --set Sampling/rule=none --set Random/field=exponential "
+          "--set Random/modes=3 --set Random/length=0.2 --set Random/cell=0.1 -o " +
+          folder.string());
+  expect_found(statics.err, "3 modes hold 32.5 % of the variance");
+  expect_found(read(folder / "report.html"), "3 modes hold");
+  fs::remove_all(folder);
 }
 
 TEST(SampleCommand, says_what_growths_will_take_before_the_first)
