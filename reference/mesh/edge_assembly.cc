@@ -142,14 +142,21 @@ namespace plumbline::reference
       return a != b ? value[2] : a == 0 ? value[0] + value[1] : value[0] - value[1];
     }
 
+    /// The constant term of a kernel, whose whole pairs are products.
+    struct Constant
+    {
+      PairWays ways;
+      double value;
+    };
+
     /// Entries ∬ C φ_i(x) (φ_j(x) - φ_j(y)) of pairs of nodes.
-    /// @param constant  the kernel's constant term, whose whole pairs are products
+    /// @param constants  of the parts of the kernel
     template <unsigned int n>
     class Entries
     {
     public:
-      Entries(const EdgeForm &form, const PairWays &ways, const HalfMatrix &half, double constant)
-          : form_(form), ways_(ways), half_(half), constant_(constant)
+      Entries(const EdgeForm &form, const std::vector<Constant> &constants, const HalfMatrix &half)
+          : form_(form), constants_(constants), half_(half)
       {
       }
 
@@ -160,17 +167,16 @@ namespace plumbline::reference
         std::array<double, n> value;
         for (unsigned int e = 0; e < n; ++e)
           value[e] = -(half_.value[k * n + e] + half_.value[other * n + e]);
-        const PairWay way = ways_(i, j);
-        if (way == PairWay::whole)
-          value[0] -= constant_ * (form_.integral[i] * form_.integral[j]);
+        for (const Constant &constant : constants_)
+          if (constant.ways(i, j) == PairWay::whole)
+            value[0] -= constant.value * (form_.integral[i] * form_.integral[j]);
         return value;
       }
 
     private:
       const EdgeForm &form_;
-      const PairWays &ways_;
+      const std::vector<Constant> &constants_;
       const HalfMatrix &half_;
-      double constant_;
     };
 
     /// Free rows in place of the half: at the peak a scalar matrix takes 12 bytes an entry.
@@ -238,36 +244,32 @@ namespace plumbline::reference
       return ways.farthest_whole() + 2 * *std::max_element(form.radius.begin(), form.radius.end());
     }
 
+    /// @param parts  of a kernel, without breaks, the one with the longest horizon first: places of
+    /// the others are some of its
     template <unsigned int n>
-    algebra::Rows assemble_entries(const MeshSpace &space, const physics::Kernel<2> &kernel,
-                                   const base::Team &team, std::uint64_t &n_pairs)
+    algebra::Rows assemble_parts(const MeshSpace &space,
+                                 const std::vector<physics::Kernel<2>> &parts,
+                                 const base::Team &team, std::uint64_t *n_pairs)
     {
-      const double horizon = kernel.horizon();
       const EdgeForm form(space);
-      const PairWays ways(space, form, kernel);
-      const WholePotential whole(kernel, reach(form, ways), form.longest);
-      HalfMatrix half = make_half(space, form, ways, horizon, n);
-      add_groups<n>(space, form, ways, kernel, whole, team, half);
-      n_pairs += half.n_pairs;
+      HalfMatrix half =
+          make_half(space, form, PairWays(space, form, parts.front()), parts.front().horizon(), n);
       const bool is_first = team.rank() == 0; // of ranks: what one alone must give
-      if (is_first)
-        subtract_mass(space, kernel.moment({0, 0}), n, half);
-      return combine(space, Entries<n>(form, ways, half, is_first ? whole.constant() : 0), half);
-    }
-
-    /// sum += rows in place, whose horizon is shorter: their places are some of its.
-    void add(const algebra::Rows &rows, algebra::Rows &sum)
-    {
-      for (std::size_t row = 0; row < sum.n_rows(); ++row)
+      std::vector<Constant> constants;
+      for (const physics::Kernel<2> &part : parts)
       {
-        std::size_t to = sum.start[row];
-        for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
+        const PairWays ways(space, form, part);
+        const WholePotential whole(part, reach(form, ways), form.longest);
+        add_groups<n>(space, form, ways, part, whole, team, half);
+        if (is_first)
         {
-          while (sum.column[to] < rows.column[k])
-            ++to;
-          sum.value[to] += rows.value[k];
+          subtract_mass(space, part.moment({0, 0}), n, half);
+          constants.push_back({ways, whole.constant()});
         }
       }
+      if (n_pairs != nullptr)
+        *n_pairs = half.n_pairs;
+      return combine(space, Entries<n>(form, constants, half), half);
     }
 
     /// Why a kernel whose profile has no breaks cannot have its matrix; empty: it can.
@@ -314,30 +316,11 @@ namespace plumbline::reference
   algebra::Rows assemble_by_edges(const MeshSpace &space, const physics::Kernel<2> &kernel,
                                   const base::Team &team, std::uint64_t *n_pairs)
   {
-    algebra::Rows sum;
-    std::uint64_t n_done = 0;
     auto parts = kernel.parts();
     std::sort(parts.begin(), parts.end(),
               [](const auto &a, const auto &b) { return a.horizon() > b.horizon(); });
-    for (const physics::Kernel<2> &part : parts)
-    {
-      algebra::Rows rows = part.structure() == physics::Structure::scalar
-                               ? assemble_entries<1>(space, part, team, n_done)
-                               : assemble_entries<3>(space, part, team, n_done);
-      if (sum.start.empty())
-      {
-        sum = std::move(rows);
-        if (parts.size() > 1) // the half's memory is a little more
-        {
-          sum.column.shrink_to_fit();
-          sum.value.shrink_to_fit();
-        }
-      }
-      else
-        add(rows, sum);
-    }
-    if (n_pairs != nullptr)
-      *n_pairs = n_done;
-    return sum;
+    return kernel.structure() == physics::Structure::scalar
+               ? assemble_parts<1>(space, parts, team, n_pairs)
+               : assemble_parts<3>(space, parts, team, n_pairs);
   }
 } // namespace plumbline::reference

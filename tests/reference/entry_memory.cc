@@ -11,7 +11,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
-#include <tuple>
+#include <utility>
 
 namespace
 {
@@ -114,11 +114,9 @@ TEST(EntryMemory, OfAssemblyByEdgesIsTwentyFourBytesAnEntryAtMost)
   const double horizon = 8 * h;
   expect_little(physics::Kernel<2>::with_diffusion(linear_decay, horizon, 1), "scalar", 21);
   expect_little(physics::Kernel<2>::with_bulk_modulus(linear_decay, 6 * h, 1), "tensor", 24);
-  // the matrix of the inner part stands beside that of all
-  for (const auto &[at, title, allowed] :
-       {std::tuple(.6, "break", 24.), std::tuple(.9, "break_at_the_horizon", 30.)})
+  for (const auto &[at, title] : {std::pair(.6, "break"), std::pair(.9, "break_at_the_horizon")})
     expect_little(physics::Kernel<2>::with_diffusion(
                       RadialProfile::table({{0, 2}, {at, 1}, {1, .2}}), horizon, 1),
-                  title, allowed);
+                  title, 24);
   dealii::MultithreadInfo::set_thread_limit();
 }
