@@ -48,31 +48,61 @@ namespace plumbline::study
       {
         for (const auto &bond : model.cut)
           if (are_next(model, bond))
-            for (const Point<2> &end : side_between(model, bond))
-              places_.insert(place_of(model, end));
+            insert(side_between(model, bond));
       }
 
-      bool holds(const Point<2> &x) const { return places_.count(place_of(*model_, x)) > 0; }
-
-      /// Take in a side that touches them, and all that it reaches of those that do not yet.
+      /// Take in sides that touch them, and all that these reach.
       void grow(std::vector<CrackSide> &sides)
       {
         for (bool is_growing = true; is_growing;)
         {
           is_growing = false;
           for (CrackSide &side : sides)
-            if (!side.is_joined && (holds(side.ends[0]) || holds(side.ends[1])))
+            if (!side.is_joined && touches(side.ends))
             {
               side.is_joined = is_growing = true;
-              for (const Point<2> &end : side.ends)
-                places_.insert(place_of(*model_, end));
+              insert(side.ends);
             }
         }
       }
 
     private:
+      using Ends = std::array<Point<2>, 2>;
+
+      /// The axis that a side is along.
+      unsigned int axis(const Ends &ends) const
+      {
+        return place_of(*model_, ends[0])[0] == place_of(*model_, ends[1])[0] ? 1 : 0;
+      }
+
+      void insert(const Ends &ends)
+      {
+        for (const Point<2> &end : ends)
+          places_[axis(ends)].insert(place_of(*model_, end));
+      }
+
+      /// At an end, or where a crack steps from one row to the next without parting neighbours.
+      bool touches(const Ends &ends) const
+      {
+        constexpr long step = 2; // one mesh size
+        const unsigned int along = axis(ends);
+        for (const Point<2> &end : ends)
+        {
+          Place place = place_of(*model_, end);
+          if (places_[0].count(place) > 0 || places_[1].count(place) > 0)
+            return true;
+          for (const long to : {-step, 2 * step})
+          {
+            place[1 - along] += to;
+            if (places_[along].count(place) > 0)
+              return true;
+          }
+        }
+        return false;
+      }
+
       const GrowthModel *model_;
-      std::set<Place> places_;
+      std::array<std::set<Place>, 2> places_; ///< of sides along x and along y
     };
   } // namespace
 

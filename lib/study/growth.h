@@ -47,7 +47,7 @@ namespace plumbline::study
   };
 
   /// Where a crack went. It is where next neighbours have parted: sides of cells that hang together
-  /// with the notch.
+  /// with the notch, at their ends or from one row to the next.
   struct CrackPath
   {
     std::vector<CrackSide> sides;       ///< as they broke

@@ -74,6 +74,18 @@ TEST(Growth, a_path_hangs_together_with_the_notch)
   EXPECT_EQ(path.sides[2].event, 2u);
 }
 
+TEST(Growth, a_path_may_step_to_the_next_row)
+{
+  const GrowthModel model = comb(8);
+  const std::vector<Event> events = {event({bond(model, 3.5, 0)}), event({bond(model, 4.5, 1)}),
+                                     event({bond(model, 6.5, 0)}), event({bond(model, 7.5, -1)})};
+  const study::CrackPath path = find_path(model, events);
+  EXPECT_LT(path.tips[1].distance({5, 1}), 1e-12);
+  EXPECT_LT(path.tips[3].distance({5, 1}), 1e-12); // not along a row, across a column that is whole
+  EXPECT_EQ(path.length, 2);
+  EXPECT_EQ(path.n_elsewhere, 2u);
+}
+
 TEST(Growth, toughness_counts_bonds_over_the_width_of_what_parted)
 {
   GrowthModel model = comb(8);
