@@ -47,12 +47,8 @@ namespace plumbline::report
       for (const char *const name : scene::growth_quantities)
         add(name, r.quantity(name), meaning_of(name));
       add("width", r.path.width, "of all sides that parted, projected onto the x-axis [length]");
-      add("path", r.path.length, "sides of cells that the crack parts, L1 [length]");
       add("apart", static_cast<double>(r.path.n_elsewhere),
           "sides that parted elsewhere, not joined to the notch");
-      add("bond energy / path", r.bond_energy_per_length(),
-          "of broken bonds at their limits, for a length of the path [force/length]");
-      add("energy / path", r.energy_per_length(), "the same with what was released");
       for (std::size_t i = 0; i < r.parts.size() && r.parts.size() <= most_parts; ++i)
         add("length, G = " + rounded(r.parts[i].toughness), r.parts[i].length,
             std::to_string(r.parts[i].n_bonds) +
@@ -227,10 +223,7 @@ namespace plumbline::report
               {"K_by_energy", known_number(r.quantity("K by energy"))},
               {"plane_modulus", r.plane_modulus},
               {"variance_kept", r.spectrum ? Json(r.spectrum->variance_kept()) : Json()},
-              {"path", r.path.length},
               {"n_apart", r.path.n_elsewhere},
-              {"bond_energy_per_length", known_number(r.bond_energy_per_length())},
-              {"energy_per_length", known_number(r.energy_per_length())},
               {"n_unpaired", r.n_unpaired},
               {"energy_imbalance", r.largest_imbalance()},
               {"residual", r.largest_residual()},

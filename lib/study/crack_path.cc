@@ -132,10 +132,7 @@ namespace plumbline::study
         columns.insert(a[0] + b[0]);
     path.width = static_cast<double>(columns.size()) * model.h;
     for (const CrackSide &side : path.sides)
-    {
-      path.length += side.is_joined ? model.h : 0;
       path.n_elsewhere += side.is_joined ? 0 : 1;
-    }
     return path;
   }
 

@@ -140,19 +140,6 @@ namespace plumbline::study
     return largest;
   }
 
-  double GrowthResults::bond_energy_per_length() const
-  {
-    return path.length > 0 ? growth.events.back().in_bonds / path.length
-                           : std::numeric_limits<double>::quiet_NaN();
-  }
-
-  double GrowthResults::energy_per_length() const
-  {
-    return path.length > 0
-               ? (growth.events.back().in_bonds + growth.events.back().released) / path.length
-               : std::numeric_limits<double>::quiet_NaN();
-  }
-
   double GrowthResults::toughness_by_bonds() const
   {
     double sum = 0;

@@ -54,7 +54,6 @@ namespace plumbline::study
     std::vector<dealii::Point<2>> tips; ///< after each event: the end that is farthest from the
                                         ///< notch's tip, or that tip
     std::size_t n_elsewhere = 0;        ///< sides apart from the crack
-    double length = 0;                  ///< of the sides that hang together, L1
     double width = 0; ///< of all sides, joined or not, projected onto the x-axis, once each
   };
   CrackPath find_path(const GrowthModel &model, const std::vector<analysis::Event> &events);
@@ -119,7 +118,6 @@ namespace plumbline::study
     std::size_t peak() const;
     double largest_imbalance() const, largest_residual() const;
     /// Of broken bonds, and of all that was released, per length of the path.
-    double bond_energy_per_length() const, energy_per_length() const;
     /// (G_1 L_1 + G_2 L_2 + G_i L_i) / W, lengths by counts of bonds and W the path's width: Fan et
     /// al. 2022, doi:10.1016/j.cma.2022.115340, eq. (5.2) [force/length]. NaN without a path.
     double toughness_by_bonds() const;
