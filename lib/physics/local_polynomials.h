@@ -60,13 +60,21 @@ namespace plumbline::physics
         const double place = (x - start_) * (1 / length_);
         const auto i = static_cast<unsigned int>(place);
         const Values *const c = &coefficients_[i * n_terms];
-        const double t = 2 * (place - i) - 1;
-        Values value = c[n_terms - 1];
-        for (unsigned int k = n_terms - 1; k-- > 0;)
+        const double t = 2 * (place - i) - 1, square = t * t;
+        Values even = c[n_terms - 2], odd = c[n_terms - 1]; // two chains, side by side
+        for (unsigned int k = n_terms - 2; k > 0;)
+        {
+          k -= 2;
 #pragma GCC unroll 13
           for (unsigned int j = 0; j < m; ++j)
-            value[j] = value[j] * t + c[k][j];
-        return value;
+          {
+            even[j] = even[j] * square + c[k][j];
+            odd[j] = odd[j] * square + c[k + 1][j];
+          }
+        }
+        for (unsigned int j = 0; j < m; ++j)
+          even[j] += t * odd[j];
+        return even;
       }
 
     private:

@@ -15,7 +15,7 @@ namespace plumbline::reference
   public:
     LineRules()
     {
-      for (const unsigned int n_points : {6, 8, 10, 12, 16, 24, 32, 50})
+      for (const unsigned int n_points : {5, 6, 7, 8, 9, 10, 11, 12, 14, 16, 20, 24, 32, 50})
       {
         constexpr double error = 1e-18;
         const double ellipse = std::pow(error, -.5 / n_points),
