@@ -11,6 +11,7 @@
 #include "run.h"
 #include "sample.h"
 #include "stability.h"
+#include "strip.h"
 #include "unexpected.h"
 
 #include <deal.II/base/mpi.h>
@@ -66,7 +67,7 @@ namespace
         3);
   }
 
-  /// What `stability`, `dispersion`, `crack`, `grow` and `sample` take.
+  /// What `stability`, `dispersion`, `crack`, `grow`, `strip` and `sample` take.
   void add_options(CLI::App &command, plumbline::app::MeasureOptions &options,
                    std::vector<std::string> &settings)
   {
@@ -141,6 +142,12 @@ int main(int argc, char **argv)
   add_options(*grow, body, settings);
   grow->add_flag("--check", body.check, "Exit with 1 if Expected/growth fails");
 
+  plumbline::app::StripOptions standing;
+  auto *strip_command =
+      app.add_subcommand("strip", "What the tip of a standing crack costs, by each method");
+  add_options(*strip_command, standing, settings);
+  strip_command->add_flag("--check", standing.check, "Exit with 1 if Expected/strip fails");
+
   plumbline::app::SampleOptions random;
   auto *sample = app.add_subcommand("sample", "Take a random scene at many samples; statistics");
   add_options(*sample, random, settings);
@@ -194,7 +201,7 @@ int main(int argc, char **argv)
   const auto command = [&]
   {
     options.overrides = weights.overrides = measures.overrides = waves.overrides = strip.overrides =
-        body.overrides = random.overrides = to_overrides(settings);
+        body.overrides = standing.overrides = random.overrides = to_overrides(settings);
     if (*run)
       exit_code = plumbline::app::run(options);
     else if (*check)
@@ -211,6 +218,8 @@ int main(int argc, char **argv)
       exit_code = plumbline::app::crack(strip);
     else if (*grow)
       exit_code = plumbline::app::grow(body);
+    else if (*strip_command)
+      exit_code = plumbline::app::strip(standing);
     else if (*report)
       exit_code = plumbline::app::rebuild_report(folder);
     else if (*list)

@@ -1,6 +1,7 @@
 #include "meshfree/method.h"
 
 #include "meshfree/discretisations.h"
+#include "meshfree/fracture/standing_crack.h"
 
 #include <utility>
 
@@ -40,6 +41,13 @@ namespace plumbline::meshfree
           return discretise_on_body(rule_, problem);
         return problem.lattice ? discretise_on_lattice(rule_, problem)
                                : discretise_on_scattered_nodes(rule_, problem, team);
+      }
+
+      method::StripState solve_strip(const method::RiceStrip &strip,
+                                     const Kernel<2> &influence) const override
+      {
+        return meshfree::solve_strip(strip, rule_.recipe(physics::deviatoric_kernel(influence, 1)),
+                                     influence);
       }
 
       double expected_bytes(const method::ProblemSize &size) const override

@@ -4,6 +4,7 @@
 #include "reference/lattice/discretisation.h"
 #include "reference/local/local_limit.h"
 #include "reference/mesh/discretisation.h"
+#include "reference/strip/cracked_strip.h"
 
 #include <algorithm>
 
@@ -85,6 +86,14 @@ namespace plumbline::reference
         return discretise_on_mesh(problem, is_continuous_, degree_,
                                   problem.settings.quadrature.exact_entries && !by_quadrature_,
                                   team);
+      }
+      method::StripState solve_strip(const method::RiceStrip &strip,
+                                     const physics::Kernel<2> &influence) const override
+      {
+        if (n_vertices_ == 3)
+          return Method::solve_strip(strip, influence);
+        return reference::solve_strip(strip, physics::deviatoric_kernel(influence, 1),
+                                      AxisShapes(is_continuous_, degree_));
       }
       double expected_bytes(const method::ProblemSize &size) const override
       {

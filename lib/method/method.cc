@@ -1,7 +1,14 @@
 #include "method/method.h"
 
+#include "base/error.h"
+
 namespace plumbline::method
 {
+  StripState Method::solve_strip(const RiceStrip &, const physics::Kernel<2> &) const
+  {
+    throw InputError("Methods/names: " + name() + " solves no strip with a crack (Strip/length)");
+  }
+
   geometry::NodeSet comparison_nodes(const scene::Problem &problem, unsigned int n_components)
   {
     const geometry::AxisSpecies nodes = problem.settings.nodes_are_vertices

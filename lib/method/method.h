@@ -2,6 +2,7 @@
 
 #include "method/capabilities.h"
 #include "method/discretisation.h"
+#include "method/rice_strip.h"
 #include "method/side.h"
 
 #include <array>
@@ -51,6 +52,12 @@ namespace plumbline::method
     /// that is not finite
     virtual std::unique_ptr<Discretisation>
     discretise(const scene::Problem &problem, const base::Team &team = base::Team::all()) const = 0;
+
+    /// A strip with a standing crack, of bonds 8 μ K ξ⊗ξ/|ξ|².
+    /// @param influence  K, ∫K|ξ|² = 2
+    /// @throws InputError  the method solves none; NumericalError  weights are infeasible
+    virtual StripState solve_strip(const RiceStrip &strip,
+                                   const physics::Kernel<2> &influence) const;
 
     /// The most memory that a static solution takes above what stood before (Cost::peak_bytes),
     /// within a factor of 2 where it is more than some 50 MB, for one rank; 0 where it is little.

@@ -69,7 +69,7 @@ namespace plumbline::scene
                   << ", so balls would reach points without data; widen it or write auto";
         else
         {
-          if (scene.domain.mesh.is_of_boxes())
+          if (scene.domain.mesh.is_of_boxes() && !scene.strip.is_there())
             (void)geometry::Lattice(scene.domain.boxes, level.h);
           continue;
         }
@@ -139,9 +139,8 @@ namespace plumbline::scene
       check_start("Time/initial velocity", scene.time.initial_velocity);
 
       const std::size_t n_solutions = problem.solutions.size(), n_loads = problem.loads.size();
-      if ((scene.time.is_dynamic() || scene.crack.is_there() || scene.fracture.is_there()) &&
-          n_solutions == 0)
-        return; // a free motion or growth, see check_motion and check_fracture
+      if (scene.is_no_problem() && n_solutions == 0)
+        return; // see check_motion, check_fracture and check_strip
       require(n_solutions + n_loads > 0,
               "Problem/load = manufactured needs Problem/solution; give the solution, or the load "
               "itself");
@@ -185,8 +184,8 @@ namespace plumbline::scene
 
   void check_norms(const Scene &scene)
   {
-    if (scene.time.is_dynamic() || scene.crack.is_there() || scene.fracture.is_there())
-      return; // see check_motion and check_fracture
+    if (scene.is_no_problem())
+      return; // see check_motion, check_fracture and check_strip
     const StudySection &study = scene.study;
     const ReferenceSection &reference = scene.reference;
     const auto [norm, target] = study.decisive_error;

@@ -31,6 +31,9 @@ namespace plumbline::scene
   /// A body with a notch and grips whose bonds break in equilibrium.
   void check_fracture(const Scene &scene);
 
+  /// A strip with a standing crack, if there is one.
+  void check_strip(const Scene &scene);
+
   /// Solver/iteration and Solver/dilatation fit the rest.
   void check_solver(const Scene &scene);
 } // namespace plumbline::scene

@@ -128,7 +128,8 @@ namespace plumbline::scene
     stability,
     orders, ///< in time
     growth, ///< of waves on strains
-    sampling
+    sampling,
+    strip ///< with a standing crack
   };
 } // namespace plumbline::scene
 
@@ -165,6 +166,6 @@ namespace plumbline::base
       std::array{"automatic", "every", "reference", "none"};
   template <>
   inline constexpr auto words<scene::ExpectedKind> =
-      std::array{"verdicts", "errors",    "rates",  "bounds",        "monotone",
-                 "jitter",   "stability", "orders", "strain growth", "sampling"};
+      std::array{"verdicts",  "errors", "rates",         "bounds",   "monotone", "jitter",
+                 "stability", "orders", "strain growth", "sampling", "strip"};
 } // namespace plumbline::base

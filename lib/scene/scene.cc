@@ -35,6 +35,7 @@ namespace plumbline::scene
       section("Time", scene.time);
       section("Crack", scene.crack);
       section("Fracture", scene.fracture);
+      section("Strip", scene.strip);
       section("Reference", scene.reference);
       section("Quadrature", scene.quadrature);
       section("Geometry", scene.geometry);
@@ -53,6 +54,7 @@ namespace plumbline::scene
       scene.time.complete();
       scene.crack.complete();
       scene.fracture.complete();
+      scene.strip.complete();
       if (scene.solver.is_full_model)
         scene = full_model(std::move(scene));
       check_kernel_and_problem(scene);
@@ -64,6 +66,7 @@ namespace plumbline::scene
       check_mesh_and_nodes(scene);
       check_solver(scene);
       check_motion(scene);
+      check_strip(scene);
       check_sampling(scene);
       scene.expected.complete(scene.problem.case_names());
     }

@@ -5,6 +5,7 @@
 #include "scene/fracture_section.h"
 #include "scene/problem_sections.h"
 #include "scene/random_section.h"
+#include "scene/strip_section.h"
 #include "scene/study_sections.h"
 #include "scene/time_section.h"
 
@@ -28,6 +29,7 @@ namespace plumbline::scene
     TimeSection time;
     CrackSection crack;
     FractureSection fracture;
+    StripSection strip;
     ReferenceSection reference;
     QuadratureSection quadrature;
     GeometrySection geometry;
@@ -42,6 +44,12 @@ namespace plumbline::scene
     bool is_vector() const ///< two components
     {
       return kernel.structure == physics::Structure::tensor || material.takes_influence();
+    }
+
+    /// It moves, or has cracks that do or stand in a strip: not one problem at a time.
+    bool is_no_problem() const
+    {
+      return time.is_dynamic() || crack.is_there() || fracture.is_there() || strip.is_there();
     }
 
     /// λ = μ leaves a state-based solid its bonds alone.

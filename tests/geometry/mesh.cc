@@ -14,6 +14,7 @@ namespace
   {
     return {{{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}},
             {{{0, 1, 4}, 3, true}, {{0, 4, 3}, 3, true}, {{1, 2, 5, 4}, 4, false}},
+            {},
             {}};
   }
 
@@ -88,6 +89,7 @@ TEST(MeshCheck, finds_hanging_vertices_and_two_in_one_place)
   }
   mesh = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 1}, {2, 1}, {2, 2}, {1, 2}},
           {{{0, 1, 2, 3}, 4, true}, {{4, 5, 6, 7}, 4, false}},
+          {},
           {}};
   EXPECT_TRUE(says(fault(mesh), "at (1, 1) lies where cell 0 has another vertex"));
 }
@@ -101,6 +103,7 @@ TEST(MeshCheck, finds_cells_given_twice_and_cells_that_overlap)
                    "two cells"));
   mesh = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {.5, .5}, {1.5, .5}, {1.5, 1.5}, {.5, 1.5}},
           {{{0, 1, 2, 3}, 4, true}, {{4, 5, 6, 7}, 4, false}},
+          {},
           {}};
   EXPECT_EQ(fault(mesh), "cells 0 and 1 at (0.75, 0.75) overlap; take one out or move their "
                          "vertices");

@@ -56,7 +56,9 @@ namespace plumbline::report
       const auto size = fs::file_size(file);
       first = n == 1 ? size : first;
       if (n > 1)
+      {
         EXPECT_LT(size - before, first - 9000) << "the scene again";
+      }
       before = size;
     }
     EXPECT_EQ(results_file(folder.path()), file);

@@ -287,7 +287,8 @@ TEST(Materials, are_those_of_the_cells_and_of_nothing_outside)
   const geometry::Mesh mesh{
       {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {2.5, 0}, {3, 0}, {3, 1}, {2.5, 1}},
       {{{0, 1, 4, 3}, 4, true, 1}, {{1, 2, 5, 4}, 4, false, 0}, {{6, 7, 8, 9}, 4, false, 1}},
-      {"wood", "steel"}};
+      {"wood", "steel"},
+      {}};
   Scene scene = parse("");
   scene.kernel.materials = {{"steel", 200}, {"wood", 12}};
   const auto coefficient = make_coefficient(scene, mesh);

@@ -149,6 +149,10 @@ namespace plumbline::scene
         "'method, quantity: value' of 'plumbline sample', of the largest set of samples at the "
         "finest level, to Expected/error tolerance; quantities as its table calls them, or "
         "variance kept, the share of a field's modes.");
+    add(ExpectedKind::strip,
+        "'method, quantity[, series]: q0 q1 ...' of 'plumbline strip' at each level, to "
+        "Expected/error tolerance; quantities are W1, tip energy, opening, and their limits, "
+        "e.g. tip energy limit, which are one number.");
     add(ExpectedKind::growth,
         "'method: d': growth rates that 'plumbline stability' observes on strained double wells "
         "differ from the symbol's by no more than d of the largest.");
@@ -158,7 +162,8 @@ namespace plumbline::scene
   {
     for (const Expected &one : all)
       if (one.kind != ExpectedKind::orders && one.kind != ExpectedKind::sampling &&
-          !one.problem.empty() && std::find(cases.begin(), cases.end(), one.problem) == cases.end())
+          one.kind != ExpectedKind::strip && !one.problem.empty() &&
+          std::find(cases.begin(), cases.end(), one.problem) == cases.end())
         throw InputError("Expected/" + base::word(one.kind) + ": '" + one.problem + "' in '" +
                          one.text + "' is neither a case of Problem nor a series like 'm = 3'");
   }

@@ -1,0 +1,264 @@
+#include "report/strip_page.h"
+
+#include "report/charts.h"
+#include "report/data_charts.h"
+#include "report/page_parts.h"
+#include "report/text_table.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    using study::StripResults;
+    using study::StripRow;
+    using Json = nlohmann::ordered_json;
+
+    constexpr const char *meaning =
+        "W1 is the energy of the intact strip per length, and what a crack gets for its advance, "
+        "G, whatever the horizon (Rice 1968): G = W1 holds by translation, by any quadrature, and "
+        "tells of bookkeeping and of a strip that is too short. What sees the tip is its energy, "
+        "what it adds to an intact strip from there on, and the opening there: u_y above less that "
+        "below, of the last cells behind it, of rules at the last nodes. Continuous functions "
+        "close there.";
+
+    std::vector<MethodName> methods_of(const StripResults &results)
+    {
+      std::vector<MethodName> methods;
+      for (const StripRow &row : results.rows)
+        if (std::none_of(methods.begin(), methods.end(),
+                         [&](const MethodName &one) { return one.name == row.method; }))
+          methods.push_back({row.method, row.side});
+      return methods;
+    }
+
+    Table rows_table(const StripResults &results)
+    {
+      Table table;
+      table.columns = {"method",  "series",   "h [length]", "m",     "W1 [mu length]", "tip energy",
+                       "opening", "G/W1 - 1", "unknowns",   "CPU s", "failure"};
+      for (const StripRow &row : results.rows)
+      {
+        const bool is = row.failure.empty();
+        table.rows.push_back({text_cell(row.method), text_cell(row.series), number_cell(row.h),
+                              number_cell(row.m()), known(is, number_cell(row.state.intact)),
+                              known(is, number_cell(is ? row.quantity("tip energy") : 0)),
+                              known(is, number_cell(is ? row.quantity("opening") : 0)),
+                              known(is, number_cell(is ? row.imbalance() : 0)),
+                              known(is, count_cell(row.state.n_unknowns)), number_cell(row.seconds),
+                              text_cell(row.failure)});
+      }
+      return without_empty_columns(table);
+    }
+
+    Table limits_table(const StripResults &results)
+    {
+      Table table;
+      table.columns = {"quantity", "method", "series", "limit", "rate", "change"};
+      for (const char *const quantity : study::strip_quantities)
+        for (const study::StripLimit &one : results.limits)
+          if (one.quantity == quantity)
+            table.rows.push_back({text_cell(one.quantity), text_cell(one.method),
+                                  text_cell(one.series), number_cell(one.limit),
+                                  number_cell(one.rate),
+                                  known(std::isfinite(one.change), number_cell(one.change))});
+      return without_empty_columns(table);
+    }
+
+    std::string verdict(const StripResults &results, const std::vector<std::string> &faults)
+    {
+      std::string text;
+      for (const study::StripAgreement &one : study::strip_agreements(results.limits))
+        text += one.quantity + " (" + one.series + ") of " + std::to_string(one.n_methods) +
+                " methods: limits between " + rounded(one.least) + " and " + rounded(one.largest) +
+                ", " + rounded((one.largest - one.least) / std::abs(one.largest)) + " apart. ";
+      if (text.empty())
+        text = "Limits take three levels of h at one horizon, or at one ratio of both, and two "
+               "methods that tend to one. ";
+      for (const std::string &fault : faults)
+        text += "EXPECTED: " + fault + ". ";
+      text.pop_back();
+      return text;
+    }
+
+    std::string label_of(const std::string &method, const std::string &series)
+    {
+      return method + (series.empty() ? "" : ", " + series);
+    }
+
+    DataChart quantity_chart(const StripResults &results, const std::string &quantity)
+    {
+      DataChart chart = named(slug(quantity), quantity + " over h, and limits at 0",
+                              "At h = 0: where the three finest levels lead.");
+      chart.plot.x_label = "mesh size h [length]";
+      chart.plot.y_label = quantity;
+      chart.plot.is_x_log = chart.plot.is_y_log = false;
+      chart.data.columns = {"method", "series", "h", quantity};
+      const auto methods = methods_of(results);
+      double least = std::numeric_limits<double>::infinity(), largest = -least;
+      const auto add =
+          [&](const std::string &method, const std::string &series, double h, double value)
+      {
+        const std::string label = label_of(method, series);
+        auto &lines = chart.plot.lines;
+        auto line = std::find_if(lines.begin(), lines.end(),
+                                 [&](const Line &one) { return one.label == label; });
+        if (line == lines.end())
+          line = lines.insert(line, {label, style_of(methods, method), 1.8, {}});
+        line->points.push_back({h, value});
+        least = std::min(least, value);
+        largest = std::max(largest, value);
+        chart.data.rows.push_back(
+            {text_cell(method), text_cell(series), number_cell(h), number_cell(value)});
+      };
+      for (const StripRow &row : results.rows)
+        if (row.failure.empty())
+          add(row.method, row.series, row.h, row.quantity(quantity));
+      for (const study::StripLimit &one : results.limits)
+        if (one.quantity == quantity)
+          add(one.method, one.series, 0, one.limit);
+      const double margin = .05 * (largest - least);
+      chart.plot.y_range = Range{least - margin, largest + margin};
+      return chart;
+    }
+
+    DataChart opening_chart(const StripResults &results)
+    {
+      DataChart chart = named("profile", "Opening of the crack behind its tip",
+                              "At the finest level of each method and series; grips move apart by "
+                              "2.");
+      chart.plot.x_label = "from the tip [length]";
+      chart.plot.y_label = "opening [length]";
+      chart.plot.is_x_log = chart.plot.is_y_log = false;
+      chart.data.columns = {"method", "series", "from the tip", "opening"};
+      const auto methods = methods_of(results);
+      for (auto row = results.rows.begin(); row != results.rows.end(); ++row)
+      {
+        const auto next = std::next(row);
+        const bool is_finest = next == results.rows.end() || next->method != row->method ||
+                               next->series != row->series;
+        if (!is_finest || !row->failure.empty())
+          continue;
+        Line line{label_of(row->method, row->series), style_of(methods, row->method), 1.8, {}};
+        const auto &opening = row->state.opening;
+        const double shift = row->side == method::Side::meshfree ? .5 : 0; // nodes are centres
+        for (std::size_t i = 0; i < opening.size(); ++i)
+        {
+          const double x =
+              (static_cast<double>(i + 1) - shift - static_cast<double>(opening.size())) * row->h;
+          if (x < -results.strip.height)
+            continue;
+          line.points.push_back({x, opening[i]});
+          chart.data.rows.push_back({text_cell(row->method), text_cell(row->series), number_cell(x),
+                                     number_cell(opening[i])});
+        }
+        chart.plot.lines.push_back(line);
+      }
+      return chart;
+    }
+
+    std::vector<DataChart> charts_of(const StripResults &results)
+    {
+      if (std::none_of(results.rows.begin(), results.rows.end(),
+                       [](const StripRow &row) { return row.failure.empty(); }))
+        return {};
+      return {quantity_chart(results, "tip energy"), opening_chart(results),
+              quantity_chart(results, "opening"), quantity_chart(results, "W1")};
+    }
+
+    std::string model_words(const StripResults &results)
+    {
+      return "Model: a strip between rigid grips that move apart by 2, " +
+             rounded(results.strip.height) + " high, with a crack of length " +
+             rounded(results.strip.crack) +
+             "; behind its left end it goes on with the grips, ahead of its right end as the "
+             "intact strip. Bonds of λ = μ, without dilatation; those that cross the crack are "
+             "left out. Energies in μ = " +
+             rounded(results.mu) + " [force/length²] times length, as of strain.";
+    }
+
+    Json known_number(double value)
+    {
+      return std::isfinite(value) ? Json(value) : Json();
+    }
+  } // namespace
+
+  std::string strip_text(const StripResults &results)
+  {
+    return results.scene_name + "\n\n" + to_text(rows_table(results)) + "\n" +
+           (results.limits.empty() ? "" : to_text(limits_table(results)) + "\n") +
+           wrapped(model_words(results), 120) + "\n\n" + wrapped(verdict(results, {}), 120) + "\n";
+  }
+
+  std::string strip_json(const StripResults &results)
+  {
+    Json json{{"scene", results.scene_name},
+              {"height", results.strip.height},
+              {"length", results.strip.length},
+              {"crack", results.strip.crack},
+              {"mu", results.mu},
+              {"levels", Json::array()},
+              {"limits", Json::array()}};
+    for (const StripRow &row : results.rows)
+    {
+      Json one{{"method", row.method},   {"family", base::word(row.side)},
+               {"series", row.series},   {"h", row.h},
+               {"horizon", row.horizon}, {"seconds", row.seconds},
+               {"failure", row.failure}};
+      if (row.failure.empty())
+        one.update({{"W1", row.state.intact},
+                    {"energy", row.state.energy},
+                    {"tip_energy", row.quantity("tip energy")},
+                    {"release", row.release},
+                    {"n_unknowns", row.state.n_unknowns},
+                    {"opening", row.state.opening}});
+      json["levels"].push_back(one);
+    }
+    for (const study::StripLimit &one : results.limits)
+      json["limits"].push_back({{"method", one.method},
+                                {"series", one.series},
+                                {"quantity", one.quantity},
+                                {"limit", one.limit},
+                                {"rate", one.rate},
+                                {"change", known_number(one.change)}});
+    return json.dump(2) + "\n";
+  }
+
+  void write_strip(const StripResults &results, const std::vector<std::string> &faults,
+                   const std::filesystem::path &dir)
+  {
+    write_file(dir / "strip.json", strip_json(results));
+    write_file(dir / "strip.md",
+               "# Strip: " + results.scene_name + "\n\n" + verdict(results, faults) + "\n\n" +
+                   to_markdown(rows_table(results)) + "\n" + to_markdown(limits_table(results)) +
+                   "\n" + meaning + "\n\n" + model_words(results) + "\n");
+    const auto charts = charts_of(results);
+    const auto page = [&]
+    {
+      std::string pictures;
+      for (const DataChart &chart : charts)
+        pictures += page::figure(
+            dir / "strip" / chart.plot.file, chart.name + "-", chart.plot.title,
+            escape_html(chart.caption) + " Data: <code>strip/" + chart.name + ".csv</code>", false);
+      return page::document(
+          results.scene_name, "strip",
+          page::plain_header(results.scene_name, "strip", results.purpose,
+                             {std::to_string(results.rows.size()) + " strips",
+                              faults.empty() ? "✓ as expected" : "✗ not as expected"}),
+          page::section("picture", "What the tip costs",
+                        "<p class=\"answer\">" + escape_html(verdict(results, faults)) +
+                            "</p>\n<div class=\"grid\">\n" + pictures + "</div>\n") +
+              page::section("numbers", "Numbers",
+                            to_html(rows_table(results)) + to_html(limits_table(results)) +
+                                page::paragraph(meaning)) +
+              page::section("model", "The model", page::paragraph(model_words(results))));
+    };
+    write_with_pictures(
+        dir / "strip.html", [&] { write_charts(charts, dir / "strip"); }, page);
+  }
+} // namespace plumbline::report

@@ -1,0 +1,41 @@
+#include "scene/strip_section.h"
+
+#include "base/error.h"
+#include "scene/keys.h"
+#include "scene/values.h"
+
+#include <cmath>
+
+namespace plumbline::scene
+{
+  void StripSection::declare(Keys &keys)
+  {
+    keys.add(
+        "height", height, any_number(),
+        "Of a strip between rigid grips that move apart by 2, an even multiple of h. [length]");
+    keys.add(
+        "length", length, any_number(),
+        "Of the strip, a multiple of h; three heights leave 1e-4 of a tip's energy to what its "
+        "ends do, four 1e-5. 'plumbline strip' runs the scene. 0: there is none. [length]");
+    keys.add("crack", crack, any_number(),
+             "Of the strip along its middle from its left end, behind which it goes on without "
+             "end; a multiple of h. [length]");
+  }
+
+  void StripSection::complete() const
+  {
+    const auto require =
+        [](bool is_good, const std::string &key, double value, const std::string &otherwise)
+    {
+      if (!is_good)
+        throw InputError("Strip/" + key + " = " + short_number(value) + " " + otherwise);
+    };
+    require(length >= 0 && std::isfinite(length), "length", length,
+            "must be a length > 0, or 0 where there is no strip");
+    if (!is_there())
+      return;
+    require(height > 0 && std::isfinite(height), "height", height, "must be a length > 0");
+    require(crack > 0 && crack < length, "crack", crack,
+            "must end in the strip, between 0 and Strip/length = " + short_number(length));
+  }
+} // namespace plumbline::scene

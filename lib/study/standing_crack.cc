@@ -1,0 +1,191 @@
+#include "study/standing_crack.h"
+
+#include "base/cost.h"
+#include "base/error.h"
+#include "base/number_text.h"
+#include "physics/state_based.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace plumbline::study
+{
+  namespace
+  {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+    int cells(double length, double h)
+    {
+      return static_cast<int>(std::lround(length / h));
+    }
+
+    struct Limit
+    {
+      double value = 0, rate = 0;
+    };
+
+    /// Of q(h) = limit + C h^rate through three points, h falling.
+    std::optional<Limit> find_limit(const std::array<double, 3> &h, const std::array<double, 3> &q)
+    {
+      constexpr double slowest = .25, fastest = 8;
+      const double first = q[0] - q[1], second = q[1] - q[2];
+      if (!(first * second > 0))
+        return {};
+      const auto ratio = [&](double rate)
+      {
+        return (std::pow(h[0], rate) - std::pow(h[1], rate)) /
+               (std::pow(h[1], rate) - std::pow(h[2], rate));
+      };
+      double below = slowest, above = fastest; // the ratio rises with the rate
+      if (!(first / second >= ratio(below) && first / second <= ratio(above)))
+        return {};
+      while (above - below > 1e-10)
+      {
+        const double middle = .5 * (below + above);
+        (ratio(middle) < first / second ? below : above) = middle;
+      }
+      const double C = second / (std::pow(h[1], below) - std::pow(h[2], below));
+      return Limit{q[2] - C * std::pow(h[2], below), below};
+    }
+
+    /// Over the levels of a method and series, coarse to fine, whose last one is `last`.
+    std::optional<Limit> find_limit(const std::vector<const StripRow *> &levels, std::size_t last,
+                                    const std::string &quantity)
+    {
+      std::array<double, 3> h{}, q{};
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        h[i] = levels[last + i - 2]->h;
+        q[i] = levels[last + i - 2]->quantity(quantity);
+      }
+      return find_limit(h, q);
+    }
+  } // namespace
+
+  double StripRow::quantity(const std::string &name) const
+  {
+    return name == "W1"           ? state.intact
+           : name == "tip energy" ? state.tip_energy(strip)
+                                  : state.opening.back();
+  }
+
+  StripRow stand_crack(const method::Method &method, const scene::Scene &scene,
+                       const scene::Series &series, const scene::Level &level)
+  {
+    StripRow row{
+        method.name(), method.side(), series.name, level.h, level.horizon, {}, {}, 0, 0, {}};
+    row.strip = {cells(scene.strip.height, level.h), cells(scene.strip.length, level.h),
+                 cells(scene.strip.crack, level.h), level.h};
+    const auto influence = physics::influence_function(scene.kernel.profile, level.horizon);
+    const base::CpuTimer timer;
+    try
+    {
+      row.state = method.solve_strip(row.strip, influence);
+      method::RiceStrip longer = row.strip;
+      ++longer.n_crack;
+      row.release = (row.state.energy - method.solve_strip(longer, influence).energy) / level.h;
+    }
+    catch (const NumericalError &error)
+    {
+      row.failure = error.what();
+    }
+    row.seconds = timer.seconds();
+    return row;
+  }
+
+  std::vector<StripLimit> strip_limits(const std::vector<StripRow> &rows)
+  {
+    std::vector<StripLimit> limits;
+    for (auto begin = rows.begin(); begin != rows.end();)
+    {
+      const auto end =
+          std::find_if(begin, rows.end(),
+                       [&](const StripRow &row)
+                       { return row.method != begin->method || row.series != begin->series; });
+      std::vector<const StripRow *> levels;
+      for (auto row = begin; row != end; ++row)
+        if (row->failure.empty())
+          levels.push_back(&*row);
+      for (const char *const quantity : strip_quantities)
+      {
+        if (levels.size() < 3)
+          break;
+        const std::size_t last = levels.size() - 1;
+        const auto limit = find_limit(levels, last, quantity);
+        if (!limit)
+          continue;
+        const auto before = last > 2 ? find_limit(levels, last - 1, quantity) : std::nullopt;
+        limits.push_back({begin->method, begin->series, quantity, begin->side, limit->value,
+                          limit->rate, before ? std::abs(limit->value - before->value) : unknown});
+      }
+      begin = end;
+    }
+    return limits;
+  }
+
+  std::vector<StripAgreement> strip_agreements(const std::vector<StripLimit> &limits)
+  {
+    constexpr double certain = .05;
+    std::vector<StripAgreement> all;
+    for (const StripLimit &one : limits)
+    {
+      if (!(one.change <= certain * std::abs(one.limit)))
+        continue;
+      const auto at =
+          std::find_if(all.begin(), all.end(),
+                       [&](const StripAgreement &other)
+                       { return other.quantity == one.quantity && other.series == one.series; });
+      if (at == all.end())
+      {
+        all.push_back({one.quantity, one.series, one.limit, one.limit, 1});
+        continue;
+      }
+      at->least = std::min(at->least, one.limit);
+      at->largest = std::max(at->largest, one.limit);
+      ++at->n_methods;
+    }
+    all.erase(std::remove_if(all.begin(), all.end(),
+                             [](const StripAgreement &one) { return one.n_methods < 2; }),
+              all.end());
+    return all;
+  }
+
+  std::vector<std::string> strip_faults(const StripResults &results,
+                                        const scene::ExpectedSection &expected)
+  {
+    constexpr double worst_imbalance = 1e-2;
+    const std::string of_limit = " limit";
+    std::vector<std::string> faults;
+    for (const StripRow &row : results.rows)
+      if (row.failure.empty() && !(std::abs(row.imbalance()) <= worst_imbalance))
+        faults.push_back(row.method + ", h = " + base::to_text(row.h, 4) + ": G is " +
+                         base::to_text(row.release / row.state.intact, 6) +
+                         " W1, so that the strip's ends are too near; raise Strip/length");
+    for (const scene::Expected &one : expected.all)
+    {
+      if (one.kind != scene::ExpectedKind::strip)
+        continue;
+      const auto is_meant = [&](const auto &found)
+      { return found.method == one.method && (one.series.empty() || found.series == one.series); };
+      std::vector<double> values;
+      for (const StripLimit &limit : results.limits)
+        if (is_meant(limit) && limit.quantity + of_limit == one.problem)
+          values.push_back(limit.limit);
+      for (const StripRow &row : results.rows)
+        if (is_meant(row) && row.failure.empty() &&
+            std::count(strip_quantities.begin(), strip_quantities.end(), one.problem) > 0)
+          values.push_back(row.quantity(one.problem));
+      const std::string line = "Expected/strip = '" + one.text + "', but ";
+      if (values.size() != one.values.size())
+        faults.push_back(line + "there are " + std::to_string(values.size()) + " such values");
+      for (std::size_t i = 0; i < std::min(values.size(), one.values.size()); ++i)
+        if (!(std::abs(values[i] - one.values[i]) <=
+              expected.error_tolerance * std::abs(one.values[i])))
+          faults.push_back(line + "number " + std::to_string(i + 1) + " is " +
+                           base::to_text(values[i], 8));
+    }
+    return faults;
+  }
+} // namespace plumbline::study

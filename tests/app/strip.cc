@@ -1,0 +1,75 @@
+// `plumbline strip`: what it writes, and what it refuses.
+
+#include "command.h"
+
+#include <nlohmann/json.hpp>
+
+namespace
+{
+  using namespace plumbline::app;
+
+  std::string scene()
+  {
+    return std::string(PLUMBLINE_SCENES) + "/fracture/strip.prm";
+  }
+} // namespace
+
+TEST(StripCommand, charts_a_tip_by_both_sides)
+{
+  const fs::path folder = temporary("strip");
+  const Outcome outcome =
+      run("strip " + scene() + " --levels 3 --methods DGQ0,PA-AC -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "tip energy (delta = 0.3) of 2 methods: limits between");
+  const auto json = nlohmann::json::parse(read(folder / "strip.json"));
+  ASSERT_EQ(json["levels"].size(), 6u);
+  EXPECT_NEAR(json["levels"][0]["tip_energy"], .67459, 1e-5);
+  EXPECT_EQ(json["levels"][0]["opening"].size(), 24u);
+  const std::string page = read(folder / "strip.html");
+  expect_found(page, "<svg");
+  expect_found(page, "What the tip costs");
+  for (const char *const name : {"tip-energy.svg", "tip-energy.csv", "profile.svg", "w1.svg"})
+    EXPECT_TRUE(fs::exists(folder / "strip" / name)) << name;
+  fs::remove_all(folder);
+}
+
+TEST(StripCommand, says_what_is_not_as_expected)
+{
+  const fs::path folder = temporary("strip");
+  const std::string command = "strip " + scene() + " --levels 1 --methods PA-AC --quiet -o " +
+                              folder.string() + " --check --set ";
+  EXPECT_EQ(run(command + "'Expected/strip=PA-AC, tip energy: 0.46131'").exit_code, 0);
+  const Outcome outcome = run(command + "'Expected/strip=PA-AC, tip energy: 0.47'");
+  EXPECT_EQ(outcome.exit_code, 1);
+  expect_found(outcome.err, "but number 1 is 0.4613");
+  fs::remove_all(folder);
+}
+
+TEST(StripCommand, refuses_what_is_no_strip)
+{
+  struct Bad
+  {
+    std::string arguments, message;
+  };
+  const std::string strip = "strip " + scene();
+  for (const Bad &bad :
+       {Bad{"run " + scene(), "Strip/length is for 'plumbline strip'"},
+        {"strip " + std::string(PLUMBLINE_SCENES) + "/fracture/plate.prm", "Strip/length is 0"},
+        {strip + " --methods DGP1", "DGP1 is not for lattices"},
+        {strip + " --set Strip/length=-1", "Strip/length = -1 must be a length"},
+        {strip + " --set Strip/crack=8", "Strip/crack = 8 must end in the strip"},
+        {strip + " --set Strip/crack=3.62", "mesh sizes"},
+        {strip + " --set Strip/height=2.45", "even multiple"},
+        {strip + " --set Study/horizon=0.8", "less than four horizons"},
+        {strip + " --set Material/nu=0.3", "lambda = mu"},
+        {strip + " --set Kernel/type=constant", "Kernel/type = 1/r"},
+        {strip + " --set Domain/mesh=squares", "Domain as it is by default"},
+        {strip + " --set Time/final\\ time=1", "its crack stands"}})
+  {
+    const fs::path folder = temporary("strip");
+    const Outcome outcome = run(bad.arguments + " -o " + folder.string());
+    EXPECT_EQ(outcome.exit_code, 2) << bad.arguments << '\n' << outcome.err;
+    expect_found(outcome.err, bad.message);
+    EXPECT_FALSE(fs::exists(folder)) << bad.arguments;
+  }
+}

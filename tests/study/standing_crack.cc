@@ -1,0 +1,102 @@
+#include "study/standing_crack.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+  using namespace plumbline;
+  using study::StripLimit;
+  using study::StripRow;
+
+  /// At levels whose tip energies are q.
+  std::vector<StripRow> rows(const std::string &method, const std::vector<double> &h,
+                             const std::vector<double> &q)
+  {
+    std::vector<StripRow> result;
+    for (std::size_t i = 0; i < h.size(); ++i)
+    {
+      StripRow row;
+      row.method = method;
+      row.series = "delta = 1";
+      row.h = h[i];
+      row.strip = {8, 20, 10, h[i]};
+      row.state.intact = row.release = 1;
+      row.state.opening = {2, 1};
+      row.state.energy = q[i] + 10 * h[i];
+      result.push_back(row);
+    }
+    return result;
+  }
+
+  const std::vector<double> sizes = {.5, .3, .2, .1};
+
+  double curve(double h)
+  {
+    return .4 + .7 * std::pow(h, 1.5);
+  }
+} // namespace
+
+TEST(StripLimits, are_those_of_a_power_of_h)
+{
+  std::vector<double> q;
+  for (const double h : sizes)
+    q.push_back(curve(h));
+  const auto limits = strip_limits(rows("A", sizes, q)); // W1 and opening do not move
+  ASSERT_EQ(limits.size(), 1u);
+  EXPECT_EQ(limits[0].quantity, "tip energy");
+  EXPECT_NEAR(limits[0].limit, .4, 1e-9);
+  EXPECT_NEAR(limits[0].rate, 1.5, 1e-8);
+  EXPECT_NEAR(limits[0].change, 0, 1e-9);
+}
+
+TEST(StripLimits, are_not_there_where_values_go_up_and_down)
+{
+  EXPECT_TRUE(strip_limits(rows("A", sizes, {.4, .5, .45, .47})).empty());
+  EXPECT_TRUE(strip_limits(rows("A", {.5, .3}, {.5, .45})).empty());
+}
+
+TEST(StripLimits, agree_as_far_as_they_lie_apart)
+{
+  const auto limit = [](const std::string &method, const std::string &quantity, double value)
+  { return StripLimit{method, "", quantity, method::Side::meshfree, value, 2, .01}; };
+  StripLimit vague = limit("D", "tip energy", .5);
+  vague.change = .03;
+  const auto all = study::strip_agreements({limit("A", "W1", 5), limit("A", "tip energy", .41),
+                                            limit("B", "tip energy", .43),
+                                            limit("C", "tip energy", .42), vague});
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].quantity, "tip energy");
+  EXPECT_EQ(all[0].least, .41);
+  EXPECT_EQ(all[0].largest, .43);
+  EXPECT_EQ(all[0].n_methods, 3u);
+}
+
+TEST(StripFaults, are_what_is_not_as_expected)
+{
+  study::StripResults results;
+  results.rows = rows("A", sizes, {.7, .6, .55, .5});
+  results.limits = strip_limits(results.rows);
+  scene::ExpectedSection expected;
+  expected.error_tolerance = 1e-6;
+  const auto expect = [&](const std::string &quantity, const std::vector<double> &values)
+  {
+    scene::Expected one;
+    one.kind = scene::ExpectedKind::strip;
+    one.method = "A";
+    one.problem = quantity;
+    one.values = values;
+    expected.all = {one};
+    return study::strip_faults(results, expected).size();
+  };
+  EXPECT_EQ(expect("tip energy", {.7, .6, .55, .5}), 0u);
+  EXPECT_EQ(expect("tip energy", {.7, .6, .55, .51}), 1u);
+  EXPECT_EQ(expect("tip energy", {.7, .6}), 1u); // not all of them
+  EXPECT_EQ(expect("opening", {1, 1, 1, 1}), 0u);
+  EXPECT_EQ(expect("W1", {1, 1, 1, 1}), 0u);
+  EXPECT_EQ(expect("tip energy limit", {results.limits.front().limit}), 0u);
+  EXPECT_EQ(expect("nothing", {1}), 1u);
+  results.rows[1].release = 1.02; // ends are too near
+  EXPECT_EQ(expect("W1", {1, 1, 1, 1}), 1u);
+}
