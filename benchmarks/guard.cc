@@ -61,6 +61,7 @@ namespace
       {"family IPA-AC", "family FA", 3, "at m = 3 the circle cuts every other cell"},
       {"family IPA-AC-R2", "family IPA-AC", 2.5, "a small system of moments"},
       {"pairs P1 constant, whole", "pairs P1 constant, cut", .3, "products of integrals"},
+      {"dilatation Q1, striped", "dilatation Q1, varying", .3, "rows once for alike surroundings"},
       {"sides P1 tensor, cut", "sides P1 constant, cut", 5, "three entries and their potentials"},
   };
 

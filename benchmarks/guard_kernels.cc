@@ -9,6 +9,8 @@
 #include "meshfree/scattered/state_based_operator.h"
 #include "parts.h"
 #include "reference/lattice/stencil.h"
+#include "reference/mesh/dilatation.h"
+#include "reference/mesh/edge_assembly.h"
 #include "reference/mesh/pair_quadrature.h"
 #include "reference/mesh/polygon_pairs.h"
 #include "reference/mesh/rectangle_pairs.h"
@@ -217,6 +219,38 @@ namespace plumbline::benchmarks
               }};
     }
 
+    /// All exact entries of linear triangles, by pairs of sides, δ = 4 h.
+    GuardKernel edge_entries()
+    {
+      const auto body = std::make_shared<const Body>(true, "constant");
+      const auto make = [=]
+      {
+        return assemble_by_edges(body->space, make_kernel("constant", Body::horizon),
+                                 base::Team::alone());
+      };
+      return {"edges P1 constant", "entry", static_cast<double>(make().value.size()), 1,
+              [=] { sink = make().value[0]; }};
+    }
+
+    /// The dilatation of 4 × 4 squares of degree 1, δ = 2 h, two materials in stripes, or one that
+    /// varies, for which each cell has rows of its own.
+    GuardKernel dilatation(const std::string &name, bool is_striped)
+    {
+      constexpr double h = 1. / 4, horizon = 2 * h;
+      const auto mesh = std::make_shared<const geometry::Mesh>(
+          geometry::lattice_mesh({{{Point<2>(0, 0), Point<2>(1, 1)}}, {}}, h, 2 * horizon, false));
+      const auto space = std::make_shared<const reference::MeshSpace>(mesh, true, 1);
+      const auto cells = std::make_shared<const reference::MeshCells>(*mesh);
+      const auto material = [=](const Point<2> &x) {
+        return physics::Lame{is_striped ? (x[0] < .5 ? 3. : 4.) : 3 + x[0], 1};
+      };
+      const physics::Dilatation solid{physics::influence_function({{1, -1}}, horizon), material,
+                                      true, false};
+      return {name, "node", static_cast<double>(space->n_free()), 1, [=, owner = mesh] {
+                sink = assemble_dilatation(*space, *cells, solid, {}, base::Team::alone()).value[0];
+              }};
+    }
+
     /// A linear peridynamic solid of varying material on 8 × 8 squares by OPT, m = 3, families
     /// included.
     GuardKernel solid_rows()
@@ -261,6 +295,9 @@ namespace plumbline::benchmarks
                                  physics::Kernel<2>::with_bulk_modulus(
                                      physics::kernel_type("bond-tensor").profile, Body::horizon, 1),
                                  4));
+    kernels.push_back(edge_entries());
+    kernels.push_back(dilatation("dilatation Q1, striped", true));
+    kernels.push_back(dilatation("dilatation Q1, varying", false));
     kernels.push_back(solid_rows());
     return kernels;
   }

@@ -122,7 +122,7 @@ namespace plumbline::report
       for (const study::StripLimit &one : results.limits)
         if (one.quantity == quantity)
           add(one.method, one.series, 0, one.limit);
-      const double margin = .05 * (largest - least);
+      const double margin = largest > least ? .05 * (largest - least) : .1 * std::abs(least) + .1;
       chart.plot.y_range = Range{least - margin, largest + margin};
       return chart;
     }
