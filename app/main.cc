@@ -146,7 +146,8 @@ int main(int argc, char **argv)
   auto *strip_command =
       app.add_subcommand("strip", "What the tip of a standing crack costs, by each method");
   add_options(*strip_command, standing, settings);
-  strip_command->add_flag("--check", standing.check, "Exit with 1 if Expected/strip fails");
+  strip_command->add_flag("--check", standing.check,
+                          "Exit with 1 if Expected/strip fails, or a strip is too short");
 
   plumbline::app::SampleOptions random;
   auto *sample = app.add_subcommand("sample", "Take a random scene at many samples; statistics");

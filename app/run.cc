@@ -206,10 +206,6 @@ namespace plumbline::app
       throw InputError("scene '" + scene.name +
                        "': Fracture/toughness is for 'plumbline grow', which breaks bonds; write "
                        "that, or clear it");
-    if (scene.strip.is_there())
-      throw InputError("scene '" + scene.name +
-                       "': Strip/length is for 'plumbline strip', whose crack stands; write that, "
-                       "or 0");
     if (scene.time.is_dynamic())
     {
       check_analysis(scene, scene::Analysis::motion);

@@ -1,11 +1,15 @@
 #include "strip.h"
 
 #include "base/error.h"
+#include "base/memory.h"
+#include "base/number_text.h"
 #include "methods.h"
 #include "report/formats.h"
 #include "report/strip_page.h"
 #include "study/preflight.h"
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <iterator>
 
@@ -19,15 +23,59 @@ namespace plumbline::app
     {
       const method::Methods available = all_methods();
       method::Methods methods;
+      const auto add = [&](const std::shared_ptr<const method::Method> &method)
+      {
+        if (std::find(methods.begin(), methods.end(), method) == methods.end())
+          methods.push_back(method);
+      };
+      const auto is_for_lattices = [](const method::Method &method)
+      { return method.can().count(method::Capability::lattice) > 0; };
+      for (const scene::Expected &expected : scene.expected.all)
+        (void)study::find_method(available, expected.method, "Expected");
       for (const std::string &name : scene.methods.names)
       {
-        methods.push_back(study::find_method(available, name, "Methods/names"));
-        if (methods.back()->can().count(method::Capability::lattice) == 0)
+        if (name == "all")
+        {
+          for (const auto &method : available)
+            if (method->is_in_all() && is_for_lattices(*method))
+              add(method);
+          continue;
+        }
+        add(study::find_method(available, name, "Methods/names"));
+        if (!is_for_lattices(*methods.back()))
           throw InputError("Methods/names: " + name +
                            " is not for lattices, as strips are (Strip/length); take Galerkin "
                            "methods on quadrilaterals (Q1, DGQ1, ...) and meshfree rules");
       }
       return methods;
+    }
+
+    /// Nothing is made before its memory is there.
+    void check_size(const scene::Scene &scene, const method::Methods &methods,
+                    unsigned int n_levels)
+    {
+      constexpr double most_cells = 10000; // along a side
+      for_each_level(
+          scene, n_levels,
+          [&](const scene::Series &, const scene::Level &level, bool)
+          {
+            const double m = level.horizon / level.h, n_height = scene.strip.height / level.h,
+                         n_length = scene.strip.length / level.h, n_cells = n_height * n_length;
+            const std::string what = "a strip of " + base::to_text(n_cells, 3) + " cells",
+                              remedy = "choose a larger h (Study/h)";
+            if (std::max(n_height, n_length) > most_cells)
+              throw InputError(what + " has more than 10000 along a side; " + remedy);
+            // as of growth: bonds with their books, and entries of the factor; or fields, and the
+            // intact strip's two full matrices
+            const double of_rules = 400 * .5 * M_PI * m * m * n_cells +
+                                    16 * 6 * m * m * n_cells * std::log2(std::max(2., n_cells)),
+                         n_across = 4 * (n_height + 2 * m),
+                         of_galerkin = 16 * 300 * n_cells + 16 * n_across * n_across;
+            for (const auto &method : methods)
+              base::require_memory(method->side() == method::Side::meshfree ? of_rules
+                                                                            : of_galerkin,
+                                   what + " by " + method->name(), remedy);
+          });
     }
   } // namespace
 
@@ -39,6 +87,7 @@ namespace plumbline::app
                        "': Strip/length is 0, so that there is no strip; give it and Strip/crack, "
                        "or use 'plumbline run'");
     const method::Methods methods = choose(scene);
+    check_size(scene, methods, options.n_levels);
     const fs::path folder = output_folder(options, scene);
     report::write_file(folder / "strip.md", ""); // before the work: can it be written?
 

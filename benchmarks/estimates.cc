@@ -38,7 +38,7 @@ namespace
       try
       {
         const scene::Scene scene = scene::read_scene(file.string());
-        if (scene.time.is_dynamic() || scene.crack.is_there() || scene.fracture.is_there())
+        if (scene.is_no_problem())
           return; // estimates are of statics
         const std::string name =
             file.parent_path().filename().string() + "/" + file.stem().string();

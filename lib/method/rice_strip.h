@@ -18,8 +18,8 @@ namespace plumbline::method
   };
 
   /// A strip of bonds with λ = μ = 1 in equilibrium at load 1. What is behind its left end moves
-  /// with the grips, what is ahead of its right end is the intact strip. Energies [μ length], of
-  /// the intact strip per length.
+  /// with the grips, what is ahead of its right end is the intact strip. Energies [μ length²], of
+  /// the intact strip per length [μ length].
   struct StripState
   {
     double energy = 0;           ///< Π of all bonds with an end between the grips and both ends

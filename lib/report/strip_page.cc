@@ -27,14 +27,21 @@ namespace plumbline::report
         "below, of the last cells behind it, of rules at the last nodes. Continuous functions "
         "close there.";
 
-    std::vector<MethodName> methods_of(const StripResults &results)
+    std::string label_of(const std::string &method, const std::string &series)
     {
-      std::vector<MethodName> methods;
+      return method + (series.empty() ? "" : ", " + series);
+    }
+
+    /// By the labels of their lines.
+    std::vector<MethodName> lines_of(const StripResults &results)
+    {
+      std::vector<MethodName> lines;
       for (const StripRow &row : results.rows)
-        if (std::none_of(methods.begin(), methods.end(),
-                         [&](const MethodName &one) { return one.name == row.method; }))
-          methods.push_back({row.method, row.side});
-      return methods;
+        if (const std::string label = label_of(row.method, row.series);
+            std::none_of(lines.begin(), lines.end(),
+                         [&](const MethodName &one) { return one.name == label; }))
+          lines.push_back({label, row.side});
+      return lines;
     }
 
     Table rows_table(const StripResults &results)
@@ -78,28 +85,29 @@ namespace plumbline::report
                 " methods: limits between " + rounded(one.least) + " and " + rounded(one.largest) +
                 ", " + rounded((one.largest - one.least) / std::abs(one.largest)) + " apart. ";
       if (text.empty())
-        text = "Limits take three levels of h at one horizon, or at one ratio of both, and two "
-               "methods that tend to one. ";
+        text = "Limits take three levels of h at one horizon, or at one ratio of both; that "
+               "methods agree takes four, and two methods whose limits move by less than a "
+               "twentieth with the finest. ";
       for (const std::string &fault : faults)
         text += "EXPECTED: " + fault + ". ";
       text.pop_back();
       return text;
     }
 
-    std::string label_of(const std::string &method, const std::string &series)
-    {
-      return method + (series.empty() ? "" : ", " + series);
-    }
-
     DataChart quantity_chart(const StripResults &results, const std::string &quantity)
     {
-      DataChart chart = named(slug(quantity), quantity + " over h, and limits at 0",
-                              "At h = 0: where the three finest levels lead.");
-      chart.plot.x_label = "mesh size h [length]";
+      const bool is_over_horizon = // h stays
+          std::all_of(results.rows.begin(), results.rows.end(),
+                      [&](const StripRow &row) { return row.h == results.rows.front().h; });
+      DataChart chart = is_over_horizon
+                            ? named(slug(quantity), quantity + " over the horizon")
+                            : named(slug(quantity), quantity + " over h, and limits at 0",
+                                    "At h = 0: where the three finest levels lead.");
+      chart.plot.x_label = is_over_horizon ? "horizon δ [length]" : "mesh size h [length]";
       chart.plot.y_label = quantity;
       chart.plot.is_x_log = chart.plot.is_y_log = false;
-      chart.data.columns = {"method", "series", "h", quantity};
-      const auto methods = methods_of(results);
+      chart.data.columns = {"method", "series", is_over_horizon ? "horizon" : "h", quantity};
+      const auto names = lines_of(results);
       double least = std::numeric_limits<double>::infinity(), largest = -least;
       const auto add =
           [&](const std::string &method, const std::string &series, double h, double value)
@@ -109,7 +117,7 @@ namespace plumbline::report
         auto line = std::find_if(lines.begin(), lines.end(),
                                  [&](const Line &one) { return one.label == label; });
         if (line == lines.end())
-          line = lines.insert(line, {label, style_of(methods, method), 1.8, {}});
+          line = lines.insert(line, {label, style_of(names, label), 1.8, {}});
         line->points.push_back({h, value});
         least = std::min(least, value);
         largest = std::max(largest, value);
@@ -118,7 +126,8 @@ namespace plumbline::report
       };
       for (const StripRow &row : results.rows)
         if (row.failure.empty())
-          add(row.method, row.series, row.h, row.quantity(quantity));
+          add(row.method, row.series, is_over_horizon ? row.horizon : row.h,
+              row.quantity(quantity));
       for (const study::StripLimit &one : results.limits)
         if (one.quantity == quantity)
           add(one.method, one.series, 0, one.limit);
@@ -129,22 +138,29 @@ namespace plumbline::report
 
     DataChart opening_chart(const StripResults &results)
     {
-      DataChart chart = named("profile", "Opening of the crack behind its tip",
-                              "At the finest level of each method and series; grips move apart by "
-                              "2.");
+      DataChart chart =
+          named("profile", "Opening of the crack behind its tip",
+                "At the finest level that was solved of each method and series; grips "
+                "move apart by 2.");
       chart.plot.x_label = "from the tip [length]";
       chart.plot.y_label = "opening [length]";
       chart.plot.is_x_log = chart.plot.is_y_log = false;
       chart.data.columns = {"method", "series", "from the tip", "opening"};
-      const auto methods = methods_of(results);
+      const auto names = lines_of(results);
       for (auto row = results.rows.begin(); row != results.rows.end(); ++row)
       {
-        const auto next = std::next(row);
-        const bool is_finest = next == results.rows.end() || next->method != row->method ||
-                               next->series != row->series;
+        const bool is_finest = std::none_of(std::next(row), results.rows.end(),
+                                            [&](const StripRow &other) {
+                                              return other.method == row->method &&
+                                                     other.series == row->series &&
+                                                     other.failure.empty();
+                                            });
         if (!is_finest || !row->failure.empty())
           continue;
-        Line line{label_of(row->method, row->series), style_of(methods, row->method), 1.8, {}};
+        Line line{label_of(row->method, row->series),
+                  style_of(names, label_of(row->method, row->series)),
+                  1.8,
+                  {}};
         const auto &opening = row->state.opening;
         const double shift = row->side == method::Side::meshfree ? .5 : 0; // nodes are centres
         for (std::size_t i = 0; i < opening.size(); ++i)
@@ -179,7 +195,7 @@ namespace plumbline::report
              "; behind its left end it goes on with the grips, ahead of its right end as the "
              "intact strip. Bonds of λ = μ, without dilatation; those that cross the crack are "
              "left out. Energies in μ = " +
-             rounded(results.mu) + " [force/length²] times length, as of strain.";
+             rounded(results.mu) + " [force/length²] times length², W1 and G in μ times length.";
     }
 
     Json known_number(double value)
@@ -235,8 +251,9 @@ namespace plumbline::report
     write_file(dir / "strip.json", strip_json(results));
     write_file(dir / "strip.md",
                "# Strip: " + results.scene_name + "\n\n" + verdict(results, faults) + "\n\n" +
-                   to_markdown(rows_table(results)) + "\n" + to_markdown(limits_table(results)) +
-                   "\n" + meaning + "\n\n" + model_words(results) + "\n");
+                   to_markdown(rows_table(results)) + "\n" +
+                   (results.limits.empty() ? "" : to_markdown(limits_table(results)) + "\n") +
+                   meaning + "\n\n" + model_words(results) + "\n");
     const auto charts = charts_of(results);
     const auto page = [&]
     {
@@ -254,7 +271,8 @@ namespace plumbline::report
                         "<p class=\"answer\">" + escape_html(verdict(results, faults)) +
                             "</p>\n<div class=\"grid\">\n" + pictures + "</div>\n") +
               page::section("numbers", "Numbers",
-                            to_html(rows_table(results)) + to_html(limits_table(results)) +
+                            to_html(rows_table(results)) +
+                                (results.limits.empty() ? "" : to_html(limits_table(results))) +
                                 page::paragraph(meaning)) +
               page::section("model", "The model", page::paragraph(model_words(results))));
     };

@@ -26,6 +26,12 @@ namespace plumbline::scene
     needs(scene.domain.mesh.is_lattice() && scene.domain.cracks.empty() &&
               scene.domain.outside.empty() && !scene.domain.is_free_body,
           "Domain as it is by default: the strip has its own sides and its own crack");
+    needs(scene.domain.boxes.exclude.empty() && !scene.domain.collar,
+          "Domain/holes empty and Domain/collar = auto");
+    needs(scene.problem.solutions.empty() && scene.problem.loads.empty() &&
+              !scene.problem.constraint,
+          "Problem/solution, load and constraint empty: grips move apart by 2");
+    needs(!scene.sampling.is_there(), "Sampling/rule = none");
     needs(scene.methods.nodes.kind() == NodeKind::centres && scene.methods.nodes.perturbation == 0,
           "nodes at centres that are not moved (Methods/nodes)");
     for (const Series &series : scene.study.series)

@@ -26,6 +26,10 @@ namespace plumbline::study
 
   Methods choose_methods(const scene::Scene &scene, const Methods &available)
   {
+    if (scene.strip.is_there())
+      throw InputError("scene '" + scene.name +
+                       "': Strip/length is for 'plumbline strip', whose crack stands; write that, "
+                       "or 0");
     const scene::Problem problem =
         make_problem(scene, 0, scene.study.series.front().levels.front());
     Methods chosen;

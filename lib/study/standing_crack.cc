@@ -159,10 +159,13 @@ namespace plumbline::study
     const std::string of_limit = " limit";
     std::vector<std::string> faults;
     for (const StripRow &row : results.rows)
-      if (row.failure.empty() && !(std::abs(row.imbalance()) <= worst_imbalance))
+      if (!row.failure.empty())
+        faults.push_back(row.method + ", h = " + base::to_text(row.h, 4) + ": " + row.failure);
+      else if (!(std::abs(row.imbalance()) <= worst_imbalance))
         faults.push_back(row.method + ", h = " + base::to_text(row.h, 4) + ": G is " +
                          base::to_text(row.release / row.state.intact, 6) +
-                         " W1, so that the strip's ends are too near; raise Strip/length");
+                         " W1, so that the strip's ends are too near; raise Strip/length, "
+                         "and set Strip/crack to its middle");
     for (const scene::Expected &one : expected.all)
     {
       if (one.kind != scene::ExpectedKind::strip)
@@ -178,7 +181,8 @@ namespace plumbline::study
             std::count(strip_quantities.begin(), strip_quantities.end(), one.problem) > 0)
           values.push_back(row.quantity(one.problem));
       const std::string line = "Expected/strip = '" + one.text + "', but ";
-      if (values.size() != one.values.size())
+      // of the first levels alone, if there are no more
+      if (values.empty() || values.size() > one.values.size())
         faults.push_back(line + "there are " + std::to_string(values.size()) + " such values");
       for (std::size_t i = 0; i < std::min(values.size(), one.values.size()); ++i)
         if (!(std::abs(values[i] - one.values[i]) <=

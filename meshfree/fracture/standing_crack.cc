@@ -1,5 +1,6 @@
 #include "meshfree/fracture/standing_crack.h"
 
+#include "base/error.h"
 #include "meshfree/fracture/breaking_network.h"
 
 #include <Eigen/Cholesky>
@@ -90,6 +91,10 @@ namespace plumbline::meshfree
         network.held[i][1] =
             intact.u[std::lround((network.nodes[i][1] + half) / strip.h - .5) + reach];
     const BreakingNetwork body(std::move(network), scene::Stretch::linear);
+    constexpr double worst_residual = 1e-10;
+    if (!(body.response().residual <= worst_residual))
+      throw NumericalError("a strip with a crack is solved to a residual of " +
+                           std::to_string(body.response().residual) + " only");
     const BondNetwork &solved = body.network();
     const std::vector<Tensor<1, 2>> &u = body.displacements();
 

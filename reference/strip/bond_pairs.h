@@ -13,7 +13,8 @@ namespace plumbline::reference
   /// it on one side of a line, where products of shape functions are integrated exactly. For a
   /// fixed direction of z what is left is a polynomial of its length on intervals that are known,
   /// times the kernel, and over directions analytic between those in which lines and corners meet.
-  /// Accuracy: 1e-14 of the largest entry of a whole pair, a test.
+  /// Accuracy: 2e-14 of the largest entry of the lattice, a test; of what a crack cuts, 1e-14 of
+  /// that of pairs of constants.
   class BondPairs
   {
   public:

@@ -63,6 +63,10 @@ TEST(StripCommand, refuses_what_is_no_strip)
         {strip + " --set Material/nu=0.3", "lambda = mu"},
         {strip + " --set Kernel/type=constant", "Kernel/type = 1/r"},
         {strip + " --set Domain/mesh=squares", "Domain as it is by default"},
+        {strip + " --set Problem/load=0,0", "Problem/solution, load and constraint empty"},
+        {strip + " --set Study/h=0.01", "available"},
+        {strip + " --set Study/h=0.0006", "more than 10000 along a side"},
+        {"stability " + scene(), "Strip/length is for 'plumbline strip'"},
         {strip + " --set Time/final\\ time=1", "Time/final time = 1"}})
   {
     const fs::path folder = temporary("strip");

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace
 {
   using namespace plumbline;
@@ -24,9 +26,9 @@ namespace
 
   /// @param length    in heights; the crack is half as long
   /// @param horizons  that the strip is high
-  method::RiceStrip make_strip(int m, int length = 3, int horizons = 8)
+  method::RiceStrip make_strip(double m, int length = 3, int horizons = 8)
   {
-    const int n = horizons * m;
+    const auto n = static_cast<int>(std::lround(horizons * m));
     return {n, length * n, length * n / 2, horizon / m};
   }
 
@@ -138,13 +140,19 @@ TEST(CrackedStrip, opens_at_its_tip_where_functions_may_jump)
 TEST(CrackedStrip, gets_the_energy_of_the_intact_strip_for_its_advance)
 {
   // whatever the space; what is left falls with the distance of the ends
-  for (const unsigned int degree : {0u, 1u})
+  struct Space
+  {
+    bool is_continuous;
+    unsigned int degree;
+    double m;
+  };
+  for (const Space &space : {Space{false, 0, 2}, {false, 1, 2}, {false, 0, 2.5}, {true, 1, 2}})
   {
     double before = 1;
     for (const int length : {3, 4, 6})
     {
-      method::RiceStrip strip = make_strip(2, length);
-      const AxisShapes shapes(false, degree);
+      method::RiceStrip strip = make_strip(space.m, length);
+      const AxisShapes shapes(space.is_continuous, space.degree);
       const method::StripState state = solve_strip(strip, bonds(), shapes);
       ++strip.n_crack;
       const double release = (state.energy - solve_strip(strip, bonds(), shapes).energy) / strip.h;
@@ -154,6 +162,16 @@ TEST(CrackedStrip, gets_the_energy_of_the_intact_strip_for_its_advance)
     }
     EXPECT_LT(before, 1e-7);
   }
+}
+
+TEST(CrackedStrip, gets_it_with_nodes_within_sides_on_the_crack)
+{
+  method::RiceStrip strip = make_strip(2, 3);
+  const AxisShapes quadratic(true, 2);
+  const method::StripState state = solve_strip(strip, bonds(), quadratic);
+  ++strip.n_crack;
+  const double release = (state.energy - solve_strip(strip, bonds(), quadratic).energy) / strip.h;
+  EXPECT_NEAR(release / state.intact, 1, 1e-4);
 }
 
 TEST(CrackedStrip, of_higher_degree_is_nearer_to_the_limit)

@@ -92,11 +92,14 @@ TEST(StripFaults, are_what_is_not_as_expected)
   };
   EXPECT_EQ(expect("tip energy", {.7, .6, .55, .5}), 0u);
   EXPECT_EQ(expect("tip energy", {.7, .6, .55, .51}), 1u);
-  EXPECT_EQ(expect("tip energy", {.7, .6}), 1u); // not all of them
+  EXPECT_EQ(expect("tip energy", {.7, .6}), 1u);              // there are more
+  EXPECT_EQ(expect("tip energy", {.7, .6, .55, .5, .4}), 0u); // of a finer level
   EXPECT_EQ(expect("opening", {1, 1, 1, 1}), 0u);
   EXPECT_EQ(expect("W1", {1, 1, 1, 1}), 0u);
   EXPECT_EQ(expect("tip energy limit", {results.limits.front().limit}), 0u);
   EXPECT_EQ(expect("nothing", {1}), 1u);
   results.rows[1].release = 1.02; // ends are too near
   EXPECT_EQ(expect("W1", {1, 1, 1, 1}), 1u);
+  results.rows[1].failure = "no weights";
+  EXPECT_EQ(expect("W1", {1, 1, 1}), 1u);
 }
