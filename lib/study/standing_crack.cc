@@ -31,8 +31,6 @@ namespace plumbline::study
     {
       constexpr double slowest = .25, fastest = 8;
       const double first = q[0] - q[1], second = q[1] - q[2];
-      if (!(first * second > 0))
-        return {};
       const auto ratio = [&](double rate)
       {
         return (std::pow(h[0], rate) - std::pow(h[1], rate)) /
@@ -40,7 +38,7 @@ namespace plumbline::study
       };
       double below = slowest, above = fastest; // the ratio rises with the rate
       if (!(first / second >= ratio(below) && first / second <= ratio(above)))
-        return {};
+        return {}; // up and down, or not at all
       while (above - below > 1e-10)
       {
         const double middle = .5 * (below + above);
