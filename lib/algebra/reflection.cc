@@ -57,8 +57,9 @@ namespace plumbline::algebra
     {
       for (unsigned int d = 0; d < 2; ++d)
       {
-        before_[d] = fast_cells_around(n_[d], best_zero(stencil.reach()));
-        width_[d] = n_[d] + 2 * before_[d];
+        const SineRow row = fast_sine_row(n_[d], stencil.reach(), 0);
+        before_[d] = row.n_before;
+        width_[d] = row.n;
       }
       n_real_ = 4 * static_cast<std::size_t>(width_[0]) * width_[1];
       n_modes_ = 2 * static_cast<std::size_t>(width_[1]) * (width_[0] + 1);

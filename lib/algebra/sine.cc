@@ -1,6 +1,7 @@
 #include "algebra/rectangle_solver.h"
 
-#include "algebra/sine_row.h"
+#include "algebra/held_nodes.h"
+#include "algebra/lane.h"
 #include "base/error.h"
 #include "base/fftw.h"
 
@@ -29,29 +30,33 @@ namespace plumbline::algebra
     Axis axis_between(const std::array<Side, 2> &sides, const SineRow &row)
     {
       if (sides[0] == Side::zero && sides[1] == Side::zero)
-        return row.is_zero_between ? Axis{FFTW_RODFT10, FFTW_RODFT01, 1, row.period()}
-                                   : Axis{FFTW_RODFT00, FFTW_RODFT00, 1, row.period()};
+        return row.is_longer() ? Axis{FFTW_RODFT10, FFTW_RODFT01, 1, row.period()}
+                               : Axis{FFTW_RODFT00, FFTW_RODFT00, 1, row.period()};
       if (sides[0] == Side::zero)
         return {FFTW_RODFT01, FFTW_RODFT10, .5, 2 * row.n};
       return sides[1] == Side::zero ? Axis{FFTW_REDFT01, FFTW_REDFT10, .5, 2 * row.n}
                                     : Axis{FFTW_REDFT00, FFTW_REDFT00, 0, 2 * (row.n - 1)};
     }
 
-    /// Nodes of one axis as they are transformed.
+    /// Nodes of one axis as they are transformed. The 5-point and 9-point stencils of reach 1 are
+    /// inverted exactly as they stand.
     SineRow transformed_row(const std::array<Side, 2> &sides, int n, const Stencil &stencil,
-                            Zeros zeros)
+                            unsigned int n_components, Zeros zeros)
     {
-      if (zeros == Zeros::next || sides[0] == Side::mirrored || sides[1] == Side::mirrored)
+      const bool is_between_zeros = sides[0] == Side::zero && sides[1] == Side::zero;
+      const int reach = stencil.reach();
+      if (zeros == Zeros::next || !is_between_zeros || reach == 1)
         return {n};
-      return fast_sine_row(n, best_zero(stencil.reach()), stencil.reach() == 1);
+      return fast_sine_row(n, reach, nodes_to_hold(reach, n_components));
     }
 
-    /// Rows of a power of two doubles would meet in one part of the cache, column by column: a
-    /// transform of 1024 x 1024 takes twice as long then.
+    /// Whole vectors. Rows of a power of two doubles would meet in one part of the cache, column by
+    /// column: a transform of 1024 x 1024 takes twice as long then.
     int row_stride(int width)
     {
-      constexpr int crowded = 64, apart = 8;
-      return width % crowded == 0 ? width + apart : width;
+      constexpr int crowded = 64;
+      const int stride = (width + wide - 1) / wide * wide;
+      return stride % crowded == 0 ? stride + wide : stride;
     }
 
     /// cos(k t_p), t_p the n frequencies, times 2 for k > 0 (both signs of k).
@@ -90,7 +95,8 @@ namespace plumbline::algebra
       std::array<int, 2> from_, n_;
       std::array<int, 2> width_{}, before_{};   ///< of the transform, and zeros before the nodes
       int stride_ = 0;                          ///< between rows of field_
-      std::vector<double> inverse_eigenvalues_; ///< shape (n_components, width[1], width[0])
+      std::vector<double> inverse_eigenvalues_; ///< shape (n_components, width[1], stride)
+      std::vector<HeldNodes> held_;             ///< of each component
       AlignedArray<double> field_;              ///< shape (width[1], stride)
       Plan forward_, backward_;
     };
@@ -108,14 +114,15 @@ namespace plumbline::algebra
       }
       if (n_[0] <= 0 || n_[1] <= 0)
         return; // a strip one cell wide has no vertex inside
-      const SineRow row0 = transformed_row(sides[0], n_[0], stencil, zeros),
-                    row1 = transformed_row(sides[1], n_[1], stencil, zeros);
+      const SineRow row0 = transformed_row(sides[0], n_[0], stencil, n_components_, zeros),
+                    row1 = transformed_row(sides[1], n_[1], stencil, n_components_, zeros);
       width_ = {row0.n, row1.n};
       before_ = {row0.n_before, row1.n_before};
       stride_ = row_stride(width_[0]);
 
       const std::size_t n = static_cast<std::size_t>(stride_) * width_[1];
       field_ = AlignedArray<double>(n);
+      std::fill_n(field_.data(), n, 0.);
       set_plan_threads(n);
       const Axis axis0 = axis_between(sides[0], row0), axis1 = axis_between(sides[1], row1);
       const auto plan = [&](fftw_r2r_kind kind1, fftw_r2r_kind kind0)
@@ -148,8 +155,12 @@ namespace plumbline::algebra
                   << "); the rule is unstable here, change the rule or the ratio horizon / h";
           throw NumericalError(message.str());
         }
-        for (Eigen::Index i = 0; i < eigenvalues.size(); ++i)
-          inverse_eigenvalues_.push_back(scale / eigenvalues.data()[i]);
+        inverse_eigenvalues_.resize((c + 1) * n);
+        double *const inverse = inverse_eigenvalues_.data() + c * n;
+        for (int j = 0; j < width_[1]; ++j)
+          for (int i = 0; i < width_[0]; ++i)
+            inverse[static_cast<std::size_t>(j) * stride_ + i] = scale / eigenvalues(i, j);
+        held_.emplace_back(std::array<SineRow, 2>{row0, row1}, stride_, inverse);
       }
     }
 
@@ -169,7 +180,6 @@ namespace plumbline::algebra
 
     void SineSolver::add_inverse(Vector &result, const Vector &input) const
     {
-      const double *inverse = inverse_eigenvalues_.data();
       for (unsigned int c = 0; c < n_components_ && field_.size() > 0; ++c)
       {
         if (width_ != n_)
@@ -178,9 +188,7 @@ namespace plumbline::algebra
           std::copy_n(input.begin() + position(c, j), n_[0], row(j));
         double_mirrored();
         fftw_execute(forward_.get());
-        for (int j = 0; j < width_[1]; ++j)
-          for (int i = 0; i < width_[0]; ++i)
-            field_[static_cast<std::size_t>(j) * stride_ + i] *= *inverse++;
+        held_[c].apply(field_.data(), inverse_eigenvalues_.data() + c * field_.size());
         fftw_execute(backward_.get());
         for (int j = 0; j < n_[1]; ++j)
         {

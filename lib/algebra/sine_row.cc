@@ -7,33 +7,37 @@ namespace plumbline::algebra
 {
   namespace
   {
-    /// Longer rows than this, on either side, cost more iterations than any length saves.
+    /// More nodes than these around a row cost more iterations than any length saves.
     constexpr int most_around = 24;
 
-    /// Iterations over the fewest: 1.3 where the zero is at 4/3 of the best distance, 1.9 at twice
-    /// or half of it (measured at m = 3 and 8).
-    double iterations(double distance, double best)
+    /// Conjugate gradients' iterations where nodes are held: waves reflected half a reach away meet
+    /// no free node, each node more costs some (3 to 5, constant kernels of m = 2 to 8).
+    double iterations_held(int n_more)
     {
-      return 1 + 1.25 * std::abs(std::log(distance / best));
+      return 3 + .6 * std::log(1 + .5 * n_more);
     }
 
-    /// An iteration with a transform of this length; the operator and the vectors of conjugate
-    /// gradients take as long as .7 transforms at m = 3.
-    double iteration_time(double transform)
+    /// The same where the zeros alone act, in steps from the outermost node: fewest where a volume
+    /// constraint acts as a zero, 1.3 times that at 4/3 of this distance, 1.9 times at twice or
+    /// half of it (constant, linear and 1/r kernels, m = 1.5 to 20).
+    double iterations_by_zeros(double distance, int reach)
     {
-      return .7 + transform;
+      const double best = .8 + .2 * reach;
+      return 8 + 10 * std::abs(std::log(distance / best));
+    }
+
+    /// An iteration with a transform of this length; the operator, the nodes that are held and the
+    /// vectors of conjugate gradients take as long as one transform at m = 3.
+    double iteration_time(int length)
+    {
+      return 1 + length_penalty(length);
     }
   } // namespace
-
-  double best_zero(int reach)
-  {
-    return reach <= 1 ? 1 : .8 + .2 * reach;
-  }
 
   double length_penalty(int length)
   {
     constexpr int with_code = 13;
-    constexpr double of_root = .17;
+    constexpr double of_factor = .02, of_root = .17;
     int largest = 1;
     for (int factor = 2; length > 1; ++factor)
       while (length % factor == 0)
@@ -41,49 +45,35 @@ namespace plumbline::algebra
         largest = factor;
         length /= factor;
       }
-    return largest <= with_code ? 1 : 1 + of_root * std::sqrt(largest);
+    return largest <= with_code ? 1
+                                : 1 + std::min(of_factor * largest, of_root * std::sqrt(largest));
   }
 
-  SineRow fast_sine_row(int n, double best, bool is_exact)
+  int nodes_to_hold(int reach, unsigned int n_components)
   {
-    constexpr double of_nodes = 1.3, of_odd = 2; // DST-I over DST-II; FFTW doubles odd lengths
-    constexpr double exact_over_few = .1;        // 1 iteration instead of 9
-    SineRow choice;
-    double least = 0;
-    for (int around = 0; around <= most_around; ++around)
-      for (const bool is_zero_between : {false, true})
-      {
-        const SineRow row{n + 2 * around, around, is_zero_between};
-        const int length = row.period() / 2;
-        const double transform = length_penalty(length) * (is_zero_between   ? 1
-                                                           : length % 2 == 0 ? of_nodes
-                                                                             : of_odd);
-        double time = iterations(row.distance(), best) * iteration_time(transform);
-        if (is_exact && row.distance() == best)
-          time *= exact_over_few;
-        if (choice.n == 0 || time < least)
-        {
-          choice = row;
-          least = time;
-        }
-      }
-    return choice;
+    constexpr int longest_reach = 8; // beyond it the zeros alone leave as few iterations
+    if (reach > longest_reach)
+      return 0;
+    return n_components > 1 ? 1 : (reach + 2) / 2;
   }
 
-  int fast_cells_around(int n, double best)
+  SineRow fast_sine_row(int n, int reach, int n_held)
   {
-    int choice = 0;
+    const int fewest = std::max(n_held, 1);
+    int best = 0;
     double least = 0;
-    for (int around = 0; around <= most_around; ++around)
+    for (int more = 0; more <= 2 * (most_around - fewest); ++more)
     {
-      const double time =
-          iterations(around + .5, best) * iteration_time(length_penalty(n + 2 * around));
-      if (around == 0 || time < least)
+      const double iterations =
+          n_held > 0 ? iterations_held(more) : iterations_by_zeros(fewest + .5 * more + .5, reach);
+      const double time = iterations * iteration_time(n + 2 * fewest + more);
+      if (more == 0 || time < least)
       {
-        choice = around;
+        best = more;
         least = time;
       }
     }
-    return choice;
+    const int n_before = fewest + best / 2, n_after = fewest + (best + 1) / 2;
+    return {n_before + n + n_after, n_before, n_after, n_held};
   }
 } // namespace plumbline::algebra

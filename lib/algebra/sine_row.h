@@ -2,38 +2,33 @@
 
 namespace plumbline::algebra
 {
-  /// A row of nodes between two zeros as a preconditioner takes it: as the middle of a longer row,
-  /// whose transform is fast and whose zeros are where they fit the operator.
+  constexpr int most_held = 5; ///< at either end of a row
+
+  /// A row of nodes between two zeros as a preconditioner takes it: as it is, with the zeros at the
+  /// next nodes outside (DST-I), or in the middle of a longer row, whose transform is fast and
+  /// whose zeros are half a step beyond its ends (DST-II).
   struct SineRow
   {
-    int n = 0;        ///< of the longer row
-    int n_before = 0; ///< nodes before the first of the row itself, as many as after its last one
-    /// Where the zero is: a whole step beyond the outermost node (DST-I) or half of one (DST-II).
-    bool is_zero_between = false;
+    int n = 0;                     ///< of the longer row
+    int n_before = 0, n_after = 0; ///< nodes before the first of the row itself, and after its last
+    int n_held = 0;                ///< of those the nearest on either side, held at zero
 
-    double distance() const { return n_before + (is_zero_between ? .5 : 1.); } ///< of that [h]
-    int period() const { return 2 * (is_zero_between ? n : n + 1); }           ///< of its waves
+    bool is_longer() const { return n_before > 0; }
+    int period() const { return 2 * (is_longer() ? n : n + 1); } ///< of its waves, in steps
   };
-
-  /// Where a volume constraint acts as a zero: this many steps beyond the outermost free node.
-  /// Conjugate gradients need fewest iterations there; measured for constant, linear and 1/r
-  /// kernels of m = 1.5 to 20, rules and Q1. A reach of 1 is the 5-point or 9-point stencil:
-  /// exactly 1.
-  /// @param reach  of the stencil, in steps
-  double best_zero(int reach);
 
   /// Time of a transform of this length over that of a length without large prime factors: 1 up to
   /// the factor 13, for which FFTW has code of its own, 3.4 for a factor of 200, 6 for a prime of
   /// 1000. Measured with FFTW 3.3.10.
   double length_penalty(int length);
 
-  /// Of all rows with n nodes in the middle that which promises the least time: iterations by how
-  /// far its zero is from `best`, each with a transform of its length.
-  /// @param is_exact  with the zero at `best` = 1 the operator is inverted in one iteration
-  SineRow fast_sine_row(int n, double best, bool is_exact);
+  /// Nodes to hold at either end of a row: as many as save more time than they take.
+  /// @param reach         of the stencil, in steps
+  /// @param n_components  several are coupled by what no preconditioner of each one sees
+  int nodes_to_hold(int reach, unsigned int n_components);
 
-  /// Cells before and after n cells of a rectangle whose values are reflected oddly about its ends,
-  /// for the same reasons; the period is twice n and these.
-  /// @param best  as above, from the centre of the outermost cell
-  int fast_cells_around(int n, double best);
+  /// Of all longer rows with n nodes in the middle that which promises the least time: iterations
+  /// by the number of nodes around, each with a transform of its length.
+  /// @param n_held  0: the zeros are where a volume constraint acts as one
+  SineRow fast_sine_row(int n, int reach, int n_held);
 } // namespace plumbline::algebra

@@ -1,6 +1,5 @@
 #include "algebra/operator.h"
 
-#include "algebra/sine_row.h"
 #include "algebra/solve.h"
 #include "algebra/sparse.h"
 #include "base/error.h"
@@ -232,53 +231,6 @@ TEST(SineSolver, inverts_an_even_operator_between_zeros_and_mirrors)
       inverse -= u;
       EXPECT_LT(inverse.linfty_norm(), 1e-14);
     }
-}
-
-TEST(SineRow, is_longer_where_a_transform_is_fast_and_its_zero_fits)
-{
-  const SineRow exact = fast_sine_row(255, 1, true); // 5-point stencils, one iteration
-  EXPECT_EQ(exact.n, 255);
-  EXPECT_EQ(exact.n_before, 0);
-  EXPECT_EQ(exact.distance(), 1);
-  EXPECT_EQ(exact.period(), 512);
-  for (const double best : {1.4, 2.4, 4.8})
-    for (int n = 200; n < 1100; ++n)
-    {
-      const SineRow row = fast_sine_row(n, best, false);
-      ASSERT_EQ(row.n, n + 2 * row.n_before) << n; // as many on both sides
-      EXPECT_EQ(row.period(), row.is_zero_between ? 2 * row.n : 2 * row.n + 2) << n;
-      EXPECT_LT(length_penalty(row.period() / 2), 4) << n; // no large prime
-      EXPECT_LT(std::abs(row.distance() - best), 6) << n;
-    }
-  EXPECT_EQ(length_penalty(1024), 1);
-  EXPECT_EQ(length_penalty(13 * 77), 1);
-  EXPECT_GT(length_penalty(1031), 5);
-  EXPECT_GT(length_penalty(2 * 257), 3);
-}
-
-TEST(SineRow, of_any_number_of_nodes_leaves_few_iterations)
-{
-  Stencil stencil(1, 3); // 1/r over a ball of radius 3
-  for (int k2 = -3; k2 <= 3; ++k2)
-    for (int k1 = -3; k1 <= 3; ++k1)
-      if (const double r = std::hypot(k1, k2); r > 0 && r <= 3)
-      {
-        stencil(0, 0, k1, k2) = -1 / r;
-        stencil(0, 0, 0, 0) += 1 / r;
-      }
-  for (const int n : {37, 64, 100, 101, 126, 127, 128, 129, 130, 256, 257})
-  {
-    const Lattice lattice(square, 1. / n);
-    const NodeSet nodes = free_nodes(lattice, one_family, 1);
-    const auto matrix = make_operator(stencil, nodes);
-    const SchwarzPreconditioner preconditioner(stencil, nodes, maximal_rectangles(lattice));
-    Vector f = random_vector(nodes), u(nodes.size()), residual(nodes.size());
-    const SolveResult found = solve(*matrix, preconditioner, u, f, 1e-12, 500);
-    EXPECT_LE(found.n_iterations, 22u) << n;
-    matrix->vmult(residual, u);
-    residual -= f;
-    EXPECT_LT(residual.l2_norm(), 1e-11 * f.l2_norm()) << n;
-  }
 }
 
 TEST(Solve, an_operator_that_is_not_positive_definite_is_an_error)

@@ -1,0 +1,148 @@
+#include "algebra/held_nodes.h"
+
+#include "algebra/operator.h"
+#include "algebra/schwarz.h"
+#include "algebra/solve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace plumbline;
+using namespace plumbline::algebra;
+using geometry::Domain;
+using geometry::Lattice;
+using geometry::NodeSet;
+
+namespace
+{
+  const Domain square{{{{0, 0}, {1, 1}}}, {}};
+
+  Vector random_vector(std::size_t size, unsigned int seed)
+  {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    Vector v(size);
+    for (double &value : v)
+      value = uniform(random);
+    return v;
+  }
+
+  /// Bonds of a ball, w(k) = r^power, along the first axis alone or along both.
+  Stencil ball_stencil(int reach, double power, bool along_one_axis = false)
+  {
+    Stencil stencil(1, reach);
+    for (int k2 = -reach; k2 <= reach; ++k2)
+      for (int k1 = -reach; k1 <= reach; ++k1)
+        if (const double r = std::hypot(k1, k2);
+            r > 0 && r <= reach && !(along_one_axis && k2 != 0))
+        {
+          stencil(0, 0, k1, k2) = -std::pow(r, power);
+          stencil(0, 0, 0, 0) += std::pow(r, power);
+        }
+    return stencil;
+  }
+
+  NodeSet nodes_of(std::array<int, 2> n)
+  {
+    return {{{.5, false, 0}}, 1, n, std::vector<char>(n[0] * n[1], 1)};
+  }
+} // namespace
+
+TEST(SineRow, has_a_length_that_is_transformed_fast_and_the_row_in_its_middle)
+{
+  for (const int reach : {2, 3, 8, 20})
+    for (int n = 200; n < 1100; ++n)
+    {
+      const int n_held = nodes_to_hold(reach, 1);
+      const SineRow row = fast_sine_row(n, reach, n_held);
+      ASSERT_EQ(row.n, row.n_before + n + row.n_after) << n;
+      EXPECT_LE(std::abs(row.n_after - row.n_before), 1) << n;
+      EXPECT_GE(row.n_before, row.n_held) << n;
+      EXPECT_EQ(row.n_held, n_held) << n;
+      EXPECT_EQ(row.period(), 2 * row.n) << n;
+      EXPECT_LT(length_penalty(row.n), 2) << n; // no large prime
+      EXPECT_LT(row.n_after, 16) << n;
+      if (n_held == 0) // a zero 4.8 steps beyond the outermost node acts as the constraint does
+      {
+        EXPECT_GT(.5 * (row.n_before + row.n_after + 1), 2.5) << n;
+        EXPECT_LT(.5 * (row.n_before + row.n_after + 1), 8.5) << n;
+      }
+    }
+  EXPECT_EQ(length_penalty(1024), 1);
+  EXPECT_EQ(length_penalty(13 * 77), 1);
+  EXPECT_GT(length_penalty(1031), 5);
+  EXPECT_GT(length_penalty(2 * 257), 3);
+}
+
+TEST(SineRow, holds_nodes_where_that_pays)
+{
+  EXPECT_EQ(nodes_to_hold(2, 1), 2);
+  EXPECT_EQ(nodes_to_hold(3, 1), 2);
+  EXPECT_EQ(nodes_to_hold(8, 1), 5);
+  EXPECT_LE(nodes_to_hold(8, 1), most_held);
+  EXPECT_EQ(nodes_to_hold(9, 1), 0); // the zeros alone do
+  EXPECT_EQ(nodes_to_hold(3, 2), 1); // coupled components limit the iterations
+}
+
+TEST(HeldNodes, of_an_operator_along_one_axis_invert_it)
+{
+  for (const int reach : {2, 3, 4, 5, 8})
+    for (const bool across : {false, true})
+    {
+      const std::array<int, 2> n = across ? std::array{3, 22} : std::array{22, 3};
+      const SineRow row = fast_sine_row(22, reach, nodes_to_hold(reach, 1));
+      ASSERT_EQ(row.n, 22 + 2 * row.n_held); // no node around is free
+      const Stencil along = ball_stencil(reach, -1, true);
+      Stencil stencil(1, reach);
+      for (int k = -reach; k <= reach; ++k)
+        (across ? stencil(0, 0, 0, k) : stencil(0, 0, k, 0)) = along(0, 0, k, 0);
+      const NodeSet nodes = nodes_of(n);
+      const Vector u = random_vector(nodes.size(), 5);
+      Vector f(u.size()), inverse(u.size());
+      make_operator(stencil, nodes)->vmult(f, u);
+      make_sine_solver(stencil, nodes, {{0, 0}, n}, {}, Zeros::fast)->add_inverse(inverse, f);
+      inverse -= u;
+      EXPECT_LT(inverse.linfty_norm(), 1e-12) << reach;
+    }
+}
+
+TEST(HeldNodes, leave_a_symmetric_positive_definite_preconditioner)
+{
+  for (const std::array<int, 2> n : {std::array{17, 12}, std::array{9, 30}})
+  {
+    const NodeSet nodes = nodes_of(n);
+    const auto solver = make_sine_solver(ball_stencil(3, 0), nodes, {{0, 0}, n}, {}, Zeros::fast);
+    for (unsigned int seed = 1; seed < 6; ++seed)
+    {
+      const Vector a = random_vector(nodes.size(), seed), b = random_vector(nodes.size(), 9 * seed);
+      Vector inverse_a(a.size()), inverse_b(a.size());
+      solver->add_inverse(inverse_a, a);
+      solver->add_inverse(inverse_b, b);
+      EXPECT_NEAR(inverse_a * b, inverse_b * a, 1e-13 * inverse_a.l2_norm() * b.l2_norm());
+      EXPECT_GT(inverse_a * a, 0);
+    }
+  }
+}
+
+TEST(HeldNodes, leave_few_iterations_whatever_the_number_of_nodes)
+{
+  for (const auto &[reach, power, most] :
+       {std::tuple{2, 0., 5u}, {3, -1., 6u}, {5, 0., 6u}, {8, 0., 7u}})
+    for (const int n : {37, 64, 100, 101, 126, 127, 128, 129, 130, 256, 257})
+    {
+      const Stencil stencil = ball_stencil(reach, power);
+      const Lattice lattice(square, 1. / n);
+      const NodeSet nodes = nodes_of({n, n});
+      const auto matrix = make_operator(stencil, nodes);
+      const SchwarzPreconditioner preconditioner(stencil, nodes, maximal_rectangles(lattice));
+      const Vector f = random_vector(nodes.size(), 3);
+      Vector u(nodes.size()), residual(nodes.size());
+      const SolveResult found = solve(*matrix, preconditioner, u, f, 1e-12, 500);
+      EXPECT_LE(found.n_iterations, most) << n << ' ' << reach;
+      matrix->vmult(residual, u);
+      residual -= f;
+      EXPECT_LT(residual.l2_norm(), 1e-11 * f.l2_norm()) << n;
+    }
+}
