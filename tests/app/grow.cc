@@ -54,6 +54,20 @@ TEST(GrowCommand, tells_what_breaks_and_draws_it)
   fs::remove_all(folder);
 }
 
+TEST(GrowCommand, lets_a_crack_grow_in_its_own_field)
+{
+  const fs::path folder = temporary("grow");
+  const Outcome outcome = run("grow " + std::string(PLUMBLINE_SCENES) +
+                              "/fracture/k_field.prm --check -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = results(folder);
+  const double griffith = std::sqrt(json["plane_modulus"].get<double>());      // K where G = 1
+  EXPECT_NEAR(json["events"][0]["load"].get<double>() / griffith, 1.025, .01); // on this lattice
+  EXPECT_NEAR(json["K_by_bonds"].get<double>() / griffith, 1, 1e-12);
+  EXPECT_EQ(json["n_unpaired"], 0);
+  fs::remove_all(folder);
+}
+
 TEST(GrowCommand, calibrates_the_critical_stretch)
 {
   const fs::path folder = temporary("grow");
