@@ -1,5 +1,7 @@
 #include "geometry/msh_file.h"
 
+#include "base/number_text.h"
+#include "geometry/msh_elements.h"
 #include "geometry/msh_words.h"
 
 #include <algorithm>
@@ -22,32 +24,12 @@ namespace plumbline::geometry
     constexpr long most = std::numeric_limits<int>::max();
     constexpr long any_tag = std::numeric_limits<long>::max();
 
-    // gmsh's types of elements
-    constexpr long triangle = 2, quadrilateral = 3;
-    /// Of second, third and fourth order: corners, then points on the sides, then inner ones.
-    struct HighTriangle
-    {
-      long type;
-      unsigned int n_on_side, n_inside;
-    };
-    constexpr std::array high_triangles = {HighTriangle{9, 1, 0}, HighTriangle{21, 2, 1},
-                                           HighTriangle{23, 3, 3}};
-    constexpr std::array points_and_lines = {1L, 8L, 15L, 26L, 27L, 28L, 62L, 63L, 64L, 65L, 66L};
-    constexpr std::array other_surfaces = {9L,  10L, 16L, 20L, 21L, 22L, 23L, 24L, 25L,
-                                           36L, 37L, 38L, 39L, 40L, 41L, 42L, 43L, 44L,
-                                           45L, 46L, 47L, 48L, 49L, 50L, 51L};
-
+    using msh::find_high, msh::is_one_of, msh::quadrilateral, msh::triangle;
     using Section = MshSection;
 
     std::string begin_of(Section section)
     {
       return "$" + base::word(section);
-    }
-
-    template <std::size_t n>
-    bool is_one_of(const std::array<long, n> &types, long type)
-    {
-      return std::find(types.begin(), types.end(), type) != types.end();
     }
 
     bool begins_with(std::string word, const std::string &begin)
@@ -56,20 +38,6 @@ namespace plumbline::geometry
                      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
       return word.compare(0, begin.size(), begin) == 0;
     }
-
-    const HighTriangle *find_high(long type)
-    {
-      const auto found = std::find_if(high_triangles.begin(), high_triangles.end(),
-                                      [type](const HighTriangle &t) { return t.type == type; });
-      return found == high_triangles.end() ? nullptr : &*found;
-    }
-
-    /// A cell as it stands in the file.
-    struct FileCell
-    {
-      long group, entity, type;
-      std::array<unsigned int, 4> vertex;
-    };
 
     /// The sections of a file, one after the other.
     class Reader
@@ -257,9 +225,9 @@ namespace plumbline::geometry
         return found->second;
       }
 
-      void add_cell(FileCell cell)
+      void add_cell(msh::Cell cell)
       {
-        const HighTriangle *const high = find_high(cell.type);
+        const msh::HighTriangle *const high = find_high(cell.type);
         for (long i = 0; i < (cell.type == quadrilateral ? 4 : 3); ++i)
           cell.vertex[i] = node_of_cell();
         for (unsigned int side = 0; high != nullptr && side < 3; ++side)
@@ -285,7 +253,7 @@ namespace plumbline::geometry
       {
         const bool is_high = curves_ != nullptr && find_high(type) != nullptr;
         const bool is_surface = type == triangle || type == quadrilateral || is_high;
-        if (group != 0 && is_one_of(other_surfaces, type) && !is_high)
+        if (group != 0 && is_one_of(msh::other_surfaces, type) && !is_high)
           words_.fail("has cells of gmsh's type " + std::to_string(type) + "; only " +
                       (curves_ == nullptr
                            ? "triangles and quadrilaterals of first order are allowed "
@@ -328,7 +296,7 @@ namespace plumbline::geometry
           const long n = count("the number of elements of a block");
           const auto found = group_of_surface_.find(entity);
           const bool is_physical = dimension == 2 && found != group_of_surface_.end();
-          if (dimension == 2 && (is_one_of(points_and_lines, type)))
+          if (dimension == 2 && (is_one_of(msh::points_and_lines, type)))
             words_.fail("elements of type " + std::to_string(type) + " are none of a surface");
           const bool is_wanted = is_physical && is_taken(type, found->second);
           for (long i = 0; i < n; ++i)
@@ -346,7 +314,7 @@ namespace plumbline::geometry
       std::map<long, bool> check_groups(bool wants_collar) const
       {
         std::map<long, bool> is_omega;
-        for (const FileCell &cell : cells_)
+        for (const msh::Cell &cell : cells_)
           is_omega[cell.group] = false;
         std::string all;
         bool has_omega = false, has_collar = false, has_other = false;
@@ -375,21 +343,17 @@ namespace plumbline::geometry
       Mesh mesh(bool has_collar)
       {
         if (height_ > off_plane * largest_)
-        {
-          std::ostringstream message;
-          message << source_ << " reaches z = " << height_
-                  << "; only triangles and quadrilaterals in the plane z = 0 are allowed";
-          throw InputError(message.str());
-        }
+          throw InputError(source_ + " reaches z = " + base::to_text(height_, 6) +
+                           "; only triangles and quadrilaterals in the plane z = 0 are allowed");
         const std::map<long, bool> is_omega = check_groups(has_collar);
         std::stable_sort(
             cells_.begin(), cells_.end(),
-            [](const FileCell &a, const FileCell &b)
+            [](const msh::Cell &a, const msh::Cell &b)
             { return std::tie(a.group, a.entity, a.type) < std::tie(b.group, b.entity, b.type); });
         Mesh mesh;
         mesh.vertices = std::move(vertices_);
         long last = 0; // physical groups are numbered from 1
-        for (const FileCell &cell : cells_)
+        for (const msh::Cell &cell : cells_)
         {
           if (cell.group != last)
             mesh.groups.push_back(names_.at(last = cell.group));
@@ -409,7 +373,7 @@ namespace plumbline::geometry
       std::unordered_map<long, unsigned int> number_;
       double largest_ = 0, height_ = 0;
       SideCurves *curves_;
-      std::vector<FileCell> cells_;
+      std::vector<msh::Cell> cells_;
     };
   } // namespace
 

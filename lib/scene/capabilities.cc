@@ -142,6 +142,8 @@ namespace plumbline::scene
         {base::word(Analysis::motion), all_but({C::notch})},
         {base::word(Analysis::crack),
          of_double_wells | Capabilities{C::lattice, C::notch, C::dynamic, C::nonlocal}},
+        {base::word(Analysis::growth), {C::heterogeneous, C::damage, C::dilatation, C::nonlocal}},
+        {base::word(Analysis::strip), {C::lattice, C::nonlocal}},
         {base::word(Analysis::stability), all_capabilities()},
         {base::word(Analysis::dispersion),
          all_but(on_meshes_alone | Capabilities{C::free_boundary, C::floating})},

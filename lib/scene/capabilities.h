@@ -51,7 +51,9 @@ namespace plumbline::scene
   {
     statics,
     motion,
-    crack,
+    crack,  ///< in motion
+    growth, ///< of cracks in equilibrium
+    strip,  ///< a standing crack
     stability,
     dispersion,
     check ///< of the weights of another code
@@ -101,6 +103,6 @@ namespace plumbline::base
                                                               "double well in a collar",
                                                               "periodic"};
   template <>
-  inline constexpr auto words<scene::Analysis> =
-      std::array{"statics", "motion", "crack", "stability", "dispersion", "check"};
+  inline constexpr auto words<scene::Analysis> = std::array{
+      "statics", "motion", "crack", "growth", "strip", "stability", "dispersion", "check"};
 } // namespace plumbline::base

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "physics/expression.h"
+#include "scene/capabilities.h"
 #include "scene/checks.h"
 #include "scene/values.h"
 
@@ -41,5 +42,6 @@ namespace plumbline::scene
           "a notch that the crack grows from, Domain/cracks, from its mouth to its tip");
     needs(scene.study.series.size() == 1 && scene.study.series.front().levels.size() == 1,
           "one Study/h and one Study/m (or Study/horizon)");
+    check_analysis(scene, Analysis::growth);
   }
 } // namespace plumbline::scene

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "reference/strip/bond_pairs.h"
+#include "reference/strip/strip_space.h"
 
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/vector.h>
@@ -9,125 +10,15 @@
 #include <Eigen/Cholesky>
 
 #include <cmath>
-#include <map>
-#include <tuple>
 
 namespace plumbline::reference
 {
   namespace
   {
-    using geometry::Point;
     using method::RiceStrip;
     using Form = BondPairs::Form;
     using Eigen::VectorXd;
     using Values = dealii::Vector<double>;
-
-    /// A cell, from the strip's lower left one; or how far another one is from it.
-    struct Place
-    {
-      int column = 0, row = 0;
-    };
-
-    /// The cells of the strip and of what is held around it, and the functions on them: of two
-    /// components each, continuous ones shared.
-    class StripSpace
-    {
-    public:
-      StripSpace(const RiceStrip &strip, int reach, const AxisShapes &shapes);
-
-      int reach() const { return reach_; }
-      bool is_inside(const Place &cell) const
-      {
-        return cell.column >= 0 && cell.column < strip_.n_length && cell.row >= 0 &&
-               cell.row < strip_.n_height;
-      }
-      const unsigned int *functions(const Place &cell) const
-      {
-        return &functions_[index(cell) * n_];
-      }
-      std::size_t n_functions() const { return support_.size(); }
-      const Point<2> &support(unsigned int function) const { return support_[function]; } // in h
-      bool is_upper(unsigned int function) const { return is_upper_[function] != 0; }
-      bool is_free(unsigned int function) const { return is_free_[function] != 0; }
-
-      /// Calls visit(cell) for all, or for those of the strip.
-      template <class Visit>
-      void visit_all(const Visit &visit) const
-      {
-        for (int row = -reach_; row < strip_.n_height + reach_; ++row)
-          for (int column = -reach_; column < strip_.n_length + reach_; ++column)
-            visit(Place{column, row});
-      }
-      bool has(const Place &cell) const
-      {
-        return cell.column >= -reach_ && cell.column < strip_.n_length + reach_ &&
-               cell.row >= -reach_ && cell.row < strip_.n_height + reach_;
-      }
-
-      VectorXd gather(const Values &u, const Place &cell) const
-      {
-        VectorXd values(2 * n_);
-        const unsigned int *const function = functions(cell);
-        for (unsigned int k = 0; k < n_; ++k)
-          for (unsigned int d = 0; d < 2; ++d)
-            values[2 * k + d] = u[2 * function[k] + d];
-        return values;
-      }
-      void scatter(const VectorXd &values, const Place &cell, Values &sum) const
-      {
-        const unsigned int *const function = functions(cell);
-        for (unsigned int k = 0; k < n_; ++k)
-          for (unsigned int d = 0; d < 2; ++d)
-            sum[2 * function[k] + d] += values[2 * k + d];
-      }
-
-    private:
-      std::size_t index(const Place &cell) const
-      {
-        return static_cast<std::size_t>(cell.row + reach_) * (strip_.n_length + 2 * reach_) +
-               cell.column + reach_;
-      }
-
-      RiceStrip strip_;
-      int reach_;
-      unsigned int n_; ///< functions of a cell
-      std::vector<unsigned int> functions_;
-      std::vector<Point<2>> support_;
-      std::vector<char> is_upper_, is_free_;
-    };
-
-    StripSpace::StripSpace(const RiceStrip &strip, int reach, const AxisShapes &shapes)
-        : strip_(strip), reach_(reach), n_(shapes.n_local() * shapes.n_local())
-    {
-      const unsigned int n_axis = shapes.n_local();
-      const bool is_continuous = shapes.is_continuous();
-      const int per_cell = static_cast<int>(is_continuous ? shapes.degree() : n_axis),
-                middle = strip.n_height / 2;
-      std::map<std::tuple<int, int, bool>, unsigned int> known; // by place, and side of the crack
-      visit_all(
-          [&](const Place &cell)
-          {
-            for (unsigned int k = 0; k < n_; ++k)
-            {
-              const int a = static_cast<int>(k % n_axis), b = static_cast<int>(k / n_axis);
-              const int x = cell.column * per_cell + a, y = cell.row * per_cell + b;
-              const bool is_upper = cell.row >= middle;
-              const bool is_split =
-                  is_continuous && y == middle * per_cell && x < strip.n_crack * per_cell;
-              const auto [at, is_new] = known.try_emplace({x, y, is_split && is_upper},
-                                                          static_cast<unsigned int>(known.size()));
-              functions_.push_back(at->second);
-              if (!is_new)
-                continue;
-              support_.emplace_back(cell.column + shapes.support_point(a),
-                                    cell.row + shapes.support_point(b));
-              is_upper_.push_back(is_upper);
-              is_free_.push_back(is_continuous ? x > 0 && x < strip.n_length * per_cell && y > 0 &&
-                                                     y < strip.n_height * per_cell
-                                               : is_inside(cell));
-            }
-          });
-    }
 
     VectorXd join(const VectorXd &a, const VectorXd &b)
     {

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+/// What stands in gmsh's .msh files.
+namespace plumbline::geometry::msh
+{
+  // types of elements
+
+  inline constexpr long triangle = 2, quadrilateral = 3;
+  /// Of second, third and fourth order: corners, then points on the sides, then inner ones.
+  struct HighTriangle
+  {
+    long type;
+    unsigned int n_on_side, n_inside;
+  };
+  inline constexpr std::array high_triangles = {HighTriangle{9, 1, 0}, HighTriangle{21, 2, 1},
+                                                HighTriangle{23, 3, 3}};
+  inline constexpr std::array points_and_lines = {1L,  8L,  15L, 26L, 27L, 28L,
+                                                  62L, 63L, 64L, 65L, 66L};
+  inline constexpr std::array other_surfaces = {9L,  10L, 16L, 20L, 21L, 22L, 23L, 24L, 25L,
+                                                36L, 37L, 38L, 39L, 40L, 41L, 42L, 43L, 44L,
+                                                45L, 46L, 47L, 48L, 49L, 50L, 51L};
+
+  template <std::size_t n>
+  bool is_one_of(const std::array<long, n> &types, long type)
+  {
+    return std::find(types.begin(), types.end(), type) != types.end();
+  }
+
+  /// Null: it is no triangle of higher order.
+  inline const HighTriangle *find_high(long type)
+  {
+    const auto found = std::find_if(high_triangles.begin(), high_triangles.end(),
+                                    [type](const HighTriangle &t) { return t.type == type; });
+    return found == high_triangles.end() ? nullptr : &*found;
+  }
+
+  struct Cell
+  {
+    long group, entity, type;
+    std::array<unsigned int, 4> vertex;
+  };
+} // namespace plumbline::geometry::msh
