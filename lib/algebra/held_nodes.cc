@@ -12,7 +12,7 @@ namespace plumbline::algebra
   {
     // Nodes come in pairs, one of each end: two at a time save half the loads.
 
-    double sum(Wide v)
+    [[gnu::always_inline]] inline double sum(Wide v)
     {
       return (v[0] + v[4]) + (v[1] + v[5]) + (v[2] + v[6]) + (v[3] + v[7]);
     }
@@ -149,6 +149,8 @@ namespace plumbline::algebra
         for (std::size_t k = 0; k < ends.n && sweep < n_sweeps; k += 2)
           spread(values.data() + k * stride, row, seen[k * n_rows], seen[(k + 1) * n_rows], stride);
       }
+      if (sweep == n_sweeps)
+        return;
       forces.assign(forces.size(), 0.);
       for (std::size_t k = 0; k < ends.n; ++k)
         for (std::size_t l = 0; l < ends.n; ++l)

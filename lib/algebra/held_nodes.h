@@ -26,8 +26,8 @@ namespace plumbline::algebra
     HeldNodes(const std::array<SineRow, 2> &rows, int stride, const double *inverse);
 
     /// P0 P1 P0 P1 P0 D⁻¹, in place; of one node at each end P0 P1 P0 D⁻¹.
-    /// @param field    transformed by FFTW's RODFT10, whose last mode counts twice where nodes are
-    ///                 held; shape and zeros as those of inverse
+    /// @param field    of modes, where nodes are held those of FFTW's RODFT10, whose last one is
+    ///                 twice too large: a node sees half of it; shape and zeros as of inverse
     /// @param inverse  as before
     void apply(double *field, const double *inverse) const;
 

@@ -45,7 +45,7 @@ namespace plumbline::algebra
     {
       const bool is_between_zeros = sides[0] == Side::zero && sides[1] == Side::zero;
       const int reach = stencil.reach();
-      if (zeros == Zeros::next || !is_between_zeros || reach == 1)
+      if (zeros == Zeros::next || !is_between_zeros || reach <= 1)
         return {n};
       return fast_sine_row(n, reach, nodes_to_hold(reach, n_components));
     }
@@ -140,6 +140,7 @@ namespace plumbline::algebra
       const int reach = stencil.reach();
       const Eigen::MatrixXd cos0 = cosines(axis0, width_[0], reach),
                             cos1 = cosines(axis1, width_[1], reach);
+      inverse_eigenvalues_.resize(n_components_ * n);
       for (unsigned int c = 0; c < n_components_; ++c)
       {
         Eigen::MatrixXd entries(reach + 1, reach + 1);
@@ -155,7 +156,6 @@ namespace plumbline::algebra
                   << "); the rule is unstable here, change the rule or the ratio horizon / h";
           throw NumericalError(message.str());
         }
-        inverse_eigenvalues_.resize((c + 1) * n);
         double *const inverse = inverse_eigenvalues_.data() + c * n;
         for (int j = 0; j < width_[1]; ++j)
           for (int i = 0; i < width_[0]; ++i)

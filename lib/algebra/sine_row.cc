@@ -7,7 +7,7 @@ namespace plumbline::algebra
 {
   namespace
   {
-    /// More nodes than these around a row cost more iterations than any length saves.
+    /// More nodes than these on either side of a row cost more iterations than any length saves.
     constexpr int most_around = 24;
 
     /// Conjugate gradients' iterations where nodes are held: waves reflected half a reach away meet
@@ -51,10 +51,10 @@ namespace plumbline::algebra
 
   int nodes_to_hold(int reach, unsigned int n_components)
   {
-    constexpr int longest_reach = 8; // beyond it the zeros alone leave as few iterations
+    constexpr int longest_reach = 10; // beyond it holding takes as much time as it saves
     if (reach > longest_reach)
       return 0;
-    return n_components > 1 ? 1 : (reach + 2) / 2;
+    return n_components > 1 ? 1 : std::min((reach + 2) / 2, most_held);
   }
 
   SineRow fast_sine_row(int n, int reach, int n_held)

@@ -29,6 +29,6 @@ namespace plumbline::algebra
 
   /// Of all longer rows with n nodes in the middle that which promises the least time: iterations
   /// by the number of nodes around, each with a transform of its length.
-  /// @param n_held  0: the zeros are where a volume constraint acts as one
+  /// @param n_held  at most most_held; 0: the zeros are where a volume constraint acts as one
   SineRow fast_sine_row(int n, int reach, int n_held);
 } // namespace plumbline::algebra

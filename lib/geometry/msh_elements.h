@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 /// What stands in gmsh's .msh files.
 namespace plumbline::geometry::msh

@@ -142,7 +142,8 @@ namespace plumbline::scene
         {base::word(Analysis::motion), all_but({C::notch})},
         {base::word(Analysis::crack),
          of_double_wells | Capabilities{C::lattice, C::notch, C::dynamic, C::nonlocal}},
-        {base::word(Analysis::growth), {C::heterogeneous, C::damage, C::dilatation, C::nonlocal}},
+        {base::word(Analysis::growth),
+         {C::lattice, C::free_boundary, C::heterogeneous, C::damage, C::dilatation, C::nonlocal}},
         {base::word(Analysis::strip), {C::lattice, C::nonlocal}},
         {base::word(Analysis::stability), all_capabilities()},
         {base::word(Analysis::dispersion),
@@ -211,7 +212,7 @@ namespace plumbline::scene
   {
     const Capable &one = analyses()[static_cast<std::size_t>(analysis)];
     if (const std::string why = refusal(scene, needs(scene), one.can, ""); !why.empty())
-      throw InputError("scene '" + scene.name + "': " + one.name + " cannot do it: " + why);
+      throw InputError(one.name + " cannot do this scene: " + why);
   }
 
   std::string capability_table(const std::string &of, const std::vector<Capable> &all)

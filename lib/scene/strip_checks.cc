@@ -1,5 +1,4 @@
 #include "base/error.h"
-#include "scene/capabilities.h"
 #include "scene/checks.h"
 #include "scene/values.h"
 
@@ -35,7 +34,6 @@ namespace plumbline::scene
     needs(!scene.sampling.is_there(), "Sampling/rule = none");
     needs(scene.methods.nodes.kind() == NodeKind::centres && scene.methods.nodes.perturbation == 0,
           "nodes at centres that are not moved (Methods/nodes)");
-    check_analysis(scene, Analysis::strip);
     for (const Series &series : scene.study.series)
       for (const Level &level : series.levels)
       {

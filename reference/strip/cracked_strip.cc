@@ -17,6 +17,7 @@ namespace plumbline::reference
   {
     using method::RiceStrip;
     using Form = BondPairs::Form;
+    using Place = StripSpace::Place;
     using Eigen::VectorXd;
     using Values = dealii::Vector<double>;
 

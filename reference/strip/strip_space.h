@@ -12,17 +12,17 @@
 
 namespace plumbline::reference
 {
-  /// A cell, from the strip's lower left one; or how far another one is from it.
-  struct Place
-  {
-    int column = 0, row = 0;
-  };
-
   /// The cells of the strip and of what is held around it, and the functions on them: of two
   /// components each, continuous ones shared.
   class StripSpace
   {
   public:
+    /// A cell, from the strip's lower left one; or how far another one is from it.
+    struct Place
+    {
+      int column = 0, row = 0;
+    };
+
     StripSpace(const method::RiceStrip &strip, int reach, const AxisShapes &shapes);
 
     int reach() const { return reach_; }
@@ -33,14 +33,12 @@ namespace plumbline::reference
     }
     const unsigned int *functions(const Place &cell) const { return &functions_[index(cell) * n_]; }
     std::size_t n_functions() const { return support_.size(); }
-    const geometry::Point<2> &support(unsigned int function) const
-    {
-      return support_[function];
-    } // in h
+    /// [h]
+    const geometry::Point<2> &support(unsigned int function) const { return support_[function]; }
     bool is_upper(unsigned int function) const { return is_upper_[function] != 0; }
     bool is_free(unsigned int function) const { return is_free_[function] != 0; }
 
-    /// Calls visit(cell) for all, or for those of the strip.
+    /// Calls visit(cell) for all cells.
     template <class Visit>
     void visit_all(const Visit &visit) const
     {

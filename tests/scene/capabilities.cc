@@ -70,8 +70,29 @@ TEST(Capabilities, models_and_analyses_refuse_what_their_rows_leave_out)
   const Scene mesh = parse("subsection Domain\n set mesh = squares\nend\n");
   EXPECT_EQ(failure([&] { check_analysis(mesh, Analysis::statics); }), "");
   EXPECT_EQ(failure([&] { check_analysis(mesh, Analysis::dispersion); }),
-            "scene 'capable': dispersion cannot do it: Domain/mesh = squares; write Domain/mesh = "
-            "lattice");
+            "dispersion cannot do this scene: Domain/mesh = squares; write Domain/mesh = lattice");
+}
+
+TEST(Capabilities, cracks_in_equilibrium_are_what_their_analyses_can_do)
+{
+  const std::string solid =
+                        "subsection Material\n set model = LPS\n set E = 1\n set nu = 0.25\nend\n"
+                        "subsection Kernel\n set type = 1/r\n set limit = Navier\nend\n"
+                        "subsection Methods\n set names = OPT\nend\n"
+                        "subsection Study\n set h = 0.1\n set m = 2\nend\n",
+                    strip = "subsection Strip\n set length = 4\n set crack = 2\nend\n",
+                    plate = "subsection Domain\n set boundary = free\n set boxes = 0, 0 : 1, 1\n"
+                            " set fixed = 0, 0.7 : 1, 1; 0, 0 : 1, 0.3\n"
+                            " set cracks = -0.1, 0.5 : 0.5, 0.5\nend\n"
+                            "subsection Problem\n set constraint = 0, y\nend\n"
+                            "subsection Fracture\n set toughness = 1\nend\n",
+                    kept = "subsection Solver\n set dilatation = kept\nend\n";
+  const auto check = [&](const std::string &text, Analysis analysis)
+  { return failure([&] { check_analysis(parse_scene("capable", solid + text), analysis); }); };
+  EXPECT_EQ(check(strip, Analysis::strip), "");
+  EXPECT_EQ(check(plate, Analysis::growth), "");
+  EXPECT_EQ(check(plate + kept, Analysis::growth).substr(0, 50),
+            "scene 'capable': growth cannot do this scene: Solv");
 }
 
 TEST(Capabilities, those_that_can_do_the_same_share_a_row_of_the_table)
