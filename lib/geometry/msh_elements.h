@@ -13,8 +13,8 @@ namespace plumbline::geometry::msh
   /// Of second, third and fourth order: corners, then points on the sides, then inner ones.
   struct HighTriangle
   {
-    long type;
-    unsigned int n_on_side, n_inside;
+    long type = 0;
+    unsigned int n_on_side = 0, n_inside = 0;
   };
   inline constexpr std::array high_triangles = {HighTriangle{9, 1, 0}, HighTriangle{21, 2, 1},
                                                 HighTriangle{23, 3, 3}};
@@ -40,7 +40,7 @@ namespace plumbline::geometry::msh
 
   struct Cell
   {
-    long group, entity, type;
-    std::array<unsigned int, 4> vertex;
+    long group = 0, entity = 0, type = 0;
+    std::array<unsigned int, 4> vertex{};
   };
 } // namespace plumbline::geometry::msh
