@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 
 namespace plumbline::algebra
@@ -110,6 +111,12 @@ namespace plumbline::algebra
   {
     find_forces(ends_[0], inverse, rows[1].n, 1, stride);
     find_forces(ends_[1], inverse, rows[0].n, stride, 1);
+    const bool is_all_held = std::all_of(
+        rows.begin(), rows.end(),
+        [](const SineRow &row) { return row.n_before == row.n_held && row.n_after == row.n_held; });
+    const int n_held = rows[0].n_held;
+    constexpr int many = 4; // of them three sweeps take more time than they save
+    n_sweeps_ = n_held <= 1 ? n_held : is_all_held || n_held >= many ? 2 : 3;
   }
 
   /// P0 of row j.
@@ -132,8 +139,7 @@ namespace plumbline::algebra
     const Ends &ends = ends_[1];
     const std::size_t n_rows = ends.n_modes, stride = ends.n_across;
     std::vector<double> values(ends.n * stride), forces(ends.n * stride);
-    const int n_sweeps = ends.n > 2 ? 2 : ends.n > 0 ? 1 : 0;
-    for (int sweep = 0; sweep <= n_sweeps; ++sweep)
+    for (int sweep = 0; sweep <= n_sweeps_; ++sweep)
     {
       for (std::size_t j = 0; j < n_rows; ++j)
       {
@@ -146,10 +152,10 @@ namespace plumbline::algebra
           subtract(row, inverse_row, forces.data() + k * stride, given[k * n_rows],
                    given[(k + 1) * n_rows], stride);
         hold_along(row, inverse_row, j);
-        for (std::size_t k = 0; k < ends.n && sweep < n_sweeps; k += 2)
+        for (std::size_t k = 0; k < ends.n && sweep < n_sweeps_; k += 2)
           spread(values.data() + k * stride, row, seen[k * n_rows], seen[(k + 1) * n_rows], stride);
       }
-      if (sweep == n_sweeps)
+      if (sweep == n_sweeps_)
         return;
       forces.assign(forces.size(), 0.);
       for (std::size_t k = 0; k < ends.n; ++k)

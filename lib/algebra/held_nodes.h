@@ -12,11 +12,12 @@ namespace plumbline::algebra
   /// the rectangle, at both ends of an axis, brings them back. With E these nodes of one axis,
   ///   P u = u - D⁻¹ E (Eᵀ D⁻¹ E)⁻¹ Eᵀ u
   /// is zero on them; D is diagonal, so each mode across the axis has a small system of its own.
-  /// P0 P1 P0 P1 P0 D⁻¹ is symmetric, positive definite on the rectangle, and nearly the inverse
+  /// P0 P1 P0 ... P0 D⁻¹ is symmetric, positive definite on the rectangle, and nearly the inverse
   /// there: in either direction alone it is exact if all nodes around are held, at least half a
-  /// reach of them; corners need more of these sweeps. Source: the capacitance matrix method,
-  /// Proskurowski & Widlund 1976, doi:10.1090/S0025-5718-1976-0421102-4;
-  /// here mode by mode.
+  /// reach of them. Corners need sweeps P1 P0: two where all nodes around are held or
+  /// many of them, else three, so that conjugate gradients take 3 iterations (m = 3) whatever the
+  /// length. Source: the capacitance matrix method, Proskurowski & Widlund 1976,
+  /// doi:10.1090/S0025-5718-1976-0421102-4; here mode by mode.
   class HeldNodes
   {
   public:
@@ -25,7 +26,7 @@ namespace plumbline::algebra
     /// @param inverse  1/λ, shape (rows[1].n, stride), zero beyond rows[0].n
     HeldNodes(const std::array<SineRow, 2> &rows, int stride, const double *inverse);
 
-    /// P0 P1 P0 P1 P0 D⁻¹, in place; of one node at each end P0 P1 P0 D⁻¹.
+    /// P0 P1 P0 ... D⁻¹, in place; of one node at each end one sweep.
     /// @param field    of modes, where nodes are held those of FFTW's RODFT10, whose last one is
     ///                 twice too large: a node sees half of it; shape and zeros as of inverse
     /// @param inverse  as before
@@ -46,5 +47,6 @@ namespace plumbline::algebra
     void hold_along(double *row, const double *inverse, std::size_t j) const;
 
     std::array<Ends, 2> ends_; ///< n_modes with those beyond rows[0].n
+    int n_sweeps_ = 0;         ///< P1 P0 after the first P0
   };
 } // namespace plumbline::algebra

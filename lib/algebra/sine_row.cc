@@ -10,11 +10,11 @@ namespace plumbline::algebra
     /// More nodes than these on either side of a row cost more iterations than any length saves.
     constexpr int most_around = 24;
 
-    /// Conjugate gradients' iterations where nodes are held: waves reflected half a reach away meet
-    /// no free node, each node more costs some (3 to 5, constant kernels of m = 2 to 8).
+    /// Conjugate gradients' iterations where nodes are held, 3 to 4: waves reflected half a reach
+    /// away meet no free node, each node more costs some.
     double iterations_held(int n_more)
     {
-      return 3 + .6 * std::log(1 + .5 * n_more);
+      return 3 + .4 * std::log(1 + .5 * n_more);
     }
 
     /// The same where the zeros alone act, in steps from the outermost node: fewest where a volume
@@ -54,7 +54,7 @@ namespace plumbline::algebra
     constexpr int longest_reach = 10; // beyond it holding takes as much time as it saves
     if (reach > longest_reach)
       return 0;
-    return n_components > 1 ? 1 : std::min((reach + 2) / 2, most_held);
+    return n_components > 1 ? 1 : std::min((reach + 3) / 2, most_held);
   }
 
   SineRow fast_sine_row(int n, int reach, int n_held)
