@@ -13,24 +13,24 @@ namespace plumbline::algebra
   {
     // Nodes come in pairs, one of each end: two at a time save half the loads.
 
-    [[gnu::always_inline]] inline double sum(Wide v)
+    /// Of two rows, a and the next, with u, in two parts each.
+    PLUMBLINE_VECTOR_CLONES void dot_products(const double *a, const double *u, std::size_t n,
+                                              double *products)
     {
-      return (v[0] + v[4]) + (v[1] + v[5]) + (v[2] + v[6]) + (v[3] + v[7]);
-    }
-
-    /// Products of two rows, a and the next, with u.
-    PLUMBLINE_VECTOR_CLONES void multiply(const double *a, const double *u, std::size_t n,
-                                          double *products)
-    {
-      Wide product0{}, product1{};
-      for (std::size_t k = 0; k < n; k += wide)
+      Lane part0{}, part1{}, next0{}, next1{};
+      for (std::size_t k = 0; k < n; k += 2 * lanes)
       {
-        const Wide value = load<Wide>(u + k);
-        product0 += value * load<Wide>(a + k);
-        product1 += value * load<Wide>(a + n + k);
+        const double *const row = a + k, *const next = row + n;
+        const Lane value0 = load(u + k), value1 = load(u + k + lanes);
+        part0 += value0 * load(row);
+        part1 += value1 * load(row + lanes);
+        next0 += value0 * load(next);
+        next1 += value1 * load(next + lanes);
       }
-      products[0] = sum(product0);
-      products[1] = sum(product1);
+      part0 += part1;
+      next0 += next1;
+      products[0] = (part0[0] + part0[1]) + (part0[2] + part0[3]);
+      products[1] = (next0[0] + next0[1]) + (next0[2] + next0[3]);
     }
 
     /// u -= d (a[0] factor0 + a[1] factor1)
@@ -65,6 +65,23 @@ namespace plumbline::algebra
     {
       for (std::size_t k = 0; k < n; ++k)
         u[k] *= a[k];
+    }
+
+    /// Sweeps that leave 3 to 4 iterations. Two ends alike need fewer: the errors of their corners
+    /// are alike too, and conjugate gradients remove them together.
+    int sweeps_for(const std::array<SineRow, 2> &rows)
+    {
+      constexpr int far = 2; // nodes that are not held
+      int n_free = 0;
+      bool are_alike = true;
+      for (const SineRow &row : rows)
+      {
+        n_free = std::max(n_free, row.n_after - row.n_held);
+        are_alike = are_alike && row.n_before == row.n_after;
+      }
+      if (rows[0].n_held <= 1)
+        return rows[0].n_held;
+      return n_free == 0 ? 2 : are_alike || n_free <= far ? 3 : 4;
     }
   } // namespace
 
@@ -111,12 +128,7 @@ namespace plumbline::algebra
   {
     find_forces(ends_[0], inverse, rows[1].n, 1, stride);
     find_forces(ends_[1], inverse, rows[0].n, stride, 1);
-    const bool is_all_held = std::all_of(
-        rows.begin(), rows.end(),
-        [](const SineRow &row) { return row.n_before == row.n_held && row.n_after == row.n_held; });
-    const int n_held = rows[0].n_held;
-    constexpr int many = 4; // of them three sweeps take more time than they save
-    n_sweeps_ = n_held <= 1 ? n_held : is_all_held || n_held >= many ? 2 : 3;
+    n_sweeps_ = sweeps_for(rows);
   }
 
   /// P0 of row j.
@@ -125,7 +137,7 @@ namespace plumbline::algebra
     const Ends &ends = ends_[0];
     std::array<double, 2 * most_held> values{}, forces{};
     for (std::size_t k = 0; k < ends.n; k += 2)
-      multiply(ends.seen.data() + k * ends.n_modes, row, ends.n_modes, values.data() + k);
+      dot_products(ends.seen.data() + k * ends.n_modes, row, ends.n_modes, values.data() + k);
     for (std::size_t k = 0; k < ends.n; ++k)
       for (std::size_t l = 0; l < ends.n; ++l)
         forces[k] += ends.forces[(k * ends.n + l) * ends.n_across + j] * values[l];

@@ -14,9 +14,9 @@ namespace plumbline::algebra
   /// is zero on them; D is diagonal, so each mode across the axis has a small system of its own.
   /// P0 P1 P0 ... P0 D⁻¹ is symmetric, positive definite on the rectangle, and nearly the inverse
   /// there: in either direction alone it is exact if all nodes around are held, at least half a
-  /// reach of them. Corners need sweeps P1 P0: two where all nodes around are held or
-  /// many of them, else three, so that conjugate gradients take 3 iterations (m = 3) whatever the
-  /// length. Source: the capacitance matrix method, Proskurowski & Widlund 1976,
+  /// reach of them. Corners need sweeps P1 P0: two to four of them leave 3 to 5 iterations of
+  /// conjugate gradients whatever the length.
+  /// Source: the capacitance matrix method, Proskurowski & Widlund 1976,
   /// doi:10.1090/S0025-5718-1976-0421102-4; here mode by mode.
   class HeldNodes
   {

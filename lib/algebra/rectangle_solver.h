@@ -37,8 +37,8 @@ namespace plumbline::algebra
   /// λ_pq = Σ_k A(k) cos(k1 θ_p) cos(k2 θ_q), θ_p = π p/(n1+1) between two sides of zeros.
   /// At mirrored sides it inverts the rows of half cells, A times ½.
   /// @param sides  lower and upper of each axis; two mirrored ones need two nodes between them
-  /// @param zeros  fast: a longer row's, whose transform is fast; of short reach conjugate gradients
-  ///               take 3 to 4 iterations for scalar operators then, instead of 8 to 19
+  /// @param zeros  fast: a longer row's, whose transform is fast; conjugate gradients take 3 to 5
+  ///               iterations for scalar stencils of short reach then, not 8 to 19
   /// Source: Bini & Di Benedetto 1990, doi:10.1145/97444.97688; cosines: Strang 1999,
   /// doi:10.1137/S0036144598336745.
   /// @throws NumericalError  an eigenvalue is not positive: the stencil is not coercive

@@ -37,7 +37,8 @@ namespace plumbline::algebra
   double length_penalty(int length)
   {
     constexpr int with_code = 13;
-    constexpr double of_factor = .02, of_root = .17;
+    constexpr double of_factor = .02, of_root = .17, of_eleven = 1.3;
+    const double least = length % 11 == 0 ? of_eleven : 1;
     int largest = 1;
     for (int factor = 2; length > 1; ++factor)
       while (length % factor == 0)
@@ -45,13 +46,13 @@ namespace plumbline::algebra
         largest = factor;
         length /= factor;
       }
-    return largest <= with_code ? 1
+    return largest <= with_code ? least
                                 : 1 + std::min(of_factor * largest, of_root * std::sqrt(largest));
   }
 
   int nodes_to_hold(int reach, unsigned int n_components)
   {
-    constexpr int longest_reach = 10; // beyond it holding takes as much time as it saves
+    constexpr int longest_reach = 13; // beyond it holding takes as much time as it saves
     if (reach > longest_reach)
       return 0;
     return n_components > 1 ? 1 : std::min((reach + 3) / 2, most_held);

@@ -18,8 +18,8 @@ namespace plumbline::algebra
   };
 
   /// Time of a transform of this length over that of a length without large prime factors: 1 up to
-  /// the factor 13, for which FFTW has code of its own, 3.4 for a factor of 200, 6 for a prime of
-  /// 1000. Measured with FFTW 3.3.10.
+  /// the factor 13, for which FFTW has code of its own (1.3 with 11), 3.4 for a factor of 200, 6
+  /// for a prime of 1000. Measured with FFTW 3.3.10.
   double length_penalty(int length);
 
   /// Nodes to hold at either end of a row: as many as save more time than they take.

@@ -4,7 +4,8 @@
 
 namespace plumbline::meshfree
 {
-  BreakingSolid make_strip(const RiceStrip &strip, const physics::Lame &lame, double horizon)
+  BreakingSolid make_strip(const method::RiceStrip &strip, const physics::Lame &lame,
+                           double horizon)
   {
     const double h = strip.h, half = .5 * h * strip.n_height, length = h * strip.n_length,
                  grip = 2 * h * std::ceil(horizon / h - 1e-9);

@@ -62,8 +62,8 @@ TEST(SineRow, has_a_length_that_is_transformed_fast_and_the_row_in_its_middle)
       EXPECT_LE(std::abs(row.n_after - row.n_before), 1) << n;
       EXPECT_GE(row.n_before, row.n_held) << n;
       EXPECT_EQ(row.n_held, n_held) << n;
-      EXPECT_LT(length_penalty(row.n), 2) << n; // no large prime
-      EXPECT_LT(row.n_after, 16) << n;
+      EXPECT_LT(length_penalty(row.n), 2.5) << n; // no large prime
+      EXPECT_LE(row.n_after, 20) << n;
       if (n_held == 0) // a zero 4.8 steps beyond the outermost node acts as the constraint does
       {
         EXPECT_GT(.5 * (row.n_before + row.n_after + 1), 2.5) << n;
@@ -71,7 +71,8 @@ TEST(SineRow, has_a_length_that_is_transformed_fast_and_the_row_in_its_middle)
       }
     }
   EXPECT_EQ(length_penalty(1024), 1);
-  EXPECT_EQ(length_penalty(13 * 77), 1);
+  EXPECT_EQ(length_penalty(13 * 75), 1);
+  EXPECT_GT(length_penalty(13 * 77), 1.2); // 11
   EXPECT_GT(length_penalty(1031), 5);
   EXPECT_GT(length_penalty(2 * 257), 3);
 }
@@ -80,8 +81,8 @@ TEST(SineRow, holds_nodes_where_that_pays)
 {
   EXPECT_EQ(nodes_to_hold(2, 1), 2);
   EXPECT_EQ(nodes_to_hold(3, 1), 3);
-  EXPECT_EQ(nodes_to_hold(10, 1), most_held);
-  EXPECT_EQ(nodes_to_hold(11, 1), 0); // the zeros alone do
+  EXPECT_EQ(nodes_to_hold(13, 1), most_held);
+  EXPECT_EQ(nodes_to_hold(14, 1), 0); // the zeros alone do
   EXPECT_EQ(nodes_to_hold(3, 2), 1);  // coupled components limit the iterations
 }
 
@@ -161,7 +162,7 @@ TEST(HeldNodes, are_not_there_where_a_stencil_of_reach_1_is_inverted_as_it_stand
 TEST(HeldNodes, leave_few_iterations_whatever_the_number_of_nodes)
 {
   for (const auto &[reach, power, most] :
-       {std::tuple{2, 0., 4u}, {3, -1., 4u}, {5, 0., 5u}, {8, 0., 6u}, {10, 0., 6u}})
+       {std::tuple{2, 0., 4u}, {3, -1., 4u}, {5, 0., 5u}, {8, 0., 6u}, {10, 0., 6u}, {13, 0., 7u}})
     for (const int n : {37, 64, 100, 101, 126, 127, 128, 129, 130, 256, 257})
     {
       const Stencil stencil = ball_stencil(reach, power);

@@ -61,8 +61,10 @@ TEST(GrowCommand, lets_a_crack_grow_in_its_own_field)
                               "/fracture/k_field.prm --check -o " + folder.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto json = results(folder);
-  const double griffith = std::sqrt(json["plane_modulus"].get<double>());      // K where G = 1
-  EXPECT_NEAR(json["events"][0]["load"].get<double>() / griffith, 1.025, .01); // on this lattice
+  const double griffith = std::sqrt(json["plane_modulus"].get<double>()), // K where G = 1
+      first = json["events"][0]["load"].get<double>() / griffith;
+  EXPECT_GT(first, 1); // a lattice traps the crack
+  EXPECT_LT(first, 1.1);
   EXPECT_NEAR(json["K_by_bonds"].get<double>() / griffith, 1, 1e-12);
   EXPECT_EQ(json["n_unpaired"], 0);
   fs::remove_all(folder);

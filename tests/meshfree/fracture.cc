@@ -4,10 +4,8 @@
 #include "analysis/fracture.h"
 #include "base/error.h"
 #include "meshfree/fracture/breaking_network.h"
-#include "meshfree/fracture/strip.h"
 #include "meshfree/rules/rules.h"
 #include "scene/scene.h"
-#include "study/strip_growth.h"
 
 #include <Eigen/SparseCholesky>
 #include <gtest/gtest.h>
@@ -444,87 +442,4 @@ TEST(Fracture, refuses_bodies_that_cannot_be_pulled_apart)
           { solid.material = [](const Point<2> &x) {
               return physics::Lame{1 + x[0], 1};
             }; });
-}
-
-namespace
-{
-  struct Strip
-  {
-    physics::Kernel<2> K;
-    meshfree::Recipe recipe;
-    int height = 0, length = 0;
-
-    Strip(int m, int n_height, int n_length)
-        : K(influence(m * h)),
-          recipe(meshfree::optimisation_based(physics::deviatoric_kernel(K, 1))), height(n_height),
-          length(n_length)
-    {
-    }
-
-    BreakingNetwork with_crack(int n_crack, double toughness = 1) const
-    {
-      BreakingSolid solid = meshfree::make_strip({height, length, n_crack, h}, {1, 1}, K.horizon());
-      solid.toughness = [toughness](const Point<2> &) { return toughness; };
-      return {make_bond_network(solid, recipe, K, h, geometry::Backend::fast),
-              scene::Stretch::linear};
-    }
-
-    /// Energy of a column of the intact strip, per length: what a column more of it holds.
-    double W1() const
-    {
-      Strip longer = *this;
-      ++longer.length;
-      return (longer.with_crack(0).response().energy - with_crack(0).response().energy) / h;
-    }
-
-    study::StripGrowth growth(int from, double toughness = 1) const
-    {
-      BreakingNetwork body = with_crack(from, toughness);
-      study::GrowthModel model;
-      model.body = &body;
-      model.h = h;
-      model.nodes = body.network().nodes;
-      for (const BondNetwork::Bond &bond : body.network().bonds)
-        model.bonds.push_back({bond.from, bond.to});
-      model.cut = body.network().cut;
-      model.notch_tip = {from * h, 0};
-      return measure_strip(model, W1(), (from + 2) * h, (from + 6) * h);
-    }
-  };
-} // namespace
-
-TEST(Fracture, a_crack_in_a_strip_gets_the_energy_of_the_intact_strip)
-{
-  // H = 12 h, L = 6 H: ends are felt as far as the height
-  const Strip strip(3, 12, 72);
-  const double W1 = strip.W1();
-  const std::map<int, double> expected = {{12, .99903}, {24, .99988}, {36, .99955}, {48, .99751}};
-  for (const auto &[crack, value] : expected)
-  {
-    const double G = (strip.with_crack(crack).response().energy -
-                      strip.with_crack(crack + 1).response().energy) /
-                     h;
-    EXPECT_NEAR(G / W1, value, 3e-4) << crack;
-  }
-}
-
-TEST(Fracture, steady_growth_needs_what_lattices_trap)
-{
-  // of a height of 8 horizons, in its middle
-  const Strip three(3, 24, 144);
-  EXPECT_NEAR(three.W1() / (6 / (24 * h)), .93956, 1e-4);
-  const study::StripGrowth growth = three.growth(48);
-  EXPECT_NEAR(growth.peak, 1.3165, 5e-4);
-  EXPECT_NEAR(growth.mean, 1.0822, 5e-4);
-  EXPECT_NEAR(growth.released, 1.0821, 5e-4);
-  EXPECT_NEAR(growth.bonds, .9158, 1e-4);
-  // a prototype, whose crack came near the other end, where the strip has less than W1 to give
-  const study::StripGrowth later = three.growth(104);
-  EXPECT_NEAR(later.peak, 1.323, .002);
-  EXPECT_NEAR(later.mean, 1.086, .002);
-  EXPECT_NEAR(later.released, 1.080, .003);
-  EXPECT_NEAR(three.growth(48, 1 / growth.peak).peak, 1, 1e-9);
-  // at twice the height, a calibration of eight horizons is right to the change with the horizon
-  const Strip higher(3, 48, 240);
-  EXPECT_NEAR(higher.growth(96, 1 / growth.peak).peak, 1.354 / 1.323, .005);
 }
