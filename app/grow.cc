@@ -43,6 +43,7 @@ namespace plumbline::app
         return u;
       };
       solid.material = scene.material.lame();
+      solid.has_surface_terms = scene.fracture.has_surface_terms;
       solid.toughness = [toughness, trapping](const Point<2> &x)
       { return toughness(x) / trapping; };
       return solid;
@@ -81,17 +82,19 @@ namespace plumbline::app
     {
       const int m = static_cast<int>(std::ceil(influence.horizon() / h - 1e-9)), height = 8 * m;
       const physics::Lame lame = scene.material.lame()(scene.domain.cracks.front().back());
-      const auto make = [&](int n_crack)
+      const auto make = [&](int n_crack, bool has_surface_terms)
       {
-        const auto solid =
+        auto solid =
             meshfree::make_strip({height, 5 * height, n_crack, h}, lame, influence.horizon());
+        solid.has_surface_terms = has_surface_terms;
         return meshfree::BreakingNetwork(
             make_bond_network(solid, recipe, influence, h, scene.geometry.backend),
             scene::Stretch::linear);
       };
       const int n_crack = 2 * height; // as far from the left end, farther from the right one
-      meshfree::BreakingNetwork strip = make(n_crack);
-      const double W1 = (strip.response().energy - make(n_crack + 1).response().energy) / h;
+      const auto energy = [&](int n) { return make(n, false).response().energy; };
+      const double W1 = (energy(n_crack) - energy(n_crack + 1)) / h; // of the strip far from ends
+      meshfree::BreakingNetwork strip = make(n_crack, scene.fracture.has_surface_terms);
       const double tip = n_crack * h;
       return measure_strip(make_model(strip, {tip, 0}), W1, tip + 2 * h, tip + 6 * h).peak;
     }
@@ -187,9 +190,14 @@ namespace plumbline::app
     results.scene_name = scene.name;
     results.purpose = scene.purpose;
     results.method = rule.name;
-    results.model = body.network().dilatation.empty()
-                        ? "bond-based, for lambda = mu leaves the solid its bonds alone"
-                        : "LPS without surface terms";
+    const bool is_bonds = body.network().dilatation.empty();
+    if (scene.fracture.has_surface_terms)
+      results.model = is_bonds
+                          ? "bonds (lambda = mu) with surface terms (Fan et al. 2022, eq. (3.19))"
+                          : "LPS with surface terms (Fan et al. 2022, eq. (3.19))";
+    else
+      results.model = is_bonds ? "bond-based, for lambda = mu leaves the solid its bonds alone"
+                               : "LPS without surface terms";
     results.rules = scene.fracture;
     results.h = level.h;
     results.horizon = level.horizon;

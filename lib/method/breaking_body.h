@@ -45,6 +45,9 @@ namespace plumbline::method
     /// break_bonds that factored.
     virtual void restart(const std::vector<std::size_t> &broken) = 0;
 
+    /// Its forces are those of an energy, so that work can be accounted for.
+    virtual bool has_energy() const { return true; }
+
     /// No path of whole bonds joins the grips.
     virtual bool is_parted() const = 0;
 
@@ -52,7 +55,8 @@ namespace plumbline::method
     struct Work
     {
       std::uint64_t n_factorisations = 0, n_updates = 0, largest_rank = 0;
-      double factor_seconds = 0, update_seconds = 0; ///< CPU time
+      std::uint64_t n_iterations = 0, most_iterations = 0; ///< of GMRES, and of one solution
+      double factor_seconds = 0, update_seconds = 0;       ///< CPU time
     };
     virtual const Work &work() const = 0;
   };

@@ -64,7 +64,8 @@ namespace plumbline::report
           "energies", "Where the work goes", "broken bonds", "energy [force]",
           "What grips do is stored, or was in bonds when they reached their limit, or is released "
           "where growth is unstable: the largest difference, over the work, is " +
-              rounded(results.largest_imbalance()) + ".");
+              rounded(results.largest_imbalance()) +
+              (results.rules.has_surface_terms ? ", for surface terms have no energy." : "."));
       std::vector<Vertex> work, stored, bonds, released;
       result.data.columns = {"event",  "load",     "broken bonds", "work",
                              "stored", "in bonds", "released"};

@@ -60,7 +60,9 @@ namespace plumbline::report
             "at which a crack goes on in a strip of this lattice; G was divided by it");
       add("unpaired", static_cast<double>(r.n_unpaired),
           "broken bonds whose mirror image about the middle is whole");
-      add("imbalance", r.largest_imbalance(), "of energy, over the work");
+      add("imbalance", r.largest_imbalance(),
+          r.rules.has_surface_terms ? "of the bonds' energy, over the work: surface terms have none"
+                                    : "of energy, over the work");
       add("residual", r.largest_residual(), "force on a node over a bond's at the beginning");
       add("unknowns", static_cast<double>(r.n_unknowns), "displacements");
       add("bonds", static_cast<double>(r.n_bonds), "whole at the beginning");
@@ -69,6 +71,9 @@ namespace plumbline::report
       add("updates", static_cast<double>(work.n_updates),
           "events without one, up to rank " + std::to_string(work.largest_rank) + "; " +
               rounded_seconds(work.update_seconds) + " in all");
+      if (r.rules.has_surface_terms)
+        add("iterations", static_cast<double>(work.n_iterations),
+            "of GMRES, at most " + std::to_string(work.most_iterations) + " an event");
       return table;
     }
 
@@ -109,10 +114,10 @@ namespace plumbline::report
       return text + ".";
     }
 
-    std::string left_out()
+    std::string left_out(const GrowthResults &r)
     {
       std::string text;
-      for (const std::string &one : study::left_out_of_growth())
+      for (const std::string &one : study::left_out_of_growth(r.rules))
         text += "<li>" + escape_html(one) + "</li>\n";
       return "<ul>\n" + text + "</ul>\n";
     }
@@ -157,7 +162,7 @@ namespace plumbline::report
                                               "</div>\n") +
                                 page::section("numbers", "Numbers", to_html(facts_table(r))) +
                                 page::section("model", "The model, and what was left out of it",
-                                              page::paragraph(model_words(r)) + left_out()));
+                                              page::paragraph(model_words(r)) + left_out(r)));
     }
 
     std::string markdown(const GrowthResults &r, const std::vector<std::string> &faults)
@@ -165,7 +170,7 @@ namespace plumbline::report
       std::string text = "# Growth: " + r.scene_name + "\n\n" + verdict(r, faults) + "\n\n" +
                          to_markdown(facts_table(r)) + "\n" + model_words(r) +
                          "\n\n## What was left out of the model\n\n";
-      for (const std::string &one : study::left_out_of_growth())
+      for (const std::string &one : study::left_out_of_growth(r.rules))
         text += "- " + one + "\n";
       return text;
     }
@@ -206,6 +211,7 @@ namespace plumbline::report
               {"breaking", base::word(r.rules.breaking)},
               {"stretch", base::word(r.rules.stretch)},
               {"criterion", base::word(r.rules.criterion)},
+              {"has_surface_terms", r.rules.has_surface_terms},
               {"lattice_toughness", r.lattice_toughness},
               {"trapping", r.trapping},
               {"n_unknowns", r.n_unknowns},
@@ -230,6 +236,8 @@ namespace plumbline::report
               {"n_factorisations", r.work.n_factorisations},
               {"n_updates", r.work.n_updates},
               {"largest_rank", r.work.largest_rank},
+              {"n_iterations", r.work.n_iterations},
+              {"most_iterations", r.work.most_iterations},
               {"seconds", r.seconds},
               {"n_resumed", r.growth.n_resumed},
               {"events", Json::array()}};

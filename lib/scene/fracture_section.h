@@ -57,7 +57,8 @@ namespace plumbline::scene
     Criterion criterion = Criterion::toughness;
     BreakMode breaking = BreakMode::events;
     Stretch stretch = Stretch::linear;
-    double load_step = 0; ///< of steps
+    bool has_surface_terms = false; ///< what makes free surfaces free of traction
+    double load_step = 0;           ///< of steps
     double largest_load = std::numeric_limits<double>::infinity();
     double least_reaction = .002;          ///< where a growth ends, over the largest so far
     double tie_tolerance = 1e-6;           ///< relative, of loads at which bonds break together

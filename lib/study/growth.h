@@ -129,10 +129,10 @@ namespace plumbline::study
   };
 
   /// What does not hold of a scene's expectations, and of the audit: work = stored + in bonds +
-  /// released to 1e-10. One sentence each.
+  /// released to 1e-10, where forces have an energy. One sentence each.
   std::vector<std::string> growth_faults(const GrowthResults &results,
                                          const scene::ExpectedSection &expected);
 
   /// What is not in the model, for reports.
-  std::vector<std::string> left_out_of_growth();
+  std::vector<std::string> left_out_of_growth(const scene::FractureSection &rules);
 } // namespace plumbline::study

@@ -164,6 +164,20 @@ namespace plumbline::meshfree
                          "Material/nu = 1/4 in plane strain (lambda = mu), or constants");
       return std::vector<double>(lame.size(), V * (first.lambda - first.mu));
     }
+
+    /// Infinite where a bond cannot break.
+    double critical_stretch(const BreakingSolid &solid, const BondNetwork &network,
+                            const Materials &materials, const Kernel<2> &influence, unsigned int a,
+                            unsigned int b)
+    {
+      if ((network.grip[a] >= 0 && network.grip[b] >= 0) ||
+          box_of(solid.unbreaking, network.nodes[a], network.h) >= 0 ||
+          box_of(solid.unbreaking, network.nodes[b], network.h) >= 0)
+        return endless;
+      const physics::Lame lame = materials.mean(a, b);
+      const double G = .5 * (materials.toughness[a] + materials.toughness[b]);
+      return std::sqrt(G / (4 * beta(influence) * (lame.lambda + lame.mu)));
+    }
   } // namespace
 
   BondNetwork make_bond_network(const BreakingSolid &solid, const Recipe &recipe,
@@ -179,31 +193,50 @@ namespace plumbline::meshfree
     Notch notch(solid, network);
     const std::vector<Half> family = half_family(recipe, influence, h, backend);
     const auto [n1, n2] = lattice.n_cells();
+    const auto node_at = [&](int i, int j)
+    {
+      return i < 0 || i >= n1 || j < 0 || j >= n2 ? -1
+                                                  : number[static_cast<std::size_t>(j) * n1 + i];
+    };
+    const auto bond_of = [&](const Half &half, unsigned int a, unsigned int b)
+    {
+      return NetworkBond{
+          a,           b,      half.xi, half.way, h * h * 8 * materials.mean(a, b).mu * half.weight,
+          half.weight, endless};
+    };
+    if (solid.has_surface_terms)
+      network.surfaces.emplace();
+    const auto lack = [&](const NetworkBond &bond)
+    {
+      if (network.surfaces)
+        network.surfaces->gaps.push_back(bond);
+    };
     for (int j = 0; j < n2; ++j)
       for (int i = 0; i < n1; ++i)
         for (const Half &half : family)
         {
-          const int to_i = i + half.k[0], to_j = j + half.k[1];
-          if (to_i < 0 || to_i >= n1 || to_j >= n2)
-            continue;
-          const int from = number[static_cast<std::size_t>(j) * n1 + i],
-                    to = number[static_cast<std::size_t>(to_j) * n1 + to_i];
-          if (from < 0 || to < 0)
+          const int from = node_at(i, j), to = node_at(i + half.k[0], j + half.k[1]),
+                    behind = node_at(i - half.k[0], j - half.k[1]);
+          if (from < 0)
             continue;
           const auto a = static_cast<unsigned int>(from), b = static_cast<unsigned int>(to);
+          if (behind < 0)
+            lack(bond_of(half, a, a).reversed());
+          if (to < 0)
+          {
+            lack(bond_of(half, a, a));
+            continue;
+          }
+          NetworkBond bond = bond_of(half, a, b);
           if (notch.cuts(a, half.xi, b))
           {
             network.cut.push_back({a, b});
+            lack(bond);
+            lack(bond.reversed());
             continue;
           }
-          const physics::Lame lame = materials.mean(a, b);
-          const double G = .5 * (materials.toughness[a] + materials.toughness[b]);
-          const bool never = (network.grip[a] >= 0 && network.grip[b] >= 0) ||
-                             box_of(solid.unbreaking, network.nodes[a], h) >= 0 ||
-                             box_of(solid.unbreaking, network.nodes[b], h) >= 0;
-          network.bonds.push_back(
-              {a, b, half.xi, half.way, h * h * 8 * lame.mu * half.weight, half.weight,
-               never ? endless : std::sqrt(G / (4 * beta(influence) * (lame.lambda + lame.mu)))});
+          bond.critical = critical_stretch(solid, network, materials, influence, a, b);
+          network.bonds.push_back(bond);
         }
     if (!solid.notch.empty() && network.cut.empty())
       throw InputError("Domain/cracks cuts no bond: the notch lies outside of the body "

@@ -5,6 +5,7 @@
 #include "physics/state_based.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace plumbline::meshfree
@@ -21,15 +22,16 @@ namespace plumbline::meshfree
     std::function<Tensor<1, 2>(const Point<2> &)> held; ///< u in the grips at load 1
     std::function<physics::Lame(const Point<2> &)> material;
     std::function<double(const Point<2> &)> toughness; ///< G [force/length]
+    bool has_surface_terms = false;                    ///< see SurfaceForces
   };
 
   /// A solid on the nodes of a lattice, cell centres, as bonds: its energy is
   ///   E = Σ_bonds k/2 (way·Δu)² + Σ_nodes τ/2 θ²,  θ = Σ_bonds share ξ·Δu,  Δu = u_to - u_from,
   /// with k = V w 8μK, share = w K, τ = V (λ - μ), K the influence function of ∫K|ξ|² = 2. That is
   /// the linear peridynamic solid whose bonds end at free surfaces and cracks, without the
-  /// correction M of its dilatation and without the terms that free surfaces of traction add
-  /// (Fan et al. 2022, eq. (3.19), doi:10.1016/j.cma.2022.115340), which would make it
-  /// unsymmetric. λ = μ, plane strain of ν = 1/4, leaves the bonds alone.
+  /// correction M of its dilatation and without the terms that free surfaces of traction add,
+  /// which make it unsymmetric, see SurfaceForces. λ = μ, plane strain of ν = 1/4, leaves the bonds
+  /// alone.
   struct BondNetwork
   {
     struct Bond
@@ -40,6 +42,8 @@ namespace plumbline::meshfree
       double stiffness = 0; ///< k [force/length^2]
       double share = 0;     ///< of dilatations [1/length^2]
       double critical = 0;  ///< the stretch at which it breaks; infinite: never
+
+      Bond reversed() const { return {to, from, -xi, -way, stiffness, share, critical}; }
     };
 
     double h = 0, horizon = 0; ///< [length]
@@ -49,6 +53,14 @@ namespace plumbline::meshfree
     std::vector<Bond> bonds;                      ///< that are whole at the beginning, each once
     std::vector<std::array<unsigned int, 2>> cut; ///< nodes of bonds that the notch has cut
     std::vector<double> dilatation;               ///< τ of each node; empty where λ = μ
+
+    /// Of a solid with surface terms: bonds that each node lacks from the beginning, from it to
+    /// where no node is, or a notch is between.
+    struct Surfaces
+    {
+      std::vector<Bond> gaps;
+    };
+    std::optional<Surfaces> surfaces;
 
     /// The part of each node's bonds that is broken or cut, shape (n_nodes).
     std::vector<double> damage(const std::vector<std::size_t> &broken) const;

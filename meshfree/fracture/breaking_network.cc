@@ -39,6 +39,10 @@ namespace plumbline::meshfree
     seconds_ = equations_->factor_seconds();
     n_events_ = 1;
     u_ = *equations_->solve(); // nothing has changed yet
+    if (!equilibrate())
+      throw NumericalError("GMRES does not find equilibrium with surface terms; stop before "
+                           "(Fracture/largest load, least reaction), or write Fracture/surface "
+                           "terms = no");
     ++work_.n_factorisations;
     work_.factor_seconds += timer.seconds();
     evaluate();
@@ -63,7 +67,10 @@ namespace plumbline::meshfree
     auto u = equations_->solve();
     if (!u)
       return false;
-    u_ = std::move(*u);
+    if (!surfaces_) // what they make is nearer to what they made before
+      u_ = std::move(*u);
+    if (!equilibrate())
+      return false;
     seconds_ += cost;
     ++n_events_;
     ++work_.n_updates;
@@ -71,6 +78,20 @@ namespace plumbline::meshfree
     evaluate();
     work_.update_seconds += timer.seconds();
     return response_.residual <= worst_residual;
+  }
+
+  /// With surface terms, from u; false: it takes too many iterations.
+  bool BreakingNetwork::equilibrate()
+  {
+    if (!network_.surfaces)
+      return true;
+    surfaces_.emplace(network_, *connections_);
+    const auto n_iterations = meshfree::equilibrate(*surfaces_, network_, *equations_, u_);
+    if (!n_iterations)
+      return false;
+    work_.n_iterations += *n_iterations;
+    work_.most_iterations = std::max<std::uint64_t>(work_.most_iterations, *n_iterations);
+    return true;
   }
 
   BreakingNetwork::Release BreakingNetwork::break_bonds(const std::vector<std::size_t> &bonds)
@@ -157,6 +178,8 @@ namespace plumbline::meshfree
       theta_[bond.from] += bond.share * (bond.xi * du);
       theta_[bond.to] += bond.share * (bond.xi * du);
     }
+    if (surfaces_ && !theta_.empty())
+      theta_ = surfaces_->dilatations(u_);
     for (std::size_t i = 0; i < theta_.size(); ++i)
       response_.energy += .5 * network_.dilatation[i] * square(theta_[i]);
     for (std::size_t b = 0; b < bonds.size() && !theta_.empty(); ++b)
@@ -187,6 +210,8 @@ namespace plumbline::meshfree
       force[bond.to] -= f;
       of_bonds = std::max(of_bonds, f.norm_square());
     }
+    if (surfaces_)
+      force = surfaces_->forces(u_);
     for (std::size_t i = 0; i < force.size(); ++i)
       if (network_.grip[i] < 0)
         largest = std::max(largest, force[i].norm_square());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshfree/fracture/equations.h"
+#include "meshfree/fracture/surface_forces.h"
 #include "method/breaking_body.h"
 #include "scene/fracture_section.h"
 
@@ -17,7 +18,8 @@ namespace plumbline::meshfree
   };
 
   /// A bond network in equilibrium while its bonds break. What hangs loose (see Connections)
-  /// carries no force.
+  /// carries no force. With surface terms (see SurfaceForces) its energies are those of the bonds
+  /// and dilatations that it has, but its forces have no energy.
   class BreakingNetwork : public method::BreakingBody
   {
   public:
@@ -34,6 +36,7 @@ namespace plumbline::meshfree
     Release break_bonds(const std::vector<std::size_t> &bonds) override;
     void restart(const std::vector<std::size_t> &broken) override;
     bool is_parted() const override { return connections_->is_parted(); }
+    bool has_energy() const override { return !network_.surfaces; }
     const Work &work() const override { return work_; }
 
     const BondNetwork &network() const { return network_; }
@@ -44,6 +47,7 @@ namespace plumbline::meshfree
   private:
     void factor();
     bool update(const std::vector<std::size_t> &bonds);
+    bool equilibrate();
     void evaluate();
     double residual();
     double critical_load(const BondNetwork::Bond &bond) const;
@@ -55,6 +59,7 @@ namespace plumbline::meshfree
     std::vector<std::size_t> broken_;
     std::unique_ptr<Connections> connections_;
     std::unique_ptr<NetworkEquations> equations_;
+    std::optional<SurfaceForces> surfaces_;
     double seconds_ = 0; ///< estimated, since they were factored
     std::size_t n_events_ = 0;
 

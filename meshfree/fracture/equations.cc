@@ -32,7 +32,7 @@ namespace plumbline::meshfree
       n_unknowns_ += grip < 0 ? 2 : 0;
     }
     factor(connections);
-    n_holds_ = connections.holds().size();
+    holds_ = connections.holds();
   }
 
   void NetworkEquations::factor(Connections &connections)
@@ -157,8 +157,11 @@ namespace plumbline::meshfree
         if (node_rows_[node] == none)
           node_rows_[node] = add_row(dilatation(node, then_));
     }
-    for (; n_holds_ < connections.holds().size(); ++n_holds_)
-      hold_rows_.push_back(add_row(position(connections.holds()[n_holds_])));
+    while (holds_.size() < connections.holds().size())
+    {
+      holds_.push_back(connections.holds()[holds_.size()]);
+      hold_rows_.push_back(add_row(position(holds_.back())));
+    }
     cholesky_->append(rows);
   }
 
@@ -212,6 +215,25 @@ namespace plumbline::meshfree
     for (std::size_t i = 0; i < u.size(); ++i)
       u[i] += network_->held[i];
     return u;
+  }
+
+  std::vector<Tensor<1, 2>>
+  NetworkEquations::displacements(const std::vector<Tensor<1, 2>> &forces) const
+  {
+    std::vector<double> b(n_unknowns_);
+    for (std::size_t i = 0; i < unknown_.size(); ++i)
+      if (unknown_[i] >= 0)
+        for (unsigned int d = 0; d < 2; ++d)
+          b[static_cast<std::size_t>(unknown_[i]) + d] = forces[i][d];
+    return expand(
+        *cholesky_->updated(cholesky_->solve(b), change(), std::vector<double>(offsets_.size())));
+  }
+
+  void NetworkEquations::add_holds(const std::vector<Tensor<1, 2>> &u,
+                                   std::vector<Tensor<1, 2>> &forces) const
+  {
+    for (const Connections::Hold &hold : holds_)
+      forces[hold.node] += hold_stiffness_ * (hold.direction * u[hold.node]) * hold.direction;
   }
 
   double NetworkEquations::update_seconds(std::size_t n_rows) const

@@ -21,6 +21,13 @@ namespace plumbline::meshfree
     /// u of all nodes; empty: the equations have become singular.
     std::optional<std::vector<Tensor<1, 2>>> solve() const;
 
+    /// What forces on free nodes do where grips stay; 0 at grips, shape (n_nodes).
+    /// @pre solve() found them regular
+    std::vector<Tensor<1, 2>> displacements(const std::vector<Tensor<1, 2>> &forces) const;
+
+    /// Forces of what holds mechanisms, which the equations have beside those of the network.
+    void add_holds(const std::vector<Tensor<1, 2>> &u, std::vector<Tensor<1, 2>> &forces) const;
+
     std::size_t rank() const { return cholesky_->rank(); } ///< rows since it was factored
     std::size_t n_unknowns() const { return n_unknowns_; }
     double factor_seconds() const { return cholesky_->factor_seconds(); }
@@ -67,6 +74,6 @@ namespace plumbline::meshfree
     std::vector<Taken> taken_;
     std::vector<std::size_t> node_rows_; ///< row of each node's dilatation, or none
     std::vector<std::size_t> hold_rows_;
-    std::size_t n_holds_ = 0; ///< of the connections, seen so far
+    std::vector<Connections::Hold> holds_; ///< of the connections, seen so far
   };
 } // namespace plumbline::meshfree

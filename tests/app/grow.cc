@@ -54,6 +54,31 @@ TEST(GrowCommand, tells_what_breaks_and_draws_it)
   fs::remove_all(folder);
 }
 
+TEST(GrowCommand, tells_what_surface_terms_do)
+{
+  const fs::path folder = temporary("grow");
+  const std::string command = "grow " + plate() + " --quiet -o " + folder.string();
+  ASSERT_EQ(run(command).exit_code, 0);
+  const auto without = results(folder);
+  ASSERT_EQ(run("grow " + std::string(PLUMBLINE_SCENES) +
+                "/fracture/surface_terms.prm --check --quiet -o " + folder.string())
+                .exit_code,
+            0);
+  const auto with = results(folder);
+  const double ratio =
+      with["events"][0]["load"].get<double>() / without["events"][0]["load"].get<double>();
+  EXPECT_GT(ratio, .9); // in a strip the energy that a crack needs is .87 of that without
+  EXPECT_LT(ratio, .97);
+  EXPECT_EQ(without["n_iterations"], 0);
+  EXPECT_GE(with["n_iterations"].get<double>(), with["events"].size());
+  EXPECT_GT(with["energy_imbalance"], 1e-3);
+  EXPECT_EQ(with["n_unpaired"], 0); // mirror images break together
+  const std::string page = read(folder / "grow.html");
+  expect_found(page, "with surface terms");
+  expect_found(page, "no energy has the forces of surface terms");
+  fs::remove_all(folder);
+}
+
 TEST(GrowCommand, lets_a_crack_grow_in_its_own_field)
 {
   const fs::path folder = temporary("grow");

@@ -24,6 +24,11 @@ namespace plumbline::scene
              "step. batches: all that are over-stretched at the load of an event. steps: the same "
              "at multiples of Fracture/load step.");
     keys.add("stretch", stretch, "linear: xi.du/|xi|^2. finite: |xi + du|/|xi| - 1.");
+    keys.add("surface terms", has_surface_terms, "no", "yes",
+             "yes: bonds that are broken or missing leave surfaces free of traction, and their "
+             "nodes a dilatation that is right for linear fields (Fan et al. 2022, eqs. "
+             "(3.19)-(3.22)). A crack goes on at a smaller load then. No energy has these forces, "
+             "so that work cannot be accounted for, and an event takes some GMRES iterations.");
     keys.add("load step", load_step, any_number(),
              "Of breaking = steps: by how much the load grows. The load is the factor of "
              "Problem/constraint, which says what the grips do at 1.");

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "meshfree/fracture/connections.h"
+
+#include <optional>
+
+namespace plumbline::meshfree
+{
+  class NetworkEquations;
+
+  /// Forces of a network whose surfaces, at its sides and at cracks, are free of traction in a
+  /// field of uniaxial stress along them:
+  ///   F_i = Σ_whole [k way (way·Δu) + V share (λ - μ) ξ (θ_i + θ_j)]
+  ///       + Σ_missing V share [2 (λ - μ) ξ + 4 (ξ·n) ((λ + 2μ) (d·p)² - λ (d·n)²) n] θ_i,
+  ///   θ_i = Σ_whole share ξ·M_i Δu,
+  /// with d = way, p across the normal n, and M_i such that θ of a linear field is its divergence;
+  /// a pseudo-inverse where whole bonds lie on a line. What hangs loose has the network's own
+  /// forces. No energy has these forces: their matrix is not symmetric.
+  /// Source: Fan et al. 2022, eqs. (3.19)-(3.22), doi:10.1016/j.cma.2022.115340.
+  class SurfaceForces
+  {
+  public:
+    /// Of what is whole. @pre network.surfaces
+    SurfaceForces(const BondNetwork &network, const Connections &connections);
+
+    /// On all nodes; shape (n_nodes) as u.
+    std::vector<Tensor<1, 2>> forces(const std::vector<Tensor<1, 2>> &u) const;
+    std::vector<double> dilatations(const std::vector<Tensor<1, 2>> &u) const;
+
+  private:
+    std::vector<Tensor<1, 2>> correct(const std::vector<BondNetwork::Bond> &missing);
+
+    const BondNetwork *network_;
+    const Connections *connections_;
+    std::vector<Tensor<2, 2>> correction_;
+    std::vector<Tensor<1, 2>> pull_; ///< on a node by its own dilatation, of what is missing
+  };
+
+  /// Equilibrium on free nodes, by GMRES from u, preconditioned with the network's own equations.
+  /// @param equations  factored, and up to date
+  /// @return           iterations; empty: too many
+  std::optional<unsigned int> equilibrate(const SurfaceForces &forces, const BondNetwork &network,
+                                          const NetworkEquations &equations,
+                                          std::vector<Tensor<1, 2>> &u);
+} // namespace plumbline::meshfree
