@@ -47,10 +47,10 @@ namespace plumbline::analysis
   ///   work = stored + in_bonds + released
   /// holds to rounding; its terms are computed independently of each other.
   /// @param earlier  events of the same growth, to go on from to the same bits
-  /// @throws NumericalError  an audit that is wrong by more than 1e-8, of a body that has an energy;
-  /// as BreakingBody
-  /// Not for: loads that fall (what grips do at load 1 is all they do), bonds that heal.
-  /// Source: sequentially linear analysis, Rots & Invernizzi 2004, doi:10.1002/nag.371.
+  /// @throws NumericalError  an audit that is wrong by more than 1e-8, of a body that has an
+  /// energy; as BreakingBody Not for: loads that fall (what grips do at load 1 is all they do),
+  /// bonds that heal. Source: sequentially linear analysis, Rots & Invernizzi 2004,
+  /// doi:10.1002/nag.371.
   Growth grow(method::BreakingBody &body, const scene::FractureSection &rules,
               std::vector<Event> earlier = {}, const EventObserver &observe = {});
 } // namespace plumbline::analysis
