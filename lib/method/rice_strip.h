@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace plumbline::method
@@ -15,15 +16,20 @@ namespace plumbline::method
     int n_height = 0, n_length = 0; ///< rows between the grips, even; columns
     int n_crack = 0;                ///< columns that are cut, at the left
     double h = 0;                   ///< [length]
+
+    /// Instead, what is around the strip is held at the field of a crack at K = 1 whose tip is so
+    /// many columns from the left, see physics::crack_field. Its advance gets K²/E' as h and the
+    /// horizon vanish.
+    std::optional<double> K_tip = {};
   };
 
-  /// A strip of bonds with λ = μ = 1 in equilibrium at load 1. What is behind its left end moves
-  /// with the grips, what is ahead of its right end is the intact strip. Energies [μ length²], of
-  /// the intact strip per length [μ length].
+  /// A strip of bonds with λ = μ = 1 in equilibrium at load 1. Between grips what is behind its
+  /// left end moves with them, and what is ahead of its right end is the intact strip. Energies [μ
+  /// length²], of the intact strip per length [μ length].
   struct StripState
   {
     double energy = 0;           ///< Π of all bonds with an end between the grips and both ends
-    double intact = 0;           ///< W1
+    double intact = 0;           ///< W1; in a field of K: K²/E'
     double at_end = 0;           ///< half of the intact strip's bonds that cross a line x = const
     std::vector<double> opening; ///< jump of u_y across the crack at the right of each column that
                                  ///< it cuts; of rules, at its nodes [length]

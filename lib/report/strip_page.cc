@@ -19,13 +19,30 @@ namespace plumbline::report
     using study::StripRow;
     using Json = nlohmann::ordered_json;
 
-    constexpr const char *meaning =
+    constexpr const char *meaning_of_field =
+        "G is what the crack gets for its advance by a column, over K²/E', which it would get in "
+        "the local solid whose field holds the strip's edges (Irwin 1957): it tends to 1 as the "
+        "horizon vanishes, and at one horizon to the same number by all methods. The opening is "
+        "u_y above less that below, of the last cells behind the tip, of rules at the last nodes. "
+        "Continuous functions close there.";
+
+    constexpr const char *meaning_of_grips =
         "W1 is the energy of the intact strip per length, and what a crack gets for its advance, "
         "G, whatever the horizon (Rice 1968): G = W1 holds by translation, by any quadrature, and "
         "tells of bookkeeping and of a strip that is too short. What sees the tip is its energy, "
         "what it adds to an intact strip from there on, and the opening there: u_y above less that "
         "below, of the last cells behind it, of rules at the last nodes. Continuous functions "
         "close there.";
+
+    bool is_between_grips(const StripResults &results)
+    {
+      return results.strip.edges == scene::StripEdges::grips;
+    }
+
+    const char *meaning(const StripResults &results)
+    {
+      return is_between_grips(results) ? meaning_of_grips : meaning_of_field;
+    }
 
     std::string label_of(const std::string &method, const std::string &series)
     {
@@ -47,18 +64,22 @@ namespace plumbline::report
     Table rows_table(const StripResults &results)
     {
       Table table;
-      table.columns = {"method",  "series",   "h [length]", "m",     "W1 [mu length]", "tip energy",
-                       "opening", "G/W1 - 1", "unknowns",   "CPU s", "failure"};
+      table.columns = {"method",         "series",     "h [length]", "m",
+                       "W1 [mu length]", "tip energy", "opening",    "G/W1 - 1",
+                       "G E'/K^2",       "unknowns",   "CPU s",      "failure"};
+      const bool has_grips = is_between_grips(results);
       for (const StripRow &row : results.rows)
       {
         const bool is = row.failure.empty();
-        table.rows.push_back({text_cell(row.method), text_cell(row.series), number_cell(row.h),
-                              number_cell(row.m()), known(is, number_cell(row.state.intact)),
-                              known(is, number_cell(is ? row.quantity("tip energy") : 0)),
-                              known(is, number_cell(is ? row.quantity("opening") : 0)),
-                              known(is, number_cell(is ? row.imbalance() : 0)),
-                              known(is, count_cell(row.state.n_unknowns)), number_cell(row.seconds),
-                              text_cell(row.failure)});
+        table.rows.push_back(
+            {text_cell(row.method), text_cell(row.series), number_cell(row.h), number_cell(row.m()),
+             known(is && has_grips, number_cell(row.state.intact)),
+             known(is && has_grips, number_cell(is ? row.quantity("tip energy") : 0)),
+             known(is, number_cell(is ? row.quantity("opening") : 0)),
+             known(is && has_grips, number_cell(is ? row.imbalance() : 0)),
+             known(is && !has_grips, number_cell(is ? row.quantity("G") : 0)),
+             known(is, count_cell(row.state.n_unknowns)), number_cell(row.seconds),
+             text_cell(row.failure)});
       }
       return without_empty_columns(table);
     }
@@ -67,7 +88,7 @@ namespace plumbline::report
     {
       Table table;
       table.columns = {"quantity", "method", "series", "limit", "rate", "change"};
-      for (const char *const quantity : study::strip_quantities)
+      for (const std::string &quantity : study::strip_quantities(results.strip.edges))
         for (const study::StripLimit &one : results.limits)
           if (one.quantity == quantity)
             table.rows.push_back({text_cell(one.quantity), text_cell(one.method),
@@ -140,8 +161,8 @@ namespace plumbline::report
     {
       DataChart chart =
           named("profile", "Opening of the crack behind its tip",
-                "At the finest level that was solved of each method and series; grips "
-                "move apart by 2.");
+                std::string("At the finest level that was solved of each method and series; ") +
+                    (is_between_grips(results) ? "grips move apart by 2." : "K = 1."));
       chart.plot.x_label = "from the tip [length]";
       chart.plot.y_label = "opening [length]";
       chart.plot.is_x_log = chart.plot.is_y_log = false;
@@ -183,19 +204,30 @@ namespace plumbline::report
       if (std::none_of(results.rows.begin(), results.rows.end(),
                        [](const StripRow &row) { return row.failure.empty(); }))
         return {};
+      if (!is_between_grips(results))
+        return {quantity_chart(results, "G"), opening_chart(results),
+                quantity_chart(results, "opening")};
       return {quantity_chart(results, "tip energy"), opening_chart(results),
               quantity_chart(results, "opening"), quantity_chart(results, "W1")};
     }
 
     std::string model_words(const StripResults &results)
     {
-      return "Model: a strip between rigid grips that move apart by 2, " +
+      return std::string("Model: a strip ") +
+             (is_between_grips(results) ? "between rigid grips that move apart by 2, "
+                                        : "held all around at the field of a crack at K = 1, ") +
              rounded(results.strip.height) + " high, with a crack of length " +
              rounded(results.strip.crack) +
-             "; behind its left end it goes on with the grips, ahead of its right end as the "
-             "intact strip. Bonds of λ = μ, without dilatation; those that cross the crack are "
+             (is_between_grips(results)
+                  ? "; behind its left end it goes on with the grips, ahead of its right end as "
+                    "the intact strip"
+                  : "; the field's tip is half a column ahead") +
+             ". Bonds of λ = μ, without dilatation; those that cross the crack are "
              "left out. Energies in μ = " +
-             rounded(results.mu) + " [force/length²] times length², W1 and G in μ times length.";
+             rounded(results.mu) +
+             (is_between_grips(results)
+                  ? " [force/length²] times length², W1 and G in μ times length."
+                  : " [force/length²] times length², K in that times the root of length.");
     }
 
     Json known_number(double value)
@@ -217,6 +249,7 @@ namespace plumbline::report
               {"height", results.strip.height},
               {"length", results.strip.length},
               {"crack", results.strip.crack},
+              {"edges", base::word(results.strip.edges)},
               {"mu", results.mu},
               {"levels", Json::array()},
               {"limits", Json::array()}};
@@ -227,12 +260,13 @@ namespace plumbline::report
                {"horizon", row.horizon}, {"seconds", row.seconds},
                {"failure", row.failure}};
       if (row.failure.empty())
-        one.update({{"W1", row.state.intact},
-                    {"energy", row.state.energy},
-                    {"tip_energy", row.quantity("tip energy")},
-                    {"release", row.release},
-                    {"n_unknowns", row.state.n_unknowns},
-                    {"opening", row.state.opening}});
+        one.update(
+            {{is_between_grips(results) ? "W1" : "K2_over_E", row.state.intact},
+             {"energy", row.state.energy},
+             {"tip_energy", is_between_grips(results) ? Json(row.quantity("tip energy")) : Json()},
+             {"release", row.release},
+             {"n_unknowns", row.state.n_unknowns},
+             {"opening", row.state.opening}});
       json["levels"].push_back(one);
     }
     for (const study::StripLimit &one : results.limits)
@@ -253,7 +287,7 @@ namespace plumbline::report
                "# Strip: " + results.scene_name + "\n\n" + verdict(results, faults) + "\n\n" +
                    to_markdown(rows_table(results)) + "\n" +
                    (results.limits.empty() ? "" : to_markdown(limits_table(results)) + "\n") +
-                   meaning + "\n\n" + model_words(results) + "\n");
+                   meaning(results) + "\n\n" + model_words(results) + "\n");
     const auto charts = charts_of(results);
     const auto page = [&]
     {
@@ -273,7 +307,7 @@ namespace plumbline::report
               page::section("numbers", "Numbers",
                             to_html(rows_table(results)) +
                                 (results.limits.empty() ? "" : to_html(limits_table(results))) +
-                                page::paragraph(meaning)) +
+                                page::paragraph(meaning(results))) +
               page::section("model", "The model", page::paragraph(model_words(results))));
     };
     write_with_pictures(

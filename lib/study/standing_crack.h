@@ -19,13 +19,18 @@ namespace plumbline::study
     std::string failure;
 
     double m() const { return horizon / h; }
+    scene::StripEdges edges() const
+    {
+      return strip.K_tip ? scene::StripEdges::K_field : scene::StripEdges::grips;
+    }
     /// One of strip_quantities.
     double quantity(const std::string &name) const;
     /// G/W1 - 1: 0 but for what the strip's ends do, whatever the method does at the tip.
     double imbalance() const { return release / state.intact - 1; }
   };
 
-  inline constexpr std::array strip_quantities = {"W1", "tip energy", "opening"};
+  /// W1, tip energy and opening; in a field of K: G, over K²/E', and opening.
+  const std::vector<std::string> &strip_quantities(scene::StripEdges edges);
 
   /// q(h) = limit + C h^rate through the three finest levels.
   struct StripLimit

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "meshfree/fracture/breaking_network.h"
+#include "physics/crack_field.h"
 
 #include <Eigen/Cholesky>
 
@@ -13,7 +14,7 @@ namespace plumbline::meshfree
   {
     using method::RiceStrip;
 
-    /// The strip with all that is held around it, which moves with the nearer grip.
+    /// The strip with all that is held around it, which moves with the nearer grip or the field.
     BreakingSolid make_solid(const RiceStrip &strip, int reach)
     {
       const double half = .5 * strip.h * strip.n_height, length = strip.h * strip.n_length,
@@ -25,8 +26,10 @@ namespace plumbline::meshfree
                      {{-out, -half}, {0, half}},
                      {{length, -half}, {length + out, half}}};
       solid.notch = {{{-out - strip.h, 0}, {strip.h * strip.n_crack, 0}}};
-      solid.held = [](const Point<2> &x)
+      solid.held = [strip](const Point<2> &x)
       {
+        if (strip.K_tip)
+          return physics::crack_field(Point<2>(x[0] - strip.h * *strip.K_tip, x[1]), {1, 1});
         Tensor<1, 2> u;
         u[1] = x[1] > 0 ? 1 : -1;
         return u;
@@ -84,12 +87,20 @@ namespace plumbline::meshfree
     const int reach = static_cast<int>(std::ceil(influence.horizon() / strip.h - 1e-9)) + 1;
     BondNetwork network =
         make_bond_network(make_solid(strip, reach), recipe, influence, strip.h, Backend::fast);
-    const IntactStrip intact = solve_intact(strip, reach, network);
-    const double length = strip.h * strip.n_length, half = .5 * strip.h * strip.n_height;
-    for (std::size_t i = 0; i < network.nodes.size(); ++i)
-      if (network.grip[i] >= 0 && network.nodes[i][0] > length)
-        network.held[i][1] =
-            intact.u[std::lround((network.nodes[i][1] + half) / strip.h - .5) + reach];
+    method::StripState state;
+    if (strip.K_tip)
+      state.intact = physics::crack_release({1, 1});
+    else
+    {
+      const IntactStrip intact = solve_intact(strip, reach, network);
+      state.intact = intact.energy / strip.h;
+      state.at_end = intact.at_end;
+      const double length = strip.h * strip.n_length, half = .5 * strip.h * strip.n_height;
+      for (std::size_t i = 0; i < network.nodes.size(); ++i)
+        if (network.grip[i] >= 0 && network.nodes[i][0] > length)
+          network.held[i][1] =
+              intact.u[std::lround((network.nodes[i][1] + half) / strip.h - .5) + reach];
+    }
     const BreakingNetwork body(std::move(network), scene::Stretch::linear);
     constexpr double worst_residual = 1e-10;
     if (!(body.response().residual <= worst_residual))
@@ -98,9 +109,6 @@ namespace plumbline::meshfree
     const BondNetwork &solved = body.network();
     const std::vector<Tensor<1, 2>> &u = body.displacements();
 
-    method::StripState state;
-    state.intact = intact.energy / strip.h;
-    state.at_end = intact.at_end;
     state.n_unknowns = body.n_unknowns();
     for (const BondNetwork::Bond &bond : solved.bonds)
       if (solved.grip[bond.from] < 0 || solved.grip[bond.to] < 0)

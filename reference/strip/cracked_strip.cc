@@ -1,6 +1,7 @@
 #include "reference/strip/cracked_strip.h"
 
 #include "base/error.h"
+#include "physics/crack_field.h"
 #include "reference/strip/bond_pairs.h"
 #include "reference/strip/strip_space.h"
 
@@ -20,6 +21,7 @@ namespace plumbline::reference
     using Place = StripSpace::Place;
     using Eigen::VectorXd;
     using Values = dealii::Vector<double>;
+    using dealii::Tensor;
 
     VectorXd join(const VectorXd &a, const VectorXd &b)
     {
@@ -243,6 +245,23 @@ namespace plumbline::reference
       return u;
     }
 
+    /// The field of K, all around and for a first guess.
+    Values begin_with_field(const RiceStrip &strip, const StripSpace &space)
+    {
+      Values u(2 * space.n_functions());
+      for (unsigned int function = 0; function < space.n_functions(); ++function)
+      {
+        const geometry::Point<2> &at = space.support(function);
+        const double y = std::copysign(at[1] - .5 * strip.n_height, // on the crack too
+                                       space.is_upper(function) ? 1 : -1);
+        const Tensor<1, 2> value =
+            physics::crack_field(strip.h * geometry::Point<2>(at[0] - *strip.K_tip, y), {1, 1});
+        for (unsigned int d = 0; d < 2; ++d)
+          u[2 * function + d] = value[d];
+      }
+      return u;
+    }
+
     void solve(const StripOperator &A, Values &u)
     {
       constexpr unsigned int most_steps = 5000;
@@ -284,13 +303,22 @@ namespace plumbline::reference
     const std::vector<PairForm> whole = whole_pairs(pairs);
     const std::vector<CutPair> cut = cut_pairs(strip, pairs, whole);
     const StripSpace space(strip, pairs.reach(), shapes);
-    const IntactStrip intact = solve_intact(strip, whole, pairs.reach(), shapes);
-    Values u = begin(strip, space, intact, shapes);
+    method::StripState state;
+    Values u;
+    if (strip.K_tip)
+    {
+      state.intact = physics::crack_release({1, 1});
+      u = begin_with_field(strip, space);
+    }
+    else
+    {
+      const IntactStrip intact = solve_intact(strip, whole, pairs.reach(), shapes);
+      state.intact = intact.energy / strip.h;
+      state.at_end = intact.at_end;
+      u = begin(strip, space, intact, shapes);
+    }
     solve(StripOperator(space, whole, cut), u);
 
-    method::StripState state;
-    state.intact = intact.energy / strip.h;
-    state.at_end = intact.at_end;
     for (const PairForm &pair : whole)
       space.visit_all(
           [&](const Place &first)

@@ -32,6 +32,25 @@ TEST(StripCommand, charts_a_tip_by_both_sides)
   fs::remove_all(folder);
 }
 
+TEST(StripCommand, charts_a_crack_in_its_own_field)
+{
+  const fs::path folder = temporary("strip");
+  const Outcome outcome =
+      run("strip " + std::string(PLUMBLINE_SCENES) +
+          "/fracture/k_field_strip.prm --methods DGQ1,Q1,OPT --check -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "G E'/K^2");
+  const auto json = nlohmann::json::parse(read(folder / "strip.json"));
+  EXPECT_EQ(json["edges"], "K field");
+  EXPECT_NEAR(json["levels"][0]["K2_over_E"], .375, 1e-15); // of mu = 1
+  EXPECT_TRUE(json["levels"][0]["tip_energy"].is_null());
+  expect_found(read(folder / "strip.html"), "over K²/E");
+  for (const char *const name : {"g.svg", "g.csv", "profile.svg", "opening.svg"})
+    EXPECT_TRUE(fs::exists(folder / "strip" / name)) << name;
+  EXPECT_FALSE(fs::exists(folder / "strip" / "tip-energy.svg"));
+  fs::remove_all(folder);
+}
+
 TEST(StripCommand, says_what_is_not_as_expected)
 {
   const fs::path folder = temporary("strip");

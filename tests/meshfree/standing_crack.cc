@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace
 {
   using namespace plumbline;
@@ -69,4 +71,25 @@ TEST(StandingCrack, opens_less_the_nearer_to_its_tip)
   for (std::size_t i = 2 * opening.size() / 3; i + 1 < opening.size(); ++i)
     EXPECT_LT(opening[i + 1], opening[i]);
   EXPECT_NEAR(opening.front(), 2, 1e-2); // as the grips
+}
+
+TEST(StandingCrack, in_the_field_of_its_K_gets_what_it_gets_by_a_Galerkin_method)
+{
+  constexpr double by_DGQ1 = .9702; // limit over m in a square of eight horizons
+  for (const auto rule :
+       {meshfree::partial_area, meshfree::improved_partial_area, meshfree::optimisation_based})
+  {
+    double before = 1;
+    for (const int m : {2, 3, 5})
+    {
+      method::RiceStrip strip = make_strip(m, 1);
+      strip.K_tip = strip.n_crack + .5;
+      const method::StripState state = solve(strip, rule);
+      ++strip.n_crack;
+      const double G = (state.energy - solve(strip, rule).energy) / strip.h / state.intact;
+      EXPECT_LT(std::abs(G - by_DGQ1), .6 * before) << m;
+      before = std::abs(G - by_DGQ1);
+    }
+    EXPECT_LT(before, .025);
+  }
 }

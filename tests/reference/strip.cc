@@ -181,3 +181,21 @@ TEST(CrackedStrip, of_higher_degree_is_nearer_to_the_limit)
                of_2 = solve(2, false, 2).tip_energy(make_strip(2));
   EXPECT_LT(std::abs(of_2 - limit), .5 * std::abs(of_1 - limit));
 }
+
+TEST(CrackedStrip, in_the_field_of_its_K_gets_what_the_local_solid_does_as_the_horizon_vanishes)
+{
+  double before = 1;
+  for (const int horizons : {4, 8, 16})
+  {
+    method::RiceStrip strip = make_strip(2, 1, horizons);
+    strip.K_tip = strip.n_crack + .5;
+    const method::StripState state = solve_strip(strip, bonds(), AxisShapes(false, 1));
+    ++strip.n_crack;
+    const double after = solve_strip(strip, bonds(), AxisShapes(false, 1)).energy,
+                 G = (state.energy - after) / strip.h / state.intact;
+    EXPECT_GT(1 - G, 0) << horizons;
+    EXPECT_LT(1 - G, .62 * before) << horizons;
+    before = 1 - G;
+  }
+  EXPECT_LT(before, .02);
+}

@@ -51,6 +51,31 @@ TEST(StripLimits, are_those_of_a_power_of_h)
   EXPECT_NEAR(limits[0].change, 0, 1e-9);
 }
 
+TEST(StripLimits, of_a_field_of_K_are_those_of_its_release)
+{
+  std::vector<double> q;
+  for (const double h : sizes)
+    q.push_back(curve(h));
+  std::vector<StripRow> field = rows("A", sizes, q);
+  for (std::size_t i = 0; i < field.size(); ++i)
+  {
+    field[i].strip.K_tip = 10.5;
+    field[i].release = q[i] * (field[i].state.intact = .375);
+  }
+  const auto limits = strip_limits(field);
+  ASSERT_EQ(limits.size(), 1u);
+  EXPECT_EQ(limits[0].quantity, "G");
+  EXPECT_NEAR(limits[0].limit, .4, 1e-9);
+  // no strip that is too short: .4 is what it gets
+  study::StripResults results;
+  results.strip.edges = scene::StripEdges::K_field;
+  results.rows = field;
+  EXPECT_TRUE(strip_faults(results, {}).empty());
+  for (StripRow &row : results.rows)
+    row.strip.K_tip = {};
+  EXPECT_EQ(strip_faults(results, {}).size(), sizes.size());
+}
+
 TEST(StripLimits, are_not_there_where_values_go_up_and_down)
 {
   EXPECT_TRUE(strip_limits(rows("A", sizes, {.4, .5, .45, .47})).empty());

@@ -151,7 +151,8 @@ namespace plumbline::scene
         "variance kept, the share of a field's modes.");
     add(ExpectedKind::strip,
         "'method, quantity[, series]: q0 q1 ...' of 'plumbline strip' at each level, to "
-        "Expected/error tolerance; quantities are W1, tip energy, opening, and their limits, "
+        "Expected/error tolerance; quantities are W1, tip energy, opening, G (over what is "
+        "exact locally; of Strip/edges = K field), and their limits, "
         "e.g. tip energy limit, which are one number.");
     add(ExpectedKind::growth,
         "'method: d': growth rates that 'plumbline stability' observes on strained double wells "

@@ -20,6 +20,12 @@ namespace plumbline::scene
     keys.add("crack", crack, any_number(),
              "Of the strip along its middle from its left end, behind which it goes on without "
              "end; a multiple of h. [length]");
+    keys.add(
+        "edges", edges,
+        "grips: rigid ones above and below move apart by 2, and a crack gets W1 for its "
+        "advance (Rice 1968). K field: all around the strip is held at the field of a crack at "
+        "K = 1 whose tip is half a column ahead, and a crack that goes on by a column gets "
+        "K^2/E' as h and the horizon vanish (Irwin 1957).");
   }
 
   void StripSection::complete() const
