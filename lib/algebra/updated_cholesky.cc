@@ -18,7 +18,7 @@ namespace plumbline::algebra
     /// Of a factor, and of I + S U Z: below that what is left of it is rounding.
     constexpr double least_condition = 1e-13;
 
-    /// Columns of Z in a product: of more, up to 128, Eigen reads a few rows at a time (3 times slower).
+    /// Columns of Z in a product: of more, Eigen reads a few rows at a time, 3 times slower.
     constexpr Eigen::Index n_together = 8;
 
     class Cholesky : public Eigen::CholmodSupernodalLLT<Sparse>
