@@ -50,13 +50,18 @@ namespace plumbline::app
     }
 
     /// Nothing is made before its memory is there.
-    void check_size(const scene::Scene &scene)
+    GrowthSize check_size(const scene::Scene &scene)
     {
       const GrowthSize size = expected_size(scene);
-      // bonds with their books and entries of the matrix while it is made
-      base::require_memory(400 * size.n_bonds + 16 * size.n_factor,
+      const bool is_factor = size.solver == scene::GrowthSolver::factor;
+      const bool may_iterate = is_factor && scene.fracture.can_iterate();
+      base::require_memory(is_factor ? size.factor_bytes : size.multigrid_bytes,
                            "a body of " + base::to_text(size.n_nodes, 3) + " nodes",
-                           "choose a larger h (Study/h)");
+                           may_iterate ? "choose a larger h (Study/h), or Fracture/solver = "
+                                         "multigrid, which takes " +
+                                             base::bytes_to_text(size.multigrid_bytes)
+                                       : "choose a larger h (Study/h)");
+      return size;
     }
 
     study::GrowthModel make_model(meshfree::BreakingNetwork &body, const Point<2> &notch_tip)
@@ -150,16 +155,28 @@ namespace plumbline::app
       way = std::max(way, tip[0] >= mouth[0] ? box.upper[0] - tip[0] : tip[0] - box.lower[0]);
     }
     size.n_bonds = .5 * M_PI * m * m * size.n_nodes;
-    // nested dissection: they grow with the logarithm of n; with dilatations, of twice the reach,
-    // there are more
     const physics::Lame lame = scene.material.lame()(tip);
-    size.n_factor = (std::abs(lame.lambda - lame.mu) <= 1e-12 * lame.mu ? 6 : 18) * m * m *
-                    size.n_nodes * std::log2(std::max(2., size.n_nodes));
+    const bool is_bonds = std::abs(lame.lambda - lame.mu) <= 1e-12 * lame.mu;
+    // with dilatations the reach is twice as far; nested dissection: entries of the factor grow
+    // with the logarithm of n
+    const double n_entries = 4 * M_PI * m * m * (is_bonds ? 1 : 4) * size.n_nodes,
+                 n_factor = (is_bonds ? 6 : 18) * m * m * size.n_nodes *
+                            std::log2(std::max(2., size.n_nodes));
+    // bonds with their books; the factor with entries of the matrix while it is made, and room for
+    // some 400 solutions of Woodbury's formula; or the matrix, multigrid's copy and coarser levels
+    size.factor_bytes = 400 * size.n_bonds + 16 * n_factor + 6400 * size.n_nodes;
+    size.multigrid_bytes = 400 * size.n_bonds + 36 * n_entries;
+    size.solver = scene.fracture.solver;
+    if (size.solver == scene::GrowthSolver::automatic)
+      size.solver = scene.fracture.can_iterate() && size.factor_bytes > base::available_memory()
+                        ? scene::GrowthSolver::multigrid
+                        : scene::GrowthSolver::factor;
     size.n_breaks = 2. / 3 * m * m * m * way / level.h; // 18 a column of nodes at m = 3
-    // a solution for each bond, 2 ns an entry of the factor; updates and new factors take as long
-    // as half of that
-    constexpr double seconds_per_entry = 1.5 * 2e-9;
-    size.seconds = seconds_per_entry * size.n_factor * size.n_breaks;
+    // a solution for each bond, 2 ns an entry of the factor, and half of that for updates and new
+    // factors; or some 20 iterations of 6.6 ns an entry of the matrix, and a fourth for set-ups
+    size.seconds = size.n_breaks * (size.solver == scene::GrowthSolver::factor
+                                        ? 1.5 * 2e-9 * n_factor
+                                        : 1.25 * 20 * 6.6e-9 * n_entries);
     return size;
   }
 
@@ -167,7 +184,7 @@ namespace plumbline::app
                                  const std::function<void()> &before_it_grows)
   {
     const scene::Level &level = scene.study.series.front().levels.front();
-    check_size(scene);
+    const scene::GrowthSolver solver = check_size(scene).solver;
     const auto influence = physics::influence_function(scene.kernel.profile, level.horizon);
     const meshfree::Rule rule = find_rule(scene.methods.names.front());
     const meshfree::Recipe recipe = rule.recipe(physics::deviatoric_kernel(influence, 1));
@@ -177,7 +194,7 @@ namespace plumbline::app
     meshfree::BreakingNetwork body(make_bond_network(make_solid(scene, level.horizon, trapping),
                                                      recipe, influence, level.h,
                                                      scene.geometry.backend),
-                                   scene.fracture.stretch);
+                                   scene.fracture.stretch, solver);
     if (before_it_grows)
       before_it_grows();
     study::GrowthModel model = make_model(body, scene.domain.cracks.front().back());
@@ -199,6 +216,7 @@ namespace plumbline::app
       results.model = is_bonds ? "bond-based, for lambda = mu leaves the solid its bonds alone"
                                : "LPS without surface terms";
     results.rules = scene.fracture;
+    results.rules.solver = solver;
     results.h = level.h;
     results.horizon = level.horizon;
     results.lattice_toughness =

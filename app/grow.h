@@ -13,7 +13,9 @@ namespace plumbline::app
   /// What a growth that is not begun is expected to be.
   struct GrowthSize
   {
-    double n_nodes = 0, n_bonds = 0, n_factor = 0; ///< n_factor: entries of the equations' factor
+    scene::GrowthSolver solver = scene::GrowthSolver::factor; ///< not automatic
+    double n_nodes = 0, n_bonds = 0;
+    double factor_bytes = 0, multigrid_bytes = 0; ///< of all, by either solver
     double n_breaks = 0; ///< bonds that a straight crack breaks, the fewest; one that winds breaks
                          ///< up to three times as many
     double seconds = 0;  ///< CPU time of those, by rates that were measured on one machine; to a

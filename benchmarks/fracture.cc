@@ -1,11 +1,14 @@
 // What an event of a growing crack costs at 11.4 thousand unknowns: a stale factorisation with
-// Woodbury's formula against a factorisation at every event, both on the same events.
+// Woodbury's formula against a factorisation at every event and against multigrid, all on the same
+// events.
 //   build/release/benchmarks/fracture [COLUMNS ROWS]
 
 #include "analysis/fracture.h"
 #include "base/cost.h"
 #include "meshfree/fracture/breaking_network.h"
 #include "meshfree/rules/rules.h"
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -48,8 +51,8 @@ namespace
 
 int main(int argc, char **argv)
 {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const int n1 = argc > 2 ? std::atoi(argv[1]) : 106, n2 = argc > 2 ? std::atoi(argv[2]) : 60;
-  constexpr std::size_t n_compared = 20;
   meshfree::BreakingNetwork body(plate(n1, n2), scene::Stretch::linear);
   const base::CpuTimer timer;
   const analysis::Growth growth = analysis::grow(body, {});
@@ -70,14 +73,29 @@ int main(int argc, char **argv)
               milliseconds(work.update_seconds, work.n_updates), work.largest_rank);
   std::printf("residual <= %.1e, energy imbalance <= %.1e\n", residual, imbalance);
 
+  const auto replay = [&](meshfree::BreakingNetwork &again, std::size_t n)
+  {
+    const base::CpuTimer replaying;
+    for (std::size_t i = 0; i < n; ++i)
+      (void)again.break_bonds(growth.events[i].bonds);
+    return replaying.seconds() / static_cast<double>(n);
+  };
   meshfree::BreakingNetwork always(plate(n1, n2), scene::Stretch::linear,
-                                   meshfree::Refactor::always);
-  const base::CpuTimer again;
-  const std::size_t n = std::min(n_compared, growth.events.size());
-  for (std::size_t i = 0; i < n; ++i)
-    (void)always.break_bonds(growth.events[i].bonds);
-  const double each = again.seconds() / static_cast<double>(n);
+                                   scene::GrowthSolver::factor, meshfree::Refactor::always);
+  const double each = replay(always, std::min<std::size_t>(20, growth.events.size())),
+               mean = all / static_cast<double>(growth.events.size());
   std::printf("factored at every event: %.0f ms an event, %.1f times as much\n", 1e3 * each,
-              each * static_cast<double>(growth.events.size()) / all);
+              each / mean);
+  meshfree::BreakingNetwork iterated(plate(n1, n2), scene::Stretch::linear,
+                                     scene::GrowthSolver::multigrid);
+  const double iterating = replay(iterated, std::min<std::size_t>(300, growth.events.size()));
+  const auto &cycles = iterated.work();
+  std::printf("multigrid: %.1f ms an event, %.1f times as much; %lu set-ups of %.0f ms, %.1f "
+              "iterations an event, at most %lu\n",
+              1e3 * iterating, iterating / mean, cycles.n_factorisations,
+              milliseconds(cycles.factor_seconds, cycles.n_factorisations),
+              static_cast<double>(cycles.n_iterations) /
+                  static_cast<double>(cycles.n_factorisations + cycles.n_updates),
+              cycles.most_iterations);
   return 0;
 }

@@ -32,11 +32,16 @@ namespace plumbline::algebra
 
   Rows transpose(const Rows &rows)
   {
+    return transpose(rows, rows.n_rows());
+  }
+
+  Rows transpose(const Rows &rows, std::size_t n_columns)
+  {
     Rows result;
-    result.start.assign(rows.n_rows() + 1, 0);
+    result.start.assign(n_columns + 1, 0);
     for (const unsigned int j : rows.column)
       ++result.start[j + 1];
-    for (std::size_t j = 0; j < rows.n_rows(); ++j)
+    for (std::size_t j = 0; j < n_columns; ++j)
       result.start[j + 1] += result.start[j];
     result.column.resize(rows.column.size());
     result.value.resize(rows.value.size());
@@ -48,6 +53,44 @@ namespace plumbline::algebra
         result.column[at] = i;
         result.value[at] = rows.value[k];
       }
+    return result;
+  }
+
+  Rows normal_matrix(const Rows &C, const std::vector<double> &s, std::size_t n)
+  {
+    const Rows of_columns = transpose(C, n);
+    std::vector<double> sum(n);
+    std::vector<char> is_there(n, 0);
+    std::vector<unsigned int> columns; // of one row
+    Rows result;
+    result.start.assign(1, 0);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      columns.clear();
+      for (std::size_t t = of_columns.start[i]; t < of_columns.start[i + 1]; ++t)
+      {
+        const std::size_t row = of_columns.column[t];
+        for (std::size_t k = C.start[row]; k < C.start[row + 1]; ++k)
+        {
+          const unsigned int j = C.column[k];
+          if (is_there[j] == 0)
+          {
+            columns.push_back(j);
+            is_there[j] = 1;
+            sum[j] = 0;
+          }
+          sum[j] += s[row] * of_columns.value[t] * C.value[k];
+        }
+      }
+      std::sort(columns.begin(), columns.end());
+      for (const unsigned int j : columns)
+      {
+        result.column.push_back(j);
+        result.value.push_back(sum[j]);
+        is_there[j] = 0;
+      }
+      result.start.push_back(result.column.size());
+    }
     return result;
   }
 

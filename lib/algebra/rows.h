@@ -21,8 +21,11 @@ namespace plumbline::algebra
   /// The sum of two matrices with the same number of rows.
   Rows add(const Rows &a, const Rows &b);
 
-  /// Of a square matrix.
-  Rows transpose(const Rows &rows);
+  Rows transpose(const Rows &rows); ///< of a square matrix
+  Rows transpose(const Rows &rows, std::size_t n_columns);
+
+  /// Cᵀ diag(s) C, n columns.
+  Rows normal_matrix(const Rows &C, const std::vector<double> &s, std::size_t n);
 
   /// ‖A‖_∞.
   double largest_row_sum(const Rows &rows);

@@ -66,14 +66,17 @@ namespace plumbline::report
       add("residual", r.largest_residual(), "force on a node over a bond's at the beginning");
       add("unknowns", static_cast<double>(r.n_unknowns), "displacements");
       add("bonds", static_cast<double>(r.n_bonds), "whole at the beginning");
-      add("factorisations", static_cast<double>(work.n_factorisations),
-          "of the equations; " + rounded_seconds(work.factor_seconds) + " in all");
+      const bool is_factor = r.rules.solver != scene::GrowthSolver::multigrid;
+      add(is_factor ? "factorisations" : "set-ups", static_cast<double>(work.n_factorisations),
+          std::string(is_factor ? "of the equations; " : "of multigrid; ") +
+              rounded_seconds(work.factor_seconds) + " in all");
       add("updates", static_cast<double>(work.n_updates),
           "events without one, up to rank " + std::to_string(work.largest_rank) + "; " +
               rounded_seconds(work.update_seconds) + " in all");
-      if (r.rules.has_surface_terms)
+      if (work.n_iterations > 0)
         add("iterations", static_cast<double>(work.n_iterations),
-            "of GMRES, at most " + std::to_string(work.most_iterations) + " an event");
+            std::string(is_factor ? "of GMRES" : "of conjugate gradients") + ", at most " +
+                std::to_string(work.most_iterations) + " an event");
       return table;
     }
 
@@ -233,6 +236,7 @@ namespace plumbline::report
               {"n_unpaired", r.n_unpaired},
               {"energy_imbalance", r.largest_imbalance()},
               {"residual", r.largest_residual()},
+              {"solver", base::word(r.rules.solver)},
               {"n_factorisations", r.work.n_factorisations},
               {"n_updates", r.work.n_updates},
               {"largest_rank", r.work.largest_rank},

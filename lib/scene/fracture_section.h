@@ -33,6 +33,14 @@ namespace plumbline::scene
     finite  ///< |ξ + Δu| / |ξ| - 1
   };
 
+  /// How equilibrium is found, see meshfree::NetworkEquations.
+  enum class GrowthSolver
+  {
+    automatic, ///< the factor where it fits the memory
+    factor,
+    multigrid
+  };
+
   /// Why a growth came to its end.
   enum class GrowthEnd
   {
@@ -58,7 +66,8 @@ namespace plumbline::scene
     BreakMode breaking = BreakMode::events;
     Stretch stretch = Stretch::linear;
     bool has_surface_terms = false; ///< what makes free surfaces free of traction
-    double load_step = 0;           ///< of steps
+    GrowthSolver solver = GrowthSolver::automatic;
+    double load_step = 0; ///< of steps
     double largest_load = std::numeric_limits<double>::infinity();
     double least_reaction = .002;          ///< where a growth ends, over the largest so far
     double tie_tolerance = 1e-6;           ///< relative, of loads at which bonds break together
@@ -66,6 +75,9 @@ namespace plumbline::scene
     unsigned int interval = 50;            ///< of checkpoints [events]
 
     bool is_there() const { return !toughness.empty(); }
+    /// Without a factor pieces that turn about a node are not found, where finite stretches and
+    /// surface terms mean nothing.
+    bool can_iterate() const { return stretch == Stretch::linear && !has_surface_terms; }
 
     void declare(Keys &keys);
     /// @throws InputError  a number that is out of range
@@ -81,6 +93,8 @@ namespace plumbline::base
   inline constexpr auto words<scene::BreakMode> = std::array{"events", "batches", "steps"};
   template <>
   inline constexpr auto words<scene::Stretch> = std::array{"linear", "finite"};
+  template <>
+  inline constexpr auto words<scene::GrowthSolver> = std::array{"automatic", "factor", "multigrid"};
   template <>
   inline constexpr auto words<scene::GrowthEnd> =
       std::array{"unknown", "parted", "unloaded", "loaded", "whole"};

@@ -2,6 +2,7 @@
 
 #include "base/cost.h"
 #include "base/error.h"
+#include "meshfree/fracture/equilibrium.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +22,9 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  BreakingNetwork::BreakingNetwork(BondNetwork network, scene::Stretch stretch, Refactor refactor)
-      : network_(std::move(network)), stretch_(stretch), refactor_(refactor)
+  BreakingNetwork::BreakingNetwork(BondNetwork network, scene::Stretch stretch,
+                                   scene::GrowthSolver solver, Refactor refactor)
+      : network_(std::move(network)), stretch_(stretch), solver_(solver), refactor_(refactor)
   {
     factor();
     if (is_parted())
@@ -35,14 +37,16 @@ namespace plumbline::meshfree
     const base::CpuTimer timer;
     connections_ = std::make_unique<Connections>(network_);
     connections_->break_bonds(broken_);
-    equations_ = std::make_unique<NetworkEquations>(network_, *connections_);
-    seconds_ = equations_->factor_seconds();
+    equations_ = solver_ == scene::GrowthSolver::multigrid
+                     ? multigrid_equations(network_, *connections_)
+                     : factored_equations(network_, *connections_);
+    seconds_ = equations_->making_seconds();
     n_events_ = 1;
-    u_ = *equations_->solve(); // nothing has changed yet
+    u_ = network_.held;
     if (!equilibrate())
-      throw NumericalError("GMRES does not find equilibrium with surface terms; stop before "
-                           "(Fracture/largest load, least reaction), or write Fracture/surface "
-                           "terms = no");
+      throw NumericalError("iterations do not find equilibrium; stop before (Fracture/largest "
+                           "load, least reaction), or write Fracture/solver = factor and "
+                           "Fracture/surface terms = no");
     ++work_.n_factorisations;
     work_.factor_seconds += timer.seconds();
     evaluate();
@@ -58,17 +62,12 @@ namespace plumbline::meshfree
   /// Without factoring; false if that would be cheaper, or is needed.
   bool BreakingNetwork::update(const std::vector<std::size_t> &bonds)
   {
-    const double cost = equations_->update_seconds(bonds.size());
+    const double cost = equations_->update_seconds(bonds.size(), n_iterations_);
     if (refactor_ == Refactor::always || cost * static_cast<double>(n_events_) > seconds_)
       return false;
     const base::CpuTimer timer;
     connections_->break_bonds(bonds);
     equations_->take_out(bonds, *connections_);
-    auto u = equations_->solve();
-    if (!u)
-      return false;
-    if (!surfaces_) // what they make is nearer to what they made before
-      u_ = std::move(*u);
     if (!equilibrate())
       return false;
     seconds_ += cost;
@@ -80,17 +79,29 @@ namespace plumbline::meshfree
     return response_.residual <= worst_residual;
   }
 
-  /// With surface terms, from u; false: it takes too many iterations.
+  /// From u; false: the equations have become singular, or it takes too many iterations.
   bool BreakingNetwork::equilibrate()
   {
-    if (!network_.surfaces)
-      return true;
-    surfaces_.emplace(network_, *connections_);
-    const auto n_iterations = meshfree::equilibrate(*surfaces_, network_, *equations_, u_);
-    if (!n_iterations)
-      return false;
-    work_.n_iterations += *n_iterations;
-    work_.most_iterations = std::max<std::uint64_t>(work_.most_iterations, *n_iterations);
+    if (network_.surfaces)
+    {
+      surfaces_.emplace(network_, *connections_);
+      const auto n =
+          meshfree::equilibrate([this](const NodeField &u) { return surfaces_->forces(u); },
+                                Iteration::gmres, network_, *equations_, u_);
+      if (!n)
+        return false;
+      n_iterations_ = *n;
+    }
+    else
+    {
+      auto solution = equations_->solve(u_);
+      if (!solution)
+        return false;
+      u_ = std::move(solution->u);
+      n_iterations_ = solution->n_iterations;
+    }
+    work_.n_iterations += n_iterations_;
+    work_.most_iterations = std::max<std::uint64_t>(work_.most_iterations, n_iterations_);
     return true;
   }
 
@@ -194,29 +205,30 @@ namespace plumbline::meshfree
 
   double BreakingNetwork::residual()
   {
-    std::vector<Tensor<1, 2>> force(network_.nodes.size());
-    double largest = 0, of_bonds = 0;
-    for (std::size_t b = 0; b < network_.bonds.size(); ++b)
-    {
-      if (!connections_->is_whole(b))
-        continue;
-      const BondNetwork::Bond &bond = network_.bonds[b];
-      Tensor<1, 2> f = bond.stiffness * pull_[b] * bond.way;
-      if (!theta_.empty())
-        f += (network_.dilatation[bond.from] * theta_[bond.from] +
-              network_.dilatation[bond.to] * theta_[bond.to]) *
-             bond.share * bond.xi;
-      force[bond.from] += f;
-      force[bond.to] -= f;
-      of_bonds = std::max(of_bonds, f.norm_square());
-    }
-    if (surfaces_)
-      force = surfaces_->forces(u_);
+    if (force_scale_ == 0)
+      force_scale_ = largest_bond_force();
+    const NodeField force = surfaces_ ? surfaces_->forces(u_) : forces(network_, *connections_, u_);
+    double largest = 0;
     for (std::size_t i = 0; i < force.size(); ++i)
       if (network_.grip[i] < 0)
-        largest = std::max(largest, force[i].norm_square());
-    if (force_scale_ == 0)
-      force_scale_ = std::sqrt(of_bonds);
-    return std::sqrt(largest) / force_scale_;
+        largest = std::max(largest, force[i].norm());
+    return largest / force_scale_;
+  }
+
+  double BreakingNetwork::largest_bond_force() const
+  {
+    double largest = 0;
+    for (std::size_t b = 0; b < network_.bonds.size(); ++b)
+      if (connections_->is_whole(b))
+      {
+        const BondNetwork::Bond &bond = network_.bonds[b];
+        Tensor<1, 2> f = bond.stiffness * pull_[b] * bond.way;
+        if (!theta_.empty())
+          f += (network_.dilatation[bond.from] * theta_[bond.from] +
+                network_.dilatation[bond.to] * theta_[bond.to]) *
+               bond.share * bond.xi;
+        largest = std::max(largest, f.norm());
+      }
+    return largest;
   }
 } // namespace plumbline::meshfree

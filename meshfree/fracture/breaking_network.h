@@ -1,6 +1,5 @@
 #pragma once
 
-#include "meshfree/fracture/equations.h"
 #include "meshfree/fracture/surface_forces.h"
 #include "method/breaking_body.h"
 #include "scene/fracture_section.h"
@@ -9,11 +8,11 @@
 
 namespace plumbline::meshfree
 {
-  /// When the equations of a network are factored anew.
+  /// When the equations of a network are made anew.
   enum class Refactor
   {
-    when_cheaper, ///< once an event would cost more than the mean of those since the last
-                  ///< factorisation, that one included, by the estimates of UpdatedCholesky
+    when_cheaper, ///< once an event would cost more than the mean of those since they were made,
+                  ///< that included, by the estimates of NetworkEquations
     always        ///< at every event, to compare with
   };
 
@@ -23,9 +22,11 @@ namespace plumbline::meshfree
   class BreakingNetwork : public method::BreakingBody
   {
   public:
+    /// @param solver  automatic is factor: what fits is not known here
     /// @throws InputError  no path of bonds joins the grips from the beginning
     /// @throws NumericalError  the body is a mechanism
     BreakingNetwork(BondNetwork network, scene::Stretch stretch,
+                    scene::GrowthSolver solver = scene::GrowthSolver::factor,
                     Refactor refactor = Refactor::when_cheaper);
 
     BreakingNetwork(const BreakingNetwork &) = delete; // its equations point to its network
@@ -42,7 +43,7 @@ namespace plumbline::meshfree
     const BondNetwork &network() const { return network_; }
     std::size_t n_unknowns() const { return equations_->n_unknowns(); }
     /// u of all nodes at load 1.
-    const std::vector<Tensor<1, 2>> &displacements() const { return u_; }
+    const NodeField &displacements() const { return u_; }
 
   private:
     void factor();
@@ -50,20 +51,23 @@ namespace plumbline::meshfree
     bool equilibrate();
     void evaluate();
     double residual();
+    double largest_bond_force() const;
     double critical_load(const BondNetwork::Bond &bond) const;
     Release release(const std::vector<std::size_t> &bonds) const;
 
     BondNetwork network_;
     scene::Stretch stretch_;
+    scene::GrowthSolver solver_;
     Refactor refactor_;
     std::vector<std::size_t> broken_;
     std::unique_ptr<Connections> connections_;
     std::unique_ptr<NetworkEquations> equations_;
     std::optional<SurfaceForces> surfaces_;
-    double seconds_ = 0; ///< estimated, since they were factored
+    double seconds_ = 0; ///< estimated, since they were made
     std::size_t n_events_ = 0;
+    unsigned int n_iterations_ = 0; ///< of the last solution
 
-    std::vector<Tensor<1, 2>> u_;
+    NodeField u_;
     std::vector<double> pull_;  ///< way·Δu of each bond
     std::vector<double> theta_; ///< of each node, or empty
     double force_scale_ = 0;    ///< largest force of a bond when all were whole

@@ -1,79 +1,66 @@
 #pragma once
 
-#include "algebra/updated_cholesky.h"
 #include "meshfree/fracture/connections.h"
+
+#include <memory>
+#include <optional>
 
 namespace plumbline::meshfree
 {
-  /// Equilibrium of a network at load 1: factored when made, and changed by Woodbury's formula for
-  /// bonds that break later, a row for each; with dilatations also one for each node that lost one.
+  /// Displacements of, or forces on, all nodes; shape (n_nodes).
+  using NodeField = std::vector<Tensor<1, 2>>;
+
+  /// Equilibrium of a network at load 1, without surface terms: made once, and kept up to date
+  /// while bonds break.
   class NetworkEquations
   {
   public:
-    /// @param connections  mechanisms that are found are held
-    /// @throws NumericalError  most of the body is a mechanism
-    NetworkEquations(const BondNetwork &network, Connections &connections);
+    virtual ~NetworkEquations() = default;
 
     /// Take bonds out.
-    /// @param connections  without them
-    void take_out(const std::vector<std::size_t> &bonds, const Connections &connections);
+    /// @param connections  without them, the same each time
+    virtual void take_out(const std::vector<std::size_t> &bonds,
+                          const Connections &connections) = 0;
 
-    /// u of all nodes; empty: the equations have become singular.
-    std::optional<std::vector<Tensor<1, 2>>> solve() const;
+    struct Solution
+    {
+      NodeField u;
+      unsigned int n_iterations = 0;
+    };
+    /// @param start  as near to it as is known
+    /// @return       empty: they have become singular, or it takes too many iterations
+    virtual std::optional<Solution> solve(const NodeField &start) const = 0;
 
-    /// What forces on free nodes do where grips stay; 0 at grips, shape (n_nodes).
-    /// @pre solve() found them regular
-    std::vector<Tensor<1, 2>> displacements(const std::vector<Tensor<1, 2>> &forces) const;
+    /// Their inverse, or what is near to it: the same linear, symmetric map while nothing is taken
+    /// out.
+    /// @param forces  on free nodes
+    /// @return        displacements where grips stay; empty: the equations have become singular
+    virtual std::optional<NodeField> displacements(const NodeField &forces) const = 0;
 
     /// Forces of what holds mechanisms, which the equations have beside those of the network.
-    void add_holds(const std::vector<Tensor<1, 2>> &u, std::vector<Tensor<1, 2>> &forces) const;
+    virtual void add_holds(const NodeField &u, NodeField &forces) const = 0;
 
-    std::size_t rank() const { return cholesky_->rank(); } ///< rows since it was factored
-    std::size_t n_unknowns() const { return n_unknowns_; }
-    double factor_seconds() const { return cholesky_->factor_seconds(); }
-    double update_seconds(std::size_t n_rows) const; ///< of so many rows more, and a solution
+    virtual std::size_t rank() const = 0; ///< of what was changed since they were made
+    virtual std::size_t n_unknowns() const = 0;
 
-  private:
-    using Bond = BondNetwork::Bond;
-
-    /// A linear form of the unknowns, and its value of what grips do.
-    struct Form
-    {
-      std::vector<std::pair<unsigned int, double>> entries;
-      double offset = 0;
-    };
-    struct Terms
-    {
-      algebra::Rows rows;
-      std::vector<double> factors, offsets;
-    };
-    void factor(Connections &connections);
-    void add(Form &form, const Bond &bond, const Tensor<1, 2> &direction) const;
-    Form dilatation(std::size_t node, const Connections &connections) const;
-    Form position(const Connections::Hold &hold) const;
-    Terms terms(const Connections &connections) const;
-    static void append(algebra::Rows &rows, Form form);
-
-    /// What bonds that were taken out change, as S of UpdatedCholesky.
-    struct Taken
-    {
-      std::size_t bond = 0, row = 0; ///< row of way·Δu
-      std::size_t dilating = 0;      ///< row of scale ξ·Δu
-      double scale = 1;
-    };
-    std::vector<double> change() const;
-    std::vector<Tensor<1, 2>> expand(const std::vector<double> &x) const; ///< 0 at grips
-
-    const BondNetwork *network_;
-    std::vector<int> unknown_; ///< first of each node, -1 at grips
-    std::size_t n_unknowns_ = 0;
-    double hold_stiffness_ = 0; ///< [force/length^2]
-    Connections then_;          ///< when it was factored
-    std::optional<algebra::UpdatedCholesky> cholesky_;
-    std::vector<double> x0_, offsets_;
-    std::vector<Taken> taken_;
-    std::vector<std::size_t> node_rows_; ///< row of each node's dilatation, or none
-    std::vector<std::size_t> hold_rows_;
-    std::vector<Connections::Hold> holds_; ///< of the connections, seen so far
+    // CPU seconds, estimated: the same wherever it runs, so that what is decided by them is.
+    virtual double making_seconds() const = 0;
+    /// @param n_bonds       that would be taken out
+    /// @param n_iterations  of the solution before
+    virtual double update_seconds(std::size_t n_bonds, unsigned int n_iterations) const = 0;
   };
+
+  /// By a factorisation (CHOLMOD), and Woodbury's formula for what breaks later.
+  /// @param connections  mechanisms that are found are held
+  /// @throws NumericalError  most of the body is a mechanism
+  std::unique_ptr<NetworkEquations> factored_equations(const BondNetwork &network,
+                                                       Connections &connections);
+
+  /// By conjugate gradients, preconditioned with ML's smoothed aggregation of what was whole when
+  /// they were made: several times slower, but of the memory of the matrix alone, for bodies whose
+  /// factor does not fit. Mechanisms that Connections does not see are neither found nor held:
+  /// where they are is arbitrary, which linear stretches without surface terms do not notice.
+  /// Source: Vaněk, Mandel & Brezina 1996, doi:10.1007/BF02238511.
+  std::unique_ptr<NetworkEquations> multigrid_equations(const BondNetwork &network,
+                                                        const Connections &connections);
 } // namespace plumbline::meshfree

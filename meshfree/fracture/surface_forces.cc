@@ -1,50 +1,15 @@
 #include "meshfree/fracture/surface_forces.h"
 
-#include "meshfree/fracture/equations.h"
-
 #include <deal.II/base/symmetric_tensor.h>
-#include <deal.II/lac/solver_gmres.h>
-#include <deal.II/lac/vector.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace plumbline::meshfree
 {
   namespace
   {
     using NetworkBond = BondNetwork::Bond;
-    using Field = std::vector<Tensor<1, 2>>;
-
-    Field to_field(const dealii::Vector<double> &x)
-    {
-      Field field(x.size() / 2);
-      for (std::size_t i = 0; i < field.size(); ++i)
-        for (unsigned int d = 0; d < 2; ++d)
-          field[i][d] = x[2 * i + d];
-      return field;
-    }
-
-    /// Of free nodes, 0 at grips.
-    void put(const Field &field, const BondNetwork &network, dealii::Vector<double> &x)
-    {
-      for (std::size_t i = 0; i < field.size(); ++i)
-        for (unsigned int d = 0; d < 2; ++d)
-          x[2 * i + d] = network.grip[i] < 0 ? field[i][d] : 0;
-    }
-
-    /// A linear map of fields, as a solver of deal.II wants it.
-    struct Map
-    {
-      const BondNetwork &network;
-      std::function<Field(const Field &)> action;
-
-      void vmult(dealii::Vector<double> &result, const dealii::Vector<double> &input) const
-      {
-        put(action(to_field(input)), network, result);
-      }
-    };
 
     /// Each from a node that lacks it; of what hangs loose none.
     std::vector<NetworkBond> missing_bonds(const BondNetwork &network,
@@ -71,7 +36,7 @@ namespace plumbline::meshfree
         pull_(network.nodes.size())
   {
     const std::vector<NetworkBond> missing = missing_bonds(network, connections);
-    const Field normal = correct(missing);
+    const NodeField normal = correct(missing);
     const double V = network.h * network.h,
                  excess = network.dilatation.empty() ? 0 : network.dilatation.front() / V; // λ - μ
     for (const NetworkBond &bond : missing)
@@ -87,12 +52,12 @@ namespace plumbline::meshfree
   }
 
   /// M of nodes that lack bonds; their normals, 0 where bonds are missing on all sides alike.
-  std::vector<Tensor<1, 2>> SurfaceForces::correct(const std::vector<NetworkBond> &missing)
+  NodeField SurfaceForces::correct(const std::vector<NetworkBond> &missing)
   {
     constexpr double collinear = 1e-10, no_direction = 1e-8;
     const std::size_t n = network_->nodes.size();
     std::vector<Tensor<2, 2>> shape(n);
-    Field outward(n);
+    NodeField outward(n);
     for (std::size_t b = 0; b < network_->bonds.size(); ++b)
       if (connections_->is_whole(b))
       {
@@ -119,7 +84,7 @@ namespace plumbline::meshfree
     return outward;
   }
 
-  std::vector<double> SurfaceForces::dilatations(const Field &u) const
+  std::vector<double> SurfaceForces::dilatations(const NodeField &u) const
   {
     std::vector<double> theta(u.size());
     for (std::size_t b = 0; b < network_->bonds.size(); ++b)
@@ -133,11 +98,11 @@ namespace plumbline::meshfree
     return theta;
   }
 
-  std::vector<Tensor<1, 2>> SurfaceForces::forces(const Field &u) const
+  NodeField SurfaceForces::forces(const NodeField &u) const
   {
     const std::vector<double> theta = dilatations(u);
     const bool dilates = !network_->dilatation.empty();
-    Field force(u.size());
+    NodeField force(u.size());
     for (std::size_t i = 0; i < u.size(); ++i)
       force[i] = theta[i] * pull_[i];
     for (std::size_t b = 0; b < network_->bonds.size(); ++b)
@@ -152,40 +117,5 @@ namespace plumbline::meshfree
         force[bond.to] -= f;
       }
     return force;
-  }
-
-  std::optional<unsigned int> equilibrate(const SurfaceForces &forces, const BondNetwork &network,
-                                          const NetworkEquations &equations, Field &u)
-  {
-    constexpr unsigned int most_iterations = 300, most_vectors = 100;
-    constexpr double tolerance = 1e-13; // of what the grips do where nothing else moves
-    dealii::Vector<double> of_grips(2 * u.size()), residual(2 * u.size()), change(2 * u.size());
-    put(forces.forces(network.held), network, of_grips);
-    put(forces.forces(u), network, residual);
-    const Map stiffness{network,
-                        [&](const Field &v)
-                        {
-                          Field f = forces.forces(v);
-                          for (Tensor<1, 2> &one : f)
-                            one = -one;
-                          equations.add_holds(v, f);
-                          return f;
-                        }},
-        flexibility{network, [&](const Field &f) { return equations.displacements(f); }};
-    dealii::SolverControl control(most_iterations, tolerance * of_grips.l2_norm(), false, false);
-    dealii::SolverGMRES<dealii::Vector<double>> solver(
-        control, dealii::SolverGMRES<dealii::Vector<double>>::AdditionalData(most_vectors, true));
-    try
-    {
-      solver.solve(stiffness, change, residual, flexibility);
-    }
-    catch (const dealii::SolverControl::NoConvergence &)
-    {
-      return {};
-    }
-    const Field step = to_field(change);
-    for (std::size_t i = 0; i < u.size(); ++i)
-      u[i] += step[i];
-    return control.last_step();
   }
 } // namespace plumbline::meshfree

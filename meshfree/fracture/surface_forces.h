@@ -1,13 +1,9 @@
 #pragma once
 
-#include "meshfree/fracture/connections.h"
-
-#include <optional>
+#include "meshfree/fracture/equations.h"
 
 namespace plumbline::meshfree
 {
-  class NetworkEquations;
-
   /// Forces of a network whose surfaces, at its sides and at cracks, are free of traction in a
   /// field of uniaxial stress along them:
   ///   F_i = Σ_whole [k way (way·Δu) + V share (λ - μ) ξ (θ_i + θ_j)]
@@ -24,22 +20,15 @@ namespace plumbline::meshfree
     SurfaceForces(const BondNetwork &network, const Connections &connections);
 
     /// On all nodes; shape (n_nodes) as u.
-    std::vector<Tensor<1, 2>> forces(const std::vector<Tensor<1, 2>> &u) const;
-    std::vector<double> dilatations(const std::vector<Tensor<1, 2>> &u) const;
+    NodeField forces(const NodeField &u) const;
+    std::vector<double> dilatations(const NodeField &u) const;
 
   private:
-    std::vector<Tensor<1, 2>> correct(const std::vector<BondNetwork::Bond> &missing);
+    NodeField correct(const std::vector<BondNetwork::Bond> &missing);
 
     const BondNetwork *network_;
     const Connections *connections_;
     std::vector<Tensor<2, 2>> correction_;
     std::vector<Tensor<1, 2>> pull_; ///< on a node by its own dilatation, of what is missing
   };
-
-  /// Equilibrium on free nodes, by GMRES from u, preconditioned with the network's own equations.
-  /// @param equations  factored, and up to date
-  /// @return           iterations; empty: too many
-  std::optional<unsigned int> equilibrate(const SurfaceForces &forces, const BondNetwork &network,
-                                          const NetworkEquations &equations,
-                                          std::vector<Tensor<1, 2>> &u);
 } // namespace plumbline::meshfree

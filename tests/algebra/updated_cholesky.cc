@@ -49,6 +49,26 @@ namespace
   }
 } // namespace
 
+TEST(Rows, normal_matrix_is_the_product)
+{
+  const Eigen::Index n = 7;
+  Dense C = random(12, n, 4);
+  C = (C.array() > 0).select(C, 0); // sparse
+  C.col(3).setZero();               // a column that no row has
+  const Vector s = random(12, 1, 5);
+  const Rows rows = normal_matrix(to_rows(C), to_vector(s), n);
+  const Dense expected = C.transpose() * s.asDiagonal() * C;
+  ASSERT_EQ(rows.n_rows(), 7u);
+  Dense found = Dense::Zero(n, n);
+  for (std::size_t i = 0; i < 7; ++i)
+    for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+    {
+      EXPECT_TRUE(k == rows.start[i] || rows.column[k] > rows.column[k - 1]);
+      found(static_cast<Eigen::Index>(i), rows.column[k]) = rows.value[k];
+    }
+  EXPECT_LT((found - expected).norm(), 1e-14);
+}
+
 TEST(UpdatedCholesky, solutions_are_those_of_the_changed_matrix)
 {
   const Eigen::Index n = 40;

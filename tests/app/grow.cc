@@ -79,6 +79,28 @@ TEST(GrowCommand, tells_what_surface_terms_do)
   fs::remove_all(folder);
 }
 
+TEST(GrowCommand, does_without_a_factor)
+{
+  const fs::path folder = temporary("grow");
+  const std::string command = "grow " + plate() + " --quiet -o " + folder.string();
+  ASSERT_EQ(run(command).exit_code, 0);
+  const auto factored = results(folder);
+  EXPECT_EQ(factored["solver"], "factor"); // it fits
+  ASSERT_EQ(run(command + " --check --set Fracture/solver=multigrid").exit_code, 0);
+  const auto iterated = results(folder);
+  EXPECT_EQ(iterated["solver"], "multigrid");
+  ASSERT_EQ(iterated["events"].size(), factored["events"].size());
+  for (std::size_t i = 0; i < factored["events"].size(); ++i)
+    EXPECT_NEAR(iterated["events"][i]["load"].get<double>() /
+                    factored["events"][i]["load"].get<double>(),
+                1, 1e-9);
+  expect_found(read(folder / "grow.html"), "of conjugate gradients, at most");
+  fs::remove_all(folder);
+  for (const char *const other : {"Fracture/stretch=finite", "\"Fracture/surface terms=yes\""})
+    expect_refused("grow " + plate() + " --set Fracture/solver=multigrid " + other,
+                   "write Fracture/solver = factor");
+}
+
 TEST(GrowCommand, lets_a_crack_grow_in_its_own_field)
 {
   const fs::path folder = temporary("grow");

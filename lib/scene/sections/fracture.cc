@@ -29,6 +29,11 @@ namespace plumbline::scene
              "nodes a dilatation that is right for linear fields (Fan et al. 2022, eqs. "
              "(3.19)-(3.22)). A crack goes on at a smaller load then. No energy has these forces, "
              "so that work cannot be accounted for, and an event takes some GMRES iterations.");
+    keys.add("solver", solver,
+             "factor: a Cholesky factor, and Woodbury's formula for bonds that broke since. "
+             "multigrid: conjugate gradients with ML's smoothed aggregation, which takes less "
+             "memory and more time; for linear stretches without surface terms. automatic: factor "
+             "where it fits.");
     keys.add("load step", load_step, any_number(),
              "Of breaking = steps: by how much the load grows. The load is the factor of "
              "Problem/constraint, which says what the grips do at 1.");
@@ -69,6 +74,10 @@ namespace plumbline::scene
             "load step", load_step,
             "must be positive where Fracture/breaking = steps; give the growth of the load, or "
             "write events, which need none");
+    if (solver == GrowthSolver::multigrid && !can_iterate())
+      throw InputError("Fracture/solver = multigrid does not find pieces that turn about a node, "
+                       "where finite stretches and surface terms mean nothing; write "
+                       "Fracture/solver = factor, or stretch = linear and surface terms = no");
     require(largest_load > 0, "largest load", largest_load,
             "must be positive; none: growth goes on");
   }

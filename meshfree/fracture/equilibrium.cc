@@ -1,0 +1,121 @@
+#include "meshfree/fracture/equilibrium.h"
+
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_gmres.h>
+#include <deal.II/lac/vector.h>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    using Vector = dealii::Vector<double>;
+
+    NodeField to_field(const Vector &x)
+    {
+      NodeField field(x.size() / 2);
+      for (std::size_t i = 0; i < field.size(); ++i)
+        for (unsigned int d = 0; d < 2; ++d)
+          field[i][d] = x[2 * i + d];
+      return field;
+    }
+
+    /// Of free nodes, 0 at grips.
+    void put(const NodeField &field, const BondNetwork &network, Vector &x)
+    {
+      for (std::size_t i = 0; i < field.size(); ++i)
+        for (unsigned int d = 0; d < 2; ++d)
+          x[2 * i + d] = network.grip[i] < 0 ? field[i][d] : 0;
+    }
+
+    /// A linear map of fields, as a solver of deal.II wants it.
+    struct Map
+    {
+      const BondNetwork &network;
+      std::function<NodeField(const NodeField &)> action;
+
+      void vmult(Vector &result, const Vector &input) const
+      {
+        put(action(to_field(input)), network, result);
+      }
+    };
+
+    struct Singular
+    {
+    };
+  } // namespace
+
+  NodeField forces(const BondNetwork &network, const Connections &connections, const NodeField &u)
+  {
+    const bool dilates = !network.dilatation.empty();
+    std::vector<double> pressure(network.dilatation.size());
+    for (std::size_t b = 0; b < network.bonds.size() && dilates; ++b)
+      if (connections.is_whole(b))
+      {
+        const BondNetwork::Bond &bond = network.bonds[b];
+        const double part = bond.share * (bond.xi * (u[bond.to] - u[bond.from]));
+        pressure[bond.from] += part;
+        pressure[bond.to] += part;
+      }
+    for (std::size_t i = 0; i < pressure.size(); ++i)
+      pressure[i] *= network.dilatation[i];
+    NodeField force(u.size());
+    for (std::size_t b = 0; b < network.bonds.size(); ++b)
+      if (connections.is_whole(b))
+      {
+        const BondNetwork::Bond &bond = network.bonds[b];
+        Tensor<1, 2> f = bond.stiffness * (bond.way * (u[bond.to] - u[bond.from])) * bond.way;
+        if (dilates)
+          f += (pressure[bond.from] + pressure[bond.to]) * bond.share * bond.xi;
+        force[bond.from] += f;
+        force[bond.to] -= f;
+      }
+    return force;
+  }
+
+  std::optional<unsigned int> equilibrate(const std::function<NodeField(const NodeField &)> &forces,
+                                          Iteration iteration, const BondNetwork &network,
+                                          const NetworkEquations &equations, NodeField &u)
+  {
+    constexpr unsigned int most_iterations = 300, most_vectors = 100;
+    constexpr double tolerance = 1e-13; // of what the grips do where nothing else moves
+    Vector of_grips(2 * u.size()), residual(2 * u.size()), change(2 * u.size());
+    put(forces(network.held), network, of_grips);
+    put(forces(u), network, residual);
+    const Map stiffness{network,
+                        [&](const NodeField &v)
+                        {
+                          NodeField f = forces(v);
+                          for (Tensor<1, 2> &one : f)
+                            one = -one;
+                          equations.add_holds(v, f);
+                          return f;
+                        }},
+        flexibility{network, [&](const NodeField &f)
+                    {
+                      auto v = equations.displacements(f);
+                      return v ? std::move(*v) : throw Singular();
+                    }};
+    dealii::SolverControl control(most_iterations, tolerance * of_grips.l2_norm(), false, false);
+    try
+    {
+      if (iteration == Iteration::gmres)
+        dealii::SolverGMRES<Vector>(control,
+                                    dealii::SolverGMRES<Vector>::AdditionalData(most_vectors, true))
+            .solve(stiffness, change, residual, flexibility);
+      else
+        dealii::SolverCG<Vector>(control).solve(stiffness, change, residual, flexibility);
+    }
+    catch (const dealii::SolverControl::NoConvergence &)
+    {
+      return {};
+    }
+    catch (const Singular &)
+    {
+      return {};
+    }
+    const NodeField step = to_field(change);
+    for (std::size_t i = 0; i < u.size(); ++i)
+      u[i] += step[i];
+    return control.last_step();
+  }
+} // namespace plumbline::meshfree

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "meshfree/fracture/equations.h"
+
+#include <functional>
+
+namespace plumbline::meshfree
+{
+  /// Forces of a network on all nodes, of what is whole and without surface terms.
+  NodeField forces(const BondNetwork &network, const Connections &connections, const NodeField &u);
+
+  /// Conjugate gradients are for forces that have an energy.
+  enum class Iteration
+  {
+    conjugate_gradients,
+    gmres
+  };
+
+  /// Equilibrium on free nodes by iterations from u, preconditioned with equations, to 1e-13 of the
+  /// forces of what the grips do where nothing else moves.
+  /// @param forces     a linear map of displacements, of all nodes
+  /// @param equations  up to date
+  /// @return           iterations; empty: too many, or the equations have become singular
+  std::optional<unsigned int> equilibrate(const std::function<NodeField(const NodeField &)> &forces,
+                                          Iteration iteration, const BondNetwork &network,
+                                          const NetworkEquations &equations, NodeField &u);
+} // namespace plumbline::meshfree

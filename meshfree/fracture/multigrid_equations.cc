@@ -1,0 +1,88 @@
+#include "algebra/multigrid.h"
+#include "meshfree/fracture/equilibrium.h"
+#include "meshfree/fracture/network_terms.h"
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    using Vector = algebra::Multigrid::Vector;
+
+    class MultigridEquations : public NetworkEquations
+    {
+    public:
+      MultigridEquations(const BondNetwork &network, const Connections &connections)
+          : network_(&network), connections_(&connections), terms_(network),
+            shares_(terms_.n_unknowns(), 2, base::Team::alone())
+      {
+        const NetworkTerms::Terms all = terms_.all(connections);
+        const algebra::Rows matrix =
+            algebra::normal_matrix(all.rows, all.factors, terms_.n_unknowns());
+        n_entries_ = matrix.value.size();
+        cycle_.emplace(matrix, shares_, 2, terms_.free_nodes());
+      }
+
+      void take_out(const std::vector<std::size_t> &bonds,
+                    const Connections & /*the same*/) override
+      {
+        n_taken_ += bonds.size();
+      }
+
+      std::optional<Solution> solve(const NodeField &start) const override
+      {
+        Solution solution{start, 0};
+        const auto n =
+            equilibrate([this](const NodeField &u) { return forces(*network_, *connections_, u); },
+                        Iteration::conjugate_gradients, *network_, *this, solution.u);
+        if (!n)
+          return {};
+        solution.n_iterations = *n;
+        return solution;
+      }
+
+      std::optional<NodeField> displacements(const NodeField &forces) const override
+      {
+        const std::vector<double> given = terms_.free(forces);
+        Vector b(shares_.own(), MPI_COMM_SELF), x(b);
+        std::copy(given.begin(), given.end(), b.begin());
+        cycle_->vmult(x, b);
+        return terms_.expand({x.begin(), x.end()});
+      }
+
+      void add_holds(const NodeField &u, NodeField &forces) const override
+      {
+        for (const Connections::Hold &hold : connections_->holds())
+          terms_.add_hold(hold, u, forces);
+      }
+
+      std::size_t rank() const override { return n_taken_; }
+      std::size_t n_unknowns() const override { return terms_.n_unknowns(); }
+
+      double making_seconds() const override
+      {
+        constexpr double seconds_per_entry = 340e-9;
+        return seconds_per_entry * static_cast<double>(n_entries_);
+      }
+
+      double update_seconds(std::size_t /*n_bonds*/, unsigned int n_iterations) const override
+      {
+        constexpr double seconds_per_entry = 6.6e-9; // of an iteration
+        return seconds_per_entry * static_cast<double>(n_entries_) * n_iterations;
+      }
+
+    private:
+      const BondNetwork *network_;
+      const Connections *connections_;
+      NetworkTerms terms_;
+      algebra::Shares shares_;
+      std::optional<algebra::Multigrid> cycle_;
+      std::size_t n_entries_ = 0, n_taken_ = 0;
+    };
+  } // namespace
+
+  std::unique_ptr<NetworkEquations> multigrid_equations(const BondNetwork &network,
+                                                        const Connections &connections)
+  {
+    return std::make_unique<MultigridEquations>(network, connections);
+  }
+} // namespace plumbline::meshfree
