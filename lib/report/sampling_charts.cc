@@ -57,7 +57,7 @@ namespace plumbline::report
       DataChart chart = named(name, title, caption);
       chart.plot.x_label = x_label;
       chart.plot.y_label = y_label;
-      chart.data.columns = {"method", "h", "samples", "seconds", "value"};
+      chart.data.columns = {"method", "h", "modes", "samples", "seconds", "value"};
       return chart;
     }
 
@@ -72,8 +72,8 @@ namespace plumbline::report
           {
             line_of(chart.plot.lines, label(one, set), false).points.push_back({x(one, set), *y});
             chart.data.rows.push_back({text_cell(one.of.method), number_cell(one.of.h),
-                                       count_cell(set.n_samples), number_cell(set.seconds),
-                                       error_cell(*y)});
+                                       count_cell(set.n_modes), count_cell(set.n_samples),
+                                       number_cell(set.seconds), error_cell(*y)});
           }
       for (Line &line : chart.plot.lines)
         std::sort(line.points.begin(), line.points.end(),
@@ -88,10 +88,24 @@ namespace plumbline::report
       const auto h = [](const CaseStatistics &one, const SetStatistics &) { return one.of.h; };
       const auto seconds = [](const CaseStatistics &, const SetStatistics &set)
       { return set.seconds; };
-      const auto by_h = [&](const CaseStatistics &one, const SetStatistics &)
-      { return name_of(results, one) + "h = " + rounded(one.of.h); };
-      const auto by_set = [&](const CaseStatistics &one, const SetStatistics &set)
-      { return name_of(results, one) + std::to_string(set.n_samples) + " samples"; };
+      const auto modes = [](const CaseStatistics &, const SetStatistics &set)
+      { return static_cast<double>(set.n_modes); };
+      const auto of_modes = [&](const SetStatistics &set)
+      {
+        return results.sampling.modes.empty()
+                   ? ""
+                   : ", " + std::to_string(set.n_modes) + (set.n_modes == 1 ? " mode" : " modes");
+      };
+      const auto by_h = [&](const CaseStatistics &one, const SetStatistics &set)
+      { return name_of(results, one) + "h = " + rounded(one.of.h) + of_modes(set); };
+      const auto by_set = [&](const CaseStatistics &one, const SetStatistics &set) {
+        return name_of(results, one) + std::to_string(set.n_samples) + " samples" + of_modes(set);
+      };
+      const auto by_count = [&](const CaseStatistics &one, const SetStatistics &set)
+      {
+        return name_of(results, one) + "h = " + rounded(one.of.h) + ", count " +
+               std::to_string(set.count);
+      };
       DataChart over_samples = empty_chart(
           what + "-samples", "Error of the " + what + " over samples", "samples",
           "error, L2 over the domain",
@@ -111,7 +125,14 @@ namespace plumbline::report
                       "All pairs of h and samples: where lines of two h cross, samples and mesh "
                       "are worth the same.");
       fill(results, over_time, value, seconds, by_h);
-      for (DataChart *const chart : {&over_samples, &over_h, &over_time})
+      DataChart over_modes =
+          empty_chart(what + "-modes", "Error of the " + what + " over modes", "modes of the field",
+                      "error, L2 over the domain",
+                      "Each line falls with the variance that is left out, until "
+                      "the error of h and of samples.");
+      if (!results.sampling.modes.empty())
+        fill(results, over_modes, value, modes, by_count);
+      for (DataChart *const chart : {&over_samples, &over_h, &over_modes, &over_time})
         if (!chart->plot.lines.empty())
           charts.push_back(std::move(*chart));
     }

@@ -28,6 +28,12 @@ namespace plumbline::report
               number_cell(one.of.h)};
     }
 
+    /// Only where sets differ by them.
+    Cell modes_cell(const SamplingResults &results, unsigned int n_modes)
+    {
+      return results.sampling.modes.empty() ? empty_cell() : count_cell(n_modes);
+    }
+
     const SetStatistics *best(const SamplingResults &results)
     {
       return results.cases.empty() || results.cases.back().sets.empty()
@@ -65,10 +71,11 @@ namespace plumbline::report
       if (!r.cheapest.empty())
       {
         const study::CheapestPair &pair = r.cheapest.back();
-        text += "Cheapest to an error of the mean of " + short_power(pair.target) + ": " +
-                pair.method + " at h = " + rounded(pair.h) + " with count " +
-                std::to_string(pair.count) + ", error " + rounded(pair.error) + ", " +
-                rounded_seconds(pair.seconds) + " of CPU. ";
+        text +=
+            "Cheapest to an error of the mean of " + short_power(pair.target) + ": " + pair.method +
+            " at h = " + rounded(pair.h) + " with count " + std::to_string(pair.count) +
+            (r.sampling.modes.empty() ? "" : " and " + std::to_string(pair.n_modes) + " modes") +
+            ", error " + rounded(pair.error) + ", " + rounded_seconds(pair.seconds) + " of CPU. ";
       }
       for (const std::string &fault : faults)
         text += "EXPECTED: " + fault + ". ";
@@ -90,14 +97,15 @@ namespace plumbline::report
                        "problem",
                        "series",
                        "h",
+                       "modes",
                        "count",
                        "error",
                        "CPU seconds"};
       for (const study::CheapestPair &pair : r.cheapest)
         table.rows.push_back({text_cell(short_power(pair.target)), text_cell(pair.method),
                               text_cell(pair.problem), text_cell(pair.series), number_cell(pair.h),
-                              count_cell(pair.count), error_cell(pair.error),
-                              number_cell(pair.seconds)});
+                              modes_cell(r, pair.n_modes), count_cell(pair.count),
+                              error_cell(pair.error), number_cell(pair.seconds)});
       return without_empty_columns(table);
     }
 
@@ -194,6 +202,7 @@ namespace plumbline::report
     Json to_json(const SetStatistics &set)
     {
       Json json{{"count", set.count},
+                {"modes", set.n_modes},
                 {"samples", set.n_samples},
                 {"missing", set.n_missing},
                 {"sum_of_sizes", set.sum_of_sizes},
@@ -226,6 +235,7 @@ namespace plumbline::report
                      "problem",
                      "series",
                      "h",
+                     "modes",
                      "count",
                      "samples",
                      "missing",
@@ -242,7 +252,7 @@ namespace plumbline::report
         std::vector<Cell> row = names(one);
         const bool is_random = results.sampling.rule == random::SampleRule::monte_carlo;
         for (const Cell &cell :
-             {count_cell(set.count), count_cell(set.n_samples),
+             {modes_cell(results, set.n_modes), count_cell(set.count), count_cell(set.n_samples),
               known(set.n_missing > 0, count_cell(set.n_missing)), number_cell(set.mean_size),
               number_cell(set.deviation_size), known_error(set.mean_error),
               known_error(set.deviation_error), known(is_random, error_cell(set.standard_error)),
@@ -256,9 +266,9 @@ namespace plumbline::report
   Table sampling_quantity_table(const SamplingResults &results)
   {
     Table table;
-    table.columns = {"method",    "problem",        "series",  "h",
-                     "quantity",  "count",          "samples", "mean",
-                     "deviation", "standard error", "least",   "largest"};
+    table.columns = {"method",         "problem", "series",  "h",    "quantity",
+                     "modes",          "count",   "samples", "mean", "deviation",
+                     "standard error", "least",   "largest"};
     for (const CaseStatistics &one : results.cases)
     {
       for (const SetStatistics &set : one.sets)
@@ -268,8 +278,8 @@ namespace plumbline::report
             continue;
           std::vector<Cell> row = names(one);
           for (const Cell &cell :
-               {text_cell(name), count_cell(set.count), count_cell(set.n_samples),
-                number_cell(s.mean),
+               {text_cell(name), modes_cell(results, set.n_modes), count_cell(set.count),
+                count_cell(set.n_samples), number_cell(s.mean),
                 s.deviation() ? number_cell(*s.deviation())
                               : text_cell("unknown: variance " + rounded(s.variance)),
                 known(s.standard_error > 0, error_cell(s.standard_error)), number_cell(s.least),
@@ -317,6 +327,7 @@ namespace plumbline::report
                                   {"series", pair.series},
                                   {"h", pair.h},
                                   {"count", pair.count},
+                                  {"modes", pair.n_modes},
                                   {"error", pair.error},
                                   {"seconds", pair.seconds}});
     for (const CaseStatistics &one : r.cases)

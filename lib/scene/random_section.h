@@ -66,6 +66,8 @@ namespace plumbline::scene
     random::SampleRule rule = random::SampleRule::none;
     /// Of each set of samples: points a variable (tensor), level (Smolyak), or samples.
     std::vector<unsigned int> counts;
+    /// How many modes of the field vary, few to many, each with every count; empty: all.
+    std::vector<unsigned int> modes;
     random::Growth growth = random::Growth::odd;
     unsigned int seed = 1;
 

@@ -43,6 +43,13 @@ namespace plumbline::scene
                 std::adjacent_find(sampling.counts.begin(), sampling.counts.end()) ==
                     sampling.counts.end(),
             "Sampling/counts must rise: the last set is the best");
+    const std::vector<unsigned int> &modes = sampling.modes;
+    require(modes.empty() || (modes.front() > 0 && modes.back() <= scene.random.n_modes &&
+                              std::is_sorted(modes.begin(), modes.end()) &&
+                              std::adjacent_find(modes.begin(), modes.end()) == modes.end()),
+            "Sampling/modes must rise from 1 or more to Random/modes = " +
+                std::to_string(scene.random.n_modes) +
+                " at most; give Random/modes the largest of them, or clear it");
     require(sampling.rule == SampleRule::smolyak || sampling.counts.front() > 0,
             "Sampling/counts = 0 with " + rule + " is no sample; write 1 or more");
     require(sampling.rule != SampleRule::smolyak || sampling.growth != random::Growth::nested ||

@@ -14,17 +14,19 @@ namespace plumbline::study
     /// Whether errors are below a target in a set and stay there, in larger ones and at finer
     /// levels: what falls below by chance, where errors of h and of samples cancel, does not count.
     bool stays_below(double target, const std::vector<CaseStatistics> &cases,
-                     const CaseStatistics &one, std::size_t set)
+                     const CaseStatistics &one, const SetStatistics &set)
     {
+      const auto is_below = [&](const SetStatistics &other)
+      {
+        return other.count < set.count || other.n_modes < set.n_modes || other.is_target ||
+               (other.mean_error && *other.mean_error <= target);
+      };
       return std::all_of(cases.begin(), cases.end(),
                          [&](const CaseStatistics &other)
                          {
                            return !other.of.is_same_method(one.of) ||
                                   other.of.level < one.of.level ||
-                                  std::all_of(other.sets.begin() + static_cast<std::ptrdiff_t>(set),
-                                              other.sets.end(),
-                                              [&](const SetStatistics &s)
-                                              { return s.mean_error && *s.mean_error <= target; });
+                                  std::all_of(other.sets.begin(), other.sets.end(), is_below);
                          });
     }
 
@@ -37,8 +39,9 @@ namespace plumbline::study
       const double most = tie_ratio * least->seconds + tie_seconds;
       CheapestPair best = *least;
       for (const CheapestPair &pair : pairs)
-        if (pair.seconds <= most && std::make_tuple(pair.count, -pair.h, pair.method) <
-                                        std::make_tuple(best.count, -best.h, best.method))
+        if (pair.seconds <= most &&
+            std::make_tuple(pair.count, pair.n_modes, -pair.h, pair.method) <
+                std::make_tuple(best.count, best.n_modes, -best.h, best.method))
           best = pair;
       return best;
     }
@@ -53,11 +56,11 @@ namespace plumbline::study
       const double target = std::pow(10., -static_cast<double>(k));
       std::map<std::string, std::vector<CheapestPair>> pairs; // by problem and series
       for (const CaseStatistics &one : cases)
-        for (std::size_t s = 0; s < one.sets.size(); ++s)
-          if (const SetStatistics &set = one.sets[s]; stays_below(target, cases, one, s))
+        for (const SetStatistics &set : one.sets)
+          if (set.mean_error && stays_below(target, cases, one, set))
             pairs[one.of.problem + "\n" + one.of.series].push_back(
                 {one.of.method, one.of.problem, one.of.series, target, *set.mean_error, one.of.h,
-                 set.seconds, set.count});
+                 set.seconds, set.count, set.n_modes});
       for (const auto &[key, known] : pairs)
         result.push_back(simplest(known));
     }

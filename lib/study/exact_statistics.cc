@@ -1,7 +1,9 @@
 #include "study/exact_statistics.h"
 
+#include "base/error.h"
 #include "physics/expression.h"
 #include "study/comparison.h"
+#include "study/self_convergence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,8 +35,8 @@ namespace plumbline::study
     /// Values of the target at places, at a sample.
     using Evaluate = std::function<std::vector<double>(const scene::Scene &)>;
 
-    Evaluate at_places(const std::pair<std::string, std::string> &target, const SampleCase &one,
-                       std::size_t stride)
+    Evaluate evaluate_at(const std::pair<std::string, std::string> &target, const SampleCase &one,
+                         std::size_t stride)
     {
       return [=, places = one.field, horizon = one.horizon](const scene::Scene &scene)
       {
@@ -100,11 +102,11 @@ namespace plumbline::study
     const SamplePoints rule = tensor_points(laws, n);
     ExactStatistics result;
     std::tie(result.mean, result.deviation) = moments(
-        scene, rule, is_nodal ? at_places(*target, one, 1) : averages_at(scene, case_index, one));
+        scene, rule, is_nodal ? evaluate_at(*target, one, 1) : averages_at(scene, case_index, one));
     // by fewer points, of values at some places, from which averages differ little
     constexpr std::size_t n_places = 40;
     const std::size_t stride = std::max<std::size_t>(1, one.field.x.size() / n_places);
-    const Evaluate some = at_places(*target, one, stride);
+    const Evaluate some = evaluate_at(*target, one, stride);
     const auto fine = moments(scene, rule, some),
                coarse = moments(scene, tensor_points(laws, 3 * n / 4), some);
     double area = 0;
@@ -119,6 +121,35 @@ namespace plumbline::study
     };
     result.mean_uncertainty = change(fine.first, coarse.first);
     result.deviation_uncertainty = change(fine.second, coarse.second);
+    return result;
+  }
+
+  ExactStatistics at_places(const ExactStatistics &statistics, const SampleField &from,
+                            const SampleField &to)
+  {
+    if (from.x == to.x && from.y == to.y)
+      return statistics;
+    for (const SampleField *const field : {&from, &to})
+      if (const auto [least, most] = std::minmax_element(field->area.begin(), field->area.end());
+          *most > (1 + 1e-12) * *least)
+        throw InputError("levels are held against each other by averages over squares; take nodes "
+                         "of lattices (Methods/nodes), or one level (Study/h)");
+    const auto squares = [](const SampleField &field)
+    {
+      CellPieces cells;
+      for (std::size_t i = 0; i < field.x.size(); ++i)
+      {
+        const double r = .5 * std::sqrt(field.area[i]), x = field.x[i], y = field.y[i];
+        cells.cell.push_back(i);
+        cells.area.push_back(field.area[i]);
+        cells.pieces.push_back({{x - r, y - r}, {x + r, y - r}, {x + r, y + r}, {x - r, y + r}});
+      }
+      return cells;
+    };
+    const CellPieces others = squares(from), cells = squares(to);
+    ExactStatistics result;
+    result.mean = transferred_averages(others, statistics.mean, cells, to.n_components);
+    result.deviation = transferred_averages(others, statistics.deviation, cells, to.n_components);
     return result;
   }
 } // namespace plumbline::study

@@ -20,4 +20,10 @@ namespace plumbline::study
   /// @return nothing where the target is no expression, or there are more than three variables, or
   /// a field that is drawn whole
   std::optional<ExactStatistics> exact_statistics(const scene::Scene &scene, const SampleCase &one);
+
+  /// The same at other places: averages over squares, each about its place, from others', by the
+  /// areas that they share.
+  /// @throws InputError  places that stand for areas of several sizes
+  ExactStatistics at_places(const ExactStatistics &statistics, const SampleField &from,
+                            const SampleField &to);
 } // namespace plumbline::study

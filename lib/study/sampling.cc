@@ -11,27 +11,8 @@
 
 namespace plumbline::study
 {
-  using random::SamplePoints;
-  using random::SampleRule;
-
   namespace
   {
-    SamplePoints draw(const scene::SamplingSection &sampling, const std::vector<random::Law> &laws,
-                      unsigned int count)
-    {
-      switch (sampling.rule)
-      {
-      case SampleRule::tensor:
-        return random::tensor_points(laws, count);
-      case SampleRule::smolyak:
-        return random::smolyak_points(laws, count, sampling.growth);
-      case SampleRule::quasi_monte_carlo:
-        return random::quasi_monte_carlo_points(laws, count);
-      default:
-        return random::monte_carlo_points(laws, count, sampling.seed);
-      }
-    }
-
     /// √(Σ area f²) of a field.
     double l2(const SampleField &places, const std::function<double(std::size_t)> &value)
     {
@@ -134,17 +115,24 @@ namespace plumbline::study
       return weights;
     }
 
+    /// A rule that lacks points says nothing; independent samples do without some.
+    bool says_something(const SampleSet &set, const SetSums &sums, bool independent)
+    {
+      return !sums.weights.empty() && (independent || sums.weights.size() == set.samples.size());
+    }
+
     SetStatistics conclude_set(const SampleSet &set, const SetSums &sums, bool independent)
     {
       SetStatistics result;
       result.count = set.count;
+      result.n_modes = set.n_modes;
       result.n_samples = sums.weights.size();
       result.n_missing = set.samples.size() - sums.weights.size();
       result.sum_of_sizes = set.sum_of_sizes;
       result.noise = set.noise;
       result.seconds = sums.seconds;
-      if ((result.n_missing > 0 && !independent) || result.n_samples == 0)
-        return result; // a rule that lacks points says nothing
+      if (!says_something(set, sums, independent))
+        return result;
       const std::vector<double> weights = normalised(sums.weights);
       for (const auto &[name, values] : sums.values)
         if (values.size() == weights.size())
@@ -152,10 +140,27 @@ namespace plumbline::study
       return result;
     }
 
+    /// Of the last set at the finest level, at the places of another one; nothing where samples of
+    /// it are missing.
+    std::optional<ExactStatistics> own_statistics(const SamplingPlan &plan, const CaseSums &finest,
+                                                  const SampleField &places)
+    {
+      const SetSums &sums = finest.sets.back();
+      if (!says_something(plan.sets.back(), sums, plan.are_independent) || places.values.empty())
+        return {};
+      ExactStatistics own;
+      own.mean = sums.field.mean();
+      own.deviation = sums.field.variance(plan.are_independent ? sums.weights.size() : 0);
+      for (double &one : own.deviation)
+        one = std::sqrt(std::max(0., one));
+      return at_places(own, finest.first.field, places);
+    }
+
     CaseStatistics conclude_case(const scene::Scene &scene, const SamplingPlan &plan,
-                                 const CaseSums &sums, bool is_finest,
+                                 const CaseSums &sums, const CaseSums &finest,
                                  std::vector<std::string> &findings)
     {
+      const bool is_finest = &sums == &finest;
       CaseStatistics result;
       result.of = sums.first;
       result.is_finest = is_finest;
@@ -165,7 +170,9 @@ namespace plumbline::study
       std::optional<ExactStatistics> exact;
       try
       {
-        exact = exact_statistics(scene, sums.first);
+        exact = scene.study.decisive_error.target == scene::Target::finest
+                    ? own_statistics(plan, finest, places)
+                    : exact_statistics(scene, sums.first);
       }
       catch (const InputError &error)
       {
@@ -180,12 +187,15 @@ namespace plumbline::study
       for (std::size_t s = 0; s < plan.sets.size(); ++s)
       {
         SetStatistics set = conclude_set(plan.sets[s], sums.sets[s], plan.are_independent);
-        const bool is_known = !set.quantities.empty() && !places.values.empty();
+        const bool is_known = says_something(plan.sets[s], sums.sets[s], plan.are_independent) &&
+                              !places.values.empty();
         FieldStatistics field;
+        const bool is_best = is_finest && s + 1 == plan.sets.size();
+        set.is_target = is_best && scene.study.decisive_error.target == scene::Target::finest;
         if (is_known)
-          conclude_field(sums.sets[s], places, plan.are_independent, exact, set, field.mean,
-                         field.deviation);
-        if (is_known && is_finest && s + 1 == plan.sets.size())
+          conclude_field(sums.sets[s], places, plan.are_independent,
+                         set.is_target ? std::nullopt : exact, set, field.mean, field.deviation);
+        if (is_known && is_best)
         {
           field.places = places;
           field.places.values.clear();
@@ -203,41 +213,6 @@ namespace plumbline::study
     if (!section.source || section.n_modes == 0)
       return {};
     return random::spectrum_of(*section.source->expansion());
-  }
-
-  scene::Scene SamplingPlan::at(const scene::Scene &scene, std::size_t sample) const
-  {
-    return at_sample(scene, values[sample], static_cast<unsigned int>(sample) + 1);
-  }
-
-  SamplingPlan make_sampling_plan(const scene::Scene &scene)
-  {
-    const scene::SamplingSection &sampling = scene.sampling;
-    const std::vector<random::Law> laws = scene.random.laws();
-    SamplingPlan plan;
-    plan.are_independent = sampling.rule == SampleRule::monte_carlo;
-    const bool is_sequence = plan.are_independent || sampling.rule == SampleRule::quasi_monte_carlo;
-    std::map<std::vector<double>, std::size_t> known;
-    for (const unsigned int count : sampling.counts)
-    {
-      const SamplePoints points = draw(sampling, laws, count);
-      SampleSet set{count, {}, points.weights, points.sum_of_sizes(), points.noise()};
-      for (std::size_t i = 0; i < points.points.size(); ++i)
-      {
-        std::vector<double> values = points.points[i];
-        for (std::size_t d = 0; d < scene.random.variables.size(); ++d)
-          values[d] = scene.random.variables[d].at(values[d]);
-        // of sequences the first ones are the same; others share points that are equal
-        std::size_t place = i;
-        if (!is_sequence)
-          place = known.emplace(values, plan.values.size()).first->second;
-        if (place == plan.values.size())
-          plan.values.push_back(std::move(values));
-        set.samples.push_back(place);
-      }
-      plan.sets.push_back(std::move(set));
-    }
-    return plan;
   }
 
   bool SampleCase::is_same_method(const SampleCase &other) const
@@ -289,12 +264,11 @@ namespace plumbline::study
     results.is_complete = n_read == plan.values.size();
     for (const CaseSums &one : cases)
     {
-      const bool is_finest = std::none_of(cases.begin(), cases.end(),
-                                          [&](const CaseSums &other) {
-                                            return other.first.is_same_method(one.first) &&
-                                                   other.first.level > one.first.level;
-                                          });
-      results.cases.push_back(conclude_case(scene, plan, one, is_finest, results.findings));
+      const CaseSums *finest = &one;
+      for (const CaseSums &other : cases)
+        if (other.first.is_same_method(one.first) && other.first.level > finest->first.level)
+          finest = &other;
+      results.cases.push_back(conclude_case(scene, plan, one, *finest, results.findings));
     }
     results.cheapest = find_cheapest(results.cases);
     for (const std::string &finding : find_findings(results))
@@ -311,6 +285,10 @@ namespace plumbline::study
       return set.mean_error;
     if (name == "error of the deviation")
       return set.deviation_error;
+    if (name == "size of the mean")
+      return set.mean_size;
+    if (name == "size of the deviation")
+      return set.deviation_size;
     if (name == "sum of sizes")
       return set.sum_of_sizes;
     if (name == "noise")

@@ -19,8 +19,8 @@ namespace plumbline::study
   /// Samples of one rule and count.
   struct SampleSet
   {
-    unsigned int count = 0;           ///< see scene::SamplingSection
-    std::vector<std::size_t> samples; ///< into SamplingPlan::values
+    unsigned int count = 0, n_modes = 0; ///< see scene::SamplingSection
+    std::vector<std::size_t> samples;    ///< into SamplingPlan::values
     std::vector<double> weights;
     double sum_of_sizes = 1, noise = 1; ///< see random::SamplePoints
   };
@@ -29,7 +29,7 @@ namespace plumbline::study
   struct SamplingPlan
   {
     std::vector<std::vector<double>> values; ///< of the variables, shape (n_samples, n_variables)
-    std::vector<SampleSet> sets;             ///< few samples to many
+    std::vector<SampleSet> sets;             ///< few modes to many, of each few samples to many
     bool are_independent = false;            ///< Monte Carlo
 
     /// The scene at a sample; of fields that are drawn whole the realisation of its number.
@@ -69,7 +69,7 @@ namespace plumbline::study
   /// Of a case over one set.
   struct SetStatistics
   {
-    unsigned int count = 0;
+    unsigned int count = 0, n_modes = 0;
     std::size_t n_samples = 0; ///< that there are
     std::size_t n_missing = 0; ///< that failed: independent samples do without, rules say nothing
     double sum_of_sizes = 1, noise = 1;
@@ -79,7 +79,9 @@ namespace plumbline::study
     double mean_size = 0, deviation_size = 0;
     double negative_part = 0;  ///< of Ω, where the variance is negative; it counts as 0 there
     double standard_error = 0; ///< of the mean of independent samples
-    std::optional<double> mean_error, deviation_error;      ///< against the exact field's
+    /// Against the exact field's, or, with the target own finest level, the last set's there.
+    std::optional<double> mean_error, deviation_error;
+    bool is_target = false; ///< this is that set, which has no errors
     double mean_uncertainty = 0, deviation_uncertainty = 0; ///< of what these are held against
   };
 
@@ -108,13 +110,13 @@ namespace plumbline::study
   };
 
   /// The pair of level and set that most cheaply brings the error of the mean below a target and
-  /// keeps it there: with more samples, and at finer levels. Of pairs that are as cheap (see
-  /// cheapest.h) the one with fewer samples, then the larger h.
+  /// keeps it there: with more samples and modes, and at finer levels. Of pairs that are as cheap
+  /// (see cheapest.h) the one with fewer samples, then fewer modes, then the larger h.
   struct CheapestPair
   {
     std::string method, problem, series;
     double target = 0, error = 0, h = 0, seconds = 0;
-    unsigned int count = 0;
+    unsigned int count = 0, n_modes = 0;
   };
 
   struct SamplingResults
@@ -145,6 +147,7 @@ namespace plumbline::study
                                            const scene::ExpectedSection &expected);
 
   /// What is known of a case over its largest set by the name that tables give it: "error of the
-  /// mean", "deviation of the field", "mean of ...", "deviation of ..."; nothing where it is not.
+  /// mean", "size of the mean" (L2, and so on), "mean of ...", "deviation of ..."; nothing where it
+  /// is not.
   std::optional<double> sampled_quantity(const CaseStatistics &one, const std::string &name);
 } // namespace plumbline::study

@@ -14,8 +14,10 @@ namespace plumbline::study
     for (const CaseStatistics &one : results.cases)
       for (const SetStatistics &set : one.sets)
       {
-        const std::string where = one.of.method + ", h = " + base::to_text(one.of.h, 4) +
-                                  ", count " + std::to_string(set.count) + ": ";
+        const std::string where =
+            one.of.method + ", h = " + base::to_text(one.of.h, 4) +
+            (results.sampling.modes.empty() ? "" : ", modes " + std::to_string(set.n_modes)) +
+            ", count " + std::to_string(set.count) + ": ";
         for (const auto &[name, statistics] : set.quantities)
           if (statistics.variance < 0)
             say(where + "the variance of " + name + " is " + base::to_text(statistics.variance, 4) +

@@ -3,6 +3,8 @@
 
 #include "study/sampling.h"
 
+#include "base/error.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -97,6 +99,45 @@ TEST(SamplingPlan, SequencesBeginAlike)
   }
 }
 
+TEST(SamplingPlan, ModesVaryFewToMany)
+{
+  const Settings field = {{"Random/field", "exponential"},
+                          {"Random/cell", "0.25"},
+                          {"Random/modes", "3"},
+                          {"Sampling/modes", "1, 3"},
+                          {"Random/variables", "d: uniform 2 4"},
+                          {"Problem/solution", "x"},
+                          {"Sampling/counts", "1, 2"}};
+  const SamplingPlan plan = make_sampling_plan(random_scene(field));
+  ASSERT_EQ(plan.sets.size(), 4);
+  const std::vector<std::size_t> sizes = {1, 4, 1, 16};
+  for (std::size_t s = 0; s < 4; ++s)
+  {
+    EXPECT_EQ(plan.sets[s].n_modes, s < 2 ? 1 : 3);
+    EXPECT_EQ(plan.sets[s].count, s % 2 + 1);
+    EXPECT_EQ(plan.sets[s].samples.size(), sizes[s]);
+    for (const std::size_t i : plan.sets[s].samples)
+    {
+      ASSERT_EQ(plan.values[i].size(), 4);
+      EXPECT_EQ(plan.values[i][2] != 0 && plan.values[i][3] != 0, s == 3);
+    }
+  }
+  EXPECT_EQ(plan.sets[0].samples, plan.sets[2].samples); // all are 0: taken once
+  EXPECT_EQ(plan.values.size(), 1 + 4 + 16);
+  // sequences draw for each number of modes
+  Settings drawn = field;
+  drawn.insert(drawn.end(), {{"Sampling/rule", "Monte Carlo"}, {"Sampling/counts", "2, 5"}});
+  const SamplingPlan sequence = make_sampling_plan(random_scene(drawn));
+  EXPECT_EQ(sequence.values.size(), 10);
+  EXPECT_EQ(sequence.sets[3].samples, (std::vector<std::size_t>{5, 6, 7, 8, 9}));
+  for (const std::string bad : {"0, 1", "2, 1", "1, 4", "2, 2"})
+  {
+    Settings wrong = field;
+    wrong.push_back({"Sampling/modes", bad});
+    EXPECT_THROW(random_scene(wrong), InputError) << bad;
+  }
+}
+
 TEST(SamplingPlan, ScenesTakeItsValues)
 {
   const scene::Scene scene = random_scene({});
@@ -182,6 +223,80 @@ TEST(SampleStatistics, CheapestPairStaysBelowItsTarget)
   EXPECT_EQ(pairs[0].count, 1);
   EXPECT_EQ(cheapest(.02, 1.1)[0].h, .25); // a tie: the larger h
   EXPECT_EQ(cheapest(.02, .5)[0].h, .125);
+}
+
+// A field of which each of three modes adds its part, at two levels whose errors are known.
+TEST(SampleStatistics, WithoutATargetAreHeldAgainstTheLastSetOfTheFinestLevel)
+{
+  const scene::Scene scene =
+      random_scene({{"Random/variables", ""},
+                    {"Random/field", "exponential"},
+                    {"Random/cell", "0.25"},
+                    {"Random/modes", "3"},
+                    {"Sampling/modes", "1, 2, 3"},
+                    {"Sampling/counts", "1, 2"},
+                    {"Problem/solution", ""},
+                    {"Problem/load", "1"},
+                    {"Problem/constraint", "0"},
+                    {"Study/h", "0.5, 0.25"},
+                    {"Study/norms", "averages L2"},
+                    {"Study/decisive error", "averages L2 | own finest level"}});
+  const SamplingPlan plan = make_sampling_plan(scene);
+  constexpr double of_h = 2e-3;
+  const std::array<double, 3> part = {.5, .05, .02};
+  const SamplingResults results =
+      conclude_samples(scene, plan,
+                       [&](std::size_t sample)
+                       {
+                         SampleRecord record{sample, "", {}};
+                         for (const unsigned int level : {0u, 1u})
+                         {
+                           SampleCase one;
+                           one.method = "PA-AC";
+                           one.series = "m = 3";
+                           one.level = level;
+                           one.h = level == 0 ? .5 : .25;
+                           one.seconds = level == 0 ? 1 : 5;
+                           const int n = level == 0 ? 2 : 4;
+                           for (int i = 0; i < n * n; ++i)
+                           {
+                             one.field.x.push_back((i % n + .5) * one.h);
+                             one.field.y.push_back((std::floor(i / n) + .5) * one.h);
+                             one.field.area.push_back(one.h * one.h);
+                             double value = one.field.x.back() + (level == 0 ? of_h : 0);
+                             for (std::size_t d = 0; d < 3; ++d)
+                               value += part[d] * plan.values[sample][d] * plan.values[sample][d];
+                             one.field.values.push_back(value);
+                           }
+                           record.cases.push_back(one);
+                         }
+                         return record;
+                       });
+  // one point sees no square, two see all of it: E ξ² = 1
+  ASSERT_EQ(results.cases.size(), 2);
+  const double all = .57;
+  for (std::size_t level = 0; level < 2; ++level)
+    for (std::size_t s = 0; s < 6; ++s)
+    {
+      const SetStatistics &set = results.cases[level].sets[s];
+      double error = all - (level == 0 ? of_h : 0);
+      for (std::size_t d = 0; d <= s / 2 && s % 2 == 1; ++d)
+        error -= part[d];
+      EXPECT_EQ(set.is_target, level == 1 && s == 5);
+      EXPECT_EQ(set.mean_error.has_value(), !set.is_target);
+      if (set.mean_error)
+      {
+        EXPECT_NEAR(*set.mean_error, std::abs(error), 1e-13) << level << ' ' << s;
+      }
+    }
+  // one mode leaves .07, two .02, three what the mesh does, .002; one point never does
+  ASSERT_EQ(results.cheapest.size(), 2);
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    EXPECT_EQ(results.cheapest[i].n_modes, i == 0 ? 1 : 3);
+    EXPECT_EQ(results.cheapest[i].count, 2);
+    EXPECT_EQ(results.cheapest[i].h, .5);
+  }
 }
 
 TEST(SampleStatistics, OfAQuantityThatIsPartlyThereAreNoneAndThatIsSaid)

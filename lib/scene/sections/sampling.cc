@@ -7,6 +7,22 @@
 
 namespace plumbline::scene
 {
+  namespace
+  {
+    std::vector<unsigned int> to_counts(const std::string &text)
+    {
+      std::vector<unsigned int> counts;
+      for (const std::string &name : to_names(text))
+      {
+        const double number = name.empty() ? -1 : to_number(name);
+        if (!(number >= 0 && number <= 1e9) || number != std::floor(number))
+          throw InputError("'" + name + "' is no count; write whole numbers separated by ','");
+        counts.push_back(static_cast<unsigned int>(number));
+      }
+      return counts;
+    }
+  } // namespace
+
   void SamplingSection::declare(Keys &keys)
   {
     keys.add(
@@ -15,20 +31,13 @@ namespace plumbline::scene
         "each variable. Smolyak: sparse combinations of them, some weights negative. Monte "
         "Carlo: independent samples. quasi-Monte Carlo: Sobol's points.");
     keys.add(
-        "counts", "", any_text(),
-        [this](const std::string &text)
-        {
-          counts.clear();
-          for (const std::string &name : to_names(text))
-          {
-            const double number = name.empty() ? -1 : to_number(name);
-            if (!(number >= 0 && number <= 1e9) || number != std::floor(number))
-              throw InputError("'" + name + "' is no count; write whole numbers separated by ','");
-            counts.push_back(static_cast<unsigned int>(number));
-          }
-        },
+        "counts", "", any_text(), [this](const std::string &text) { counts = to_counts(text); },
         "Of each set of samples, few to many: points a variable (tensor), levels 0, 1, ... "
         "(Smolyak), or samples.");
+    keys.add(
+        "modes", "", any_text(), [this](const std::string &text) { modes = to_counts(text); },
+        "How many of Random/modes vary, few to many, the others 0: each with every count. Empty: "
+        "all.");
     keys.add("growth", growth,
              "Points of a variable at level l of Smolyak's rule: linear, l Gauss points (l = 1 at "
              "level 0); odd, 2l - 1; doubling, 2^l - 1; nested, 1, 3, 5, 9, ... points of Clenshaw "
