@@ -165,7 +165,7 @@ namespace plumbline::app
     // bonds with their books; the factor with entries of the matrix while it is made, and room for
     // some 400 solutions of Woodbury's formula; or the matrix, multigrid's copy and coarser levels
     size.factor_bytes = 400 * size.n_bonds + 16 * n_factor + 6400 * size.n_nodes;
-    size.multigrid_bytes = 400 * size.n_bonds + 36 * n_entries;
+    size.multigrid_bytes = 400 * size.n_bonds + 44 * n_entries;
     size.solver = scene.fracture.solver;
     if (size.solver == scene::GrowthSolver::automatic)
       size.solver = scene.fracture.can_iterate() && size.factor_bytes > base::available_memory()
@@ -173,10 +173,11 @@ namespace plumbline::app
                         : scene::GrowthSolver::factor;
     size.n_breaks = 2. / 3 * m * m * m * way / level.h; // 18 a column of nodes at m = 3
     // a solution for each bond, 2 ns an entry of the factor, and half of that for updates and new
-    // factors; or some 20 iterations of 6.6 ns an entry of the matrix, and a fourth for set-ups
+    // factors; or iterations of 6.6 ns an entry of the matrix, and a fourth of that for set-ups
+    const double n_iterations = 1.5 * std::pow(2 * size.n_nodes, .25);
     size.seconds = size.n_breaks * (size.solver == scene::GrowthSolver::factor
                                         ? 1.5 * 2e-9 * n_factor
-                                        : 1.25 * 20 * 6.6e-9 * n_entries);
+                                        : 1.25 * 6.6e-9 * n_entries * n_iterations);
     return size;
   }
 
