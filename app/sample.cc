@@ -6,6 +6,7 @@
 #include "base/team.h"
 #include "grow.h"
 #include "methods.h"
+#include "reference/lattice/torus_motion.h"
 #include "report/formats.h"
 #include "report/sample_files.h"
 #include "report/sampling_page.h"
@@ -89,8 +90,11 @@ namespace plumbline::app
               grow_sample(at, files.folder() / ("checkpoint_" + std::to_string(sample) + ".h5"))};
         else
         {
-          const method::Methods available = all_methods();
-          record.cases = study::sweep_sample(at, study::choose_methods(at, available), available);
+          const method::Methods available = all_methods(),
+                                methods = study::choose_methods(at, available);
+          record.cases = scene.time.is_dynamic()
+                             ? study::move_sample(at, methods, reference::move_on_torus)
+                             : study::sweep_sample(at, methods, available);
         }
       }
       catch (const std::exception &error) // of any kind, out of memory too: the others go on
@@ -234,8 +238,13 @@ namespace plumbline::app
     {
       const method::Methods available = all_methods(),
                             methods = study::choose_methods(scene, available);
-      study::check_memory(scene, methods, available, 0);
-      study::check_data(scene);
+      if (scene.time.is_dynamic())
+        study::check_motions(scene, methods, 0);
+      else
+      {
+        study::check_memory(scene, methods, available, 0);
+        study::check_data(scene);
+      }
     }
     prepare_folder(folder);
     const base::Team team = base::Team::all();

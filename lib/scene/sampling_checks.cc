@@ -62,8 +62,8 @@ namespace plumbline::scene
                 " and " + std::to_string(laws.size()) + " variables takes " + base::to_text(n, 4) +
                 " samples, more than " + base::to_text(most_samples, 4) + "; take fewer" +
                 (sampling.rule == SampleRule::tensor ? ", or Sampling/rule = Smolyak" : ""));
-    require(!scene.time.is_dynamic() && !scene.crack.is_there(),
-            rule + " takes samples of statics and of growth (Fracture); write Time/final time = 0 "
-                   "and Crack/notch = 0");
+    require(!scene.crack.is_there(),
+            rule + " takes samples of statics, of motions and of growth (Fracture); write "
+                   "Crack/notch = 0");
   }
 } // namespace plumbline::scene

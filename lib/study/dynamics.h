@@ -89,6 +89,8 @@ namespace plumbline::study
     std::function<void(const DynamicResults &)> on_result; ///< runs has grown by one
     std::function<bool()> should_stop;
     std::function<void(const MotionRun &, const Frame &)> on_frame; ///< where Time/frames asks
+    /// At the final time of each motion that comes there; area: of Ω.
+    std::function<void(const MotionRun &, const Frame &, double area)> on_end;
     /// The torus without a mesh, n points a side.
     std::function<std::unique_ptr<method::ContinuousMotion>(const scene::Scene &, double horizon,
                                                             unsigned int n)>

@@ -40,7 +40,8 @@ namespace plumbline::study
     {
       return [=, places = one.field, horizon = one.horizon](const scene::Scene &scene)
       {
-        const physics::Expression u(target.first, target.second, scene.names(horizon));
+        const physics::Expression u(target.first, target.second,
+                                    scene.names(horizon, scene.time.final_time));
         std::vector<double> values;
         for (std::size_t i = 0; i < places.x.size(); i += stride)
           for (unsigned int c = 0; c < places.n_components; ++c)
@@ -97,6 +98,7 @@ namespace plumbline::study
         one.field.values.empty())
       return {};
     const bool is_nodal =
+        scene.time.is_dynamic() ||
         scene::quantity(scene.study.decisive_error.norm) == scene::Quantity::nodal;
     const unsigned int n = n_gauss[laws.size() - 1];
     const SamplePoints rule = tensor_points(laws, n);

@@ -268,7 +268,11 @@ namespace plumbline::study
         run.energies = log.samples();
         run.imbalance = log.imbalance();
         if (run.failure.empty())
+        {
           compare(run, equation, state, data, torus, in_time);
+          if (control_.on_end)
+            control_.on_end(run, {state.t, equation, state}, area_);
+        }
         return run;
       }
 

@@ -2,6 +2,9 @@
 
 #include "base/error.h"
 #include "study/comparison.h"
+#include "study/motion_steps.h"
+
+#include <cmath>
 
 namespace plumbline::study
 {
@@ -53,6 +56,51 @@ namespace plumbline::study
       if (!run.failure.empty())
         throw NumericalError(run.method + ", " + run.problem + ", " + run.series + ": " +
                              run.failure);
+    return cases;
+  }
+
+  std::vector<SampleCase> move_sample(const scene::Scene &scene, const Methods &methods,
+                                      const decltype(MotionControl::make_torus) &make_torus)
+  {
+    std::vector<SampleCase> cases;
+    MotionControl control;
+    control.make_torus = make_torus;
+    control.on_end = [&](const MotionRun &run, const Frame &end, double area)
+    {
+      SampleCase one;
+      one.method = run.method;
+      one.problem = run.problem;
+      one.series = run.series;
+      if (scene.time.schemes.size() > 1)
+        one.series += ", " + run.scheme;
+      if (step_rules(scene.time).size() > 1)
+        one.series += ", " + run.steps;
+      one.level = run.level;
+      one.h = run.h;
+      one.horizon = run.horizon;
+      one.seconds = run.cost.setup_seconds + run.cost.solve_seconds;
+      one.quantities = run.errors;
+      const analysis::Energies &energies = run.energies.back();
+      one.quantities["kinetic energy"] = energies.kinetic;
+      one.quantities["bond energy"] = energies.bond;
+      if (std::isfinite(run.critical_step))
+        one.quantities["critical step"] = run.critical_step;
+      const std::vector<Point<2>> &nodes = end.equation.nodes();
+      one.field.n_components = end.equation.n_components();
+      one.field.values = end.equation.nodal(end.state.u);
+      for (const Point<2> &node : nodes)
+      {
+        one.field.x.push_back(node[0]);
+        one.field.y.push_back(node[1]);
+      }
+      one.field.area.assign(nodes.size(), area / static_cast<double>(nodes.size()));
+      cases.push_back(std::move(one));
+    };
+    const DynamicResults results = run_motions(scene, methods, control);
+    for (const MotionRun &run : results.runs)
+      if (!run.failure.empty())
+        throw NumericalError(run.method + ", " + run.problem + ", " + run.series + ", " +
+                             run.scheme + ": " + run.failure);
     return cases;
   }
 } // namespace plumbline::study

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "study/dynamics.h"
 #include "study/sampling.h"
 #include "study/sweep.h"
 
@@ -10,4 +11,10 @@ namespace plumbline::study
   /// @throws NumericalError  a method has no solution
   std::vector<SampleCase> sweep_sample(const scene::Scene &scene, const Methods &methods,
                                        const Methods &available);
+
+  /// The same of a scene that moves: energies and errors at the final time, and u there, nodes all
+  /// standing for as much of Ω. Several schemes and steps are series of their own.
+  /// @param make_torus  see MotionControl
+  std::vector<SampleCase> move_sample(const scene::Scene &scene, const Methods &methods,
+                                      const decltype(MotionControl::make_torus) &make_torus);
 } // namespace plumbline::study

@@ -4,6 +4,7 @@
 #include "study/sampling.h"
 
 #include "base/error.h"
+#include "study/exact_statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -296,6 +297,31 @@ TEST(SampleStatistics, WithoutATargetAreHeldAgainstTheLastSetOfTheFinestLevel)
     EXPECT_EQ(results.cheapest[i].n_modes, i == 0 ? 1 : 3);
     EXPECT_EQ(results.cheapest[i].count, 2);
     EXPECT_EQ(results.cheapest[i].h, .5);
+  }
+}
+
+// E sin(a - (3 + s z) T) = sin(a - 3T) exp(-(s T)²/2), and so on for the square.
+TEST(SampleStatistics, OfMotionsAreHeldAgainstThoseAtTheFinalTime)
+{
+  const scene::Scene scene = random_scene({{"Random/variables", "c: normal 3 0.5"},
+                                           {"Sampling/counts", "12"},
+                                           {"Problem/solution", "sin(x - c*t)"},
+                                           {"Time/final time", "2"},
+                                           {"Time/schemes", "velocity Verlet"},
+                                           {"Time/critical fractions", "0.5"},
+                                           {"Study/norms", "nodal L2"},
+                                           {"Study/decisive error", "nodal L2 | exact"}});
+  const SamplingPlan plan = make_sampling_plan(scene);
+  SampleCase one = exact_record(plan, 0, first).cases[0];
+  one.problem = scene.problem.case_names().front();
+  const auto exact = study::exact_statistics(scene, one);
+  ASSERT_TRUE(exact);
+  for (std::size_t i = 0; i < one.field.x.size(); ++i)
+  {
+    const double x = one.field.x[i], mean = std::sin(x - 6) * std::exp(-.5),
+                 square = .5 * (1 - std::cos(2 * (x - 6)) * std::exp(-2.));
+    EXPECT_NEAR(exact->mean[i], mean, 1e-12);
+    EXPECT_NEAR(exact->deviation[i], std::sqrt(square - mean * mean), 1e-12);
   }
 }
 
