@@ -25,4 +25,16 @@ namespace plumbline::random
   /// Source: Waldvogel 2006, doi:10.1007/s10543-006-0045-4, section 2.
   /// @pre n odd
   LineRule clenshaw_curtis_rule(unsigned int n);
+
+  constexpr unsigned int n_genz_keister_rules = 5;
+
+  /// Genz and Keister's rules of 1, 3, 9, 19 and 35 points for the normal law, exact for degree 1,
+  /// 5, 15, 29 and 51; the points of each hold those before. Some weights of 19 points are
+  /// negative.
+  /// Found from their definition: each is the one before with as few points added as reach that
+  /// degree, roots of the polynomial E with ∫ P E q = 0 for all q of smaller degree, P being that
+  /// of the points before. Means of powers to 1e-13 of their parts, of 35 points to 1e-11.
+  /// Source: Genz & Keister 1996, doi:10.1016/0377-0427(95)00232-4.
+  /// @pre 1 <= level <= n_genz_keister_rules
+  LineRule genz_keister_rule(unsigned int level);
 } // namespace plumbline::random

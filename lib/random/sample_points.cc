@@ -6,6 +6,7 @@
 #include <boost/random/sobol.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -14,7 +15,7 @@ namespace plumbline::random
 {
   namespace
   {
-    unsigned int n_points(Growth growth, unsigned int level)
+    unsigned int n_points(Law law, Growth growth, unsigned int level)
     {
       switch (growth)
       {
@@ -25,13 +26,17 @@ namespace plumbline::random
       case Growth::doubling:
         return (1u << level) - 1;
       default:
+        if (law == Law::normal)
+          return std::array{1u, 3u, 9u, 19u, 35u}[level - 1];
         return level == 1 ? 1 : (1u << (level - 1)) + 1;
       }
     }
 
     LineRule line_rule(Law law, Growth growth, unsigned int level)
     {
-      const unsigned int n = n_points(growth, level);
+      if (growth == Growth::nested && law == Law::normal)
+        return genz_keister_rule(level);
+      const unsigned int n = n_points(law, growth, level);
       return growth == Growth::nested ? clenshaw_curtis_rule(n) : gauss_rule(law, n);
     }
 
@@ -135,24 +140,23 @@ namespace plumbline::random
     return std::pow(n, static_cast<double>(n_variables));
   }
 
-  double n_smolyak_points(std::size_t n_variables, unsigned int level, Growth growth)
+  double n_smolyak_points(const std::vector<Law> &laws, unsigned int level, Growth growth)
   {
-    // new points of a variable at each level, if none but those of the level before come again
-    std::vector<double> fresh;
-    for (unsigned int l = 0; l <= level; ++l)
+    // new points of a variable at a level, if none but those of the level before come again
+    const auto fresh = [growth](Law law, unsigned int l)
     {
       const bool is_nested = growth == Growth::nested && l > 0;
-      fresh.push_back(n_points(growth, l + 1) - (is_nested ? n_points(growth, l) : 0.));
-    }
+      return n_points(law, growth, l + 1) - (is_nested ? n_points(law, growth, l) : 0.);
+    };
     // of all variables, by the sum of what their levels exceed 1
     std::vector<double> of_sum(level + 1, 0);
     of_sum[0] = 1;
-    for (std::size_t d = 0; d < n_variables; ++d)
+    for (const Law law : laws)
     {
       std::vector<double> next(level + 1, 0);
       for (unsigned int s = 0; s <= level; ++s)
         for (unsigned int e = 0; e <= s; ++e)
-          next[s] += of_sum[s - e] * fresh[e];
+          next[s] += of_sum[s - e] * fresh(law, e);
       of_sum = next;
     }
     double sum = 0;

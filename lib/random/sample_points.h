@@ -20,7 +20,8 @@ namespace plumbline::random
     linear,   ///< l Gauss points
     odd,      ///< 2 l - 1 Gauss points, the middle one always among them
     doubling, ///< 2^l - 1 Gauss points
-    nested    ///< 1, 3, 5, 9, ... points of Clenshaw and Curtis, each among the next; uniform laws
+    nested    ///< each among the next: 1, 3, 5, 9, ... points of Clenshaw and Curtis for uniform
+              ///< laws, 1, 3, 9, 19, 35 of Genz and Keister for normal ones
   };
 
   /// Points in the space of standard variables, with weights that sum to 1: the mean of a function
@@ -37,7 +38,7 @@ namespace plumbline::random
 
   /// How many points there will be, before any is made; of Smolyak's rule at most.
   double n_tensor_points(std::size_t n_variables, unsigned int n);
-  double n_smolyak_points(std::size_t n_variables, unsigned int level, Growth growth);
+  double n_smolyak_points(const std::vector<Law> &laws, unsigned int level, Growth growth);
 
   /// All combinations of n Gauss points each.
   SamplePoints tensor_points(const std::vector<Law> &laws, unsigned int n);
@@ -47,7 +48,7 @@ namespace plumbline::random
   /// sorted; points that come twice are one, and none where their weights cancel.
   /// Source: Wasilkowski & Wozniakowski 1995, doi:10.1006/jcom.1995.1001; Fan et al. 2022,
   /// doi:10.1016/j.cma.2022.115340, eq. (3.8), ζ - N being the level.
-  /// @pre Growth::nested: all laws are uniform
+  /// @pre Growth::nested and a normal law: level < n_genz_keister_rules
   SamplePoints smolyak_points(const std::vector<Law> &laws, unsigned int level, Growth growth);
 
   /// Independent samples by Generator(seed), point by point. The first ones of more are the same.

@@ -13,12 +13,13 @@ namespace plumbline::scene
   {
     constexpr double most_samples = 1e6;
 
-    double n_samples(const SamplingSection &sampling, std::size_t n_variables, unsigned int count)
+    double n_samples(const SamplingSection &sampling, const std::vector<random::Law> &laws,
+                     unsigned int count)
     {
       if (sampling.rule == SampleRule::tensor)
-        return random::n_tensor_points(n_variables, count);
+        return random::n_tensor_points(laws.size(), count);
       if (sampling.rule == SampleRule::smolyak)
-        return random::n_smolyak_points(n_variables, count, sampling.growth);
+        return random::n_smolyak_points(laws, count, sampling.growth);
       return count;
     }
   } // namespace
@@ -53,10 +54,13 @@ namespace plumbline::scene
     require(sampling.rule == SampleRule::smolyak || sampling.counts.front() > 0,
             "Sampling/counts = 0 with " + rule + " is no sample; write 1 or more");
     require(sampling.rule != SampleRule::smolyak || sampling.growth != random::Growth::nested ||
+                sampling.counts.back() < random::n_genz_keister_rules ||
                 std::all_of(laws.begin(), laws.end(),
                             [](random::Law law) { return law == random::Law::uniform; }),
-            "Sampling/growth = nested is of uniform variables, and one is normal; write odd");
-    const double n = n_samples(sampling, laws.size(), sampling.counts.back());
+            "Sampling/counts = " + std::to_string(sampling.counts.back()) +
+                " with Sampling/growth = nested: of normal variables there are levels 0 to " +
+                std::to_string(random::n_genz_keister_rules - 1) + " (35 points); write odd");
+    const double n = n_samples(sampling, laws, sampling.counts.back());
     require(n <= most_samples,
             "Sampling/counts = " + std::to_string(sampling.counts.back()) + " with " + rule +
                 " and " + std::to_string(laws.size()) + " variables takes " + base::to_text(n, 4) +

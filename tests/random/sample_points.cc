@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace
@@ -118,7 +120,7 @@ TEST(SamplePoints, SmolyakOfTwentyVariablesHasAHeavyCentre)
   {
     const SamplePoints rule = smolyak_points(laws, 1, growth);
     EXPECT_EQ(rule.points.size(), 41);
-    EXPECT_GE(n_smolyak_points(20, 1, growth), 41);
+    EXPECT_GE(n_smolyak_points(laws, 1, growth), 41);
     EXPECT_NEAR(centre(rule), weight, 1e-13);
     EXPECT_NEAR(rule.sum_of_sizes(), sizes, 1e-12);
     // it is exact for squares, and sees no product of squares
@@ -139,7 +141,7 @@ TEST(SamplePoints, SmolyakIsExactToTotalDegree)
     for (const Growth growth : {Growth::linear, Growth::odd, Growth::doubling})
     {
       const SamplePoints rule = smolyak_points(laws, level, growth);
-      EXPECT_LE(static_cast<double>(rule.points.size()), n_smolyak_points(3, level, growth));
+      EXPECT_LE(static_cast<double>(rule.points.size()), n_smolyak_points(laws, level, growth));
       for (unsigned int p = 0; p <= 2 * level + 1; ++p)
         for (unsigned int q = 0; p + q <= 2 * level + 1; ++q)
           for (unsigned int r = 0; p + q + r <= 2 * level + 1; ++r)
@@ -154,6 +156,44 @@ TEST(SamplePoints, SmolyakIsExactToTotalDegree)
     }
 }
 
+TEST(LineRule, GenzAndKeistersPointsAreNestedAndReachTheirDegree)
+{
+  const std::array<std::pair<std::size_t, unsigned int>, n_genz_keister_rules> expected = {
+      {{1, 1}, {3, 5}, {9, 15}, {19, 29}, {35, 51}}};
+  std::vector<double> before;
+  for (unsigned int level = 1; level <= n_genz_keister_rules; ++level)
+  {
+    const LineRule rule = genz_keister_rule(level);
+    const auto [n, degree] = expected[level - 1];
+    ASSERT_EQ(rule.nodes.size(), n);
+    EXPECT_TRUE(std::includes(rule.nodes.begin(), rule.nodes.end(), before.begin(), before.end()));
+    before = rule.nodes;
+    for (unsigned int p = 0; p <= degree + 1; ++p)
+    {
+      double sum = 0, size = 0;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        const double part = rule.weights[i] * std::pow(rule.nodes[i], p);
+        sum += part;
+        size += std::abs(part);
+      }
+      if (p <= degree)
+      {
+        EXPECT_NEAR(sum, moment(Law::normal, p), (level < 5 ? 1e-13 : 1e-11) * size)
+            << level << ' ' << p;
+      }
+      else if (level < 5)
+      {
+        EXPECT_GT(std::abs(sum - moment(Law::normal, p)), 1e-11 * size) << level;
+      }
+    }
+  }
+  // as printed, of 9 points
+  const LineRule nine = genz_keister_rule(3);
+  EXPECT_NEAR(nine.nodes[5], .74109534999454085, 1e-15);
+  EXPECT_NEAR(nine.nodes[6], std::sqrt(3.), 1e-15);
+}
+
 TEST(SamplePoints, NestedSmolyakCountsItsPoints)
 {
   const auto n_points = [](std::size_t n_variables, unsigned int level)
@@ -161,8 +201,14 @@ TEST(SamplePoints, NestedSmolyakCountsItsPoints)
     return smolyak_points(std::vector<Law>(n_variables, Law::uniform), level, Growth::nested)
         .points.size();
   };
-  for (unsigned int level = 0; level <= 4; ++level)
-    EXPECT_EQ(static_cast<double>(n_points(2, level)), n_smolyak_points(2, level, Growth::nested));
+  for (const Law law : {Law::uniform, Law::normal})
+    for (unsigned int level = 0; level <= 4; ++level)
+    {
+      const std::vector<Law> two(2, law);
+      EXPECT_EQ(static_cast<double>(smolyak_points(two, level, Growth::nested).points.size()),
+                n_smolyak_points(two, level, Growth::nested))
+          << level;
+    }
   // of three variables and level 1 the middle one's weight is 1 - 3 + 3 · 2/3
   EXPECT_EQ(n_points(3, 1), 6);
 }

@@ -159,7 +159,9 @@ TEST(RandomScene, IsRefusedWithTheRemedy)
   expect_refused({{"Random/variables", "2c: normal"}}, "is no name");
   expect_refused({{"Random/values", "1"}}, "1 numbers for 2 variables");
   expect_refused({{"Random/modes", "3"}}, "needs a field");
-  expect_refused({{"Sampling/rule", "Smolyak"}, {"Sampling/growth", "nested"}}, "one is normal");
+  expect_refused(
+      {{"Sampling/rule", "Smolyak"}, {"Sampling/growth", "nested"}, {"Sampling/counts", "5"}},
+      "of normal variables there are levels 0 to 4");
   expect_refused(solid({{"Random/field", "exponential"}}), "needs Random/modes");
   expect_refused(solid({{"Random/field", "Matern"}, {"Random/modes", "4"}}), "Random/cell > 0");
   const auto matern = [](const std::string &key, const std::string &value)

@@ -41,7 +41,8 @@ namespace plumbline::scene
     keys.add("growth", growth,
              "Points of a variable at level l of Smolyak's rule: linear, l Gauss points (l = 1 at "
              "level 0); odd, 2l - 1; doubling, 2^l - 1; nested, 1, 3, 5, 9, ... points of Clenshaw "
-             "and Curtis, for uniform variables.");
+             "and Curtis for uniform variables, 1, 3, 9, 19, 35 of Genz and Keister for normal "
+             "ones.");
     keys.add("seed", seed, count(0), "Of random numbers; the same seed gives the same samples.");
   }
 } // namespace plumbline::scene
