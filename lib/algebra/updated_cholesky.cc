@@ -56,8 +56,10 @@ namespace plumbline::algebra
   {
     mutable Cholesky cholesky; // a solution uses its workspace
     Eigen::Index n = 0, rank = 0;
-    Dense Z, C;               ///< the first `rank` columns count
-    std::vector<Vector> rows; ///< values of the rows of U
+    Dense Z, C; ///< the first `rank` columns count
+    Dense S;
+    std::optional<Eigen::PartialPivLU<Dense>> small; ///< I + S U Z, unless it is singular
+    std::vector<Vector> rows;                        ///< values of the rows of U
     std::vector<std::vector<int>> columns;
 
     double dot(std::size_t row, const double *x) const
@@ -114,14 +116,16 @@ namespace plumbline::algebra
     return to_vector(factor_->cholesky.solve(view(b)));
   }
 
-  void UpdatedCholesky::append(const Rows &rows)
+  void UpdatedCholesky::update(const Rows &rows, const std::vector<double> &S)
   {
     Factor &f = *factor_;
     const auto n_new = static_cast<Eigen::Index>(rows.n_rows());
-    if (n_new == 0)
+    const Eigen::Index all = f.rank + n_new;
+    if (all == 0)
       return;
-    f.reserve(f.rank + n_new);
-    f.Z.middleCols(f.rank, n_new) = f.cholesky.solve(Dense(to_sparse(rows, n()).transpose()));
+    f.reserve(all);
+    if (n_new > 0)
+      f.Z.middleCols(f.rank, n_new) = f.cholesky.solve(Dense(to_sparse(rows, n()).transpose()));
     for (std::size_t i = 0; i < rows.n_rows(); ++i)
     {
       const auto begin = static_cast<std::ptrdiff_t>(rows.start[i]),
@@ -129,33 +133,33 @@ namespace plumbline::algebra
       f.columns.emplace_back(rows.column.begin() + begin, rows.column.begin() + end);
       f.rows.emplace_back(Eigen::Map<const Vector>(rows.value.data() + begin, end - begin));
     }
-    const Eigen::Index all = f.rank + n_new;
     for (Eigen::Index j = f.rank; j < all; ++j)
       for (Eigen::Index i = 0; i <= j; ++i)
         f.C(i, j) = f.C(j, i) = f.dot(static_cast<std::size_t>(i), f.Z.col(j).data());
     f.rank = all;
+    f.S = Eigen::Map<const Dense>(S.data(), all, all);
+    const Dense matrix = Dense::Identity(all, all) + f.S * f.C.topLeftCorner(all, all);
+    f.small.emplace(matrix);
+    // of what it was as well, which is I: a matrix of one entry is never far from singular by
+    // itself
+    const double norm = matrix.cwiseAbs().colwise().sum().maxCoeff();
+    if (!(f.small->rcond() * std::min(1., norm) > least_condition))
+      f.small.reset();
   }
 
   std::optional<std::vector<double>> UpdatedCholesky::updated(const std::vector<double> &x0,
-                                                              const std::vector<double> &S,
                                                               const std::vector<double> &o) const
   {
     const Factor &f = *factor_;
     const Eigen::Index r = f.rank;
     if (r == 0)
       return x0;
-    const Eigen::Map<const Dense> s(S.data(), r, r);
+    if (!f.small)
+      return {};
     Vector known(r);
     for (Eigen::Index i = 0; i < r; ++i)
       known[i] = f.dot(static_cast<std::size_t>(i), x0.data()) + o[static_cast<std::size_t>(i)];
-    const Dense matrix = Dense::Identity(r, r) + s * f.C.topLeftCorner(r, r);
-    const Eigen::PartialPivLU<Dense> small(matrix);
-    // of what it was as well, which is I: a matrix of one entry is never far from singular by
-    // itself
-    const double norm = matrix.cwiseAbs().colwise().sum().maxCoeff();
-    if (!(small.rcond() * std::min(1., norm) > least_condition))
-      return {};
-    const Vector w = small.solve(s * known);
+    const Vector w = f.small->solve(f.S * known);
     Vector x = view(x0);
     for (Eigen::Index j = 0; j < r; j += n_together) // each column is read from end to end
     {
@@ -179,10 +183,16 @@ namespace plumbline::algebra
 
   double UpdatedCholesky::update_seconds(std::size_t rank) const
   {
-    constexpr double seconds_per_product = 1 / 2.5e9, seconds_per_flop = 1 / 5e9;
+    constexpr double seconds_per_flop = 1 / 5e9;
     const auto r = static_cast<double>(rank);
-    return seconds_per_product * static_cast<double>(factor_->n) * r +
-           seconds_per_flop * (2 + 2. / 3) * r * r * r;
+    return seconds_per_flop * (2 + 2. / 3) * r * r * r;
+  }
+
+  double UpdatedCholesky::solution_seconds(std::size_t rank) const
+  {
+    constexpr double seconds_per_product = 1 / 2.5e9;
+    const auto r = static_cast<double>(rank);
+    return seconds_per_product * (static_cast<double>(factor_->n) * r + 2 * r * r);
   }
 
   std::optional<std::vector<double>> zero_mode(const Rows &terms,

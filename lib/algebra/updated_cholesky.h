@@ -11,9 +11,8 @@ namespace plumbline::algebra
   /// supernodal), and solutions with A + Uᵀ S U for few rows of U that are added one after the
   /// other, without another factorisation:
   ///   x = x₀ - Z w,  (I + S U Z) w = S (U x₀ + o),  Z = A⁻¹Uᵀ  (Woodbury).
-  /// Cost: a solve for each row of U once, then 2 n r + (2/3) r³ flops for a solution, r rows.
-  /// The same calls give the same bits.
-  /// Source: Hager 1989, doi:10.1137/1031049.
+  /// Cost: a solve for each row of U and (8/3) r³ flops for each S, then 2 n r for a solution, r
+  /// rows. The same calls give the same bits. Source: Hager 1989, doi:10.1137/1031049.
   class UpdatedCholesky
   {
   public:
@@ -32,24 +31,24 @@ namespace plumbline::algebra
     /// A⁻¹ b
     std::vector<double> solve(const std::vector<double> &b) const;
 
-    /// Add rows to U.
-    void append(const Rows &rows);
+    /// Add rows to U, and take another S.
+    /// @param S  symmetric, shape (rank, rank), of all rows
+    void update(const Rows &rows, const std::vector<double> &S);
     std::size_t rank() const; ///< rows of U
 
     /// The solution x of (A + Uᵀ S U) x = b - Uᵀ S o.
     /// @param x0  A⁻¹ b
-    /// @param S   symmetric, shape (rank, rank)
     /// @param o   shape (rank)
     /// @return    empty: A + Uᵀ S U is singular, to 1e-13 of its condition on U
     std::optional<std::vector<double>> updated(const std::vector<double> &x0,
-                                               const std::vector<double> &S,
                                                const std::vector<double> &o) const;
 
     // CPU seconds that these take on one core, estimated from counts of operations with rates that
     // were measured on one machine: the same wherever it runs, so that what is decided by them is.
-    double factor_seconds() const;                 ///< the constructor
-    double append_seconds() const;                 ///< of one row
-    double update_seconds(std::size_t rank) const; ///< a solution
+    double factor_seconds() const;                   ///< the constructor
+    double append_seconds() const;                   ///< a row of an update
+    double update_seconds(std::size_t rank) const;   ///< the rest of it
+    double solution_seconds(std::size_t rank) const; ///< what its rows add to a solution
 
   private:
     struct Factor;

@@ -169,66 +169,39 @@ namespace plumbline::meshfree
   void BreakingNetwork::evaluate()
   {
     const std::vector<BondNetwork::Bond> &bonds = network_.bonds;
+    theta_ = surfaces_ && !network_.dilatation.empty() ? surfaces_->dilatations(u_)
+                                                       : dilatations(network_, *connections_, u_);
     pull_.assign(bonds.size(), 0);
-    theta_.assign(network_.dilatation.size(), 0);
     response_ = {0, 0, 0, std::vector<double>(bonds.size(), endless)};
+    double largest_force = 0;
     for (std::size_t b = 0; b < bonds.size(); ++b)
     {
       if (!connections_->is_whole(b))
         continue;
       const BondNetwork::Bond &bond = bonds[b];
-      const Tensor<1, 2> du = u_[bond.to] - u_[bond.from];
-      pull_[b] = bond.way * du;
+      const Tensor<1, 2> f = force(network_, bond, u_, theta_);
+      pull_[b] = bond.way * (u_[bond.to] - u_[bond.from]);
       response_.energy += .5 * bond.stiffness * square(pull_[b]);
-      response_.reaction += bond.stiffness * pull_[b] *
-                            (bond.way * (network_.held[bond.to] - network_.held[bond.from]));
+      response_.reaction += f * (network_.held[bond.to] - network_.held[bond.from]);
+      largest_force = std::max(largest_force, f.norm_square());
       if (std::isfinite(bond.critical))
         response_.critical_loads[b] = critical_load(bond);
-      if (theta_.empty())
-        continue;
-      theta_[bond.from] += bond.share * (bond.xi * du);
-      theta_[bond.to] += bond.share * (bond.xi * du);
     }
-    if (surfaces_ && !theta_.empty())
-      theta_ = surfaces_->dilatations(u_);
     for (std::size_t i = 0; i < theta_.size(); ++i)
       response_.energy += .5 * network_.dilatation[i] * square(theta_[i]);
-    for (std::size_t b = 0; b < bonds.size() && !theta_.empty(); ++b)
-      if (connections_->is_whole(b))
-        response_.reaction +=
-            (network_.dilatation[bonds[b].from] * theta_[bonds[b].from] +
-             network_.dilatation[bonds[b].to] * theta_[bonds[b].to]) *
-            bonds[b].share *
-            (bonds[b].xi * (network_.held[bonds[b].to] - network_.held[bonds[b].from]));
+    if (force_scale_ == 0)
+      force_scale_ = std::sqrt(largest_force);
     response_.residual = residual();
   }
 
-  double BreakingNetwork::residual()
+  double BreakingNetwork::residual() const
   {
-    if (force_scale_ == 0)
-      force_scale_ = largest_bond_force();
-    const NodeField force = surfaces_ ? surfaces_->forces(u_) : forces(network_, *connections_, u_);
+    const NodeField sums =
+        surfaces_ ? surfaces_->forces(u_) : forces(network_, *connections_, u_, theta_);
     double largest = 0;
-    for (std::size_t i = 0; i < force.size(); ++i)
+    for (std::size_t i = 0; i < sums.size(); ++i)
       if (network_.grip[i] < 0)
-        largest = std::max(largest, force[i].norm());
-    return largest / force_scale_;
-  }
-
-  double BreakingNetwork::largest_bond_force() const
-  {
-    double largest = 0;
-    for (std::size_t b = 0; b < network_.bonds.size(); ++b)
-      if (connections_->is_whole(b))
-      {
-        const BondNetwork::Bond &bond = network_.bonds[b];
-        Tensor<1, 2> f = bond.stiffness * pull_[b] * bond.way;
-        if (!theta_.empty())
-          f += (network_.dilatation[bond.from] * theta_[bond.from] +
-                network_.dilatation[bond.to] * theta_[bond.to]) *
-               bond.share * bond.xi;
-        largest = std::max(largest, f.norm());
-      }
-    return largest;
+        largest = std::max(largest, sums[i].norm_square());
+    return std::sqrt(largest) / force_scale_;
   }
 } // namespace plumbline::meshfree

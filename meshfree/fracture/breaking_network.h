@@ -50,8 +50,7 @@ namespace plumbline::meshfree
     bool update(const std::vector<std::size_t> &bonds);
     bool equilibrate();
     void evaluate();
-    double residual();
-    double largest_bond_force() const;
+    double residual() const;
     double critical_load(const BondNetwork::Bond &bond) const;
     Release release(const std::vector<std::size_t> &bonds) const;
 

@@ -44,32 +44,45 @@ namespace plumbline::meshfree
     };
   } // namespace
 
-  NodeField forces(const BondNetwork &network, const Connections &connections, const NodeField &u)
+  std::vector<double> dilatations(const BondNetwork &network, const Connections &connections,
+                                  const NodeField &u)
   {
-    const bool dilates = !network.dilatation.empty();
-    std::vector<double> pressure(network.dilatation.size());
-    for (std::size_t b = 0; b < network.bonds.size() && dilates; ++b)
+    std::vector<double> theta(network.dilatation.size());
+    for (std::size_t b = 0; b < network.bonds.size() && !theta.empty(); ++b)
       if (connections.is_whole(b))
       {
         const BondNetwork::Bond &bond = network.bonds[b];
         const double part = bond.share * (bond.xi * (u[bond.to] - u[bond.from]));
-        pressure[bond.from] += part;
-        pressure[bond.to] += part;
+        theta[bond.from] += part;
+        theta[bond.to] += part;
       }
-    for (std::size_t i = 0; i < pressure.size(); ++i)
-      pressure[i] *= network.dilatation[i];
-    NodeField force(u.size());
+    return theta;
+  }
+
+  Tensor<1, 2> force(const BondNetwork &network, const BondNetwork::Bond &bond, const NodeField &u,
+                     const std::vector<double> &theta)
+  {
+    Tensor<1, 2> f = bond.stiffness * (bond.way * (u[bond.to] - u[bond.from])) * bond.way;
+    if (!network.dilatation.empty())
+      f += (network.dilatation[bond.from] * theta[bond.from] +
+            network.dilatation[bond.to] * theta[bond.to]) *
+           bond.share * bond.xi;
+    return f;
+  }
+
+  NodeField forces(const BondNetwork &network, const Connections &connections, const NodeField &u,
+                   const std::vector<double> &theta)
+  {
+    NodeField result(u.size());
     for (std::size_t b = 0; b < network.bonds.size(); ++b)
       if (connections.is_whole(b))
       {
         const BondNetwork::Bond &bond = network.bonds[b];
-        Tensor<1, 2> f = bond.stiffness * (bond.way * (u[bond.to] - u[bond.from])) * bond.way;
-        if (dilates)
-          f += (pressure[bond.from] + pressure[bond.to]) * bond.share * bond.xi;
-        force[bond.from] += f;
-        force[bond.to] -= f;
+        const Tensor<1, 2> f = force(network, bond, u, theta);
+        result[bond.from] += f;
+        result[bond.to] -= f;
       }
-    return force;
+    return result;
   }
 
   std::optional<unsigned int> equilibrate(const std::function<NodeField(const NodeField &)> &forces,

@@ -6,8 +6,18 @@
 
 namespace plumbline::meshfree
 {
-  /// Forces of a network on all nodes, of what is whole and without surface terms.
-  NodeField forces(const BondNetwork &network, const Connections &connections, const NodeField &u);
+  /// θ of all nodes by what is whole; empty where there is no dilatation.
+  std::vector<double> dilatations(const BondNetwork &network, const Connections &connections,
+                                  const NodeField &u);
+
+  /// What a whole bond pulls its first node with, k way (way·Δu) + share ξ (τ θ + τ' θ').
+  /// @param theta  may be empty where there is no dilatation
+  Tensor<1, 2> force(const BondNetwork &network, const BondNetwork::Bond &bond, const NodeField &u,
+                     const std::vector<double> &theta);
+
+  /// Of what is whole, on all nodes, without surface terms.
+  NodeField forces(const BondNetwork &network, const Connections &connections, const NodeField &u,
+                   const std::vector<double> &theta);
 
   /// Conjugate gradients are for forces that have an energy.
   enum class Iteration

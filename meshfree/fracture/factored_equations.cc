@@ -123,13 +123,13 @@ namespace plumbline::meshfree
         holds_.push_back(connections.holds()[holds_.size()]);
         hold_rows_.push_back(add_row(terms_.position(holds_.back())));
       }
-      cholesky_->append(rows);
+      cholesky_->update(rows, change());
     }
 
     // of a node θ₀ - Σ s d is squared instead of θ₀, the sum over bonds that were taken out
     std::vector<double> FactoredEquations::change() const
     {
-      const std::size_t r = rank();
+      const std::size_t r = offsets_.size();
       std::vector<double> S(r * r);
       std::vector<std::vector<const Taken *>> of_node(network_->dilatation.size());
       for (const Taken &one : taken_)
@@ -160,7 +160,7 @@ namespace plumbline::meshfree
     std::optional<NetworkEquations::Solution>
     FactoredEquations::solve(const NodeField & /*start*/) const
     {
-      const auto x = cholesky_->updated(x0_, change(), offsets_);
+      const auto x = cholesky_->updated(x0_, offsets_);
       if (!x)
         return {};
       return Solution{terms_.displacements(*x), 0};
@@ -168,7 +168,7 @@ namespace plumbline::meshfree
 
     std::optional<NodeField> FactoredEquations::displacements(const NodeField &forces) const
     {
-      const auto x = cholesky_->updated(cholesky_->solve(terms_.free(forces)), change(),
+      const auto x = cholesky_->updated(cholesky_->solve(terms_.free(forces)),
                                         std::vector<double>(offsets_.size()));
       if (!x)
         return {};
@@ -181,11 +181,12 @@ namespace plumbline::meshfree
         terms_.add_hold(hold, u, forces);
     }
 
-    double FactoredEquations::update_seconds(std::size_t n_bonds,
-                                             unsigned int /*n_iterations*/) const
+    double FactoredEquations::update_seconds(std::size_t n_bonds, unsigned int n_iterations) const
     {
+      // an iteration's solve is needed after a factorisation as well, what rows add to it is not
+      const std::size_t r = rank() + n_bonds;
       return static_cast<double>(n_bonds) * cholesky_->append_seconds() +
-             cholesky_->update_seconds(rank() + n_bonds);
+             cholesky_->update_seconds(r) + (1 + n_iterations) * cholesky_->solution_seconds(r);
     }
   } // namespace
 

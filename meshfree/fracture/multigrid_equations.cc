@@ -31,9 +31,11 @@ namespace plumbline::meshfree
       std::optional<Solution> solve(const NodeField &start) const override
       {
         Solution solution{start, 0};
-        const auto n =
-            equilibrate([this](const NodeField &u) { return forces(*network_, *connections_, u); },
-                        Iteration::conjugate_gradients, *network_, *this, solution.u);
+        const auto n = equilibrate(
+            [this](const NodeField &u) {
+              return forces(*network_, *connections_, u, dilatations(*network_, *connections_, u));
+            },
+            Iteration::conjugate_gradients, *network_, *this, solution.u);
         if (!n)
           return {};
         solution.n_iterations = *n;

@@ -1,5 +1,7 @@
 #include "meshfree/fracture/surface_forces.h"
 
+#include "meshfree/fracture/equilibrium.h"
+
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
@@ -101,21 +103,9 @@ namespace plumbline::meshfree
   NodeField SurfaceForces::forces(const NodeField &u) const
   {
     const std::vector<double> theta = dilatations(u);
-    const bool dilates = !network_->dilatation.empty();
-    NodeField force(u.size());
+    NodeField force = meshfree::forces(*network_, *connections_, u, theta);
     for (std::size_t i = 0; i < u.size(); ++i)
-      force[i] = theta[i] * pull_[i];
-    for (std::size_t b = 0; b < network_->bonds.size(); ++b)
-      if (connections_->is_whole(b))
-      {
-        const NetworkBond &bond = network_->bonds[b];
-        Tensor<1, 2> f = bond.stiffness * (bond.way * (u[bond.to] - u[bond.from])) * bond.way;
-        if (dilates)
-          f += network_->dilatation[bond.from] * bond.share * (theta[bond.from] + theta[bond.to]) *
-               bond.xi;
-        force[bond.from] += f;
-        force[bond.to] -= f;
-      }
+      force[i] += theta[i] * pull_[i];
     return force;
   }
 } // namespace plumbline::meshfree

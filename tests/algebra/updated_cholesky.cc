@@ -79,19 +79,30 @@ TEST(UpdatedCholesky, solutions_are_those_of_the_changed_matrix)
   Dense A = C.transpose() * s.asDiagonal() * C;
   const std::vector<double> x0 = cholesky->solve(to_vector(b));
   EXPECT_LT(distance(x0, A.ldlt().solve(b)), 1e-12);
-  EXPECT_EQ(*cholesky->updated(x0, {}, {}), x0);
+  EXPECT_EQ(*cholesky->updated(x0, {}), x0);
   const Dense U = random(7, n, 4);
-  for (const Eigen::Index part : {3, 4}) // added one after the other
-    cholesky->append(to_rows(U.middleRows(part == 3 ? 0 : 3, part)));
-  EXPECT_EQ(cholesky->rank(), 7u);
   Dense S = .1 * random(7, 7, 5);
   S = Dense(S + S.transpose());
   const Vector o = random(7, 1, 6);
-  const auto x =
-      cholesky->updated(x0, to_vector(Eigen::Map<const Vector>(S.data(), S.size())), to_vector(o));
-  ASSERT_TRUE(x);
-  const Vector expected = (A + U.transpose() * S * U).ldlt().solve(b - U.transpose() * (S * o));
-  EXPECT_LT(distance(*x, expected), 1e-12);
+  Eigen::Index rank = 0;
+  for (const Eigen::Index part : {3, 4, 0}) // added one after the other, then another S alone
+  {
+    if (part == 0)
+      S *= -.5;
+    const Dense rows = U.middleRows(rank, part);
+    rank += part;
+    const Dense s_now = S.topLeftCorner(rank, rank), u_now = U.topRows(rank);
+    const Vector o_now = o.head(rank);
+    cholesky->update(to_rows(rows),
+                     to_vector(Eigen::Map<const Vector>(s_now.data(), s_now.size())));
+    EXPECT_EQ(cholesky->rank(), static_cast<std::size_t>(rank));
+    const auto x = cholesky->updated(x0, to_vector(o_now));
+    ASSERT_TRUE(x);
+    const Vector expected = (A + u_now.transpose() * s_now * u_now)
+                                .ldlt()
+                                .solve(b - u_now.transpose() * (s_now * o_now));
+    EXPECT_LT(distance(*x, expected), 1e-12);
+  }
 }
 
 TEST(UpdatedCholesky, finds_what_has_become_singular)
@@ -105,9 +116,10 @@ TEST(UpdatedCholesky, finds_what_has_become_singular)
   auto cholesky = UpdatedCholesky::factor(to_rows(C), s, n);
   ASSERT_TRUE(cholesky);
   const std::vector<double> x0 = cholesky->solve(std::vector<double>(n, 1.));
-  cholesky->append(to_rows(C.row(5)));
-  EXPECT_TRUE(cholesky->updated(x0, {-1.}, {0.}));
-  EXPECT_FALSE(cholesky->updated(x0, {-2.}, {0.})); // one of them is taken out
+  cholesky->update(to_rows(C.row(5)), {-1.});
+  EXPECT_TRUE(cholesky->updated(x0, {0.}));
+  cholesky->update(to_rows(Dense(0, n)), {-2.}); // one of them is taken out
+  EXPECT_FALSE(cholesky->updated(x0, {0.}));
   Dense cut = C;
   cut.row(5).setZero();
   EXPECT_FALSE(UpdatedCholesky::factor(to_rows(cut), s, n));

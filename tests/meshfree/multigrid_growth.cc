@@ -51,7 +51,7 @@ TEST(MultigridGrowth, breaks_the_same_bonds_at_the_same_loads)
   }
 }
 
-TEST(MultigridGrowth, goes_on_from_any_event_to_the_same_bits)
+TEST(MultigridGrowth, goes_on_to_the_same_bits)
 {
   const meshfree::BondNetwork net = plate_of(.25);
   BreakingNetwork whole(net, scene::Stretch::linear, GrowthSolver::multigrid);
