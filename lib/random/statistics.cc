@@ -78,4 +78,12 @@ namespace plumbline::random
       result[i] = factor * (squares_[i] - sum_[i] * sum_[i] / weights_) / weights_;
     return result;
   }
+
+  std::vector<double> FieldSums::deviation(std::size_t n_independent) const
+  {
+    std::vector<double> result = variance(n_independent);
+    for (double &one : result)
+      one = std::sqrt(std::max(0., one));
+    return result;
+  }
 } // namespace plumbline::random

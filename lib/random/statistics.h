@@ -38,6 +38,8 @@ namespace plumbline::random
     std::vector<double> mean() const;
     /// @param n_independent  > 1: of so many independent samples; else by weights alone
     std::vector<double> variance(std::size_t n_independent = 0) const;
+    std::vector<double>
+    deviation(std::size_t n_independent = 0) const; ///< 0 of a negative variance
 
   private:
     double weights_ = 0;

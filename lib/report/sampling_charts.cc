@@ -85,9 +85,11 @@ namespace plumbline::report
     {
       const auto samples = [](const CaseStatistics &, const SetStatistics &set)
       { return static_cast<double>(set.n_samples); };
-      const auto h = [](const CaseStatistics &one, const SetStatistics &) { return one.of.h; };
-      const auto seconds = [](const CaseStatistics &, const SetStatistics &set)
-      { return set.seconds; };
+      // 0 is not drawn: errors without the mesh's say nothing over h or seconds
+      const auto h = [](const CaseStatistics &one, const SetStatistics &)
+      { return one.is_target_level ? 0 : one.of.h; };
+      const auto seconds = [](const CaseStatistics &one, const SetStatistics &set)
+      { return one.is_target_level ? 0 : set.seconds; };
       const auto modes = [](const CaseStatistics &, const SetStatistics &set)
       { return static_cast<double>(set.n_modes); };
       const auto of_modes = [&](const SetStatistics &set)
@@ -96,16 +98,18 @@ namespace plumbline::report
                    ? ""
                    : ", " + std::to_string(set.n_modes) + (set.n_modes == 1 ? " mode" : " modes");
       };
+      const auto of_h = [&](const CaseStatistics &one)
+      {
+        return name_of(results, one) + "h = " + rounded(one.of.h) +
+               (one.is_target_level ? " (target's own)" : "");
+      };
       const auto by_h = [&](const CaseStatistics &one, const SetStatistics &set)
-      { return name_of(results, one) + "h = " + rounded(one.of.h) + of_modes(set); };
+      { return of_h(one) + of_modes(set); };
       const auto by_set = [&](const CaseStatistics &one, const SetStatistics &set) {
         return name_of(results, one) + std::to_string(set.n_samples) + " samples" + of_modes(set);
       };
       const auto by_count = [&](const CaseStatistics &one, const SetStatistics &set)
-      {
-        return name_of(results, one) + "h = " + rounded(one.of.h) + ", count " +
-               std::to_string(set.count);
-      };
+      { return of_h(one) + ", count " + std::to_string(set.count); };
       DataChart over_samples = empty_chart(
           what + "-samples", "Error of the " + what + " over samples", "samples",
           "error, L2 over the domain",

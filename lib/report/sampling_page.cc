@@ -34,6 +34,16 @@ namespace plumbline::report
       return results.sampling.modes.empty() ? empty_cell() : count_cell(n_modes);
     }
 
+    bool is_own(const SamplingResults &results)
+    {
+      return results.target == base::word(scene::Target::finest);
+    }
+
+    const char *const words_of_own =
+        "No exact statistics are known. Errors are differences to the last set at each method's "
+        "finest level: at coarser levels of mesh, samples and modes, at that level of samples and "
+        "modes alone, so that it is in no advice and not in the charts over h and time.";
+
     const SetStatistics *best(const SamplingResults &results)
     {
       return results.cases.empty() || results.cases.back().sets.empty()
@@ -72,8 +82,10 @@ namespace plumbline::report
       {
         const study::CheapestPair &pair = r.cheapest.back();
         text +=
-            "Cheapest to an error of the mean of " + short_power(pair.target) + ": " + pair.method +
-            " at h = " + rounded(pair.h) + " with count " + std::to_string(pair.count) +
+            std::string("Cheapest to ") +
+            (is_own(r) ? "a difference of the mean" : "an error of the mean") + " of " +
+            short_power(pair.target) + ": " + pair.method + " at h = " + rounded(pair.h) +
+            " with count " + std::to_string(pair.count) +
             (r.sampling.modes.empty() ? "" : " and " + std::to_string(pair.n_modes) + " modes") +
             ", error " + rounded(pair.error) + ", " + rounded_seconds(pair.seconds) + " of CPU. ";
       }
@@ -168,7 +180,8 @@ namespace plumbline::report
                                  "Mean and deviation over the samples of the largest set, of the "
                                  "part of each node's bonds that is broken or cut.",
                                  false);
-      std::string numbers = to_html(sampling_field_table(r));
+      std::string numbers = is_own(r) ? page::paragraph(words_of_own) : "";
+      numbers += to_html(sampling_field_table(r));
       if (!r.cheapest.empty())
         numbers += page::paragraph("Pairs of h and samples that reach an error most cheaply.") +
                    to_html(cheapest_table(r));
@@ -296,6 +309,8 @@ namespace plumbline::report
     std::string text = r.scene_name + ": " + r.purpose + "\n\n" + to_text(sampling_field_table(r)) +
                        "\n" + to_text(sampling_quantity_table(r)) + "\n" +
                        wrapped(rule_words(r), 120) + "\n";
+    if (is_own(r))
+      text += wrapped(words_of_own, 120) + "\n";
     for (const std::string &finding : r.findings)
       text += "- " + wrapped(finding, 120, 2) + "\n";
     return text + "\n" + wrapped(verdict(r, {}), 120) + "\n";
@@ -350,6 +365,8 @@ namespace plumbline::report
       std::string text = "# Samples: " + r.scene_name + "\n\n" + verdict(r, faults) + "\n\n" +
                          to_markdown(sampling_field_table(r)) + "\n" +
                          to_markdown(sampling_quantity_table(r)) + "\n" + rule_words(r) + "\n\n";
+      if (is_own(r))
+        text += std::string(words_of_own) + "\n\n";
       for (const std::string &finding : r.findings)
         text += "- " + finding + "\n";
       return text;

@@ -60,11 +60,14 @@ namespace plumbline::scene
             "Sampling/counts = " + std::to_string(sampling.counts.back()) +
                 " with Sampling/growth = nested: of normal variables there are levels 0 to " +
                 std::to_string(random::n_genz_keister_rules - 1) + " (35 points); write odd");
-    const double n = n_samples(sampling, laws, sampling.counts.back());
+    const double n = n_samples(sampling, laws, sampling.counts.back()) *
+                     static_cast<double>(std::max<std::size_t>(1, modes.size())); // at most
     require(n <= most_samples,
             "Sampling/counts = " + std::to_string(sampling.counts.back()) + " with " + rule +
-                " and " + std::to_string(laws.size()) + " variables takes " + base::to_text(n, 4) +
-                " samples, more than " + base::to_text(most_samples, 4) + "; take fewer" +
+                " and " + std::to_string(laws.size()) + " variables " +
+                (modes.empty() ? "" : "for each of Sampling/modes ") + "takes " +
+                base::to_text(n, 4) + " samples, more than " + base::to_text(most_samples, 4) +
+                "; take fewer" +
                 (sampling.rule == SampleRule::tensor ? ", or Sampling/rule = Smolyak" : ""));
     require(!scene.crack.is_there(),
             rule + " takes samples of statics, of motions and of growth (Fracture); write "

@@ -57,7 +57,7 @@ namespace plumbline::study
       std::map<std::string, std::vector<CheapestPair>> pairs; // by problem and series
       for (const CaseStatistics &one : cases)
         for (const SetStatistics &set : one.sets)
-          if (set.mean_error && stays_below(target, cases, one, set))
+          if (set.mean_error && !one.is_target_level && stays_below(target, cases, one, set))
             pairs[one.of.problem + "\n" + one.of.series].push_back(
                 {one.of.method, one.of.problem, one.of.series, target, *set.mean_error, one.of.h,
                  set.seconds, set.count, set.n_modes});

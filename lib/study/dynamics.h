@@ -82,6 +82,10 @@ namespace plumbline::study
     const analysis::State &state;
   };
 
+  /// The torus without a mesh, n points a side.
+  using MakeTorus = std::function<std::unique_ptr<method::ContinuousMotion>(
+      const scene::Scene &, double horizon, unsigned int n)>;
+
   struct MotionControl
   {
     unsigned int n_levels = 0; ///< take the first so many levels only; 0: all
@@ -91,10 +95,7 @@ namespace plumbline::study
     std::function<void(const MotionRun &, const Frame &)> on_frame; ///< where Time/frames asks
     /// At the final time of each motion that comes there; area: of Ω.
     std::function<void(const MotionRun &, const Frame &, double area)> on_end;
-    /// The torus without a mesh, n points a side.
-    std::function<std::unique_ptr<method::ContinuousMotion>(const scene::Scene &, double horizon,
-                                                            unsigned int n)>
-        make_torus;
+    MakeTorus make_torus;
   };
 
   /// What can be refused before anything moves: schemes that are not known or that a method cannot

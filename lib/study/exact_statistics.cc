@@ -79,10 +79,7 @@ namespace plumbline::study
                                : rule.points[i][d]);
         sums.add(evaluate(at_sample(scene, values, 1)), rule.weights[i]);
       }
-      std::vector<double> deviation = sums.variance();
-      for (double &one : deviation)
-        one = std::sqrt(std::max(0., one)); // Gauss weights are positive: rounding
-      return {sums.mean(), deviation};
+      return {sums.mean(), sums.deviation()};
     }
   } // namespace
 

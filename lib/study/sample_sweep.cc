@@ -60,7 +60,7 @@ namespace plumbline::study
   }
 
   std::vector<SampleCase> move_sample(const scene::Scene &scene, const Methods &methods,
-                                      const decltype(MotionControl::make_torus) &make_torus)
+                                      const MakeTorus &make_torus)
   {
     std::vector<SampleCase> cases;
     MotionControl control;

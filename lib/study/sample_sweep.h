@@ -14,7 +14,6 @@ namespace plumbline::study
 
   /// The same of a scene that moves: energies and errors at the final time, and u there, nodes all
   /// standing for as much of Ω. Several schemes and steps are series of their own.
-  /// @param make_torus  see MotionControl
   std::vector<SampleCase> move_sample(const scene::Scene &scene, const Methods &methods,
-                                      const decltype(MotionControl::make_torus) &make_torus);
+                                      const MakeTorus &make_torus);
 } // namespace plumbline::study

@@ -79,17 +79,16 @@ namespace plumbline::study
                         const std::optional<ExactStatistics> &exact, SetStatistics &set,
                         std::vector<double> &mean, std::vector<double> &deviation)
     {
+      const std::size_t n_independent = independent ? sums.weights.size() : 0;
       mean = sums.field.mean();
-      deviation = sums.field.variance(independent ? sums.weights.size() : 0);
+      deviation = sums.field.deviation(n_independent);
+      const std::vector<double> variance = sums.field.variance(n_independent);
       double area = 0;
       for (const double part : places.area)
         area += part;
-      for (std::size_t i = 0; i < deviation.size(); ++i)
-      {
-        if (deviation[i] < 0)
+      for (std::size_t i = 0; i < variance.size(); ++i)
+        if (variance[i] < 0)
           set.negative_part += places.area[i / places.n_components] / area / places.n_components;
-        deviation[i] = std::sqrt(std::max(0., deviation[i]));
-      }
       set.mean_size = l2(places, [&](std::size_t i) { return mean[i]; });
       set.deviation_size = l2(places, [&](std::size_t i) { return deviation[i]; });
       if (independent)
@@ -148,11 +147,8 @@ namespace plumbline::study
       const SetSums &sums = finest.sets.back();
       if (!says_something(plan.sets.back(), sums, plan.are_independent) || places.values.empty())
         return {};
-      ExactStatistics own;
-      own.mean = sums.field.mean();
-      own.deviation = sums.field.variance(plan.are_independent ? sums.weights.size() : 0);
-      for (double &one : own.deviation)
-        one = std::sqrt(std::max(0., one));
+      const std::size_t n_independent = plan.are_independent ? sums.weights.size() : 0;
+      const ExactStatistics own{sums.field.mean(), sums.field.deviation(n_independent)};
       return at_places(own, finest.first.field, places);
     }
 
@@ -160,19 +156,19 @@ namespace plumbline::study
                                  const CaseSums &sums, const CaseSums &finest,
                                  std::vector<std::string> &findings)
     {
-      const bool is_finest = &sums == &finest;
+      const bool is_finest = &sums == &finest,
+                 is_own = scene.study.decisive_error.target == scene::Target::finest;
       CaseStatistics result;
       result.of = sums.first;
       result.is_finest = is_finest;
+      result.is_target_level = is_finest && is_own;
       result.of.quantities.clear();
       result.of.field = {};
       const SampleField &places = sums.first.field;
       std::optional<ExactStatistics> exact;
       try
       {
-        exact = scene.study.decisive_error.target == scene::Target::finest
-                    ? own_statistics(plan, finest, places)
-                    : exact_statistics(scene, sums.first);
+        exact = is_own ? own_statistics(plan, finest, places) : exact_statistics(scene, sums.first);
       }
       catch (const InputError &error)
       {
@@ -191,7 +187,7 @@ namespace plumbline::study
                               !places.values.empty();
         FieldStatistics field;
         const bool is_best = is_finest && s + 1 == plan.sets.size();
-        set.is_target = is_best && scene.study.decisive_error.target == scene::Target::finest;
+        set.is_target = is_best && is_own;
         if (is_known)
           conclude_field(sums.sets[s], places, plan.are_independent,
                          set.is_target ? std::nullopt : exact, set, field.mean, field.deviation);

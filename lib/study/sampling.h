@@ -79,7 +79,8 @@ namespace plumbline::study
     double mean_size = 0, deviation_size = 0;
     double negative_part = 0;  ///< of Ω, where the variance is negative; it counts as 0 there
     double standard_error = 0; ///< of the mean of independent samples
-    /// Against the exact field's, or, with the target own finest level, the last set's there.
+    /// Against the exact field's, or, with the target own finest level, the last set's there, whose
+    /// deviations of averages over smaller cells are averaged.
     std::optional<double> mean_error, deviation_error;
     bool is_target = false; ///< this is that set, which has no errors
     double mean_uncertainty = 0, deviation_uncertainty = 0; ///< of what these are held against
@@ -96,6 +97,8 @@ namespace plumbline::study
   {
     SampleCase of;          ///< its names; no values
     bool is_finest = false; ///< level of its method
+    /// Errors are against this level itself: they are of samples and modes alone.
+    bool is_target_level = false;
     std::vector<SetStatistics> sets;
     std::optional<FieldStatistics> field; ///< of the finest level
     /// Of each quantity over the largest set, sample by sample.
