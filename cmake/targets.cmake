@@ -17,12 +17,13 @@ target_link_options(plumbline_dealii INTERFACE -fuse-ld=gold)
 if(NOT EXISTS ${PROJECT_BINARY_DIR}/precompiled.cc) # touched, it would be compiled again, and all else
   file(WRITE ${PROJECT_BINARY_DIR}/precompiled.cc "")
 endif()
-add_library(plumbline_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cc)
-target_link_libraries(plumbline_precompiled PRIVATE plumbline_dealii)
-target_precompile_headers(plumbline_precompiled PRIVATE
+set(PLUMBLINE_PRECOMPILED
   <deal.II/base/mpi.h> <deal.II/base/parallel.h> <deal.II/base/point.h> <deal.II/base/quadrature_lib.h>
   <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <iomanip> <iostream> <limits> <map>
   <memory> <numeric> <optional> <set> <sstream> <string> <vector>)
+add_library(plumbline_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cc)
+target_link_libraries(plumbline_precompiled PRIVATE plumbline_dealii)
+target_precompile_headers(plumbline_precompiled PRIVATE ${PLUMBLINE_PRECOMPILED})
 
 # plumbline_module(<name> SOURCES <files> [LINK <targets>])
 function(plumbline_module name)
@@ -39,6 +40,7 @@ function(plumbline_module name)
   set_property(GLOBAL APPEND PROPERTY PLUMBLINE_MODULES ${target})
 endfunction()
 
+# plumbline_compile_options(<target> [<target whose precompiled headers it takes>])
 function(plumbline_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic)
   if(PLUMBLINE_SANITIZE)
@@ -47,7 +49,9 @@ function(plumbline_compile_options target)
                                             -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
   endif()
-  if(NOT target STREQUAL "plumbline_precompiled")
+  if(ARGC GREATER 1)
+    target_precompile_headers(${target} REUSE_FROM ${ARGV1})
+  elseif(NOT target MATCHES "_precompiled$")
     target_precompile_headers(${target} REUSE_FROM plumbline_precompiled)
   endif()
 endfunction()

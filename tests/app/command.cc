@@ -14,12 +14,7 @@ namespace
 
   void expect_refusal(const std::string &settings, const std::string &message)
   {
-    const fs::path folder = temporary("refused");
-    const Outcome outcome = run("run " + scene + " -o " + folder.string() + " " + settings);
-    EXPECT_EQ(outcome.exit_code, 2) << settings;
-    expect_found(outcome.err, message);
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_FALSE(fs::exists(folder)) << "partial output for " << settings;
+    expect_refused("run " + scene + " " + settings, message);
   }
 } // namespace
 

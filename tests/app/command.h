@@ -1,17 +1,21 @@
 // Runs the command as a user does, and reads what it says and leaves.
 #pragma once
 
+#include "app/command.h"
+
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
+#include <wordexp.h>
 
-#include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <unistd.h>
@@ -50,22 +54,7 @@ namespace plumbline::app
     std::string out, err;
   };
 
-  /// May be called from many threads.
-  inline Outcome run(const std::string &arguments)
-  {
-    static std::atomic<int> n_runs{0};
-    const std::string number = std::to_string(n_runs++);
-    const fs::path out = temporary("out" + number), err = temporary("err" + number);
-    const int status = std::system((std::string(PLUMBLINE_COMMAND) + " " + arguments + " >" +
-                                    out.string() + " 2>" + err.string())
-                                       .c_str());
-    const Outcome outcome{WEXITSTATUS(status), read(out), read(err)};
-    fs::remove(out);
-    fs::remove(err);
-    return outcome;
-  }
-
-  /// The same on two ranks.
+  /// The command itself on two ranks.
   inline Outcome run_on_two_ranks(const std::string &arguments)
   {
     const fs::path out = temporary("ranks_out"), err = temporary("ranks_err");
@@ -80,7 +69,7 @@ namespace plumbline::app
     return outcome;
   }
 
-  /// The command beside the test, silent. @return its process
+  /// The command itself beside the test, silent. @return its process
   inline pid_t start(const std::string &arguments)
   {
     const pid_t child = fork();
@@ -111,5 +100,59 @@ namespace plumbline::app
                            const std::string &where = "")
   {
     EXPECT_NE(text.find(part), std::string::npos) << part << " is not in:\n" << text << where;
+  }
+
+  /// The words of a command as a shell tells them apart.
+  class Words
+  {
+  public:
+    explicit Words(const std::string &text)
+    {
+      if (wordexp(text.c_str(), &words_, WRDE_NOCMD | WRDE_UNDEF) != 0)
+        throw std::invalid_argument("no words of a command: " + text);
+    }
+    ~Words() { wordfree(&words_); }
+    Words(const Words &) = delete;
+    Words &operator=(const Words &) = delete;
+    int size() const { return static_cast<int>(words_.we_wordc); }
+    char **begin() { return words_.we_wordv; } ///< a null pointer ends them
+
+  private:
+    wordexp_t words_{};
+  };
+
+  /// In a child of this process, which has all libraries: to load them takes most of a short run.
+  inline Outcome run(const std::string &arguments)
+  {
+    const fs::path out = temporary("out"), err = temporary("err");
+    Words words("plumbline " + arguments);
+    std::fflush(nullptr);
+    const pid_t child = fork();
+    if (child == 0)
+    {
+      if (!std::freopen(out.c_str(), "w", stdout) || !std::freopen(err.c_str(), "w", stderr))
+        _exit(127);
+      const int exit_code = command(words.size(), words.begin());
+      std::fflush(nullptr);
+      _exit(exit_code);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    const Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+                          read(out), read(err)};
+    fs::remove(out);
+    fs::remove(err);
+    return outcome;
+  }
+
+  /// Bad input: one message, the exit code of bad input, and nothing is left.
+  inline void expect_refused(const std::string &arguments, const std::string &message)
+  {
+    const fs::path folder = temporary("refused");
+    const Outcome outcome = run(arguments + " -o " + folder.string());
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << '\n' << outcome.err;
+    expect_found(outcome.err, message, arguments);
+    EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_FALSE(fs::exists(folder)) << arguments;
   }
 } // namespace plumbline::app

@@ -3,7 +3,6 @@
 
 #include "command.h"
 
-#include <thread>
 #include <vector>
 
 namespace plumbline::app
@@ -42,22 +41,12 @@ namespace plumbline::app
 
     fs::path output(std::size_t number) const { return folder_ / ("run" + std::to_string(number)); }
 
-    /// All of them, some at a time: most of a short run is spent waiting for its start.
     std::vector<Outcome> run(const std::vector<Trial> &runs) const
     {
-      std::vector<Outcome> outcomes(runs.size());
-      std::atomic<std::size_t> next{0};
-      const auto work = [&]
-      {
-        for (std::size_t i; (i = next++) < runs.size();)
-          outcomes[i] = app::run("run " + (folder_ / "scene.prm").string() + " --threads 1 -o " +
-                                 output(i).string() + " " + runs[i].settings);
-      };
-      std::vector<std::thread> workers;
-      for (unsigned int i = 0; i < 4; ++i)
-        workers.emplace_back(work);
-      for (std::thread &worker : workers)
-        worker.join();
+      std::vector<Outcome> outcomes;
+      for (const Trial &trial : runs)
+        outcomes.push_back(app::run("run " + (folder_ / "scene.prm").string() + " --threads 1 -o " +
+                                    output(outcomes.size()).string() + " " + trial.settings));
       return outcomes;
     }
 

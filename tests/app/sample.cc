@@ -28,15 +28,6 @@ namespace
     return json;
   }
 
-  void expect_refused(const std::string &arguments, const std::string &message)
-  {
-    const fs::path folder = temporary("sample");
-    const Outcome outcome = run(arguments + " -o " + folder.string());
-    EXPECT_EQ(outcome.exit_code, 2) << arguments << '\n' << outcome.err;
-    expect_found(outcome.err, message);
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_FALSE(fs::exists(folder)) << arguments;
-  }
 } // namespace
 
 TEST(SampleCommand, tells_mean_and_deviation_and_draws_them)
