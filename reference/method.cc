@@ -44,7 +44,7 @@ namespace plumbline::reference
         method::Capabilities can = {Capability::meshes,     Capability::free_boundary,
                                     Capability::floating,   Capability::heterogeneous,
                                     Capability::dilatation, Capability::nonlocal,
-                                    Capability::dynamic};
+                                    Capability::dynamic,    Capability::cracks};
         if (n_vertices_ == 3)
           can.insert(Capability::triangles);
         else

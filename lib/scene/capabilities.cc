@@ -14,9 +14,7 @@ namespace plumbline::scene
     using C = Capability;
 
     const Capabilities of_meshes = {C::meshes, C::quadrilaterals, C::triangles, C::mixed_cells};
-    const Capabilities on_meshes_alone = {C::meshes,          C::quadrilaterals,  C::triangles,
-                                          C::mixed_cells,     C::heterogeneous,   C::damage,
-                                          C::zero_dilatation, C::mixed_dilatation};
+    const Capabilities of_damage = {C::cracks, C::free_surfaces, C::damaged_dilatation};
     const Capabilities of_double_wells = {C::double_well, C::double_well_collar};
 
     Capabilities operator|(Capabilities a, const Capabilities &b)
@@ -24,6 +22,10 @@ namespace plumbline::scene
       a.insert(b.begin(), b.end());
       return a;
     }
+
+    const Capabilities on_meshes_alone =
+        of_meshes | of_damage |
+        Capabilities{C::heterogeneous, C::zero_dilatation, C::mixed_dilatation};
 
     bool includes(const Capabilities &can, const Capabilities &needed)
     {
@@ -62,8 +64,13 @@ namespace plumbline::scene
                 "give Domain/fixed ('plumbline stability' measures the body as it is)"};
       case C::heterogeneous:
         return {"the material varies in space", "write constants"};
-      case C::damage:
-        return {"Domain/cracks or Domain/outside is given", "clear both"};
+      case C::cracks:
+        return {"Domain/cracks is given", "clear it"};
+      case C::free_surfaces:
+        return {"Domain/outside is given", "clear it"};
+      case C::damaged_dilatation:
+        return {"Domain/cracks or Domain/outside changes dilatations",
+                "clear both (cracks in bonds alone: Material/model = bond-based)"};
       case C::notch:
         return {"Crack/notch > 0 ('plumbline crack' follows it)", "write 0"};
       case C::dilatation:
@@ -124,8 +131,8 @@ namespace plumbline::scene
     const Capabilities solids =
         bonds | Capabilities{C::dilatation, C::zero_dilatation, C::mixed_dilatation};
     static const std::vector<Capable> all = {
-        {base::word(Model::bond_based), bonds},
-        {base::word(Model::lps), solids | Capabilities{C::damage}},
+        {base::word(Model::bond_based), bonds | Capabilities{C::cracks}},
+        {base::word(Model::lps), solids | of_damage},
         {base::word(Model::variational), solids | Capabilities{C::free_boundary, C::floating}},
         {base::word(Model::double_well),
          of_double_wells |
@@ -143,14 +150,15 @@ namespace plumbline::scene
         {base::word(Analysis::crack),
          of_double_wells | Capabilities{C::lattice, C::notch, C::dynamic, C::nonlocal}},
         {base::word(Analysis::growth),
-         {C::lattice, C::free_boundary, C::heterogeneous, C::damage, C::dilatation, C::nonlocal}},
+         of_damage | Capabilities{C::lattice, C::free_boundary, C::heterogeneous, C::dilatation,
+                                  C::nonlocal}},
         {base::word(Analysis::strip), {C::lattice, C::nonlocal}},
         {base::word(Analysis::stability), all_capabilities()},
         {base::word(Analysis::dispersion),
          all_but(on_meshes_alone | Capabilities{C::free_boundary, C::floating})},
         {base::word(Analysis::check),
-         all_but({C::free_boundary, C::floating, C::damage, C::dilatation, C::zero_dilatation,
-                  C::mixed_dilatation})}};
+         all_but(of_damage | Capabilities{C::free_boundary, C::floating, C::dilatation,
+                                          C::zero_dilatation, C::mixed_dilatation})}};
     return all;
   }
 
@@ -171,7 +179,9 @@ namespace plumbline::scene
     add(is_free, C::free_boundary);
     add(is_free && domain.is_floating, C::floating);
     add(!scene.is_homogeneous(), C::heterogeneous);
-    add(domain.is_damaged(), C::damage);
+    add(!domain.cracks.empty(), C::cracks);
+    add(!domain.outside.empty(), C::free_surfaces);
+    add(domain.is_damaged() && scene.has_dilatation(), C::damaged_dilatation);
     add(scene.crack.is_there(), C::notch);
     add(scene.has_dilatation(), C::dilatation);
     add(!scene.material.has_collar_dilatation, C::zero_dilatation);

@@ -19,8 +19,10 @@ namespace plumbline::scene
     free_boundary,
     floating, ///< a body of which nothing is fixed
     heterogeneous,
-    damage,
-    notch, ///< that opens, see CrackSection
+    cracks,             ///< that stand, see DomainSection
+    free_surfaces,      ///< of bodies of nodes alone, Domain/outside
+    damaged_dilatation, ///< beside either
+    notch,              ///< that opens, see CrackSection
     dilatation,
     zero_dilatation,  ///< of the collar
     mixed_dilatation, ///< as an unknown besides u
@@ -92,7 +94,9 @@ namespace plumbline::base
                                                               "free boundary",
                                                               "floating",
                                                               "heterogeneous",
-                                                              "damage",
+                                                              "cracks",
+                                                              "free surfaces",
+                                                              "dilatation beside them",
                                                               "notch",
                                                               "dilatation",
                                                               "zero collar dilatation",

@@ -84,6 +84,17 @@ namespace plumbline::meshfree
     return all;
   }
 
+  void check_held(const std::vector<char> &is_intact, const geometry::NodeCells &cells,
+                  std::size_t node)
+  {
+    if (std::find(is_intact.begin(), is_intact.end(), 1) != is_intact.end())
+      return;
+    std::ostringstream message;
+    message << "all bonds of node " << cells.source[node] << " at (" << cells.nodes[node]
+            << ") are broken, so that nothing holds it; move the crack, or take the node out";
+    throw InputError(message.str());
+  }
+
   Remainder remainder(const Kernel<2> &influence, const Family &family,
                       const std::vector<char> &is_intact)
   {

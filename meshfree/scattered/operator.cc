@@ -1,5 +1,7 @@
 #include "meshfree/scattered/operator.h"
 
+#include "meshfree/scattered/damage.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -33,16 +35,22 @@ namespace plumbline::meshfree
     ScatteredOperator result;
     algebra::Rows rows; // columns of all nodes
     rows.start.assign(share.first * n_components + 1, 0);
+    const BrokenBonds broken({problem.damage.cracks, {}}, *problem.cells, problem.horizon());
     Family family;
+    std::vector<char> is_intact;
     std::vector<Block> blocks;
     for (auto i = static_cast<unsigned int>(share.first); i < share.second; ++i)
     {
       families(i, family);
       result.statistics.add(problem.kernel, family);
+      if (!broken.find(i, family, is_intact))
+        check_held(is_intact, *problem.cells, i);
       blocks.clear();
       Block own{i, {}};
       for (std::size_t k = 0; k < family.bonds.size(); ++k)
       {
+        if (is_intact[k] == 0)
+          continue;
         const Bond &bond = family.bonds[k];
         const unsigned int j = family.neighbours[k];
         const double mean = a.empty() ? 1 : problem.coefficient->mean(a[i], a[j]);

@@ -61,8 +61,7 @@ namespace plumbline::meshfree
         {
           add(i);
           statistics.add(deviatoric, family);
-          if (std::find(is_intact.begin(), is_intact.end(), 1) == is_intact.end())
-            refuse_isolated(*body.cells, i);
+          check_held(is_intact, *body.cells, i);
         }
         const std::size_t n_own = links_.size();
         for (std::size_t k = 0; k < n_own; ++k)
@@ -87,14 +86,6 @@ namespace plumbline::meshfree
       FamilyStatistics statistics; ///< of the share
 
     private:
-      [[noreturn]] static void refuse_isolated(const geometry::NodeCells &cells, std::size_t node)
-      {
-        std::ostringstream message;
-        message << "all bonds of node " << cells.source[node] << " at (" << cells.nodes[node]
-                << ") are broken, so that nothing holds it; move the crack, or take the node out";
-        throw InputError(message.str());
-      }
-
       std::vector<Node> nodes_;
       std::vector<Link> links_;
     };

@@ -48,7 +48,8 @@ namespace plumbline::reference
                           : std::vector<double>()),
             by_quadrature_(space, cells, profile, kernel.horizon(),
                            of_cells_.empty() ? coefficient : std::nullopt, options.refinement,
-                           options.backend)
+                           options.backend),
+            cracks_(options.cracks)
       {
         if (!options.exact_entries || has_changing_coefficient())
           return;
@@ -62,7 +63,8 @@ namespace plumbline::reference
       /// Whether quadrature, which knows straight sides alone, would be asked for curved ones.
       bool is_at_loss() const
       {
-        return cells_.has_curves() && (by_sides_.empty() || !by_sides_[0].exceptions().empty());
+        return cells_.has_curves() &&
+               (!cracks_.empty() || by_sides_.empty() || !by_sides_[0].exceptions().empty());
       }
 
       bool has_changing_coefficient() const { return coefficient_ && of_cells_.empty(); }
@@ -85,7 +87,20 @@ namespace plumbline::reference
       /// Of pairs that are not exact though others are, in words; empty: there are none.
       std::string exceptions() const { return by_sides_.empty() ? "" : by_sides_[0].exceptions(); }
 
-      /// Without coefficients that are constant in cells.
+      /// Past the cracks, which `integrate_visible` needs next.
+      geometry::Sight look(std::size_t outer, std::size_t inner)
+      {
+        return geometry::find_between(cracks_, cells_[outer].vertices(), cells_[inner].vertices(),
+                                      between_);
+      }
+
+      /// Past the cracks that were just found; as `integrate`.
+      void integrate_visible(std::size_t outer, std::size_t inner, PairBlocks &blocks)
+      {
+        by_quadrature_.integrate(outer, inner, blocks, between_);
+      }
+
+      /// Without cracks, and without coefficients that are constant in cells.
       void integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks)
       {
         const bool is_straight = !cells_.is_curved(outer) && !cells_.is_curved(inner);
@@ -120,6 +135,7 @@ namespace plumbline::reference
       std::optional<physics::Coefficient> coefficient_;
       std::vector<double> of_cells_; ///< empty: it changes inside of them
       PairQuadrature by_quadrature_;
+      std::vector<geometry::Cut> cracks_, between_; ///< all, and of a pair
       std::optional<RectanglePairs> by_correlation_;
       std::vector<PolygonPairs> by_sides_; ///< of each smooth part of the kernel
       PairBlocks blocks_of_part_;
@@ -210,10 +226,17 @@ namespace plumbline::reference
       for (std::size_t i = 0; i < pairs.partners.size(); ++i)
       {
         const unsigned int partner = pairs.partners[i];
-        if (pairs.same.empty())
+        const geometry::Sight sight = scratch.integrator.look(cell, partner);
+        if (sight == geometry::Sight::hidden)
+          continue;
+        const bool is_partial = sight == geometry::Sight::partial;
+        if (is_partial)
+          scratch.integrator.integrate_visible(cell, partner, scratch.blocks);
+        else if (pairs.same.empty())
           scratch.integrator.integrate(cell, partner, scratch.blocks);
-        const PairBlocks &blocks = pairs.same.empty() ? scratch.blocks : first[pairs.same[i]];
-        part.is_exact = part.is_exact && scratch.integrator.is_exact(cell, partner);
+        const PairBlocks &blocks =
+            is_partial || pairs.same.empty() ? scratch.blocks : first[pairs.same[i]];
+        part.is_exact = part.is_exact && (is_partial || scratch.integrator.is_exact(cell, partner));
         // the cell with itself: both orders are the same pair, each counts half
         const double factor = (i == own ? .5 : 1) * scratch.integrator.factor(cell, partner);
         for (std::size_t k = 0; k < block; ++k)
@@ -276,7 +299,8 @@ namespace plumbline::reference
                       const std::optional<physics::Coefficient> &coefficient,
                       const AssemblyOptions &options, const base::Team &team)
   {
-    if (options.exact_entries && goes_by_edges(space, cells, kernel, coefficient))
+    if (options.exact_entries && options.cracks.empty() &&
+        goes_by_edges(space, cells, kernel, coefficient))
       return {assemble_by_edges(space, kernel, team), true,
               "exact by pairs of sides of the triangles"};
     const KernelEntries profile(kernel);
@@ -335,7 +359,9 @@ namespace plumbline::reference
     if (failure)
       std::rethrow_exception(failure);
     pairs = {};
-    return {sum.combine(kernel.n_components()), sum.is_exact,
-            tell_way(space, kernel, scratch.integrator, options, sum.is_exact)};
+    std::string way = tell_way(space, kernel, scratch.integrator, options, sum.is_exact);
+    if (!options.cracks.empty())
+      way += ", those of pairs that see each other past a crack's end by quadrature";
+    return {sum.combine(kernel.n_components()), sum.is_exact && options.cracks.empty(), way};
   }
 } // namespace plumbline::reference

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "algebra/rows.h"
+#include "geometry/visibility.h"
 #include "physics/coefficient.h"
 #include "physics/kernel.h"
 #include "reference/mesh/cells.h"
@@ -16,6 +17,7 @@ namespace plumbline::reference
         0;                     ///< of the outer rule where the circle crosses a cell: 4^refinement
     bool exact_entries = true; ///< where an exact way is known, else by quadrature
     geometry::Backend backend = geometry::Backend::fast;
+    std::vector<geometry::Cut> cracks = {}; ///< that no bond crosses: pairs past them by quadrature
   };
 
   /// The Galerkin matrix of a space and how it came about.

@@ -45,8 +45,10 @@ namespace plumbline::reference
     outer_phi_.resize(n_);
   }
 
-  void PairQuadrature::integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks)
+  void PairQuadrature::integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks,
+                                 const std::vector<geometry::Cut> &between)
   {
+    between_ = between;
     // loops of a length known to the compiler for linear triangles, the common case
     const bool is_linear = n_ == 3;
     if (profile_.is_tensor())
@@ -67,11 +69,11 @@ namespace plumbline::reference
   void PairQuadrature::integrate_as(std::size_t outer, std::size_t inner, PairBlocks &blocks)
   {
     blocks.reset(n_, n_entries);
-    if (is_product(outer, inner))
+    if (between_.empty() && is_product(outer, inner))
       return integrate_constant(outer, inner, blocks);
     const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
     const bool is_smooth =
-        !is_cut(between, outer, inner) && !profile_.is_function() &&
+        between_.empty() && !is_cut(between, outer, inner) && !profile_.is_function() &&
         (profile_.is_smooth() || between > near * (cells_.radius(outer) + cells_.radius(inner)));
     const ShapeRule *rule = &rules_->outer;
     if (refinement_ > 0)
@@ -185,6 +187,8 @@ namespace plumbline::reference
     // a bilinear map stretches some parts more than others
     const double reach = 2 * part.size * cells_.radius(outer) * (map.is_affine() ? 1 : 1.5);
     const auto vertices = cells_[inner].vertices();
+    if (is_at_shadow(centre, reach, vertices))
+      return Kink::at_circle;
     Kink kink = Kink::none;
     for (unsigned int v = 0; v < vertices.size(); ++v)
     {
@@ -201,6 +205,29 @@ namespace plumbline::reference
         kink = Kink::at_side;
     }
     return kink;
+  }
+
+  /// Whether a point comes close to a line through the end of a crack and a vertex of E' or another
+  /// end: what is seen changes its form there.
+  bool PairQuadrature::is_at_shadow(const Point<2> &x, double reach,
+                                    geometry::ArrayView<const Point<2>> vertices) const
+  {
+    for (const geometry::Cut &cut : between_)
+      for (const Point<2> &end : cut)
+      {
+        const dealii::Tensor<1, 2> from = x - end;
+        const auto is_on_line = [&](const Point<2> &other)
+        {
+          const dealii::Tensor<1, 2> line = other - end;
+          return std::abs(line[0] * from[1] - line[1] * from[0]) <= reach * line.norm();
+        };
+        if (std::any_of(vertices.begin(), vertices.end(), is_on_line))
+          return true;
+        for (const geometry::Cut &another : between_)
+          if (is_on_line(another[another[0] == end ? 1 : 0]))
+            return true;
+      }
+    return false;
   }
 
   /// All of both cells, a constant kernel: products of integrals.
@@ -235,7 +262,7 @@ namespace plumbline::reference
     const double distance = x.distance(cells_.centroid(inner)), radius = cells_.radius(inner);
     if (distance >= horizon_ + radius)
       return;
-    if (has_moments_)
+    if (has_moments_ && between_.empty())
       return add_moments(is_whole({x, horizon_}, cell, distance + radius)
                              ? cell.moments()
                              : geometry::intersect({x, horizon_}, cell, backend_),
@@ -245,24 +272,44 @@ namespace plumbline::reference
     std::fill(second_.begin(), second_.end(), 0.);
     if (coefficient_)
       a_x_ = coefficient_->at(x);
-    profile_.for_balls(distance - radius, distance + radius,
-                       [&](double ball_radius, const SmoothEntries &kernel) {
-                         add_ball<n_entries, n_shapes>({x, ball_radius}, kernel, inner);
-                       });
+    if (between_.empty())
+      add_region<n_entries, n_shapes>(x, {cell, distance, radius}, inner);
+    else
+    {
+      geometry::find_visible(x, cell.vertices(), between_, seen_);
+      for (const geometry::Polygon &part : seen_)
+      {
+        const geometry::ConvexCell polygon(part);
+        const Point<2> &centroid = polygon.moments().centroid;
+        double farthest = 0;
+        for (const Point<2> &vertex : part)
+          farthest = std::max(farthest, vertex.distance(centroid));
+        add_region<n_entries, n_shapes>(x, {polygon, x.distance(centroid), farthest, false}, inner);
+      }
+    }
     for (unsigned int a = 0; a < n_; ++a)
       for (unsigned int b = 0; b < a; ++b)
         for (int e = 0; e < n_entries; ++e)
           second_[(a * n_ + b) * n_entries + e] = second_[(b * n_ + a) * n_entries + e];
   }
 
+  template <int n_entries, int n_shapes>
+  void PairQuadrature::add_region(const Point<2> &x, const Region &region, std::size_t inner)
+  {
+    profile_.for_balls(region.distance - region.radius, region.distance + region.radius,
+                       [&](double ball_radius, const SmoothEntries &kernel) {
+                         add_ball<n_entries, n_shapes>({x, ball_radius}, kernel, region, inner);
+                       });
+  }
+
   /// A kernel without breaks on ball ∩ cell.
   template <int n_entries, int n_shapes>
   void PairQuadrature::add_ball(const geometry::Ball &ball, const SmoothEntries &kernel,
-                                std::size_t inner)
+                                const Region &region, std::size_t inner)
   {
     const Point<2> &x = ball.centre;
-    const geometry::ConvexCell &cell = cells_[inner];
-    const double distance = x.distance(cells_.centroid(inner)), radius = cells_.radius(inner);
+    const geometry::ConvexCell &cell = region.polygon;
+    const double distance = region.distance, radius = region.radius;
     if (!kernel.is_smooth() && distance < near * radius)
     {
       // along a ray the integrand is a polynomial: two shape functions, r C(r)
@@ -277,7 +324,7 @@ namespace plumbline::reference
     const unsigned int p = 2 * space_.shapes().degree();
     const unsigned int degree = kernel_degree(kernel, distance, radius);
     if (const unsigned int i = (p + degree) / 2;
-        i < rules_->whole.size() && is_whole(ball, cell, distance + radius))
+        region.is_all && i < rules_->whole.size() && is_whole(ball, cell, distance + radius))
       return add_whole<n_entries, n_shapes>(x, kernel, inner, rules_->whole[i]);
     const bool is_quad = space_.shapes().n_vertices() == 4;
     geometry::cut_rule(ball, cell, (is_quad ? 2 * p : p) + degree, rule_, backend_);

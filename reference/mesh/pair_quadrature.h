@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/visibility.h"
 #include "physics/coefficient.h"
 #include "reference/mesh/cells.h"
 #include "reference/mesh/kernel_entries.h"
@@ -23,6 +24,8 @@ namespace plumbline::reference
   /// sides. Accuracy: where the circle comes to touch a side the integral is like d^(3/2), so that
   /// two refinements gain a factor of 32; what each of them gains depends on how the kink cuts the
   /// smallest parts.
+  /// Past a crack only that of E' counts which is seen from x: what its shadow leaves of E', as
+  /// convex polygons. There are kinks where a line from x past a crack's end meets a vertex of E'.
   /// Not thread safe: give each thread its own copy.
   class PairQuadrature
   {
@@ -31,7 +34,9 @@ namespace plumbline::reference
                    double horizon, std::optional<physics::Coefficient> coefficient,
                    unsigned int refinement, geometry::Backend backend);
 
-    void integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks);
+    /// @param between  all cracks that lie between the two cells
+    void integrate(std::size_t outer, std::size_t inner, PairBlocks &blocks,
+                   const std::vector<geometry::Cut> &between = {});
 
     /// No quadrature is needed: a constant kernel, and all of E' in the ball of all of E.
     bool is_product(std::size_t outer, std::size_t inner) const;
@@ -64,13 +69,25 @@ namespace plumbline::reference
     {
       none,
       at_side,  ///< x may come close to a side of E'
-      at_circle ///< or the circle to a vertex, or to touching a side
+      at_circle ///< or the circle to a vertex, or to touching a side, or a crack's end before one
     };
     Kink find_kink(const Part &part, std::size_t outer, std::size_t inner) const;
+    bool is_at_shadow(const Point<2> &x, double reach,
+                      geometry::ArrayView<const Point<2>> vertices) const;
+    /// What is seen of a cell from x.
+    struct Region
+    {
+      const geometry::ConvexCell &polygon;
+      double distance = 0, radius = 0; ///< of its centroid from x, about its centroid
+      bool is_all = true;              ///< of the cell
+    };
     template <int n_entries, int n_shapes>
     void integrate_inner(const Point<2> &x, std::size_t inner);
     template <int n_entries, int n_shapes>
-    void add_ball(const geometry::Ball &ball, const SmoothEntries &entries, std::size_t inner);
+    void add_region(const Point<2> &x, const Region &region, std::size_t inner);
+    template <int n_entries, int n_shapes>
+    void add_ball(const geometry::Ball &ball, const SmoothEntries &entries, const Region &region,
+                  std::size_t inner);
     template <int n_entries, int n_shapes>
     void add_points(const Point<2> &x, const SmoothEntries &kernel, std::size_t inner,
                     const geometry::CutRule &rule);
@@ -90,6 +107,8 @@ namespace plumbline::reference
     const KernelEntries &profile_;
     double horizon_;
     std::optional<physics::Coefficient> coefficient_;
+    std::vector<geometry::Cut> between_; ///< cracks, of the pair at hand
+    std::vector<geometry::Polygon> seen_;
     unsigned int refinement_;
     double accuracy_; ///< of inner rules, relative
     geometry::Backend backend_;

@@ -141,15 +141,15 @@ TEST_F(BadSolids, cracks_that_cannot_be_used_are_refused)
        {set("Domain/outside", "x, y"), {"Domain/outside = 'x, y' has 2 component(s), not 1"}},
        {good + set("Domain/mesh", "lattice"),
         {"Domain/cracks or Domain/outside is given", "write"}},
-       {good + no_E + set("Material/model", "bond-based") + set("Kernel/type", "bond-tensor"),
-        {"Material/model = bond-based cannot do this scene: Domain/cracks or Domain/outside",
-         "take LPS, or clear both"}},
-       {above + set("Material/model", "variational"), {"take LPS, or clear both"}},
+       {above + no_E + set("Material/model", "bond-based") + set("Kernel/type", "bond-tensor"),
+        {"Material/model = bond-based cannot do this scene: Domain/outside is given",
+         "take LPS, or clear it"}},
+       {above + set("Material/model", "variational"), {"take LPS, or clear it"}},
        {good + "--methods Q1",
-        {"'Q1' cannot do", "Domain/cracks or Domain/outside is given", "; take FA",
-         "or clear both"}},
+        {"'Q1' cannot do", "Domain/cracks or Domain/outside changes dilatations", "; take FA",
+         "or clear both", "Material/model = bond-based"}},
        {good + set("Reference/method", "Q1"), {"Reference/method: 'Q1' cannot", "or clear both"}},
-       {good + "--methods LOCAL", {"'LOCAL' cannot do", "or clear both"}},
+       {good + "--methods LOCAL", {"'LOCAL' cannot do", "Domain/cracks is given", "or clear it"}},
        {above + set("Problem/local solution", "computed"),
         {"Problem/local solution = computed needs u all around", "write none"}}});
 }
@@ -195,7 +195,7 @@ TEST_F(BadBodies, what_bodies_cannot_do_is_refused)
        {set("Problem/solution", "x, y"), {"free needs Problem/load and", "Problem/solution empty"}},
        {set("Domain/collar", "0.5"), {"free needs Domain/collar = auto"}},
        {set("Domain/cracks", "0.5, 0.1 : 0.5, 0.2"),
-        {"Material/model = variational cannot do", "clear both"}},
+        {"Material/model = variational cannot do", "clear it"}},
        {set("Domain/mesh", "squares") + set("Problem/local solution", "computed"),
         {"Problem/local solution = computed needs u all around", "write none"}}});
 }

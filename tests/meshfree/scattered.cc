@@ -265,6 +265,20 @@ TEST(ScatteredMethods, solve_quadratics_exactly_where_the_moments_are)
   EXPECT_LT(nodal_error("IPA-AC-R2", tensor, {.1, .3}), 1e-10);
 }
 
+TEST(ScatteredMethods, move_two_bodies_with_a_crack_between_them_each_as_its_own)
+{
+  for (const bool is_tensor : {false, true})
+  {
+    const std::string zero = is_tensor ? "0, 0" : "0", jump = "0 + (y > 0.5)";
+    const auto scene = make_scene(.2, is_tensor, is_tensor ? "0, " + jump : jump,
+                                  "end\nsubsection Domain\n set cracks = -2, 0.5 : 3, 0.5\nend\n"
+                                  "subsection Problem\n set load = " +
+                                      zero + "\n");
+    for (const std::string name : {"FA", "PA-AC", "IPA-AC-R2"})
+      EXPECT_LT(nodal_error(name, scene, {.125, .5}), 1e-11) << name << is_tensor;
+  }
+}
+
 TEST(ScatteredMethods, are_asymptotically_compatible_where_the_moments_are_exact)
 {
   for (const std::string coefficient : {"", " set coefficient = 1 + x*y\n"})

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -80,6 +81,38 @@ TEST(MeshGalerkin, OnSquaresIsTheLatticeSolution)
                b = analysis::solve(*method_named(name), lattice);
     EXPECT_LT(study::averages_l2(lattice, a.averages, b.averages), 1e-11) << name;
   }
+}
+
+TEST(MeshGalerkin, MovesTwoBodiesWithACrackBetweenThemEachAsItsOwn)
+{
+  const auto outcome = [](const std::string &mesh, const std::string &name, double y)
+  {
+    const auto scene = make_scene(
+        mesh, "0 + (y > 0.5)",
+        "subsection Domain\n set cracks = -2, " + std::to_string(y) + " : 3, " + std::to_string(y) +
+            "\nend\nsubsection Problem\n set load = 0\nend\n" + no_refinement);
+    const auto problem = make_problem(scene, 0, {.25, .5});
+    const auto solution = analysis::solve(*method_named(name), problem);
+    const auto &notes = solution.diagnostics.notes;
+    const bool is_told =
+        std::any_of(notes.begin(), notes.end(),
+                    [](const std::string &note) { return note.find("cracks run through") == 0; });
+    return std::pair(study::errors(scene, problem, solution, {}).at("averages L2 | exact"),
+                     is_told);
+  };
+  for (const auto &[mesh, name] : {std::pair("squares", "DGQ0"),
+                                   {"squares", "DGQ1"},
+                                   {"triangles", "DGP0"},
+                                   {"triangles", "DGP1"}})
+  {
+    const auto [error, is_told] = outcome(mesh, name, .5);
+    EXPECT_LT(error, 1e-11) << name;
+    EXPECT_FALSE(is_told) << name;
+    const auto [error_inside, is_told_inside] = outcome(mesh, name, .6);
+    EXPECT_GT(error_inside, .02) << name;
+    EXPECT_TRUE(is_told_inside) << name;
+  }
+  EXPECT_GT(outcome("squares", "Q1", .5).first, .02); // may not jump
 }
 
 TEST(MeshGalerkin, ConvergesAtTheOptimalRateOnTriangles)

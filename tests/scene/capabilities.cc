@@ -95,6 +95,21 @@ TEST(Capabilities, cracks_in_equilibrium_are_what_their_analyses_can_do)
             "scene 'capable': growth cannot do this scene: Solv"); // before it is run
 }
 
+TEST(Capabilities, cracks_of_solids_change_dilatations_and_those_of_bonds_do_not)
+{
+  const std::string crack =
+      "subsection Domain\n set mesh = squares\n set cracks = 0.2, 0.4 : 0.8, 0.4\nend\n"
+      "subsection Methods\n set names = FA\nend\nsubsection Problem\n set solution = ";
+  const Capabilities bonds = needs(parse_scene("bonds", crack + "x\nend\n"));
+  EXPECT_EQ(bonds.count(Capability::cracks), 1u);
+  EXPECT_EQ(bonds.count(Capability::damaged_dilatation), 0u);
+  const Capabilities solid = needs(parse_scene(
+      "solid", crack + "x, y\nend\nsubsection Kernel\n set type = 1/r\n set limit = Navier\nend\n"
+                       "subsection Material\n set model = LPS\n set E = 1\n set nu = 0.25\nend\n"));
+  EXPECT_EQ(solid.count(Capability::cracks), 1u);
+  EXPECT_EQ(solid.count(Capability::damaged_dilatation), 1u);
+}
+
 TEST(Capabilities, those_that_can_do_the_same_share_a_row_of_the_table)
 {
   const std::string table =

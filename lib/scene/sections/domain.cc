@@ -108,8 +108,8 @@ namespace plumbline::scene
         "cracks", "", lines(),
         [this](const std::string &text) { cracks = to_lines(text, lines()); },
         "Cracks as lines 'x0, y0 : x1, y1', with more points where they bend, separated by ';'. "
-        "Bonds across them are broken, their faces free of traction (Material/model = LPS). "
-        "[length]");
+        "Bonds across them are broken: by rules, and of bond-based materials by Galerkin methods "
+        "as well; Material/model = LPS makes their faces free of traction. [length]");
     keys.add("outside", outside,
              "An expression in x, y and delta that is positive beyond free surfaces: nodes of the "
              "collar there carry no data (Material/model = LPS).");
