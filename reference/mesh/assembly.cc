@@ -87,17 +87,19 @@ namespace plumbline::reference
       /// Of pairs that are not exact though others are, in words; empty: there are none.
       std::string exceptions() const { return by_sides_.empty() ? "" : by_sides_[0].exceptions(); }
 
-      /// Past the cracks, which `integrate_visible` needs next.
-      geometry::Sight look(std::size_t outer, std::size_t inner)
+      /// Past all cracks between two cells. @param between  overwritten with these
+      geometry::Sight look(std::size_t outer, std::size_t inner,
+                           std::vector<geometry::Cut> &between) const
       {
         return geometry::find_between(cracks_, cells_[outer].vertices(), cells_[inner].vertices(),
-                                      between_);
+                                      between);
       }
 
-      /// Past the cracks that were just found; as `integrate`.
-      void integrate_visible(std::size_t outer, std::size_t inner, PairBlocks &blocks)
+      /// As `integrate`, past cracks.
+      void integrate_visible(std::size_t outer, std::size_t inner,
+                             const std::vector<geometry::Cut> &between, PairBlocks &blocks)
       {
-        by_quadrature_.integrate(outer, inner, blocks, between_);
+        by_quadrature_.integrate(outer, inner, blocks, between);
       }
 
       /// Without cracks, and without coefficients that are constant in cells.
@@ -135,7 +137,7 @@ namespace plumbline::reference
       std::optional<physics::Coefficient> coefficient_;
       std::vector<double> of_cells_; ///< empty: it changes inside of them
       PairQuadrature by_quadrature_;
-      std::vector<geometry::Cut> cracks_, between_; ///< all, and of a pair
+      std::vector<geometry::Cut> cracks_;
       std::optional<RectanglePairs> by_correlation_;
       std::vector<PolygonPairs> by_sides_; ///< of each smooth part of the kernel
       PairBlocks blocks_of_part_;
@@ -184,7 +186,8 @@ namespace plumbline::reference
     {
       PairIntegrator integrator;
       PairBlocks blocks;
-      std::vector<unsigned int> slot; ///< of each dof among the columns
+      std::vector<unsigned int> slot;     ///< of each dof among the columns
+      std::vector<geometry::Cut> between; ///< a pair of cells, cracks
     };
 
     /// Blocks of the pairs that stand for all others.
@@ -226,12 +229,12 @@ namespace plumbline::reference
       for (std::size_t i = 0; i < pairs.partners.size(); ++i)
       {
         const unsigned int partner = pairs.partners[i];
-        const geometry::Sight sight = scratch.integrator.look(cell, partner);
+        const geometry::Sight sight = scratch.integrator.look(cell, partner, scratch.between);
         if (sight == geometry::Sight::hidden)
           continue;
         const bool is_partial = sight == geometry::Sight::partial;
         if (is_partial)
-          scratch.integrator.integrate_visible(cell, partner, scratch.blocks);
+          scratch.integrator.integrate_visible(cell, partner, scratch.between, scratch.blocks);
         else if (pairs.same.empty())
           scratch.integrator.integrate(cell, partner, scratch.blocks);
         const PairBlocks &blocks =
@@ -316,7 +319,8 @@ namespace plumbline::reference
     MeshRows sum(space, profile.n_entries(), pairs);
     const Scratch scratch{PairIntegrator(space, cells, kernel, profile, coefficient, options),
                           {},
-                          std::vector<unsigned int>(space.n_dofs())};
+                          std::vector<unsigned int>(space.n_dofs()),
+                          {}};
     if (scratch.integrator.is_at_loss())
       throw InputError("Domain/sides = curved: entries would be " +
                        tell_way(space, kernel, scratch.integrator, options, false) +
