@@ -139,6 +139,19 @@ namespace plumbline::scene
                                                                                           *allowed);
   }
 
+  std::vector<geometry::Box> to_boxes(const std::string &text)
+  {
+    std::vector<geometry::Box> result;
+    for (const auto &corners : to_lines(text, boxes()))
+    {
+      if (!(corners[0][0] < corners[1][0]) || !(corners[0][1] < corners[1][1]))
+        throw InputError("a box of '" + text +
+                         "' is empty; its second corner must be above and right of its first");
+      result.push_back({corners[0], corners[1]});
+    }
+    return result;
+  }
+
   void Keys::enter(const std::string &section)
   {
     if (!section_.empty())

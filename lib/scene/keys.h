@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/choice.h"
+#include "geometry/lattice.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
@@ -32,6 +33,9 @@ namespace plumbline::scene
   /// @throws InputError  anything else
   std::vector<std::vector<dealii::Point<2>>> to_lines(const std::string &text,
                                                       const Allowed &allowed);
+
+  /// @throws InputError  text that boxes() does not allow; a box without area
+  std::vector<geometry::Box> to_boxes(const std::string &text);
 
   /// The keys of a scene file, each beside the member that takes its value.
   class Keys

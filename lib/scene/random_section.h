@@ -24,6 +24,8 @@ namespace plumbline::scene
     ellipses ///< 1 in ellipses that lie at random, else 0
   };
 
+  struct DomainSection;
+
   /// What is random in a scene: variables, and a field.
   struct RandomSection
   {
@@ -36,7 +38,8 @@ namespace plumbline::scene
     std::array<double, 2> length = {1, 1};            ///< along x and y [length]
     unsigned int n_modes = 0; ///< each a standard normal variable after the others; 0: drawn whole
     double cell = 0;          ///< of the lattice that a field of modes lives on [length]
-    double fraction = .2;     ///< of the area, in ellipses
+    std::vector<geometry::Box> box; ///< that a field fills; empty: that of the domain's boxes
+    double fraction = .2;           ///< of the area, in ellipses
     std::array<double, 2> semi_axes = {1, 1}; ///< of ellipses [length]
     bool may_overlap = true;
     unsigned int n_realisations = 1000; ///< that principal components are found from
@@ -54,10 +57,9 @@ namespace plumbline::scene
     physics::Names names() const;
 
     void declare(Keys &keys);
-    /// @param domain  whose bounding box a field fills
     /// @throws InputError  values that are not one for each variable, names that mean something
-    /// else, numbers that make no field
-    void complete(const geometry::Domain &domain);
+    /// else, numbers that make no field, a field on a mesh whose box is not known
+    void complete(const DomainSection &domain);
   };
 
   /// Where a random scene is taken by `plumbline sample`.

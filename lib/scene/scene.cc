@@ -47,7 +47,7 @@ namespace plumbline::scene
     /// What follows from the keys, once all are read.
     void complete(Scene &scene)
     {
-      scene.random.complete(scene.domain.boxes);
+      scene.random.complete(scene.domain);
       scene.kernel.complete(scene.folder);
       scene.material.names = scene.random.names();
       scene.material.complete();
@@ -140,7 +140,7 @@ namespace plumbline::scene
   {
     scene.random.values = values;
     scene.random.realisation = realisation;
-    scene.random.complete(scene.domain.boxes);
+    scene.random.complete(scene.domain);
     scene.material.names = scene.random.names();
     return scene;
   }

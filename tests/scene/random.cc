@@ -123,6 +123,29 @@ TEST(RandomScene, FieldsOfModesAreLinearInThem)
   EXPECT_NEAR(expansion.total_variance(), .09 * 2, 1e-12);
 }
 
+TEST(RandomScene, FieldsFillTheBoxThatIsGiven)
+{
+  const auto field = [](const std::string &mesh, const std::string &box)
+  {
+    return solid({{"Domain/arguments", mesh == "squares" ? "" : "-3 : 3 : false"},
+                  {"Domain/inside", mesh == "squares" ? "" : "1 - x^2 - y^2"},
+                  {"Random/field", "exponential"},
+                  {"Random/modes", "3"},
+                  {"Random/cell", "0.25"},
+                  {"Random/deviation", "0.3"},
+                  {"Random/box", box},
+                  {"Domain/mesh", mesh}});
+  };
+  const scene::Scene ball = random_scene(field("hyper_cube", "-1.5, -1 : 1.5, 1"));
+  const random::Expansion &expansion = *ball.random.source->expansion();
+  EXPECT_NEAR(expansion.total_variance(), .09 * 6, 1e-12);
+  const scene::Scene at = at_sample(ball, {1, 3, 1, 1, 1}, 1);
+  EXPECT_GT(std::abs(modulus(at, {-1.4, -.9}) - modulus(at, {-.5, -.5})), .001);
+  EXPECT_EQ(modulus(at, {-1.6, -.9}), modulus(at, {-1.5, -.9}));
+  expect_refused(field("hyper_cube", ""), "not known before the mesh is made; give Random/box");
+  expect_refused(field("squares", "0, 0 : 1, 1; 1, 1 : 2, 2"), "2 boxes; give one");
+}
+
 TEST(RandomScene, PrincipalComponentsOfEllipsesAreNearlyGrey)
 {
   const scene::Scene scene = random_scene(solid({{"Random/fraction", "0.4"},

@@ -7,22 +7,6 @@
 
 namespace plumbline::scene
 {
-  namespace
-  {
-    std::vector<geometry::Box> to_boxes(const std::string &text)
-    {
-      std::vector<geometry::Box> result;
-      for (const auto &corners : to_lines(text, boxes()))
-      {
-        if (!(corners[0][0] < corners[1][0]) || !(corners[0][1] < corners[1][1]))
-          throw InputError("a box of '" + text +
-                           "' is empty; its second corner must be above and right of its first");
-        result.push_back({corners[0], corners[1]});
-      }
-      return result;
-    }
-  } // namespace
-
   MeshKind MeshSource::kind() const
   {
     return base::from_word<MeshKind>(name).value_or(

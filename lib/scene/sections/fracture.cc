@@ -50,12 +50,7 @@ namespace plumbline::scene
              "do, whatever rounding says of them.");
     keys.add(
         "unbreaking", "", scene::boxes(),
-        [this](const std::string &text)
-        {
-          unbreaking.clear();
-          for (const auto &corners : to_lines(text, scene::boxes()))
-            unbreaking.push_back({corners[0], corners[1]});
-        },
+        [this](const std::string &text) { unbreaking = to_boxes(text); },
         "Boxes, written like Domain/boxes: bonds with an end in them do not break. Near grips "
         "stresses are high, and bonds would break there first. [length]");
     keys.add("checkpoint interval", interval, count(1, 100000),

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "scene/keys.h"
+#include "scene/problem_sections.h"
 #include "scene/random_section.h"
 #include "scene/values.h"
 
@@ -108,8 +109,12 @@ namespace plumbline::scene
     keys.add("modes", n_modes, count(0, 10000),
              "Of the field, each a standard normal variable after Random/variables; 0: it is drawn "
              "whole (ellipses).");
+    keys.add(
+        "box", "", boxes(), [this](const std::string &text) { box = to_boxes(text); },
+        "That the field fills, written like Domain/boxes; beyond it the field is what it is at "
+        "the nearest point. Empty: the box about Domain/boxes. [length]");
     keys.add("cell", cell, any_number(),
-             "Mesh size of the lattice over the domain's box that modes are found on. [length]");
+             "Mesh size of the lattice over the field's box that modes are found on. [length]");
     keys.add("mean", mean, any_number(), "Of a field of a covariance.");
     keys.add("deviation", deviation, any_number(), "Of a field of a covariance, > 0.");
     keys.add(
@@ -149,7 +154,7 @@ namespace plumbline::scene
     return names;
   }
 
-  void RandomSection::complete(const geometry::Domain &domain)
+  void RandomSection::complete(const DomainSection &domain)
   {
     std::set<std::string> taken = {"x", "y", "t", "h", "pi", "delta", "R"};
     for (const Variable &variable : variables)
@@ -166,8 +171,16 @@ namespace plumbline::scene
                                 " needs a field; give Random/field, or write 0");
       return;
     }
+    require(box.size() <= 1, "Random/box has " + std::to_string(box.size()) +
+                                 " boxes; give one, about the domain and its collar");
+    require(!box.empty() || (domain.mesh.is_of_boxes() && domain.mesh.map.empty()),
+            "Random/field = " + base::word(field) + " with Domain/mesh = " + domain.mesh.name +
+                (domain.mesh.map.empty() ? "" : " and Domain/map") +
+                " fills a box that is not known before the mesh is made; give Random/box = 'x0, y0 "
+                ": x1, y1'");
     if (!source)
-      source = std::make_shared<const RandomField>(*this, bounding_box(domain));
+      source = std::make_shared<const RandomField>(*this, box.empty() ? bounding_box(domain.boxes)
+                                                                      : box.front());
     std::vector<double> modes(n_modes, 0);
     if (!values.empty())
       modes.assign(values.end() - n_modes, values.end());
