@@ -1,5 +1,8 @@
 #include "geometry/visibility.h"
 
+#include <boost/geometry.hpp>
+#include <deal.II/boost_adaptors/point.h>
+
 #include <algorithm>
 
 namespace plumbline::geometry
@@ -12,30 +15,14 @@ namespace plumbline::geometry
       return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     }
 
-    /// Of all points of both, counter-clockwise (Andrew's chains).
+    /// Of all points of both, counter-clockwise.
     Polygon hull(ArrayView<const Point<2>> a, ArrayView<const Point<2>> b)
     {
-      Polygon points(a.begin(), a.end());
+      boost::geometry::model::multi_point<Point<2>> points(a.begin(), a.end());
       points.insert(points.end(), b.begin(), b.end());
-      std::sort(points.begin(), points.end(),
-                [](const Point<2> &p, const Point<2> &q)
-                { return p[0] < q[0] || (p[0] == q[0] && p[1] < q[1]); });
-      Polygon result;
-      for (const bool is_back : {false, true})
-      {
-        const std::size_t first = result.size();
-        for (const Point<2> &point : points)
-        {
-          while (result.size() > first + 1 &&
-                 turn(result[result.size() - 2], result.back(), point) <= 0)
-            result.pop_back();
-          result.push_back(point);
-        }
-        result.pop_back(); // the other chain begins with it
-        if (!is_back)
-          std::reverse(points.begin(), points.end());
-      }
-      return result;
+      boost::geometry::model::ring<Point<2>, false, false> result;
+      boost::geometry::convex_hull(points, result);
+      return Polygon(result.begin(), result.end());
     }
 
     constexpr double rounding = 1e-12;

@@ -96,7 +96,7 @@ namespace plumbline::base
                                                               "heterogeneous",
                                                               "cracks",
                                                               "free surfaces",
-                                                              "dilatation beside them",
+                                                              "dilatation at cracks",
                                                               "notch",
                                                               "dilatation",
                                                               "zero collar dilatation",

@@ -239,8 +239,8 @@ namespace plumbline::reference
         if (const std::size_t n_cells = count_cracked_cells(); n_cells > 0)
           result.notes.push_back(
               "cracks run through " + std::to_string(n_cells) +
-              " cells, in which no solution jumps: its error falls like the root "
-              "of h; let sides run along them");
+              " cells, in which no solution jumps, so that the field's error falls "
+              "like the root of h; let sides run along them");
         if (space_->shapes().degree() > 0 && !problem_.damage.is_there())
           result.limit = method::prove_galerkin(problem_, result);
         const scene::GeometrySection &geometry = problem_.settings.geometry;

@@ -2,7 +2,7 @@
 
 #include "check_command.h"
 
-#include "../meshfree/given_bonds.h"
+#include "tests/meshfree/given_bonds.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,22 +1,11 @@
 // What is seen past cracks, against points that are looked at one by one.
-#include "geometry/visibility.h"
+#include "tests/geometry/crossing.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 using namespace plumbline::geometry;
-
-namespace
-{
-  bool crosses(const Cut &cut, const Point<2> &x, const Point<2> &y)
-  {
-    const auto side = [](const Point<2> &a, const Point<2> &b, const Point<2> &c)
-    { return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0; };
-    return side(cut[0], cut[1], x) != side(cut[0], cut[1], y) &&
-           side(x, y, cut[0]) != side(x, y, cut[1]);
-  }
-} // namespace
 
 TEST(Visibility, is_that_of_each_point)
 {

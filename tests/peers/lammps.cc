@@ -2,7 +2,7 @@
 // neighbour at a time and reading the force, are those of our rule LAMMPS; and `plumbline check`
 // says of the real ones that their limit is wrong.
 
-#include "../app/command.h"
+#include "tests/app/command.h"
 
 #include "meshfree/rules/rules.h"
 

@@ -5,6 +5,7 @@
 #include "reference/mesh/assembly.h"
 #include "reference/mesh/pair_quadrature.h"
 #include "reference/strip/bond_pairs.h"
+#include "tests/geometry/crossing.h"
 
 #include <gtest/gtest.h>
 
@@ -98,14 +99,6 @@ namespace
       result += k % base * digit;
     return result;
   }
-
-  bool crosses(const geometry::Cut &cut, const Point<2> &x, const Point<2> &y)
-  {
-    const auto side = [](const Point<2> &a, const Point<2> &b, const Point<2> &c)
-    { return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0; };
-    return side(cut[0], cut[1], x) != side(cut[0], cut[1], y) &&
-           side(x, y, cut[0]) != side(x, y, cut[1]);
-  }
 } // namespace
 
 TEST(VisiblePairs, approach_those_of_bonds_on_a_lattice)
@@ -197,14 +190,14 @@ TEST(VisiblePairs, are_means_over_points_that_see_each_other)
       {
         const Point<2> x = of_triangle(a, halton(k, 2), halton(k, 3));
         const Point<2> y = of_triangle(b, halton(k, 5), halton(k, 7));
-        n_seen += x.distance(y) < horizon &&
-                          std::none_of(cracks.begin(), cracks.end(),
-                                       [&](const geometry::Cut &cut) { return crosses(cut, x, y); })
+        n_seen += x.distance(y) < horizon && std::none_of(cracks.begin(), cracks.end(),
+                                                          [&](const geometry::Cut &cut)
+                                                          { return geometry::crosses(cut, x, y); })
                       ? 1
                       : 0;
       }
       const double all = kernel.constant() * system.cells.area(outer) * system.cells.area(inner);
-      EXPECT_NEAR(blocks.cross[0] / all, 1. * n_seen / n_points, .004) << outer << ' ' << inner;
+      EXPECT_NEAR(blocks.cross[0] / all, 1. * n_seen / n_points, .002) << outer << ' ' << inner;
       EXPECT_EQ(blocks.cross[0], blocks.outer[0]);
     }
   EXPECT_GT(n_partial, 50u);
