@@ -214,14 +214,17 @@ namespace plumbline::app
     }
   } // namespace
 
-  int crack(const CrackOptions &options)
+  void check_crack_size(const scene::Scene &scene, unsigned int n_levels, const fs::path &folder)
   {
-    const scene::Scene scene = read_alone(options);
-    if (!scene.crack.is_there())
-      throw InputError("scene '" + scene.name +
-                       "': Crack/notch = 0, so there is no crack to follow; give its length, or "
-                       "use 'plumbline run'");
-    const fs::path folder = output_folder(options, scene);
+    const CrackPlan plan = make_plan(scene, folder);
+    for_each_level(scene, n_levels,
+                   [&](const scene::Series &, const scene::Level &level, bool)
+                   { check_size(scene, level, plan); });
+  }
+
+  CrackResults move_crack(const scene::Scene &scene, unsigned int n_levels, const fs::path &folder,
+                          const std::function<void()> &before_it_moves)
+  {
     CrackResults results;
     results.scene_name = scene.name;
     results.purpose = scene.purpose;
@@ -230,12 +233,8 @@ namespace plumbline::app
     results.expected = scene.expected.crack;
     results.damping = scene.time.damping;
     results.plan = make_plan(scene, folder);
-    for_each_level(scene, options.n_levels,
-                   [&](const scene::Series &, const scene::Level &level, bool)
-                   { check_size(scene, level, results.plan); });
-
     bool is_first = true;
-    for_each_level(scene, options.n_levels,
+    for_each_level(scene, n_levels,
                    [&](const scene::Series &series, const scene::Level &level, bool is_finest)
                    {
                      results.thresholds.push_back(find_threshold(scene, series, level));
@@ -255,8 +254,24 @@ namespace plumbline::app
     const CrackStrip strip = make_strip(scene, {results.own.h, results.own.horizon});
     results.strain = strip.column().strain(scene.crack.load * results.own.energy);
     plan_steps(scene, make_motion(scene, strip), results.plan);
-    report::write_file(folder / "crack.md", ""); // before the work: can it be written?
+    if (before_it_moves)
+      before_it_moves();
     move(scene, strip, folder, results);
+    return results;
+  }
+
+  int crack(const CrackOptions &options)
+  {
+    const scene::Scene scene = read_alone(options);
+    if (!scene.crack.is_there())
+      throw InputError("scene '" + scene.name +
+                       "': Crack/notch = 0, so there is no crack to follow; give its length, or "
+                       "use 'plumbline run'");
+    const fs::path folder = output_folder(options, scene);
+    check_crack_size(scene, options.n_levels, folder);
+    const CrackResults results =
+        move_crack(scene, options.n_levels, folder,
+                   [&] { report::write_file(folder / "crack.md", ""); }); // can it be written?
     if (!options.quiet && results.history.resumed_at > 0)
       std::cerr << "continued from t = " << base::to_text(results.history.resumed_at, 4) << ", of '"
                 << results.plan.checkpoint.string() << "'\n";

@@ -1,5 +1,6 @@
 #include "dispersion.h"
 
+#include "base/cost.h"
 #include "base/error.h"
 #include "base/number_text.h"
 #include "methods.h"
@@ -33,33 +34,43 @@ namespace plumbline::app
     }
   } // namespace
 
-  void dispersion(const DispersionOptions &options)
+  study::DispersionResults measure_dispersion(const scene::Scene &scene,
+                                              const method::Methods &methods,
+                                              const std::vector<double> &angles,
+                                              unsigned int n_levels)
   {
-    check_angles(options.angles);
-    const scene::Scene scene = read_alone(options);
     study::DispersionResults results{
-        scene.name, scene.purpose, study::plan_waves(scene, options.angles), {}, {}};
-    const method::Methods methods = study::choose_methods(scene, all_methods());
-
-    const fs::path folder = output_folder(options, scene);
-    report::write_file(folder / "dispersion.md", ""); // before the work: can it be written?
-
+        scene.name, scene.purpose, study::plan_waves(scene, angles), {}, {}};
     std::vector<std::vector<DispersionRow>> rows(methods.size()); // of each method
-    for_each_level(scene, options.n_levels,
+    for_each_level(scene, n_levels,
                    [&](const scene::Series &series, const scene::Level &level, bool is_finest)
                    {
                      const scene::Problem problem = scene::make_problem(scene, 0, level);
                      for (std::size_t i = 0; i < methods.size(); ++i)
                      {
+                       const base::CpuTimer timer;
                        auto own = study::measure_waves(*methods[i], problem, results.study,
                                                        series.name, is_finest);
+                       own.front().seconds = timer.seconds();
                        std::move(own.begin(), own.end(), std::back_inserter(rows[i]));
                      }
                    });
     for (auto &own : rows)
       std::move(own.begin(), own.end(), std::back_inserter(results.rows));
     results.trends = study::wave_trends(scene, results.rows);
+    return results;
+  }
 
+  void dispersion(const DispersionOptions &options)
+  {
+    check_angles(options.angles);
+    const scene::Scene scene = read_alone(options);
+    (void)study::plan_waves(scene, options.angles);
+    const method::Methods methods = study::choose_methods(scene, all_methods());
+    const fs::path folder = output_folder(options, scene);
+    report::write_file(folder / "dispersion.md", ""); // before the work: can it be written?
+    const study::DispersionResults results =
+        measure_dispersion(scene, methods, options.angles, options.n_levels);
     report::write_dispersion(results, folder);
     if (options.json)
       std::cout << report::dispersion_json(results);

@@ -1,13 +1,24 @@
 #pragma once
 
 #include "measures.h"
+#include "method/method.h"
+#include "study/dispersion.h"
 
 namespace plumbline::app
 {
+  const std::vector<double> usual_angles = {0, 22.5, 45};
+
   struct DispersionOptions : MeasureOptions
   {
-    std::vector<double> angles{0, 22.5, 45}; ///< of the waves, from the first axis [degree]
+    std::vector<double> angles = usual_angles; ///< of the waves, from the first axis [degree]
   };
+
+  /// The waves of methods over the sweep of a scene.
+  /// @throws InputError  a scene without waves of one stencil; what else fails is in its row
+  study::DispersionResults measure_dispersion(const scene::Scene &scene,
+                                              const method::Methods &methods,
+                                              const std::vector<double> &angles,
+                                              unsigned int n_levels);
 
   /// Measure the waves of all methods over the sweep of a scene on lattices, beside those of the
   /// nonlocal operator and of its local limit, at density 1; print tables and verdicts, write

@@ -139,6 +139,22 @@ namespace plumbline::app
         at_nodes.push_back(toughness(node));
       return at_nodes;
     }
+    /// λ = μ at every one of some points.
+    bool is_of_bonds(const scene::Scene &scene)
+    {
+      constexpr int n = 16; // along each side
+      const auto material = scene.material.lame();
+      for (const geometry::Box &box : scene.domain.boxes.include)
+        for (int k = 0; k < n * n; ++k)
+        {
+          const Tensor<1, 2> side = box.upper - box.lower;
+          const physics::Lame lame = material(
+              box.lower + Tensor<1, 2>({(k % n + .5) / n * side[0], (k / n + .5) / n * side[1]}));
+          if (std::abs(lame.lambda - lame.mu) > 1e-12 * lame.mu)
+            return false;
+        }
+      return true;
+    }
   } // namespace
 
   GrowthSize expected_size(const scene::Scene &scene)
@@ -155,8 +171,7 @@ namespace plumbline::app
       way = std::max(way, tip[0] >= mouth[0] ? box.upper[0] - tip[0] : tip[0] - box.lower[0]);
     }
     size.n_bonds = .5 * M_PI * m * m * size.n_nodes;
-    const physics::Lame lame = scene.material.lame()(tip);
-    const bool is_bonds = std::abs(lame.lambda - lame.mu) <= 1e-12 * lame.mu;
+    const bool is_bonds = is_of_bonds(scene);
     // with dilatations the reach is twice as far; nested dissection: entries of the factor grow
     // with the logarithm of n
     const double n_entries = 4 * M_PI * m * m * (is_bonds ? 1 : 4) * size.n_nodes,
@@ -216,6 +231,8 @@ namespace plumbline::app
     else
       results.model = is_bonds ? "bond-based, for lambda = mu leaves the solid its bonds alone"
                                : "LPS without surface terms";
+    if (!is_bonds && !scene.material.is_homogeneous)
+      results.model += ", each node's dilatation with its own constants";
     results.rules = scene.fracture;
     results.rules.solver = solver;
     results.h = level.h;

@@ -5,14 +5,11 @@
 #include "base/number_text.h"
 #include "base/team.h"
 #include "grow.h"
-#include "methods.h"
-#include "reference/lattice/torus_motion.h"
 #include "report/formats.h"
 #include "report/sample_files.h"
 #include "report/sampling_page.h"
 #include "run_parts.h"
-#include "study/preflight.h"
-#include "study/sample_sweep.h"
+#include "sample_taker.h"
 #include "workers.h"
 
 #include <algorithm>
@@ -50,32 +47,6 @@ namespace plumbline::app
       return "# levels: " + std::to_string(options.n_levels) + "\n" + scene.text;
     }
 
-    /// One growth as the only case of its sample.
-    study::SampleCase grow_sample(const scene::Scene &scene, const fs::path &checkpoint)
-    {
-      const study::GrowthResults growth = grow_body(scene, checkpoint);
-      std::error_code not_there;
-      fs::remove(checkpoint, not_there);
-      study::SampleCase one;
-      one.method = growth.method;
-      one.problem = base::word(growth.rules.breaking);
-      one.series = scene.study.series.front().name;
-      one.h = growth.h;
-      one.horizon = growth.horizon;
-      one.seconds = growth.seconds;
-      for (const char *const name : scene::growth_quantities)
-        if (const double value = growth.quantity(name); std::isfinite(value))
-          one.quantities[name] = value;
-      one.field.values = growth.moments.back().damage;
-      for (const auto &node : growth.nodes)
-      {
-        one.field.x.push_back(node[0]);
-        one.field.y.push_back(node[1]);
-        one.field.area.push_back(growth.h * growth.h);
-      }
-      return one;
-    }
-
     /// Whatever becomes of it.
     study::SampleRecord take(const scene::Scene &scene, const study::SamplingPlan &plan,
                              std::size_t sample, const report::SampleFiles &files)
@@ -84,18 +55,8 @@ namespace plumbline::app
       record.sample = sample;
       try
       {
-        const scene::Scene at = plan.at(scene, sample);
-        if (scene.fracture.is_there())
-          record.cases = {
-              grow_sample(at, files.folder() / ("checkpoint_" + std::to_string(sample) + ".h5"))};
-        else
-        {
-          const method::Methods available = all_methods(),
-                                methods = study::choose_methods(at, available);
-          record.cases = scene.time.is_dynamic()
-                             ? study::move_sample(at, methods, reference::move_on_torus)
-                             : study::sweep_sample(at, methods, available);
-        }
+        record.cases = sample_taker(scene).take(
+            plan.at(scene, sample), files.folder() / ("sample_" + std::to_string(sample)));
       }
       catch (const std::exception &error) // of any kind, out of memory too: the others go on
       {
@@ -195,7 +156,7 @@ namespace plumbline::app
       if (is_talking && due.size() < plan.values.size() && team.n_ranks() == 1)
         std::cerr << "continuing: " << plan.values.size() - due.size() << " samples are in '"
                   << folder.string() << "' already\n";
-      if (is_talking && scene.fracture.is_there())
+      if (is_talking && is_growth(scene))
         tell_size(scene, due.size(), options.n_jobs * team.n_ranks());
       ProgressLine progress(is_talking);
       Forecast forecast(due.size(), is_talking);
@@ -234,18 +195,7 @@ namespace plumbline::app
     if (options.is_worker)
       return take_samples(scene, plan, files);
 
-    if (!scene.fracture.is_there())
-    {
-      const method::Methods available = all_methods(),
-                            methods = study::choose_methods(scene, available);
-      if (scene.time.is_dynamic())
-        study::check_motions(scene, methods, 0);
-      else
-      {
-        study::check_memory(scene, methods, available, 0);
-        study::check_data(scene);
-      }
-    }
+    sample_taker(scene).check(scene, folder);
     prepare_folder(folder);
     const base::Team team = base::Team::all();
     team.together(

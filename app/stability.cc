@@ -1,5 +1,6 @@
 #include "stability.h"
 
+#include "base/cost.h"
 #include "base/error.h"
 #include "meshfree/vtu.h"
 #include "methods.h"
@@ -45,6 +46,7 @@ namespace plumbline::app
                                const std::string &series, const scene::Level &level, double density)
     {
       StabilityRow row{method.name(), method.side(), series, level.h, level.horizon, {}, {}, {}};
+      const base::CpuTimer timer;
       try
       {
         const auto discretisation = method.discretise(problem, base::Team::alone());
@@ -62,6 +64,7 @@ namespace plumbline::app
       {
         row.failure = error.what();
       }
+      row.seconds = timer.seconds();
       return row;
     }
 
@@ -105,20 +108,16 @@ namespace plumbline::app
     }
   } // namespace
 
-  int stability(const StabilityOptions &options)
+  study::StabilityResults
+  measure_stability(scene::Scene scene, const method::Methods &methods, unsigned int n_levels,
+                    const std::function<void(const StabilityRow &)> &at_finest)
   {
-    scene::Scene scene = read_alone(options);
-    const method::Methods available = all_methods();
-    const method::Methods methods = study::choose_methods(scene, available);
     scene.solver.is_mixed = false; // the operator on displacements is measured
-    study::check_memory(scene, methods, available, options.n_levels);
-
-    const fs::path folder = output_folder(options, scene);
-    report::write_file(folder / "stability.md", ""); // before the work: can it be written?
-
+    study::StabilityResults results;
+    results.scene_name = scene.name;
+    results.purpose = scene.purpose;
     std::vector<std::vector<StabilityRow>> rows(methods.size()); // of each method
-    std::vector<study::StrainGrowth> strains;
-    for_each_level(scene, options.n_levels,
+    for_each_level(scene, n_levels,
                    [&](const scene::Series &series, const scene::Level &level, bool is_finest)
                    {
                      const scene::Problem problem = scene::make_problem(scene, 0, level);
@@ -126,20 +125,33 @@ namespace plumbline::app
                      {
                        rows[i].push_back(measure_level(*methods[i], problem, series.name, level,
                                                        scene.time.density));
-                       if (is_finest)
-                         write_modes(rows[i].back(), folder / "stability");
+                       if (is_finest && at_finest)
+                         at_finest(rows[i].back());
                      }
                      if (is_finest && scene.material.is_double_well() && scene.domain.is_periodic)
-                       add_strains(methods, scene, problem, series.name, level, strains);
+                       add_strains(methods, scene, problem, series.name, level, results.strains);
                    });
-    study::StabilityResults results{scene.name, scene.purpose, {}, {}, {}, std::move(strains)};
     for (auto &own : rows)
     {
       results.verdicts.push_back(study::judge(own));
       std::move(own.begin(), own.end(), std::back_inserter(results.rows));
     }
     results.trends = study::stability_trends(results.rows);
+    return results;
+  }
 
+  int stability(const StabilityOptions &options)
+  {
+    const scene::Scene scene = read_alone(options);
+    const method::Methods available = all_methods();
+    const method::Methods methods = study::choose_methods(scene, available);
+    study::check_memory(scene, methods, available, options.n_levels);
+
+    const fs::path folder = output_folder(options, scene);
+    report::write_file(folder / "stability.md", ""); // before the work: can it be written?
+    const study::StabilityResults results =
+        measure_stability(scene, methods, options.n_levels,
+                          [&](const StabilityRow &row) { write_modes(row, folder / "stability"); });
     report::write_stability(results, folder);
     if (options.json)
       std::cout << report::stability_json(results);

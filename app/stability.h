@@ -1,6 +1,8 @@
 #pragma once
 
 #include "measures.h"
+#include "method/method.h"
+#include "study/stability.h"
 
 namespace plumbline::app
 {
@@ -8,6 +10,13 @@ namespace plumbline::app
   {
     bool check = false;
   };
+
+  /// The operators of methods over the sweep of a scene, on displacements alone.
+  /// @param at_finest  called with the rows of each series' finest level
+  /// @throws InputError  a method that shows no operator; what else fails is in its row
+  study::StabilityResults
+  measure_stability(scene::Scene scene, const method::Methods &methods, unsigned int n_levels,
+                    const std::function<void(const study::StabilityRow &)> &at_finest = {});
 
   /// Measure the operators of all methods over the sweep of a scene; print tables and verdicts,
   /// write stability.html, .md and .json with pictures in stability/, and the modes of each series'

@@ -79,6 +79,27 @@ namespace plumbline::app
     }
   } // namespace
 
+  method::Methods strip_methods(const scene::Scene &scene, unsigned int n_levels)
+  {
+    method::Methods methods = choose(scene);
+    check_size(scene, methods, n_levels);
+    return methods;
+  }
+
+  study::StripResults stand_cracks(const scene::Scene &scene, const method::Methods &methods,
+                                   unsigned int n_levels)
+  {
+    study::StripResults results{
+        scene.name, scene.purpose, scene.strip, scene.material.lame()({}).mu, {}, {}};
+    for (const auto &method : methods)
+      for_each_level(scene, n_levels,
+                     [&](const scene::Series &series, const scene::Level &level, bool) {
+                       results.rows.push_back(study::stand_crack(*method, scene, series, level));
+                     });
+    results.limits = study::strip_limits(results.rows);
+    return results;
+  }
+
   int strip(const StripOptions &options)
   {
     const scene::Scene scene = read_alone(options);
@@ -86,19 +107,11 @@ namespace plumbline::app
       throw InputError("scene '" + scene.name +
                        "': Strip/length is 0, so that there is no strip; give it and Strip/crack, "
                        "or use 'plumbline run'");
-    const method::Methods methods = choose(scene);
-    check_size(scene, methods, options.n_levels);
+    const method::Methods methods = strip_methods(scene, options.n_levels);
     const fs::path folder = output_folder(options, scene);
     report::write_file(folder / "strip.md", ""); // before the work: can it be written?
 
-    study::StripResults results{
-        scene.name, scene.purpose, scene.strip, scene.material.lame()({}).mu, {}, {}};
-    for (const auto &method : methods)
-      for_each_level(scene, options.n_levels,
-                     [&](const scene::Series &series, const scene::Level &level, bool) {
-                       results.rows.push_back(study::stand_crack(*method, scene, series, level));
-                     });
-    results.limits = study::strip_limits(results.rows);
+    const study::StripResults results = stand_cracks(scene, methods, options.n_levels);
     const std::vector<std::string> faults = study::strip_faults(results, scene.expected);
     report::write_strip(results, faults, folder);
     if (options.json)

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "measures.h"
+#include "method/method.h"
+#include "study/standing_crack.h"
 
 namespace plumbline::app
 {
@@ -8,6 +10,14 @@ namespace plumbline::app
   {
     bool check = false; ///< Expected/strip, and that no strip is too short
   };
+
+  /// The methods of a scene with a strip, checked, and with memory for all of its levels.
+  /// @throws InputError  a method that is not for lattices, or does not fit
+  method::Methods strip_methods(const scene::Scene &scene, unsigned int n_levels);
+
+  /// Strips with a standing crack by methods at all levels of a scene.
+  study::StripResults stand_cracks(const scene::Scene &scene, const method::Methods &methods,
+                                   unsigned int n_levels);
 
   /// Solve strips with a standing crack by all methods at all levels of a scene; print tables,
   /// write strip.html, .md and .json, and strip/ with pictures and their data.

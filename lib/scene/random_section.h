@@ -26,12 +26,19 @@ namespace plumbline::scene
 
   struct DomainSection;
 
+  /// A number of a scene that is random.
+  struct RandomKey
+  {
+    std::string key, expression; ///< "Section/key", and of variables what it is
+  };
+
   /// What is random in a scene: variables, and a field.
   struct RandomSection
   {
     std::vector<random::Variable> variables;
-    std::vector<double> values;   ///< of all of them; empty: their means
-    unsigned int realisation = 1; ///< of a field that is drawn as a whole
+    std::vector<RandomKey> random_keys; ///< in the order of the file
+    std::vector<double> values;         ///< of all of them; empty: their means
+    unsigned int realisation = 1;       ///< of a field that is drawn as a whole
 
     FieldKind field = FieldKind::none;
     double mean = 0, deviation = 1, smoothness = 1.5; ///< of a field of a covariance
@@ -55,17 +62,32 @@ namespace plumbline::scene
 
     /// Its variables at the values, in expressions.
     physics::Names names() const;
+    /// "Section/key" and its number, at the values.
+    /// @throws InputError  an expression that does not parse or is not finite
+    std::vector<std::pair<std::string, double>> key_values() const;
 
     void declare(Keys &keys);
     /// @throws InputError  values that are not one for each variable, names that mean something
     /// else, numbers that make no field, a field on a mesh whose box is not known
     void complete(const DomainSection &domain);
+
+  private:
+    void check_variables() const;
+  };
+
+  /// What is done with a sample.
+  enum class SampledAnalysis
+  {
+    of_scene, ///< statics, motion, crack, growth or strip, as the scene has it
+    stability,
+    dispersion
   };
 
   /// Where a random scene is taken by `plumbline sample`.
   struct SamplingSection
   {
     random::SampleRule rule = random::SampleRule::none;
+    SampledAnalysis analysis = SampledAnalysis::of_scene;
     /// Of each set of samples: points a variable (tensor), level (Smolyak), or samples.
     std::vector<unsigned int> counts;
     /// How many modes of the field vary, few to many, each with every count; empty: all.
@@ -81,6 +103,9 @@ namespace plumbline::scene
 
 namespace plumbline::base
 {
+  template <>
+  inline constexpr auto words<scene::SampledAnalysis> =
+      std::array{"of the scene", "stability", "dispersion"};
   template <>
   inline constexpr auto words<scene::FieldKind> =
       std::array{"none", "exponential", "separable exponential", "Gaussian", "Matern", "ellipses"};

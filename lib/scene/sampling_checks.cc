@@ -69,8 +69,5 @@ namespace plumbline::scene
                 base::to_text(n, 4) + " samples, more than " + base::to_text(most_samples, 4) +
                 "; take fewer" +
                 (sampling.rule == SampleRule::tensor ? ", or Sampling/rule = Smolyak" : ""));
-    require(!scene.crack.is_there(),
-            rule + " takes samples of statics, of motions and of growth (Fracture); write "
-                   "Crack/notch = 0");
   }
 } // namespace plumbline::scene

@@ -1,6 +1,7 @@
 #include "scene/scene.h"
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/text_file.h"
 #include "physics/expression.h"
 #include "scene/capabilities.h"
@@ -72,10 +73,13 @@ namespace plumbline::scene
     }
 
     /// @param what  opens messages
+    /// @param field  that is known already, of the same scene; or nothing
     Scene build(const std::string &file, const std::string &what,
-                const std::vector<Setting> &settings, const std::vector<Override> &overrides)
+                const std::vector<Setting> &settings, const std::vector<Override> &overrides,
+                const std::shared_ptr<const RandomField> &field = {})
     {
       Scene scene;
+      scene.random.source = field;
       scene.name = std::filesystem::path(file).stem().string();
       scene.folder = std::filesystem::path(file).parent_path().string();
       Keys keys;
@@ -95,6 +99,12 @@ namespace plumbline::scene
         saying(", " + one.place, [&] { keys.set(one.key, one.value); });
       for (const Override &one : overrides)
         saying("", [&] { keys.set(one.key, one.value); });
+      saying("",
+             [&]
+             {
+               for (const auto &[key, value] : scene.random.key_values())
+                 keys.set(key, base::to_text(value, 17));
+             });
       scene.text = keys.text(false);
       saying("", [&] { complete(scene); });
       return scene;
@@ -138,6 +148,17 @@ namespace plumbline::scene
 
   Scene at_sample(Scene scene, const std::vector<double> &values, unsigned int realisation)
   {
+    if (!scene.random.random_keys.empty())
+    {
+      std::string all;
+      for (const double value : values)
+        all += (all.empty() ? "" : ", ") + base::to_text(value, 17);
+      const std::string file = (std::filesystem::path(scene.folder) / scene.name).string();
+      Scene anew = build(file + ".prm", opening(scene.name), read_settings(file, scene.text, ""),
+                         {{"Random/values", all}}, scene.random.source);
+      anew.study = scene.study; // fewer levels, perhaps
+      scene = std::move(anew);
+    }
     scene.random.values = values;
     scene.random.realisation = realisation;
     scene.random.complete(scene.domain);

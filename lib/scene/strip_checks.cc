@@ -31,7 +31,6 @@ namespace plumbline::scene
     needs(scene.problem.solutions.empty() && scene.problem.loads.empty() &&
               !scene.problem.constraint,
           "Problem/solution, load and constraint empty: grips move apart by 2");
-    needs(!scene.sampling.is_there(), "Sampling/rule = none");
     needs(scene.methods.nodes.kind() == NodeKind::centres && scene.methods.nodes.perturbation == 0,
           "nodes at centres that are not moved (Methods/nodes)");
     for (const Series &series : scene.study.series)

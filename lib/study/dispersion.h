@@ -45,6 +45,7 @@ namespace plumbline::study
     double round_off = 0;       ///< of the longest wave's errors
     LimitProof limit;           ///< by moments, or for conforming spaces
     std::string failure;        ///< empty, or why there are no waves
+    double seconds = 0; ///< CPU time of all rows of this method and level, in the first of them
 
     double m() const { return horizon / h; }
     bool grows() const;                  ///< some wave has ω² < 0

@@ -145,7 +145,7 @@ namespace plumbline::study
                                                   const SampleField &places)
     {
       const SetSums &sums = finest.sets.back();
-      if (!says_something(plan.sets.back(), sums, plan.are_independent) || places.values.empty())
+      if (!says_something(plan.sets.back(), sums, plan.are_independent))
         return {};
       const std::size_t n_independent = plan.are_independent ? sums.weights.size() : 0;
       const ExactStatistics own{sums.field.mean(), sums.field.deviation(n_independent)};
@@ -168,7 +168,9 @@ namespace plumbline::study
       std::optional<ExactStatistics> exact;
       try
       {
-        exact = is_own ? own_statistics(plan, finest, places) : exact_statistics(scene, sums.first);
+        if (!places.values.empty())
+          exact =
+              is_own ? own_statistics(plan, finest, places) : exact_statistics(scene, sums.first);
       }
       catch (const InputError &error)
       {

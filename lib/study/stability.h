@@ -49,6 +49,7 @@ namespace plumbline::study
     Consistency consistency;
     std::string failure; ///< empty, or why there is no operator
     CriticalSteps steps = {};
+    double seconds = 0; ///< CPU time
 
     double m() const { return horizon / h; }
   };

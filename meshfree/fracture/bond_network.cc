@@ -147,7 +147,7 @@ namespace plumbline::meshfree
       }
     };
 
-    /// τ; λ = μ to rounding counts as that.
+    /// τ; empty if λ = μ to rounding everywhere.
     std::vector<double> dilatations(const std::vector<physics::Lame> &lame, double V)
     {
       constexpr double rounding = 1e-12;
@@ -155,14 +155,10 @@ namespace plumbline::meshfree
       { return std::abs(one.lambda - one.mu) <= rounding * one.mu; };
       if (std::all_of(lame.begin(), lame.end(), is_bonds))
         return {};
-      const physics::Lame first = lame.front();
-      if (!std::all_of(lame.begin(), lame.end(),
-                       [&](const physics::Lame &one)
-                       { return one.lambda == first.lambda && one.mu == first.mu; }))
-        throw InputError("Material: lambda != mu that vary in space make a solid without energy "
-                         "(harmonic means of both ends), whose cracks cannot be audited; write "
-                         "Material/nu = 1/4 in plane strain (lambda = mu), or constants");
-      return std::vector<double>(lame.size(), V * (first.lambda - first.mu));
+      std::vector<double> result;
+      for (const physics::Lame &one : lame)
+        result.push_back(V * (one.lambda - one.mu));
+      return result;
     }
 
     /// Infinite where a bond cannot break.

@@ -31,7 +31,9 @@ namespace plumbline::meshfree
   /// the linear peridynamic solid whose bonds end at free surfaces and cracks, without the
   /// correction M of its dilatation and without the terms that free surfaces of traction add,
   /// which make it unsymmetric, see SurfaceForces. λ = μ, plane strain of ν = 1/4, leaves the bonds
-  /// alone.
+  /// alone. Where constants vary, k has the harmonic mean of both ends' μ and τ the node's own λ -
+  /// μ, so that there is an energy still; with harmonic means of both, as statics has, there is
+  /// none. Both have the same local limit.
   struct BondNetwork
   {
     struct Bond
@@ -73,7 +75,7 @@ namespace plumbline::meshfree
   /// @param recipe     of a rule, with the deviatoric kernel of μ = 1
   /// @param influence  1/r, ∫K|ξ|² = 2
   /// @throws InputError  h that does not fit the boxes; grips that hold no node, or one grip alone;
-  /// G <= 0 at a bond; a notch through a node, or that cuts no bond; λ != μ that vary in space
+  /// G <= 0 at a bond; a notch through a node, or that cuts no bond
   /// Source: Fan et al. 2022, eqs. (2.24)-(2.26); Silling & Askari 2005 for λ = μ,
   /// doi:10.1016/j.compstruc.2004.11.026.
   BondNetwork make_bond_network(const BreakingSolid &solid, const Recipe &recipe,

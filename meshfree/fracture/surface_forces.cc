@@ -39,10 +39,11 @@ namespace plumbline::meshfree
   {
     const std::vector<NetworkBond> missing = missing_bonds(network, connections);
     const NodeField normal = correct(missing);
-    const double V = network.h * network.h,
-                 excess = network.dilatation.empty() ? 0 : network.dilatation.front() / V; // λ - μ
+    const double V = network.h * network.h;
     for (const NetworkBond &bond : missing)
     {
+      const double excess = // λ - μ
+          network.dilatation.empty() ? 0 : network.dilatation[bond.from] / V;
       const double mu = bond.stiffness / (8 * V * bond.share), lambda = mu + excess;
       const Tensor<1, 2> &n = normal[bond.from], &way = bond.way;
       const double along = way * n, across = way[0] * n[1] - way[1] * n[0];

@@ -183,7 +183,6 @@ TEST(GrowCommand, refuses_what_cannot_grow)
   expect_refused(set("Problem/constraint=solution"), "what the grips do at load 1");
   expect_refused(set("Problem/load=1, 0"), "neither solution nor load");
   expect_refused(set("Material/nu=0.6"), "nu");
-  expect_refused(set("Material/E=1 + x") + " --set Material/nu=0.3", "vary in space");
   expect_refused(set("Material/model=variational"), "take LPS");
   expect_refused(set("Kernel/type=constant"), "Kernel/type = 1/r");
   expect_refused(set("Study/h=0.05, 0.025"), "one Study/h");

@@ -116,9 +116,21 @@ namespace
     return result;
   }
 
-  void expect_same_as_brute_force(double nu, std::size_t n_events)
+  /// Two layers, the crack between them.
+  BreakingSolid layers(int n1, int n2, double notch)
   {
-    const BondNetwork net = network(plate(40, 20, 20 * h, nu));
+    BreakingSolid solid = plate(n1, n2, notch, .25);
+    solid.material = [](const Point<2> &x)
+    {
+      return x[1] > 0 ? physics::lame_from_young(3, .1, physics::PlaneState::strain)
+                      : physics::lame_from_young(1, .35, physics::PlaneState::strain);
+    };
+    return solid;
+  }
+
+  void expect_same_as_brute_force(const BreakingSolid &solid, std::size_t n_events)
+  {
+    const BondNetwork net = network(solid);
     BreakingNetwork body(net, scene::Stretch::linear);
     const Growth growth = grow(body, rules());
     ASSERT_GE(growth.events.size(), n_events);
@@ -134,21 +146,52 @@ namespace
 
 TEST(Fracture, events_are_those_of_brute_force_on_a_plate_of_bonds)
 {
-  expect_same_as_brute_force(.25, 200);
+  expect_same_as_brute_force(plate(40, 20, 20 * h, .25), 200);
 }
 
 TEST(Fracture, events_are_those_of_brute_force_on_a_plate_with_dilatations)
 {
-  expect_same_as_brute_force(.35, 60);
-  expect_same_as_brute_force(.1, 30);
+  expect_same_as_brute_force(plate(40, 20, 20 * h, .35), 60);
+  expect_same_as_brute_force(plate(40, 20, 20 * h, .1), 30);
+  expect_same_as_brute_force(layers(40, 20, 20 * h), 40);
+}
+
+// Of long strips between rigid grips: each length more costs half of the layers' modulus in series
+// over the height, but for what grips do within a horizon.
+TEST(Fracture, layers_have_the_energy_of_their_local_limit)
+{
+  const auto modulus = [](double E, double nu)
+  {
+    const physics::Lame lame = physics::lame_from_young(E, nu, physics::PlaneState::strain);
+    return lame.lambda + 2 * lame.mu;
+  };
+  const auto K = influence(3 * h);
+  std::vector<double> errors;
+  for (const int n : {10, 20, 40}) // rows between the grips
+  {
+    const auto energy = [&](int n1)
+    {
+      const BondNetwork net = make_bond_network(
+          layers(n1, n + 6, 0), meshfree::optimisation_based(physics::deviatoric_kernel(K, 1)), K,
+          h, geometry::Backend::fast);
+      return BreakingNetwork(net, scene::Stretch::linear).response().energy;
+    };
+    const double of_length = (energy(4 * n) - energy(3 * n)) / (n * h), height = n * h;
+    const double local = .5 / (.5 * height / modulus(3, .1) + .5 * height / modulus(1, .35));
+    errors.push_back(of_length / local - 1);
+  }
+  EXPECT_LT(std::abs(errors[0]), .2);
+  for (std::size_t i = 1; i < errors.size(); ++i)
+    EXPECT_NEAR(errors[i] / errors[i - 1], .5, .1) << errors[i];
 }
 
 TEST(Fracture, every_event_accounts_for_the_energy)
 {
-  for (const double nu : {.25, .35})
+  for (const BreakingSolid &solid :
+       {plate(30, 20, 10 * h, .25), plate(30, 20, 10 * h, .35), layers(30, 20, 10 * h)})
     for (const auto breaking : {scene::BreakMode::events, scene::BreakMode::batches})
     {
-      BreakingNetwork body(network(plate(30, 20, 10 * h, nu)), scene::Stretch::linear);
+      BreakingNetwork body(network(solid), scene::Stretch::linear);
       const Growth growth = grow(body, rules(breaking));
       EXPECT_TRUE(growth.end == scene::GrowthEnd::parted ||
                   growth.events.back().reaction < 1e-9 * growth.events.front().reaction);
@@ -394,8 +437,4 @@ TEST(Fracture, refuses_bodies_that_cannot_be_pulled_apart)
   refused([](auto &solid) { solid.notch = {{{-h, .5 * h}, {10 * h, .5 * h}}}; });
   refused([](auto &solid) { solid.notch = {{{-h, 0}, {30 * h, 0}}}; });
   refused([](auto &solid) { solid.grips[1] = {{0, 5}, {1, 6}}; });
-  refused([](auto &solid)
-          { solid.material = [](const Point<2> &x) {
-              return physics::Lame{1 + x[0], 1};
-            }; });
 }

@@ -58,6 +58,23 @@ namespace plumbline::scene
       return variable;
     }
 
+    /// "Section/key: expression"
+    RandomKey to_random_key(const std::string &text)
+    {
+      const auto colon = text.find(':'), slash = text.find('/');
+      if (colon == std::string::npos || slash > colon)
+        throw InputError("'" + text + "' is not understood; write 'Section/key: expression'");
+      RandomKey one{trim(text.substr(0, colon)), trim(text.substr(colon + 1))};
+      const std::string section = one.key.substr(0, slash);
+      for (const char *const fixed :
+           {"Random", "Sampling", "Study", "Methods", "Reference", "Output", "Expected"})
+        if (section == fixed)
+          throw InputError("'" + one.key +
+                           "' is the same for all samples; name a number of the model, e.g. "
+                           "Crack/load or Time/damping");
+      return one;
+    }
+
     /// One number for both, or two.
     std::array<double, 2> to_pair(const std::string &text)
     {
@@ -96,6 +113,18 @@ namespace plumbline::scene
         "Independent random variables that expressions of Material, Kernel, Problem and Fracture "
         "may name: 'name: normal MEAN DEVIATION' (0 and 1 if left out) or 'name: uniform LOWEST "
         "HIGHEST' (-1 and 1), separated by ';'.");
+    keys.add(
+        "keys", "", any_text(),
+        [this](const std::string &text)
+        {
+          random_keys.clear();
+          for (const std::string &part : split_outside_brackets(text, ';'))
+            if (!part.empty())
+              random_keys.push_back(to_random_key(part));
+        },
+        "Other keys whose numbers are random: 'Section/key: expression' of the variables, "
+        "separated "
+        "by ';', e.g. 'Crack/load: 1 + 0.05*a'. They are read as if they stood in the scene.");
     keys.add(
         "values", values, numbers(),
         "At which the scene is taken, one for each variable, then one for each mode; 'plumbline "
@@ -154,7 +183,7 @@ namespace plumbline::scene
     return names;
   }
 
-  void RandomSection::complete(const DomainSection &domain)
+  void RandomSection::check_variables() const
   {
     std::set<std::string> taken = {"x", "y", "t", "h", "pi", "delta", "R"};
     for (const Variable &variable : variables)
@@ -165,6 +194,28 @@ namespace plumbline::scene
     require(values.empty() || values.size() == n,
             "Random/values has " + std::to_string(values.size()) + " numbers for " +
                 std::to_string(n) + " variables; give one for each, or none");
+  }
+
+  std::vector<std::pair<std::string, double>> RandomSection::key_values() const
+  {
+    check_variables();
+    std::vector<std::pair<std::string, double>> result;
+    physics::Names of_variables;
+    of_variables.constants = names().constants;
+    for (const RandomKey &one : random_keys)
+    {
+      const physics::Expression number("Random/keys: " + one.key, one.expression, of_variables);
+      require(number.n_components() == 1 && number.is_constant(),
+              "Random/keys: " + one.key + " = '" + one.expression +
+                  "' is no number; write one of Random/variables alone");
+      result.emplace_back(one.key, number({}));
+    }
+    return result;
+  }
+
+  void RandomSection::complete(const DomainSection &domain)
+  {
+    check_variables();
     if (field == FieldKind::none)
     {
       require(n_modes == 0, "Random/modes = " + std::to_string(n_modes) +

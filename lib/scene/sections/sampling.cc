@@ -30,6 +30,10 @@ namespace plumbline::scene
         "Where 'plumbline sample' takes the scene. tensor: Gauss points (Hermite, Legendre) in "
         "each variable. Smolyak: sparse combinations of them, some weights negative. Monte "
         "Carlo: independent samples. quasi-Monte Carlo: Sobol's points.");
+    keys.add("analysis", analysis,
+             "What is done with a sample. of the scene: statics, a motion (Time), a moving crack "
+             "(Crack), growth (Fracture) or a standing crack (Strip), as the scene has it; "
+             "stability, dispersion: what these commands measure.");
     keys.add(
         "counts", "", any_text(), [this](const std::string &text) { counts = to_counts(text); },
         "Of each set of samples, few to many: points a variable (tensor), levels 0, 1, ... "

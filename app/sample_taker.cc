@@ -1,0 +1,252 @@
+#include "sample_taker.h"
+
+#include "base/error.h"
+#include "base/number_text.h"
+#include "crack.h"
+#include "dispersion.h"
+#include "grow.h"
+#include "methods.h"
+#include "reference/lattice/torus_motion.h"
+#include "stability.h"
+#include "strip.h"
+#include "study/preflight.h"
+#include "study/sample_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::app
+{
+  namespace fs = std::filesystem;
+  using scene::SampledAnalysis;
+  using study::SampleCase;
+
+  namespace
+  {
+    /// What rows of methods and levels have in common.
+    /// @param before  cases of the same sample, whose coarser levels are counted
+    template <class Row>
+    SampleCase case_of(const Row &row, const std::vector<SampleCase> &before)
+    {
+      if (!row.failure.empty())
+        throw NumericalError(row.method + ", " + row.series + ", h = " + base::to_text(row.h, 4) +
+                             ": " + row.failure);
+      SampleCase one;
+      one.method = row.method;
+      one.series = row.series;
+      one.level = static_cast<unsigned int>(std::count_if(before.begin(), before.end(),
+                                                          [&](const SampleCase &other)
+                                                          { return other.is_same_method(one); }));
+      one.h = row.h;
+      one.horizon = row.horizon;
+      one.seconds = row.seconds;
+      return one;
+    }
+
+    void add_if_finite(SampleCase &one, const std::string &name, double value)
+    {
+      if (std::isfinite(value))
+        one.quantities[name] = value;
+    }
+
+    /// Of nodes that stand for h² each.
+    template <class Nodes>
+    study::SampleField damage_of(const Nodes &nodes, double h, std::vector<double> damage)
+    {
+      study::SampleField field;
+      for (const auto &node : nodes)
+      {
+        field.x.push_back(node[0]);
+        field.y.push_back(node[1]);
+        field.area.push_back(h * h);
+      }
+      field.values = std::move(damage);
+      return field;
+    }
+
+    std::vector<SampleCase> measure_sample(const scene::Scene &scene)
+    {
+      std::vector<SampleCase> cases;
+      const auto methods = study::choose_methods(scene, all_methods());
+      for (const study::StabilityRow &row : measure_stability(scene, methods, 0).rows)
+      {
+        SampleCase one = case_of(row, cases);
+        one.quantities = {{"smallest eigenvalue", row.stability.smallest},
+                          {"largest eigenvalue", row.stability.largest},
+                          {"zero modes", row.stability.n_zero}};
+        if (row.stability.inverse_norm > 0)
+          one.quantities["inverse norm"] = row.stability.inverse_norm;
+        if (row.steps.own() > 0)
+          one.quantities["critical step"] = row.steps.own();
+        cases.push_back(std::move(one));
+      }
+      return cases;
+    }
+
+    std::vector<SampleCase> wave_sample(const scene::Scene &scene)
+    {
+      std::vector<SampleCase> cases;
+      const auto methods = study::choose_methods(scene, all_methods());
+      for (const study::DispersionRow &row :
+           measure_dispersion(scene, methods, usual_angles, 0).rows)
+      {
+        SampleCase one = case_of(row, cases);
+        add_if_finite(one, "critical step", row.critical_step());
+        for (const study::WaveCurve &curve : row.curves)
+          add_if_finite(one,
+                        "speed " + physics::name(curve.polarisation) + " at " +
+                            base::to_text(curve.angle, 4) + " degrees",
+                        curve.longest.phase);
+        cases.push_back(std::move(one));
+      }
+      return cases;
+    }
+
+    std::vector<SampleCase> strip_sample(const scene::Scene &scene)
+    {
+      std::vector<SampleCase> cases;
+      for (const study::StripRow &row : stand_cracks(scene, strip_methods(scene, 0), 0).rows)
+      {
+        SampleCase one = case_of(row, cases);
+        for (const std::string &name : study::strip_quantities(row.edges()))
+          add_if_finite(one, name, row.quantity(name));
+        add_if_finite(one, "release", row.release);
+        cases.push_back(std::move(one));
+      }
+      return cases;
+    }
+
+    std::vector<SampleCase> crack_sample(scene::Scene scene, const fs::path &own)
+    {
+      scene.time.n_frames = 0; // of many samples they would fill the disk
+      fs::create_directories(own);
+      const study::CrackResults crack = move_crack(scene, 0, own);
+      SampleCase one;
+      one.method = crack.method;
+      one.series = scene.study.series.front().name;
+      one.h = crack.own.h;
+      one.horizon = crack.own.horizon;
+      one.seconds = crack.seconds;
+      one.quantities = {{"advance", crack.motion.advance},
+                        {"speed", crack.motion.speed},
+                        {"threshold", crack.own.energy / crack.own.toughness},
+                        {"energy drift", crack.motion.energy_drift},
+                        {"runs", crack.motion.outcome == scene::CrackOutcome::runs ? 1 : 0}};
+      std::vector<dealii::Point<2>> nodes;
+      for (int j = 0; j < crack.n[1]; ++j)
+        for (int i = 0; i < crack.n[0]; ++i)
+          nodes.push_back(crack.lower + crack.h() * dealii::Point<2>(i, j));
+      one.field = damage_of(nodes, crack.h(), crack.history.moments.back().damage);
+      return {one};
+    }
+
+    std::vector<SampleCase> grow_sample(const scene::Scene &scene, const fs::path &own)
+    {
+      fs::create_directories(own);
+      const study::GrowthResults growth = grow_body(scene, own / "checkpoint.h5");
+      SampleCase one;
+      one.method = growth.method;
+      one.problem = base::word(growth.rules.breaking);
+      one.series = scene.study.series.front().name;
+      one.h = growth.h;
+      one.horizon = growth.horizon;
+      one.seconds = growth.seconds;
+      for (const char *const name : scene::growth_quantities)
+        add_if_finite(one, name, growth.quantity(name));
+      one.field = damage_of(growth.nodes, growth.h, growth.moments.back().damage);
+      return {one};
+    }
+
+    SampleTaker statics_taker()
+    {
+      return {[](const scene::Scene &scene, const fs::path &)
+              {
+                const method::Methods available = all_methods();
+                study::check_memory(scene, study::choose_methods(scene, available), available, 0);
+                study::check_data(scene);
+              },
+              [](const scene::Scene &sample, const fs::path &)
+              {
+                const method::Methods available = all_methods();
+                return study::sweep_sample(sample, study::choose_methods(sample, available),
+                                           available);
+              }};
+    }
+
+    SampleTaker motion_taker()
+    {
+      return {[](const scene::Scene &scene, const fs::path &)
+              { study::check_motions(scene, study::choose_methods(scene, all_methods()), 0); },
+              [](const scene::Scene &sample, const fs::path &)
+              {
+                return study::move_sample(sample, study::choose_methods(sample, all_methods()),
+                                          reference::move_on_torus);
+              }};
+    }
+
+    SampleTaker stability_taker()
+    {
+      return {[](const scene::Scene &scene, const fs::path &)
+              {
+                const method::Methods available = all_methods();
+                study::check_memory(scene, study::choose_methods(scene, available), available, 0);
+              },
+              [](const scene::Scene &sample, const fs::path &) { return measure_sample(sample); }};
+    }
+
+    SampleTaker dispersion_taker()
+    {
+      return {[](const scene::Scene &scene, const fs::path &)
+              {
+                (void)study::plan_waves(scene, usual_angles);
+                (void)study::choose_methods(scene, all_methods());
+              },
+              [](const scene::Scene &sample, const fs::path &) { return wave_sample(sample); }};
+    }
+
+    SampleTaker strip_taker()
+    {
+      return {[](const scene::Scene &scene, const fs::path &) { (void)strip_methods(scene, 0); },
+              [](const scene::Scene &sample, const fs::path &) { return strip_sample(sample); }};
+    }
+
+    SampleTaker crack_taker()
+    {
+      return {[](const scene::Scene &scene, const fs::path &folder)
+              { check_crack_size(scene, 0, folder); },
+              crack_sample};
+    }
+
+    /// Without its files when it is there.
+    SampleTaker clean(SampleTaker taker)
+    {
+      return {taker.check, [take = taker.take](const scene::Scene &sample, const fs::path &own)
+              {
+                std::vector<SampleCase> cases = take(sample, own);
+                std::error_code not_there;
+                fs::remove_all(own, not_there);
+                return cases;
+              }};
+    }
+  } // namespace
+
+  bool is_growth(const scene::Scene &scene)
+  {
+    return scene.sampling.analysis == SampledAnalysis::of_scene && scene.fracture.is_there();
+  }
+
+  SampleTaker sample_taker(const scene::Scene &scene)
+  {
+    if (scene.sampling.analysis == SampledAnalysis::stability)
+      return stability_taker();
+    if (scene.sampling.analysis == SampledAnalysis::dispersion)
+      return dispersion_taker();
+    if (is_growth(scene))
+      return clean({[](const scene::Scene &, const fs::path &) {}, grow_sample});
+    if (scene.crack.is_there())
+      return clean(crack_taker());
+    if (scene.strip.is_there())
+      return strip_taker();
+    return scene.time.is_dynamic() ? motion_taker() : statics_taker();
+  }
+} // namespace plumbline::app

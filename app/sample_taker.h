@@ -1,0 +1,25 @@
+#pragma once
+
+#include "study/sampling.h"
+
+#include <filesystem>
+
+namespace plumbline::app
+{
+  /// How samples of a scene are taken: by the analysis that it has or asks for.
+  struct SampleTaker
+  {
+    /// Before there is one.
+    /// @throws InputError  methods, memory or data that no sample will have
+    std::function<void(const scene::Scene &scene, const std::filesystem::path &folder)> check;
+    /// @param own  where the sample alone may keep files while it is taken; gone when it is there
+    /// @throws InputError, NumericalError  as the analysis itself
+    std::function<std::vector<study::SampleCase>(const scene::Scene &sample,
+                                                 const std::filesystem::path &own)>
+        take;
+  };
+  SampleTaker sample_taker(const scene::Scene &scene);
+
+  /// Its samples are growths.
+  bool is_growth(const scene::Scene &scene);
+} // namespace plumbline::app
