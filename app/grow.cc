@@ -222,6 +222,8 @@ namespace plumbline::app
     results.seconds = timer.seconds();
     results.scene_name = scene.name;
     results.purpose = scene.purpose;
+    results.scene_text = scene.text;
+    results.random = scene.random;
     results.method = rule.name;
     const bool is_bonds = body.network().dilatation.empty();
     if (scene.fracture.has_surface_terms)

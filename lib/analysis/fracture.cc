@@ -107,6 +107,15 @@ namespace plumbline::analysis
     return std::abs(work - stored - in_bonds - released) / work;
   }
 
+  double Growth::reaction_left() const
+  {
+    if (events.empty())
+      return 1;
+    const Event &last = events.back();
+    const double reaction = last.reaction * last_load / last.load; // linear since then
+    return reaction / std::max(reaction, largest_reaction(events));
+  }
+
   Growth grow(BreakingBody &body, const FractureSection &rules, std::vector<Event> earlier,
               const EventObserver &observe)
   {
@@ -146,6 +155,7 @@ namespace plumbline::analysis
     growth.last_load = growth.events.empty() ? 0 : growth.events.back().load;
     if (growth.end == GrowthEnd::loaded)
       growth.last_load = rules.largest_load;
+    growth.is_parted = body.is_parted();
     return growth;
   }
 } // namespace plumbline::analysis

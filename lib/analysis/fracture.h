@@ -34,8 +34,13 @@ namespace plumbline::analysis
     std::vector<Event> events;
     scene::GrowthEnd end = scene::GrowthEnd::unknown;
     double last_load = 0;       ///< where it ended
+    bool is_parted = false;     ///< no path of bonds joins the grips there, whatever ended it
     double first_stiffness = 0; ///< reaction at load 1 of the whole body
     std::size_t n_resumed = 0;  ///< events that were there already
+
+    /// The reaction where it ended over the largest up to there, in [0, 1] but for rounding; 1
+    /// where nothing broke.
+    double reaction_left() const;
   };
 
   /// Called after each event; false: it is enough.

@@ -15,24 +15,9 @@ namespace plumbline::report
 {
   namespace
   {
-    std::string blocks(const std::vector<double> &damage, const std::array<int, 2> &n, int size)
+    double largest(const std::vector<double> &values)
     {
-      std::ostringstream out;
-      for (int j = 0; j < n[1]; j += size)
-      {
-        for (int i = 0; i < n[0]; i += size)
-        {
-          double largest = -std::numeric_limits<double>::infinity();
-          for (int b = j; b < std::min(n[1], j + size); ++b)
-            for (int a = i; a < std::min(n[0], i + size); ++a)
-              if (const double value = damage[static_cast<std::size_t>(b) * n[0] + a];
-                  value > largest)
-                largest = value;
-          out << (i > 0 ? " " : "") << (std::isfinite(largest) ? rounded(largest) : "NaN");
-        }
-        out << "\n";
-      }
-      return out.str();
+      return *std::max_element(values.begin(), values.end());
     }
   } // namespace
 
@@ -64,24 +49,60 @@ namespace plumbline::report
     return map;
   }
 
+  int block_size(const MapCells &cells, int most_columns)
+  {
+    return (cells.n[0] + most_columns - 1) / most_columns;
+  }
+
+  std::string rows_of(const DamageMap &map, const MapCells &cells, int size,
+                      const std::function<double(const std::vector<double> &values)> &show)
+  {
+    const auto &n = cells.n;
+    std::ostringstream out;
+    for (int j = 0; j < n[1]; j += size)
+    {
+      for (int i = 0; i < n[0]; i += size)
+      {
+        std::vector<double> values;
+        for (int b = j; b < std::min(n[1], j + size); ++b)
+          for (int a = i; a < std::min(n[0], i + size); ++a)
+            if (const double value = map.values[static_cast<std::size_t>(b) * n[0] + a];
+                !std::isnan(value))
+              values.push_back(value);
+        out << (i > 0 ? " " : "") << (values.empty() ? "NaN" : rounded(show(values)));
+      }
+      out << "\n";
+    }
+    return out.str();
+  }
+
+  std::string image_of(const std::string &rows, const MapCells &cells, int size)
+  {
+    const auto &[lower, h, n] = cells;
+    std::ostringstream out;
+    out << rows << " matrix using (" << exact(lower[0]) << " + ($1 + .5)*" << exact(size * h)
+        << "):(" << exact(lower[1]) << " + ($2 + .5)*" << exact(size * h)
+        << "):3 with image notitle";
+    return out.str();
+  }
+
   std::string damage_script(const std::vector<DamageMap> &maps, const std::string &file,
                             const std::string &title, const MapCells &cells)
   {
     const auto &[lower, h, n] = cells;
     constexpr int most_columns = 300;
     const Panels panels(maps.size(), 2, lower, {lower[0] + h * n[0], lower[1] + h * n[1]});
-    const int size = (n[0] + most_columns - 1) / most_columns;
+    const int size = block_size(cells, most_columns);
     std::ostringstream out;
     out << "\nreset\n";
     for (std::size_t i = 0; i < maps.size(); ++i)
-      out << "$m" << i << " << EOD\n" << blocks(maps[i].values, n, size) << "EOD\n";
+      out << "$m" << i << " << EOD\n" << rows_of(maps[i], cells, size, largest) << "EOD\n";
     out << panels.begin(file, title, "part of a node's bonds")
         << "set palette defined (0 '#ffffff', 1 '#fde0c8', 2 '#f4a268', 4 '#D55E00', 8 "
            "'#3a1a00')\nset cbrange [0:1]\nset cbtics .2\n";
     for (std::size_t i = 0; i < maps.size(); ++i)
-      out << panels.panel(i, maps[i].title) << "set ylabel offset 1.5,0\nplot $m" << i
-          << " matrix using (" << exact(lower[0]) << " + ($1 + .5)*" << exact(size * h) << "):("
-          << exact(lower[1]) << " + ($2 + .5)*" << exact(size * h) << "):3 with image notitle\n"
+      out << panels.panel(i, maps[i].title) << "set ylabel offset 1.5,0\nplot "
+          << image_of("$m" + std::to_string(i), cells, size) << "\n"
           << Panels::next();
     out << Panels::end();
     return out.str();

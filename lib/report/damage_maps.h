@@ -4,12 +4,14 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace plumbline::report
 {
-  /// The damage of the nodes of a lattice at one time, and what it is called.
+  /// The damage of the nodes of a lattice at one time, or another number of each, and what it is
+  /// called.
   struct DamageMap
   {
     std::string title;
@@ -30,6 +32,18 @@ namespace plumbline::report
   /// @param values  of the nodes; a cell without one has none
   DamageMap map_of(const std::string &title, const std::vector<dealii::Point<2>> &nodes,
                    const std::vector<double> &values, const MapCells &cells);
+
+  /// So many nodes along each axis are a block of a picture, which has no more columns of them.
+  int block_size(const MapCells &cells, int most_columns);
+
+  /// Rows of blocks as gnuplot reads a matrix, the lowest first; NaN where a block has no node.
+  /// @param show  what is seen of a block, of its nodes' values, one at least
+  std::string rows_of(const DamageMap &map, const MapCells &cells, int size,
+                      const std::function<double(const std::vector<double> &values)> &show);
+
+  /// What draws such rows, as the first part of a plot command.
+  /// @param rows  their name
+  std::string image_of(const std::string &rows, const MapCells &cells, int size);
 
   /// Maps side by side as one picture, as commands of gnuplot. Where there are too many nodes to be
   /// seen, blocks of them with the largest damage of each: a thin crack is seen at any size.

@@ -1,10 +1,8 @@
 #include "report/growth_charts.h"
 
 #include "report/damage_maps.h"
+#include "report/microstructure.h"
 #include "report/spectrum_chart.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace plumbline::report
 {
@@ -116,20 +114,10 @@ namespace plumbline::report
     {
       const MapCells cells = cells_of(results.nodes, results.h);
       std::vector<DamageMap> maps;
-      const auto [least, largest] =
-          std::minmax_element(results.toughness.begin(), results.toughness.end());
       for (const study::GrowthMoment &moment : results.moments)
-        if (moment.n_events == 0 && *least < *largest)
-        {
-          std::vector<double> parts;
-          for (const double toughness : results.toughness)
-            parts.push_back(toughness / *largest);
-          maps.push_back(map_of("the material: G over its largest", results.nodes, parts, cells));
-        }
-        else
-          maps.push_back(map_of("load " + rounded(moment.load) + ", " +
-                                    std::to_string(moment.n_events) + " events",
-                                results.nodes, moment.damage, cells));
+        maps.push_back(map_of("load " + rounded(moment.load) + ", " +
+                                  std::to_string(moment.n_events) + " events",
+                              results.nodes, moment.damage, cells));
       return damage_script(maps, "moments.svg", "Where bonds are broken", cells);
     }
 
@@ -181,5 +169,10 @@ namespace plumbline::report
     write_file(folder / "moments.gp", moments_picture(results));
     run_gnuplot(folder, "moments.gp", {"moments.svg"});
     sharpen(folder / "moments.svg");
+    if (!has_microstructure(results))
+      return;
+    write_file(folder / "microstructure.gp", microstructure_script(results));
+    run_gnuplot(folder, "microstructure.gp", {"microstructure.svg"});
+    sharpen(folder / "microstructure.svg");
   }
 } // namespace plumbline::report

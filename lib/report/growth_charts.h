@@ -11,8 +11,8 @@ namespace plumbline::report
   /// All events, a row each.
   Table growth_events_table(const study::GrowthResults &results);
 
-  /// Write grow/events.csv, sides.csv (the crack's path), the charts, and moments.svg, the damage
-  /// at six moments.
+  /// Write grow/events.csv, sides.csv (the crack's path), the charts, moments.svg, the damage at
+  /// six moments, and where G varies microstructure.svg, the crack over it.
   /// @throws InputError  dir cannot be written
   /// @throws NumericalError  gnuplot is missing or fails
   void write_growth_pictures(const study::GrowthResults &results, const std::filesystem::path &dir);

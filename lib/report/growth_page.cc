@@ -1,7 +1,9 @@
 #include "report/growth_page.h"
 
 #include "report/growth_charts.h"
+#include "report/microstructure.h"
 #include "report/page_parts.h"
+#include "report/seeds.h"
 #include "report/text_table.h"
 
 #include <nlohmann/json.hpp>
@@ -31,7 +33,11 @@ namespace plumbline::report
           {"K by bonds", "root of that and the mean of E/(1 - nu²)"},
           {"G by energy", "all that bonds held and that was released, over the width: above the "
                           "material's where growth is unstable [force/length]"},
-          {"K by energy", "the same of G by energy"}};
+          {"K by energy", "the same of G by energy"},
+          {"L1", "of the crack within phase 1, the weaker, as a straight crack breaks so many "
+                 "bonds; of one phase all [length]"},
+          {"L2", "the same within phase 2, the tougher"},
+          {"Li", "the same on their interface, of bonds with an end in each"}};
       return words.at(quantity);
     }
 
@@ -49,7 +55,11 @@ namespace plumbline::report
       add("width", r.path.width, "of all sides that parted, projected onto the x-axis [length]");
       add("apart", static_cast<double>(r.path.n_elsewhere),
           "sides that parted elsewhere, not joined to the notch");
-      for (std::size_t i = 0; i < r.parts.size() && r.parts.size() <= most_parts; ++i)
+      table.rows.push_back({text_cell("connected"), text_cell(r.growth.is_parted ? "no" : "yes"),
+                            text_cell("paths of bonds join the grips at the end")});
+      add("reaction left", r.growth.reaction_left(), "at the end, over its largest");
+      const bool has_parts = r.phases().empty() && r.parts.size() <= most_parts;
+      for (std::size_t i = 0; i < r.parts.size() && has_parts; ++i)
         add("length, G = " + rounded(r.parts[i].toughness), r.parts[i].length,
             std::to_string(r.parts[i].n_bonds) +
                 " broken bonds of this toughness, as a straight crack has them [length]");
@@ -112,6 +122,10 @@ namespace plumbline::report
       if (r.path.n_elsewhere > 0)
         text += "; bonds also part elsewhere, " + std::to_string(r.path.n_elsewhere) +
                 " sides that do not join the notch";
+      if (!r.growth.events.empty())
+        text += ". At the end " + std::string(r.growth.is_parted ? "no bonds" : "bonds still") +
+                " join the grips, and " + rounded(r.growth.reaction_left()) +
+                " of the largest reaction is left";
       for (const std::string &fault : faults)
         text += ". EXPECTED: " + fault;
       return text + ".";
@@ -123,6 +137,15 @@ namespace plumbline::report
       for (const std::string &one : study::left_out_of_growth(r.rules))
         text += "<li>" + escape_html(one) + "</li>\n";
       return "<ul>\n" + text + "</ul>\n";
+    }
+
+    std::string phase_words(const GrowthResults &r)
+    {
+      const std::vector<double> phases = r.phases();
+      return phases.size() == 2 ? " Phase 1 has G = " + rounded(phases[0]) +
+                                      ", phase 2 G = " + rounded(phases[1]) +
+                                      ", bonds between them the mean of both."
+                                : "";
     }
 
     std::string model_words(const GrowthResults &r)
@@ -138,7 +161,15 @@ namespace plumbline::report
                         " G, as a strip shows, by the root of which s0 was lowered (Fracture/"
                         "criterion = calibrated)."
                   : ".") +
+             phase_words(r) +
              (r.spectrum ? " Of the random field " + words_of(*r.spectrum) + "." : "");
+    }
+
+    /// With what makes it again.
+    std::string origin_words(const GrowthResults &r)
+    {
+      const std::string seeds = seed_words(r.random);
+      return model_words(r) + (seeds.empty() ? "" : " " + seeds + ".");
     }
 
     std::string page_of(const GrowthResults &r, const std::vector<std::string> &faults,
@@ -153,29 +184,40 @@ namespace plumbline::report
         small +=
             page::figure(dir / "grow" / chart.plot.file, chart.name + "-", chart.plot.title,
                          chart.caption + " Data: <code>grow/" + chart.name + ".csv</code>", false);
-      const std::string large = page::figure(
+      std::string large;
+      if (has_microstructure(r))
+        large = page::figure(
+            dir / "grow/microstructure.svg", "microstructure-", "The crack in its microstructure",
+            "Grey: G of the nodes, the tougher the darker. Sides between next neighbours that have "
+            "parted: of the crack orange, apart from it blue; of the notch black. Data: "
+            "<code>grow/sides.csv</code>",
+            true);
+      large += page::figure(
           dir / "grow/moments.svg", "moments-", "Where bonds are broken",
           "The part of each node's bonds that is broken or cut, on the body at rest, after even "
           "parts of all broken bonds. Beside a straight crack at m = 3 it is 11/28, 6/28 and 1/28.",
           true);
-      return page::document(r.scene_name, "grow", header,
-                            page::section("picture", "What happens",
-                                          "<p class=\"answer\">" + escape_html(verdict(r, faults)) +
-                                              "</p>\n" + large + "<div class=\"grid\">\n" + small +
-                                              "</div>\n") +
-                                page::section("numbers", "Numbers", to_html(facts_table(r))) +
-                                page::section("model", "The model, and what was left out of it",
-                                              page::paragraph(model_words(r)) + left_out(r)));
+      return page::document(
+          r.scene_name, "grow", header,
+          page::section("picture", "What happens",
+                        "<p class=\"answer\">" + escape_html(verdict(r, faults)) + "</p>\n" +
+                            large + "<div class=\"grid\">\n" + small + "</div>\n") +
+              page::section("numbers", "Numbers", to_html(facts_table(r))) +
+              page::section("model", "The model, and what was left out of it",
+                            page::paragraph(origin_words(r)) + left_out(r)) +
+              page::section(
+                  "scene", "The scene",
+                  page::folded("as read", "<pre>" + escape_html(r.scene_text) + "</pre>")));
     }
 
     std::string markdown(const GrowthResults &r, const std::vector<std::string> &faults)
     {
       std::string text = "# Growth: " + r.scene_name + "\n\n" + verdict(r, faults) + "\n\n" +
-                         to_markdown(facts_table(r)) + "\n" + model_words(r) +
+                         to_markdown(facts_table(r)) + "\n" + origin_words(r) +
                          "\n\n## What was left out of the model\n\n";
       for (const std::string &one : study::left_out_of_growth(r.rules))
         text += "- " + one + "\n";
-      return text;
+      return text + "\n## The scene as read\n\n```\n" + r.scene_text + "```\n";
     }
 
     Json known_number(double value)
@@ -200,13 +242,18 @@ namespace plumbline::report
 
   std::string growth_text(const GrowthResults &r)
   {
-    return r.scene_name + "\n\n" + to_text(facts_table(r)) + "\n" + wrapped(model_words(r), 120) +
+    return r.scene_name + "\n\n" + to_text(facts_table(r)) + "\n" + wrapped(origin_words(r), 120) +
            "\n\n" + wrapped(verdict(r, {}), 120) + "\n";
   }
 
   std::string growth_json(const GrowthResults &r)
   {
+    const bool has_field = r.random.field != scene::FieldKind::none;
+    const Json realisation = r.random.is_drawn_whole() ? Json(r.random.realisation) : Json();
     Json json{{"scene", r.scene_name},
+              {"scene_text", r.scene_text},
+              {"field_seed", has_field ? Json(r.random.seed) : Json()},
+              {"field_realisation", realisation},
               {"method", r.method},
               {"model", r.model},
               {"h", r.h},
@@ -222,6 +269,8 @@ namespace plumbline::report
               {"n_broken", r.n_broken()},
               {"end", base::word(r.growth.end)},
               {"last_load", known_number(r.growth.last_load)},
+              {"is_connected", !r.growth.is_parted},
+              {"reaction_left", known_number(r.growth.reaction_left())},
               {"first_stiffness", r.growth.first_stiffness},
               {"peak_load", r.quantity("peak load")},
               {"peak_reaction", r.quantity("peak reaction")},
@@ -230,6 +279,10 @@ namespace plumbline::report
               {"G_by_energy", known_number(r.quantity("G by energy"))},
               {"K_by_bonds", known_number(r.quantity("K by bonds"))},
               {"K_by_energy", known_number(r.quantity("K by energy"))},
+              {"phases", r.phases()},
+              {"L1", known_number(r.quantity("L1"))},
+              {"L2", known_number(r.quantity("L2"))},
+              {"Li", known_number(r.quantity("Li"))},
               {"plane_modulus", r.plane_modulus},
               {"variance_kept", r.spectrum ? Json(r.spectrum->variance_kept()) : Json()},
               {"n_apart", r.path.n_elsewhere},

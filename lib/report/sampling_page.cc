@@ -1,6 +1,7 @@
 #include "report/sampling_page.h"
 
 #include "report/page_parts.h"
+#include "report/seeds.h"
 #include "report/text_table.h"
 
 #include <nlohmann/json.hpp>
@@ -59,11 +60,13 @@ namespace plumbline::report
       if (sampling.rule == random::SampleRule::smolyak)
         text += " (growth " + base::word(sampling.growth) + ")";
       if (sampling.rule == random::SampleRule::monte_carlo)
-        text += " (seed " + std::to_string(sampling.seed) + ")";
+        text += " (Sampling/seed = " + std::to_string(sampling.seed) + ")";
       text += ", " + std::to_string(r.random.laws().size()) + " variables, " +
               std::to_string(r.n_samples) + " samples in all sets";
       if (r.spectrum)
         text += ". " + words_of(*r.spectrum);
+      if (const std::string seeds = seed_words(r.random, r.n_samples); !seeds.empty())
+        text += ". " + seeds;
       if (const SetStatistics *const set = best(r))
         text += ". Weights of the largest set: sum of sizes " + rounded(set->sum_of_sizes) +
                 ", noise √Σw² " + rounded(set->noise) +
@@ -318,10 +321,12 @@ namespace plumbline::report
 
   std::string sampling_json(const SamplingResults &r)
   {
+    const bool has_field = r.random.field != scene::FieldKind::none;
     Json json{{"scene", r.scene_name},
               {"rule", base::word(r.sampling.rule)},
               {"growth", base::word(r.sampling.growth)},
               {"seed", r.sampling.seed},
+              {"field_seed", has_field ? Json(r.random.seed) : Json()},
               {"target", r.target},
               {"n_samples", r.n_samples},
               {"variance_kept", r.spectrum ? Json(r.spectrum->variance_kept()) : Json()},

@@ -52,9 +52,10 @@ namespace plumbline::scene
   };
 
   /// What can be expected of a growth, see study/growth.h.
-  inline constexpr std::array growth_quantities = {"broken bonds",  "events",     "peak load",
-                                                   "peak reaction", "advance",    "G by bonds",
-                                                   "G by energy",   "K by bonds", "K by energy"};
+  inline constexpr std::array growth_quantities = {
+      "broken bonds", "events",     "peak load",   "peak reaction",
+      "advance",      "G by bonds", "G by energy", "K by bonds",
+      "K by energy",  "L1",         "L2",          "Li"};
 
   /// What the section Fracture of a scene file says: how bonds break in equilibrium, for
   /// `plumbline grow`. Domain, its cracks (the notch) and its fixed parts (the grips), Material and

@@ -44,11 +44,11 @@ namespace plumbline::study
     class Joined
     {
     public:
-      Joined(const GrowthModel &model) : model_(&model)
+      Joined(const GrowthModel &model, const std::vector<std::array<Point<2>, 2>> &notch)
+          : model_(&model)
       {
-        for (const auto &bond : model.cut)
-          if (are_next(model, bond))
-            insert(side_between(model, bond));
+        for (const auto &ends : notch)
+          insert(ends);
       }
 
       /// Take in sides that touch them, and all that these reach.
@@ -109,7 +109,10 @@ namespace plumbline::study
   CrackPath find_path(const GrowthModel &model, const std::vector<Event> &events)
   {
     CrackPath path;
-    Joined joined(model);
+    for (const auto &bond : model.cut)
+      if (are_next(model, bond))
+        path.notch.push_back(side_between(model, bond));
+    Joined joined(model, path.notch);
     Point<2> tip = model.notch_tip;
     for (std::size_t e = 0; e < events.size(); ++e)
     {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace plumbline::study
 {
@@ -155,6 +156,32 @@ namespace plumbline::study
                : std::numeric_limits<double>::quiet_NaN();
   }
 
+  std::vector<double> GrowthResults::phases() const
+  {
+    constexpr std::size_t most = 2;
+    std::set<double> found;
+    for (const double one : toughness)
+      if (found.insert(one); found.size() > most)
+        return {};
+    return {found.begin(), found.end()};
+  }
+
+  double GrowthResults::length(const std::string &name) const
+  {
+    const std::vector<double> of = phases();
+    if (of.empty())
+      return std::numeric_limits<double>::quiet_NaN();
+    if (of.size() == 1 && name != "L1")
+      return 0;
+    const double wanted = name == "L1"   ? of.front()
+                          : name == "L2" ? of.back()
+                                         : .5 * (of.front() + of.back()); // as of broken_parts
+    const auto part =
+        std::find_if(parts.begin(), parts.end(),
+                     [wanted](const BrokenPart &one) { return one.toughness == wanted; });
+    return part == parts.end() ? 0 : part->length;
+  }
+
   double GrowthResults::quantity(const std::string &name) const
   {
     if (name == "broken bonds")
@@ -171,6 +198,8 @@ namespace plumbline::study
       return std::sqrt(toughness_by_bonds() * plane_modulus);
     if (name == "K by energy")
       return std::sqrt(toughness_by_energy() * plane_modulus);
+    if (name == "L1" || name == "L2" || name == "Li")
+      return length(name);
     if (growth.events.empty())
       return 0;
     const Event &event = growth.events[peak()];

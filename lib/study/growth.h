@@ -50,7 +50,8 @@ namespace plumbline::study
   /// with the notch, at their ends or from one row to the next.
   struct CrackPath
   {
-    std::vector<CrackSide> sides;       ///< as they broke
+    std::vector<std::array<dealii::Point<2>, 2>> notch; ///< sides that it cuts
+    std::vector<CrackSide> sides;                       ///< as they broke
     std::vector<dealii::Point<2>> tips; ///< after each event: the end that is farthest from the
                                         ///< notch's tip, or that tip
     std::size_t n_elsewhere = 0;        ///< sides apart from the crack
@@ -94,6 +95,8 @@ namespace plumbline::study
   struct GrowthResults
   {
     std::string scene_name, purpose, method, model; ///< model: bond-based, or LPS
+    std::string scene_text;                         ///< the scene as read, all keys
+    scene::RandomSection random;                    ///< with its seed, realisation and values
     scene::FractureSection rules;
     double h = 0, horizon = 0;
     double lattice_toughness = 0; ///< energy of all bonds across a straight line, over G
@@ -124,8 +127,17 @@ namespace plumbline::study
     /// What bonds held and what was released, over W: above the material's where growth is
     /// unstable, for then more is released than bonds take. NaN without a path.
     double toughness_by_energy() const;
+    /// G of the body's phases, the weaker one first: two, or one where G is the same everywhere;
+    /// none where it has more values than that [force/length].
+    std::vector<double> phases() const;
     /// One of scene::growth_quantities; K = √(G E/(1 - nu²)), the modulus' mean (ibid., (5.3)).
+    /// L1, L2 and Li are lengths of the crack within phase 1, within phase 2 and of bonds between
+    /// the two, by counts of bonds (ibid., (5.2)) [length]: of one phase L1 is all, and NaN without
+    /// phases.
     double quantity(const std::string &name) const;
+
+  private:
+    double length(const std::string &name) const;
   };
 
   /// What does not hold of a scene's expectations, and of the audit: work = stored + in bonds +

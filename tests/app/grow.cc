@@ -32,6 +32,11 @@ TEST(GrowCommand, tells_what_breaks_and_draws_it)
   EXPECT_LT(json["energy_imbalance"], 1e-10);
   EXPECT_EQ(json["n_unpaired"], 0);
   EXPECT_NEAR(json["lattice_toughness"], .9158, 5e-5);
+  EXPECT_TRUE(json["is_connected"]); // the reaction ended it
+  EXPECT_LE(json["reaction_left"], .05);
+  EXPECT_GT(json["reaction_left"], 0);
+  expect_found(json["scene_text"], "set toughness");
+  EXPECT_TRUE(json["field_seed"].is_null()); // nothing is random
   EXPECT_LT(json["n_factorisations"].get<double>(), .2 * json["events"].size());
   const std::string page = read(folder / "grow.html");
   expect_found(page, "<svg");
@@ -39,7 +44,31 @@ TEST(GrowCommand, tells_what_breaks_and_draws_it)
   for (const char *const name : {"moments.svg", "load.svg", "energies.svg", "tip.svg", "events.csv",
                                  "sides.csv", "load.csv"})
     EXPECT_TRUE(fs::exists(folder / "grow" / name)) << name;
+  EXPECT_FALSE(fs::exists(folder / "grow/microstructure.svg")); // there is none
   EXPECT_FALSE(fs::exists(folder / "checkpoint.h5"));
+  fs::remove_all(folder);
+}
+
+TEST(GrowCommand, measures_the_crack_in_each_phase)
+{
+  const fs::path folder = temporary("grow");
+  ASSERT_EQ(run("grow " + plate() +
+                " --quiet --set 'Fracture/toughness=x < 0.6 ? 1 : 2' --set "
+                "'Fracture/least reaction=0.8' --set Expected/growth= -o " +
+                folder.string())
+                .exit_code,
+            0);
+  const auto json = results(folder);
+  EXPECT_EQ(json["phases"], nlohmann::json({1, 2}));
+  EXPECT_GT(json["L1"], 0);
+  const double sum = json["L1"].get<double>() + json["L2"].get<double>() + json["Li"].get<double>();
+  // a straight crack breaks 18 bonds a column at m = 3
+  EXPECT_NEAR(sum, json["n_broken"].get<double>() * json["h"].get<double>() / 18, 1e-12);
+  const std::string page = read(folder / "grow.html");
+  expect_found(page, "Phase 1 has G = 1, phase 2 G = 2");
+  expect_found(page, "The crack in its microstructure");
+  expect_found(read(folder / "grow/microstructure.gp"), "$notch with lines");
+  expect_found(read(folder / "grow/microstructure.gp"), "$crack with lines");
   fs::remove_all(folder);
 }
 

@@ -151,6 +151,8 @@ TEST(SampleCommand, charts_the_variance_that_modes_hold)
   ASSERT_EQ(one.exit_code, 0) << one.err;
   expect_found(one.out, "20 modes hold");
   expect_found(read(folder / "grow.html"), "Variance that modes hold");
+  expect_found(read(folder / "grow.html"), "40 realisations of the field: Random/seed = 1");
+  EXPECT_EQ(Json::parse(read(folder / "grow.json"))["field_seed"], 1);
   fs::remove_all(folder);
   const Outcome statics =
       run("run " + std::string(PLUMBLINE_SCENES) +
@@ -172,6 +174,14 @@ TEST(SampleCommand, says_what_growths_will_take_before_the_first)
   // 5000 nodes, 350 um to go, 4 um a column, 18 bonds each: 54 log2(5000) entries a node, 3 ns
   expect_found(outcome.err, "3 samples of 5000 nodes: some 16 s each, 47 s in all by 1 process, ");
   expect_found(outcome.err, "straight cracks of 1575 bonds");
+  // lengths in two phases are quantities like the others
+  const Json quantities = results(folder)["cases"][0]["sets"][0]["quantities"];
+  for (const char *const name : {"L1", "L2", "Li"})
+    EXPECT_TRUE(quantities.contains(name)) << name;
+  // seeds of both: samples' variables, of which there are none, and fields
+  const std::string page = read(folder / "sample.html");
+  expect_found(page, "Sampling/seed = 1");
+  expect_found(page, "Random/seed = 1, realisations 1 to 3");
   const Outcome again = run(command + " --set Sampling/counts=1 -o " + folder.string());
   EXPECT_EQ(again.err.find("1 sample"), std::string::npos) << again.err; // not worth it
   fs::remove_all(folder);

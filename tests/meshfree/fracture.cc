@@ -397,17 +397,24 @@ TEST(Fracture, ends_where_it_is_told_to)
     scene::FractureSection section = rules();
     change(section);
     BreakingNetwork body(network(plate(20, 16, 10 * h, .25)), scene::Stretch::linear);
-    return grow(body, section);
+    Growth growth = grow(body, section);
+    EXPECT_EQ(growth.is_parted, body.is_parted());
+    return growth;
   };
   const Growth whole = end([](auto &) {});
   EXPECT_NE(whole.end, scene::GrowthEnd::loaded);
   const Growth unloaded = end([](auto &section) { section.least_reaction = .5; });
   EXPECT_EQ(unloaded.end, scene::GrowthEnd::unloaded);
+  EXPECT_FALSE(unloaded.is_parted);
+  EXPECT_LE(unloaded.reaction_left(), .5);
+  EXPECT_GT(unloaded.reaction_left(), .1);
   EXPECT_LT(unloaded.events.size(), whole.events.size());
   const double first = whole.events.front().load;
   const Growth loaded = end([&](auto &section) { section.largest_load = .5 * first; });
   EXPECT_EQ(loaded.end, scene::GrowthEnd::loaded);
   EXPECT_TRUE(loaded.events.empty());
+  EXPECT_FALSE(loaded.is_parted);
+  EXPECT_EQ(loaded.reaction_left(), 1);
 }
 
 TEST(Fracture, load_steps_break_more_bonds_than_events)

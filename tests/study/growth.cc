@@ -56,6 +56,25 @@ namespace
     result.critical = result.load = load;
     return result;
   }
+
+  /// Four bonds that no load breaks.
+  class Body : public method::BreakingBody
+  {
+  public:
+    Body() { response_.critical_loads.assign(4, std::numeric_limits<double>::infinity()); }
+    std::size_t n_bonds() const override { return 4; }
+    const Response &response() const override { return response_; }
+    Release break_bonds(const std::vector<std::size_t> &) override { return {}; }
+    void restart(const std::vector<std::size_t> &) override {}
+    bool is_parted() const override { return is_in_two; }
+    const Work &work() const override { return work_; }
+
+    bool is_in_two = false;
+
+  private:
+    Response response_;
+    Work work_;
+  };
 } // namespace
 
 TEST(Growth, a_path_hangs_together_with_the_notch)
@@ -71,6 +90,13 @@ TEST(Growth, a_path_hangs_together_with_the_notch)
   EXPECT_LT(path.tips[2].distance({5, 0}), 1e-12);
   EXPECT_EQ(path.n_elsewhere, 1u);
   EXPECT_EQ(path.sides[2].event, 2u);
+  ASSERT_EQ(path.notch.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (const auto &end : path.notch[i])
+    {
+      EXPECT_NEAR(end[0], i + .5, .5 + 1e-12);
+      EXPECT_NEAR(end[1], 0, 1e-12);
+    }
 }
 
 TEST(Growth, a_path_may_step_to_the_next_row)
@@ -115,6 +141,50 @@ TEST(Growth, toughness_counts_bonds_over_the_width_of_what_parted)
   EXPECT_NEAR(results.quantity("K by energy"), std::sqrt(40), 1e-14);
   results.path.width = 0;
   EXPECT_TRUE(std::isnan(results.quantity("G by bonds")));
+}
+
+TEST(Growth, lengths_are_those_within_phases_and_between_them)
+{
+  GrowthModel model = comb(8);
+  model.toughness.assign(model.nodes.size(), 8);
+  for (std::size_t i = 0; i < 2 * 8; ++i) // what lies below the notch is weaker
+    model.toughness[i] = 2;
+  const std::vector<std::size_t> broken = {
+      bond(model, 3.5, 0),  bond(model, 4.5, 0),  bond(model, 5.5, 0), bond(model, 6.5, 0),
+      bond(model, 4.5, -1), bond(model, 5.5, -1), bond(model, 4.5, 1)};
+  GrowthResults results;
+  results.toughness = model.toughness;
+  results.parts = broken_parts(model, broken);
+  EXPECT_EQ(results.phases(), (std::vector<double>{2, 8}));
+  EXPECT_EQ(results.quantity("L1"), 2);
+  EXPECT_EQ(results.quantity("L2"), 1);
+  EXPECT_EQ(results.quantity("Li"), 4);
+  // nothing of one of them is broken
+  results.parts = broken_parts(model, {broken[0]});
+  EXPECT_EQ(results.quantity("L1"), 0);
+  EXPECT_EQ(results.quantity("L2"), 0);
+  EXPECT_EQ(results.quantity("Li"), 1);
+  // one phase is all
+  model.toughness.assign(model.nodes.size(), 8);
+  results.toughness = model.toughness;
+  results.parts = broken_parts(model, broken);
+  EXPECT_EQ(results.phases(), (std::vector<double>{8}));
+  EXPECT_EQ(results.quantity("L1"), 7);
+  EXPECT_EQ(results.quantity("L2"), 0);
+  EXPECT_EQ(results.quantity("Li"), 0);
+  // three are none that have names
+  model.toughness[0] = 1;
+  model.toughness[1] = 3;
+  results.toughness = model.toughness;
+  results.parts = broken_parts(model, broken);
+  EXPECT_TRUE(results.phases().empty());
+  for (const char *const name : {"L1", "L2", "Li"})
+  {
+    EXPECT_TRUE(std::isnan(results.quantity(name))) << name;
+    scene::ExpectedSection expected;
+    expected.growth = {{name, 0}};
+    EXPECT_EQ(growth_faults(results, expected).size(), 1u); // what is not known is not as expected
+  }
 }
 
 TEST(Growth, mirror_images_are_paired)
@@ -164,23 +234,37 @@ TEST(Growth, expectations_and_the_audit_are_held_against_it)
   EXPECT_EQ(growth_faults(results, expected).size(), 3u);
 }
 
+TEST(Growth, what_is_left_of_the_reaction_is_that_at_the_end)
+{
+  analysis::Growth growth;
+  EXPECT_EQ(growth.reaction_left(), 1); // nothing broke
+  growth.events = {event({1}, 2), event({2}, 4)};
+  growth.events[0].reaction_before = 10;
+  growth.events[0].reaction = 3;
+  growth.events[1].reaction_before = 6;
+  growth.events[1].reaction = 2;
+  growth.last_load = 4;
+  EXPECT_EQ(growth.reaction_left(), .2); // of the first event's, not of the last one's
+  growth.last_load = 8;
+  EXPECT_EQ(growth.reaction_left(), .4); // it rises with the load
+  growth.last_load = 40;
+  EXPECT_EQ(growth.reaction_left(), 1); // beyond all before
+}
+
+TEST(Growth, says_whether_the_body_has_parted)
+{
+  Body body;
+  const analysis::Growth whole = analysis::grow(body, {});
+  EXPECT_EQ(whole.end, scene::GrowthEnd::whole);
+  EXPECT_FALSE(whole.is_parted);
+  body.is_in_two = true;
+  const analysis::Growth parted = analysis::grow(body, {});
+  EXPECT_EQ(parted.end, scene::GrowthEnd::parted);
+  EXPECT_TRUE(parted.is_parted);
+}
+
 TEST(Growth, a_checkpoint_that_is_not_its_own_is_refused)
 {
-  class Body : public method::BreakingBody
-  {
-  public:
-    Body() { response_.critical_loads.assign(4, std::numeric_limits<double>::infinity()); }
-    std::size_t n_bonds() const override { return 4; }
-    const Response &response() const override { return response_; }
-    Release break_bonds(const std::vector<std::size_t> &) override { return {}; }
-    void restart(const std::vector<std::size_t> &) override {}
-    bool is_parted() const override { return false; }
-    const Work &work() const override { return work_; }
-
-  private:
-    Response response_;
-    Work work_;
-  };
   Body body;
   GrowthModel model;
   model.body = &body;

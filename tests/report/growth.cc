@@ -1,0 +1,193 @@
+// The page, numbers and pictures of `plumbline grow`.
+
+#include "report/formats.h"
+#include "report/growth_page.h"
+#include "tests/report/fixture.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    /// 8 x 4 nodes, the upper half tougher; a crack of two sides behind a notch of three, and a
+    /// side apart from both.
+    study::GrowthResults grown()
+    {
+      study::GrowthResults r;
+      r.scene_name = "two_phases";
+      r.scene_text = "# Two phases\nsubsection Random\n  set field = ellipses # <b>\nend\n";
+      r.random.field = scene::FieldKind::ellipses;
+      r.random.seed = 7;
+      r.random.realisation = 3;
+      r.method = "OPT";
+      r.h = 1;
+      r.horizon = 3;
+      for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 8; ++i)
+        {
+          r.nodes.push_back({i + .5, j - 1.5});
+          r.toughness.push_back(j < 2 ? 2 : 8);
+        }
+      r.notch_tip = {3, 0};
+      for (int i = 0; i < 3; ++i)
+        r.path.notch.push_back({{{1. * i, 0}, {i + 1., 0}}});
+      r.path.sides = {{{{{3, 0}, {4, 0}}}, 0, true},
+                      {{{{4, 0}, {4, -1}}}, 1, true},
+                      {{{{6, 1}, {7, 1}}}, 1, false}};
+      r.path.tips = {{4, 0}, {4, -1}};
+      r.path.width = 2;
+      r.path.n_elsewhere = 1;
+      analysis::Event event;
+      event.critical = event.load = .4;
+      event.bonds = {3};
+      event.reaction_before = 2;
+      event.reaction = 1.5;
+      event.work = 1;
+      event.stored = event.in_bonds = .5;
+      r.growth.events = {event, event};
+      r.growth.events[1].critical = r.growth.events[1].load = .5;
+      r.growth.events[1].bonds = {4, 5};
+      r.growth.events[1].reaction_before = 1.9;
+      r.growth.events[1].reaction = .25;
+      r.growth.end = scene::GrowthEnd::parted;
+      r.growth.last_load = .5;
+      r.growth.is_parted = true;
+      r.moments = {{0, 0, std::vector<double>(32, 0)}, {2, .5, std::vector<double>(32, .25)}};
+      return r;
+    }
+
+    std::string in_one_line(std::string text)
+    {
+      std::replace(text.begin(), text.end(), '\n', ' ');
+      return text;
+    }
+  } // namespace
+
+  TEST(GrowthReport, DrawsTheCrackOverTheMicrostructure)
+  {
+    const fixture::Folder folder;
+    write_growth(grown(), {}, folder.path());
+    const std::string script = fixture::read(folder.path() / "grow/microstructure.gp");
+    // G of the nodes, the lowest row first
+    const std::string low = "2 2 2 2 2 2 2 2\n", high = "8 8 8 8 8 8 8 8\n";
+    EXPECT_NE(script.find("$G << EOD\n" + low + low + high + high + "EOD\n"), std::string::npos)
+        << script;
+    // sides, of what each is
+    for (const char *const sides :
+         {"$notch << EOD\n0 0\n1 0\n\n1 0\n2 0\n\n2 0\n3 0\n\nEOD\n",
+          "$crack << EOD\n3 0\n4 0\n\n4 0\n4 -1\n\nEOD\n", "$apart << EOD\n6 1\n7 1\n\nEOD\n"})
+      EXPECT_NE(script.find(sides), std::string::npos) << sides << script;
+    EXPECT_NE(script.find("load 0.5, 2 events"), std::string::npos);
+    // drawn after the background, so that they lie on it
+    const std::string picture = fixture::read(folder.path() / "grow/microstructure.svg");
+    const std::size_t background = picture.find("<image");
+    ASSERT_NE(background, std::string::npos);
+    for (const char *const colour : {"rgb(213,  94,   0)", "rgb(  0, 114, 178)"})
+      EXPECT_NE(picture.find(colour, background), std::string::npos) << colour;
+    for (const char *const words : {"the crack", "parted elsewhere", "the notch"})
+      EXPECT_NE(picture.find(words), std::string::npos) << words;
+    const std::string page = fixture::read(folder.path() / "grow.html");
+    EXPECT_EQ(fixture::count(page, "<image"), 3u); // of it, and of two moments
+  }
+
+  TEST(GrowthReport, DrawsNoMicrostructureThatIsNotThere)
+  {
+    const fixture::Folder folder;
+    study::GrowthResults results = grown();
+    results.toughness.assign(results.nodes.size(), 2);
+    write_growth(results, {}, folder.path());
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "grow/microstructure.gp"));
+    const std::string page = fixture::read(folder.path() / "grow.html");
+    EXPECT_EQ(page.find("microstructure"), std::string::npos);
+    EXPECT_EQ(fixture::count(page, "<image"), 2u);
+  }
+
+  TEST(GrowthReport, TellsTheSceneAndItsSeeds)
+  {
+    const fixture::Folder folder;
+    const study::GrowthResults results = grown();
+    write_growth(results, {}, folder.path());
+    const auto json = nlohmann::json::parse(fixture::read(folder.path() / "grow.json"));
+    EXPECT_EQ(json["scene_text"], results.scene_text);
+    EXPECT_EQ(json["field_seed"], 7);
+    EXPECT_EQ(json["field_realisation"], 3);
+    const std::string seeds = "Random/seed = 7, Random/realisation = 3",
+                      page = fixture::read(folder.path() / "grow.html"),
+                      markdown = fixture::read(folder.path() / "grow.md");
+    EXPECT_NE(page.find(escape_html(results.scene_text)), std::string::npos);
+    EXPECT_NE(markdown.find(results.scene_text), std::string::npos);
+    for (const std::string &text : {page, markdown})
+      EXPECT_NE(text.find(seeds), std::string::npos) << text;
+    EXPECT_NE(in_one_line(growth_text(results)).find(seeds), std::string::npos);
+  }
+
+  TEST(GrowthReport, TellsNoSeedsThatDrawNothing)
+  {
+    study::GrowthResults results = grown();
+    results.random.n_modes = 2; // of drawn ellipses
+    auto json = nlohmann::json::parse(growth_json(results));
+    EXPECT_EQ(json["field_seed"], 7);
+    EXPECT_TRUE(json["field_realisation"].is_null());
+    EXPECT_NE(in_one_line(growth_text(results)).find("Random/seed = 7"), std::string::npos);
+    EXPECT_EQ(growth_text(results).find("Random/realisation"), std::string::npos);
+    results.random.field = scene::FieldKind::matern;
+    EXPECT_EQ(growth_text(results).find("Random/seed"), std::string::npos);
+    results.random = {};
+    json = nlohmann::json::parse(growth_json(results));
+    EXPECT_TRUE(json["field_seed"].is_null());
+    EXPECT_EQ(growth_text(results).find("Random/seed"), std::string::npos);
+  }
+
+  TEST(GrowthReport, TellsConnectionAndReactionWhicheverEndedIt)
+  {
+    study::GrowthResults results = grown(); // parted, with a reaction of .25, which was 2
+    auto json = nlohmann::json::parse(growth_json(results));
+    EXPECT_EQ(json["is_connected"], false);
+    EXPECT_EQ(json["reaction_left"], .125);
+    const std::string no = "no bonds join the grips, and 0.125 of the largest reaction is left",
+                      yes = "bonds still join the grips, and 0.125 of the largest reaction is left";
+    EXPECT_NE(in_one_line(growth_text(results)).find(no), std::string::npos);
+    results.growth.end = scene::GrowthEnd::unloaded;
+    results.growth.is_parted = false;
+    json = nlohmann::json::parse(growth_json(results));
+    EXPECT_EQ(json["is_connected"], true);
+    EXPECT_NE(in_one_line(growth_text(results)).find(yes), std::string::npos);
+    const fixture::Folder folder;
+    write_growth(results, {}, folder.path());
+    for (const char *const file : {"grow.html", "grow.md"})
+    {
+      const std::string text = fixture::read(folder.path() / file);
+      EXPECT_NE(text.find(yes), std::string::npos) << text;
+      EXPECT_NE(text.find("reaction left"), std::string::npos) << text;
+    }
+  }
+
+  TEST(GrowthReport, DescribesEveryKeyInSchemaMd)
+  {
+    std::string schema = fixture::read(PLUMBLINE_SCHEMA);
+    schema.erase(0, schema.find("## grow.json"));
+    schema.erase(schema.find("\n## "));
+    const auto json = nlohmann::json::parse(growth_json(grown()));
+    EXPECT_GT(json.size(), 40u);
+    for (const auto &[key, value] : json.items())
+      EXPECT_NE(schema.find("`" + key + (key == "events" ? "[]`" : "`")), std::string::npos) << key;
+    for (const auto &[key, value] : json["events"][0].items())
+      EXPECT_NE(schema.find("`" + key + "`"), std::string::npos) << key;
+  }
+
+  TEST(GrowthReport, DrawsDamageAtEveryMoment)
+  {
+    const fixture::Folder folder;
+    write_growth(grown(), {}, folder.path());
+    const std::string script = fixture::read(folder.path() / "grow/moments.gp");
+    const std::string whole = "0 0 0 0 0 0 0 0\n",
+                      damaged = "0.25 0.25 0.25 0.25 0.25 0.25 0.25 0.25\n";
+    EXPECT_NE(script.find("$m0 << EOD\n" + whole), std::string::npos) << script;
+    EXPECT_NE(script.find("$m1 << EOD\n" + damaged), std::string::npos) << script;
+    EXPECT_NE(fixture::read(folder.path() / "grow/moments.svg").find("</svg>"), std::string::npos);
+  }
+} // namespace plumbline::report
