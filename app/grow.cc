@@ -9,6 +9,7 @@
 #include "physics/expression.h"
 #include "report/formats.h"
 #include "report/growth_page.h"
+#include "run_parts.h"
 #include "study/sampling.h"
 #include "study/strip_growth.h"
 
@@ -215,6 +216,8 @@ namespace plumbline::app
       before_it_grows();
     study::GrowthModel model = make_model(body, scene.domain.cracks.front().back());
     model.toughness = toughness_of_nodes(scene, model.nodes, level.horizon);
+    if (has_newer_files(scene, checkpoint))
+      fs::remove(checkpoint); // of another body
     const base::CpuTimer timer;
     study::GrowthResults results;
     results.growth =

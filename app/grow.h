@@ -23,7 +23,8 @@ namespace plumbline::app
   };
   GrowthSize expected_size(const scene::Scene &scene);
 
-  /// The growth of a scene at its one level, from the checkpoint if there is one.
+  /// The growth of a scene at its one level, from the checkpoint if there is one and no file that
+  /// the scene names is newer.
   /// @param before_it_grows  called once the body stands
   /// @throws InputError, NumericalError  as grow
   study::GrowthResults grow_body(const scene::Scene &scene, const std::filesystem::path &checkpoint,

@@ -65,6 +65,9 @@ namespace plumbline::app
       for (const scene::Level &level : series.levels)
         if (is_newer(folder / scene.methods.nodes.file_at(level.h), than))
           return true;
+    for (const std::string &picture : scene.random.files)
+      if (is_newer(folder / picture, than))
+        return true;
     return is_newer(folder / scene.domain.mesh.name, than);
   }
 

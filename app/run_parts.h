@@ -21,7 +21,7 @@ namespace plumbline::app
   /// Whether both files are there, and the first is newer.
   bool is_newer(const std::filesystem::path &file, const std::filesystem::path &than);
 
-  /// Whether a mesh or node file that the scene names is newer.
+  /// Whether a file that the scene names is newer: its mesh, nodes, or pictures of a random field.
   bool has_newer_files(const scene::Scene &scene, const std::filesystem::path &than);
 
   /// Make the folder and try it, so that no work is lost at the end. @note Collective.

@@ -114,6 +114,9 @@ namespace
     case Reader::bonds:
       (void)meshfree::read_given_families(file(), context.nodes, context.cells);
       break;
+    case Reader::pictures:
+      (void)scene::read_number_grid(file());
+      break;
     case Reader::results:
       (void)report::read_json(file());
       break;

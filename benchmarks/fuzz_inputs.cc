@@ -371,7 +371,13 @@ namespace plumbline::benchmarks
         add(Reader::mesh, geometry::mesh_by_gmsh(file.string(), .5, .5, {}, file.string()));
       }
       else if (ending == ".csv")
-        add(file.stem().string().find("bonds") == 0 ? Reader::bonds : Reader::nodes, text);
+      {
+        const std::string name = file.stem().string();
+        add(name.find("bonds") == 0     ? Reader::bonds
+            : name.find("picture") == 0 ? Reader::pictures
+                                        : Reader::nodes,
+            text);
+      }
     }
     for (unsigned int i = 0; i < 4; ++i) // short ones are changed where it matters
     {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
+#include <sstream>
 
 namespace plumbline::scene
 {
@@ -26,6 +28,19 @@ namespace plumbline::scene
         from = comma + 1;
       } while (comma != std::string::npos);
       return values;
+    }
+
+    /// The finite number that a text is as a whole, if it is one.
+    template <class Number>
+    std::optional<Number> to_finite(const std::string &text)
+    {
+      const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+      const char *const end = text.data() + text.size();
+      Number number{};
+      const auto parsed = std::from_chars(text.data() + (has_plus ? 1 : 0), end, number);
+      if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(double(number)))
+        return {};
+      return number;
     }
   } // namespace
 
@@ -103,13 +118,44 @@ namespace plumbline::scene
   Number Csv::parse(const std::string &column, const std::string &wanted) const
   {
     const std::string text = value(column);
-    const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
-    const char *const end = text.data() + text.size();
-    Number number{};
-    const auto parsed = std::from_chars(text.data() + (has_plus ? 1 : 0), end, number);
-    if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(double(number)))
+    const std::optional<Number> number = to_finite<Number>(text);
+    if (!number)
       fail(column + " = '" + base::shown(text) + "' is not " + wanted +
            "; mend or take out the line");
-    return number;
+    return *number;
+  }
+
+  NumberGrid read_number_grid(const std::string &file)
+  {
+    constexpr std::size_t most_bytes = 100'000'000;
+    const std::string what = "'" + file + "'";
+    std::istringstream in(base::read_text_file(
+        file, what, most_bytes, "the name of a file of numbers separated by ',', a row a line"));
+    NumberGrid grid;
+    std::size_t line = 0;
+    for (std::string text; std::getline(in, text);)
+    {
+      ++line;
+      const auto fail = [&](const std::string &fault)
+      { throw InputError(what + ", line " + std::to_string(line) + ": " + fault); };
+      const std::vector<std::string> row = split(text);
+      if (row.size() == 1 && row[0].empty())
+        continue;
+      for (const std::string &value : row)
+        if (const std::optional<double> number = to_finite<double>(value))
+          grid.values.push_back(*number);
+        else
+          fail("'" + base::shown(value) +
+               "' is not a finite number; write numbers such as 0 or 0.5, separated by ','");
+      const auto n = static_cast<int>(row.size());
+      if (grid.n[1]++ == 0)
+        grid.n[0] = n;
+      if (n != grid.n[0])
+        fail("has " + std::to_string(n) + " numbers, and the rows above have " +
+             std::to_string(grid.n[0]) + "; give all rows as many");
+    }
+    if (grid.values.empty())
+      throw InputError(what + " has no numbers; write a row of them a line, separated by ','");
+    return grid;
   }
 } // namespace plumbline::scene

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
@@ -46,4 +47,17 @@ namespace plumbline::scene
     std::size_t line_ = 1;
     std::vector<std::string> columns_, row_;
   };
+
+  /// Rows of numbers.
+  struct NumberGrid
+  {
+    std::array<int, 2> n{};     ///< numbers in a row, rows
+    std::vector<double> values; ///< shape (n[1], n[0]), the first row first
+  };
+
+  /// A text file of numbers alone, separated by commas: a line for each row, none for names. Blank
+  /// lines do not count; a number may begin with '+'.
+  /// @throws InputError  as base::read_text_file, more than 1e8 bytes; a value that is no finite
+  /// number, rows of different lengths, by line; no numbers at all
+  NumberGrid read_number_grid(const std::string &file);
 } // namespace plumbline::scene

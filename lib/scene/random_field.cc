@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "random/karhunen_loeve.h"
 #include "random/principal_components.h"
+#include "scene/pictures.h"
 #include "scene/random_section.h"
 #include "scene/values.h"
 
@@ -40,6 +41,7 @@ namespace plumbline::scene
   {
     RandomSection section;
     Box box;
+    std::vector<random::GridField> pictures; ///< of files
     std::once_flag once;
     std::optional<random::Expansion> expansion;
 
@@ -58,28 +60,58 @@ namespace plumbline::scene
           values.push_back(ellipses.covers(grid.node(i, j)) ? 1 : 0);
     }
 
+    /// That modes are found on.
+    random::Grid grid() const
+    {
+      return pictures.empty() ? random::make_grid(box, section.cell) : pictures.front().grid();
+    }
+
+    random::Expansion components_of_ellipses() const
+    {
+      const random::Grid grid = this->grid();
+      return random::principal_components(
+                 grid, section.n_realisations,
+                 [&](std::size_t k, std::vector<double> &values) // that no sample takes
+                 { draw((std::size_t{1} << 32) + k, grid, values); },
+                 section.n_modes)
+          .expansion;
+    }
+
+    random::Expansion components_of_files() const
+    {
+      // to more digits than realisations that must be drawn anew: passes through these are cheap
+      constexpr random::PassLimit limit{100, 1e-10};
+      return random::principal_components(
+                 grid(), pictures.size(),
+                 [&](std::size_t k, std::vector<double> &values) { values = pictures[k].values(); },
+                 section.n_modes, limit)
+          .expansion;
+    }
+
     const random::Expansion &find_expansion()
     {
       std::call_once(once,
                      [this]
                      {
-                       const random::Grid grid = random::make_grid(box, section.cell);
-                       if (section.field != FieldKind::ellipses)
-                         expansion = random::karhunen_loeve(covariance_of(section), grid,
+                       if (section.field == FieldKind::ellipses)
+                         expansion = components_of_ellipses();
+                       else if (section.field == FieldKind::files)
+                         expansion = components_of_files();
+                       else
+                         expansion = random::karhunen_loeve(covariance_of(section), grid(),
                                                             section.n_modes, section.mean);
-                       else // realisations that no sample takes
-                         expansion = random::principal_components(
-                                         grid, section.n_realisations,
-                                         [&](std::size_t k, std::vector<double> &values)
-                                         { draw((std::size_t{1} << 32) + k, grid, values); },
-                                         section.n_modes)
-                                         .expansion;
                      });
       return *expansion;
     }
+
+    /// Of files and their modes it is constant in each cell.
+    random::Between between() const
+    {
+      return pictures.empty() ? random::Between::linear : random::Between::constant;
+    }
   };
 
-  RandomField::RandomField(const RandomSection &section, const Box &box)
+  RandomField::RandomField(const RandomSection &section, const Box &box, const std::string &folder)
       : shared_(std::make_shared<Shared>())
   {
     shared_->section = section;
@@ -98,6 +130,19 @@ namespace plumbline::scene
       }
     };
     const std::string field = "Random/field = " + base::word(section.field);
+    if (section.field == FieldKind::files)
+    {
+      std::vector<random::GridField> &pictures = shared_->pictures;
+      saying("Random/files: ", [&] { pictures = read_pictures(section.files, folder, box); });
+      const std::size_t n_cells = shared_->grid().size(),
+                        most = std::min(pictures.size() - 1, n_cells);
+      require(section.n_modes <= most,
+              "Random/modes = " + std::to_string(section.n_modes) + ", but Random/files (" +
+                  std::to_string(pictures.size()) + ", of " + std::to_string(n_cells) +
+                  " cells each) have " + std::to_string(most) +
+                  " principal components; write no more, 0 to draw them whole, or give more files");
+      return;
+    }
     if (section.field == FieldKind::ellipses)
     {
       if (section.fraction < 1)
@@ -137,10 +182,15 @@ namespace plumbline::scene
       };
       return [shared = shared_, lazy = std::make_shared<Lazy>(), modes](const Point<2> &x)
       {
-        std::call_once(lazy->once, [&] { lazy->field = shared->find_expansion().realise(modes); });
+        std::call_once(
+            lazy->once,
+            [&] { lazy->field = shared->find_expansion().realise(modes, shared->between()); });
         return lazy->field(x);
       };
     }
+    if (const std::size_t n = shared_->pictures.size(); n > 0)
+      return [shared = shared_, k = (realisation + n - 1) % n](const Point<2> &x)
+      { return shared->pictures[k](x); };
     if (section.fraction >= 1)
       return [](const Point<2> &) { return 1.; };
     struct Lazy

@@ -21,7 +21,8 @@ namespace plumbline::scene
     separable,
     gaussian,
     matern,
-    ellipses ///< 1 in ellipses that lie at random, else 0
+    ellipses, ///< 1 in ellipses that lie at random, else 0
+    files     ///< given, cell by cell
   };
 
   struct DomainSection;
@@ -49,7 +50,8 @@ namespace plumbline::scene
     double fraction = .2;           ///< of the area, in ellipses
     std::array<double, 2> semi_axes = {1, 1}; ///< of ellipses [length]
     bool may_overlap = true;
-    unsigned int n_realisations = 1000; ///< that principal components are found from
+    unsigned int n_realisations = 1000; ///< that principal components of ellipses are found from
+    std::vector<std::string> files;     ///< grids of numbers, named from the scene's folder
     unsigned int seed = 1;
 
     std::shared_ptr<const RandomField> source; ///< of the field; copies share it
@@ -67,9 +69,10 @@ namespace plumbline::scene
     std::vector<std::pair<std::string, double>> key_values() const;
 
     void declare(Keys &keys);
+    /// @param folder  that names of files begin in
     /// @throws InputError  values that are not one for each variable, names that mean something
-    /// else, numbers that make no field, a field on a mesh whose box is not known
-    void complete(const DomainSection &domain);
+    /// else, numbers or files that make no field, a field on a mesh whose box is not known
+    void complete(const DomainSection &domain, const std::string &folder);
 
   private:
     void check_variables() const;
@@ -107,6 +110,6 @@ namespace plumbline::base
   inline constexpr auto words<scene::SampledAnalysis> =
       std::array{"of the scene", "stability", "dispersion"};
   template <>
-  inline constexpr auto words<scene::FieldKind> =
-      std::array{"none", "exponential", "separable exponential", "Gaussian", "Matern", "ellipses"};
+  inline constexpr auto words<scene::FieldKind> = std::array{
+      "none", "exponential", "separable exponential", "Gaussian", "Matern", "ellipses", "files"};
 } // namespace plumbline::base

@@ -48,7 +48,7 @@ namespace plumbline::scene
     /// What follows from the keys, once all are read.
     void complete(Scene &scene)
     {
-      scene.random.complete(scene.domain);
+      scene.random.complete(scene.domain, scene.folder);
       scene.kernel.complete(scene.folder);
       scene.material.names = scene.random.names();
       scene.material.complete();
@@ -161,7 +161,7 @@ namespace plumbline::scene
     }
     scene.random.values = values;
     scene.random.realisation = realisation;
-    scene.random.complete(scene.domain);
+    scene.random.complete(scene.domain, scene.folder);
     scene.material.names = scene.random.names();
     return scene;
   }

@@ -11,6 +11,12 @@ namespace plumbline::study
     const auto say = [&](const std::string &text) { findings.push_back(text); };
     if (results.spectrum && results.spectrum->is_grey())
       say(words_of(*results.spectrum) + ", so that all samples are near the mean field");
+    if (const std::size_t n = results.random.files.size();
+        results.random.is_drawn_whole() && n > 0 && results.n_samples > n)
+      say(std::to_string(results.n_samples) + " samples take " + std::to_string(n) +
+          " of Random/files in turn, some more than once: standard errors count all as "
+          "independent, which samples of one file are not; take no more samples than files, or "
+          "Random/modes");
     for (const CaseStatistics &one : results.cases)
       for (const SetStatistics &set : one.sets)
       {

@@ -190,6 +190,25 @@ TEST(GrowCommand, goes_on_after_it_was_killed_to_the_same_bits)
   fs::remove_all(killed);
 }
 
+TEST(GrowCommand, begins_anew_when_a_picture_has_changed)
+{
+  const fs::path killed = temporary("killed");
+  const std::string picture = write("picture.csv", "1,0\n0,1\n");
+  const std::string command = "grow " + plate() +
+                              " --quiet --set 'Fracture/checkpoint interval=7' --set "
+                              "Random/field=files --set Random/files=" +
+                              picture + " -o " + killed.string();
+  ASSERT_TRUE(kill_at(command, killed / "checkpoint.h5"))
+      << "the run had ended before it was killed";
+  fs::last_write_time(picture,
+                      fs::last_write_time(killed / "checkpoint.h5") + std::chrono::seconds(1));
+  const Outcome again = run(command);
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(results(killed)["n_resumed"], 0);
+  fs::remove_all(killed);
+  fs::remove(picture);
+}
+
 TEST(GrowCommand, refuses_what_cannot_grow)
 {
   const std::string body = "grow " + plate() + " --quiet ";

@@ -77,6 +77,38 @@ TEST(SampleCommand, has_the_same_bits_by_any_number_of_processes_and_goes_on)
   fs::remove_all(two);
 }
 
+TEST(SampleCommand, takes_given_pictures_and_begins_anew_when_one_has_changed)
+{
+  const fs::path folder = temporary("sample");
+  const std::string grain = write("grain.csv", "1,0\n0,0\n"), rim = write("rim.csv", "0,1\n1,1\n");
+  const std::string command = "sample " + std::string(PLUMBLINE_SCENES) +
+                              "/random/pictures.prm --levels 1 --set Random/modes=0 --set "
+                              "Sampling/modes= --set 'Sampling/rule=Monte Carlo' --set "
+                              "Sampling/counts=2 --set Random/files=" +
+                              grain + "," + rim + " -o " + folder.string();
+  const auto mean = [&]
+  {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const bool is_continued = outcome.err.find("continuing: 2 samples") != std::string::npos;
+    const Json set = results(folder)["cases"][0]["sets"][0];
+    return std::pair(is_continued, set["mean_size"].get<double>());
+  };
+  const auto first = mean();
+  EXPECT_FALSE(first.first);
+  EXPECT_EQ(mean(), std::pair(true, first.second));
+  // stiff all over, so that it moves less
+  std::ofstream(grain) << "1,1\n1,1\n";
+  fs::last_write_time(grain, fs::last_write_time(folder / "samples/000001.json") +
+                                 std::chrono::seconds(1));
+  const auto changed = mean();
+  EXPECT_FALSE(changed.first);
+  EXPECT_LT(changed.second, .99 * first.second);
+  fs::remove_all(folder);
+  fs::remove(grain);
+  fs::remove(rim);
+}
+
 TEST(SampleCommand, touches_no_files_that_are_not_its_own)
 {
   const fs::path folder = temporary("sample");

@@ -132,3 +132,32 @@ TEST_F(CsvFile, holds_nodes)
   EXPECT_EQ(error_of([&] { read("x,y\n1\n"); }),
             ", line 2: y = '' is not a finite number; mend or take out the line");
 }
+
+TEST_F(CsvFile, of_numbers_alone_is_read_row_by_row)
+{
+  const auto read = [&](const std::string &text)
+  {
+    std::ofstream(file_, std::ios::binary) << text;
+    return read_number_grid(file_);
+  };
+  const NumberGrid grid = read("\xEF\xBB\xBF"
+                               "1, 2,\t-3e-1\r\n\r\n+4,.5,6\r\n\n");
+  EXPECT_EQ(grid.n, (std::array<int, 2>{3, 2}));
+  EXPECT_EQ(grid.values, (std::vector<double>{1, 2, -.3, 4, .5, 6}));
+  EXPECT_EQ(read("7").values, std::vector<double>{7}); // without an end of its line
+  const auto fault = [&](const std::string &text) { return error_of([&] { read(text); }); };
+  EXPECT_EQ(fault("1,2\n\n1,2,3\n"),
+            ", line 3: has 3 numbers, and the rows above have 2; give all rows as many");
+  EXPECT_EQ(fault("1,2\n1\n"),
+            ", line 2: has 1 numbers, and the rows above have 2; give all rows as many");
+  for (const std::string bad : {"x", "nan", "inf", "1 2", "1;2", "1e999", "", "# 1"})
+    EXPECT_EQ(fault("1,2\n1," + bad + "\n"),
+              ", line 2: '" + bad +
+                  "' is not a finite number; write numbers such as 0 or 0.5, separated by ','");
+  EXPECT_EQ(fault("1,2\n,\n").find(", line 2: '' is not a finite"), 0u); // no blank line
+  EXPECT_EQ(fault(" \n\n"), " has no numbers; write a row of them a line, separated by ','");
+  EXPECT_EQ(fault(""), " has no numbers; write a row of them a line, separated by ','");
+  std::filesystem::remove(file_);
+  EXPECT_EQ(error_of([&] { read_number_grid(file_); }),
+            " cannot be read; give the name of a file of numbers separated by ',', a row a line");
+}

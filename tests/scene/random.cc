@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "scene/problem.h"
+#include "tests/text_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,8 @@ namespace
 
   using Settings = std::vector<scene::Override>;
 
-  scene::Scene random_scene(const Settings &settings)
+  /// @param name  of its file, for other files beside it
+  scene::Scene random_scene(const Settings &settings, const std::string &name = "random")
   {
     Settings all = {{"Domain/boxes", "0, 0 : 2, 1"},
                     {"Domain/mesh", "squares"},
@@ -25,7 +27,7 @@ namespace
                     {"Sampling/rule", "tensor"},
                     {"Sampling/counts", "2"}};
     all.insert(all.end(), settings.begin(), settings.end());
-    return scene::parse_scene("random", "", all);
+    return scene::parse_scene(name, "", all);
   }
 
   void expect_refused(const Settings &settings, const std::string &message)
@@ -57,6 +59,20 @@ namespace
   double modulus(const scene::Scene &scene, const Point<2> &x)
   {
     return 2.5 * scene.material.lame()(x).mu; // E at nu = 1/4
+  }
+
+  /// R at the mean of c.
+  double field_at(const scene::Scene &scene, const Point<2> &x)
+  {
+    return modulus(scene, x) - 3;
+  }
+
+  /// The same solid with pictures for its field.
+  Settings with_files(const std::string &files, const Settings &settings = {})
+  {
+    Settings all = solid({{"Random/field", "files"}, {"Random/files", files}});
+    all.insert(all.end(), settings.begin(), settings.end());
+    return all;
   }
 } // namespace
 
@@ -161,6 +177,177 @@ TEST(RandomScene, PrincipalComponentsOfEllipsesAreNearlyGrey)
   const scene::Scene at = at_sample(scene, {1, 3, 1, -1, 1, 1}, 1);
   for (const Point<2> x : {Point<2>(.5, .5), Point<2>(1.2, .3)})
     EXPECT_NEAR(modulus(at, x) - 3, .4, .35); // neither 0 nor 1
+}
+
+TEST(RandomScene, FilesFillTheBoxWithTheirFirstLineOnTop)
+{
+  const tests::TextFolder folder("pictures");
+  const std::string file = folder.write("a.csv", "1,2,3\n4,5,6\n");
+  const scene::Scene scene = random_scene(with_files(file)); // cells of 2/3 by 1/2
+  const auto expect_field = [](const scene::Scene &scene, const Point<2> &x, double value)
+  { EXPECT_NEAR(field_at(scene, x), value, 1e-13) << x; };
+  for (const double x : {.01, .3, .65}) // constant in a cell
+  {
+    expect_field(scene, {x, .99}, 1);
+    expect_field(scene, {x, .51}, 1);
+    expect_field(scene, {x, .49}, 4);
+    expect_field(scene, {x, .01}, 4);
+  }
+  expect_field(scene, {.68, .6}, 2);
+  expect_field(scene, {1.3, .4}, 5);
+  expect_field(scene, {1.4, .6}, 3);
+  expect_field(scene, {1.4, .4}, 6);
+  // beyond the box as at the nearest point
+  expect_field(scene, {-5, .8}, 1);
+  expect_field(scene, {1, 7}, 2);
+  expect_field(scene, {3, 2}, 3);
+  expect_field(scene, {2.1, -1}, 6);
+  EXPECT_FALSE(scene.material.is_homogeneous);
+  // over a box that is given, larger than the domain: cells of 4/3 by 3/2
+  const scene::Scene boxed = random_scene(with_files(file, {{"Random/box", "-1, -1 : 3, 2"}}));
+  expect_field(boxed, {.3, .6}, 1);
+  expect_field(boxed, {.4, .6}, 2);
+  expect_field(boxed, {.4, .4}, 5);
+  expect_field(boxed, {1.7, .4}, 6);
+}
+
+TEST(RandomScene, FilesAreTakenInTurnAndNamedFromTheFolderOfTheScene)
+{
+  const tests::TextFolder folder("pictures");
+  std::string files;
+  for (const char *const value : {"7", "8", "9"})
+  {
+    folder.write(std::string(value) + ".csv", value);
+    files += std::string(files.empty() ? "" : ", ") + value + ".csv";
+  }
+  const auto taken = [&](const std::string &key, const std::string &value) {
+    return random_scene(with_files(files, {{key, value}}), (folder.path() / "scene.prm").string());
+  };
+  const scene::Scene scene = taken("Random/realisation", "1");
+  const Point<2> x(.5, .5);
+  for (unsigned int k = 1; k <= 7; ++k)
+    EXPECT_NEAR(field_at(at_sample(scene, {}, k), x), 7 + (k - 1) % 3, 1e-13) << k;
+  EXPECT_NEAR(field_at(taken("Random/realisation", "2"), x), 8, 1e-13);
+  EXPECT_NEAR(field_at(taken("Random/realisation", "0"), x), 9, 1e-13); // before the first
+  // a scene that is built anew for each sample knows them still
+  const scene::Scene keyed = taken("Random/keys", "Geometry/seed: 7");
+  EXPECT_NEAR(field_at(at_sample(keyed, {1, 3}, 3), x), 9, 1e-13);
+}
+
+// Deviations from the mean are 2 p, -p + q and -p - q with p = 1 on the left and -1 on the right, q
+// = 1 below and -1 above: their sample covariance is 3 p pᵀ + q qᵀ, and p and q have the norm √2 in
+// L2 of the box.
+TEST(RandomScene, PrincipalComponentsOfFilesAreThoseByHand)
+{
+  const tests::TextFolder folder("pictures");
+  const std::string files = folder.write("a.csv", "5,2\n3,0\n") + ", " +
+                            folder.write("b.csv", "1,4\n1,4\n") + ", " +
+                            folder.write("c.csv", "3,6\n-1,2\n");
+  const scene::Scene scene =
+      random_scene(with_files(files, {{"Random/modes", "2"}, {"Random/realisations", "2"}}));
+  const random::Expansion &expansion = *scene.random.source->expansion();
+  EXPECT_EQ(expansion.grid.n, (std::array<int, 2>{2, 2}));
+  const std::vector<double> mean = {1, 2, 3, 4}, p = {1, -1, 1, -1}, q = {1, 1, -1, -1};
+  EXPECT_NEAR(expansion.eigenvalue[0], 6, 1e-12);
+  EXPECT_NEAR(expansion.eigenvalue[1], 2, 1e-12);
+  for (unsigned int i = 0; i < 4; ++i)
+  {
+    EXPECT_NEAR(expansion.mean[i], mean[i], 1e-12) << i;
+    EXPECT_NEAR(expansion.variance[i], 4, 1e-12) << i;
+    EXPECT_NEAR(expansion.mode[0][i], p[i] / std::sqrt(2.), 1e-12) << i;
+    EXPECT_NEAR(expansion.mode[1][i], q[i] / std::sqrt(2.), 1e-12) << i;
+  }
+  const auto R = [&](double first, double second, const Point<2> &x) {
+    return field_at(at_sample(scene, {1, 3, first, second}, 1), x);
+  };
+  for (const Point<2> x : {Point<2>(.01, .01), Point<2>(.5, .25), Point<2>(.99, .49)})
+    EXPECT_NEAR(R(.3, -.2, x), 1 + .3 * std::sqrt(3.) - .2, 1e-12); // constant in a cell
+  EXPECT_NEAR(R(.3, -.2, {5, 5}), 4 - .3 * std::sqrt(3.) + .2, 1e-12);
+  EXPECT_NEAR(field_at(scene, {1.5, .2}), 2, 1e-12); // the mean
+  const Settings one = with_files(files, {{"Random/modes", "1"}});
+  EXPECT_NEAR(random_scene(one).random.source->expansion()->variance_kept(), .75, 1e-12);
+}
+
+TEST(RandomScene, AllPrincipalComponentsGiveEachFileBack)
+{
+  constexpr int n_x = 24, n_y = 13; // more cells than are seen as a dense matrix
+  const tests::TextFolder folder("pictures");
+  std::string files;
+  for (int k = 0; k < 3; ++k)
+  {
+    std::string text;
+    for (int j = 0; j < n_y; ++j)
+      for (int i = 0; i < n_x; ++i)
+      {
+        text += (i * (k + 2) + j * j) % 7 < 3 ? '1' : '0';
+        text += i + 1 < n_x ? ',' : '\n';
+      }
+    files += (k > 0 ? ", " : "") + folder.write(std::to_string(k) + ".csv", text);
+  }
+  const scene::Scene whole = random_scene(with_files(files)),
+                     modes = random_scene(with_files(files, {{"Random/modes", "2"}}));
+  const random::Expansion &expansion = *modes.random.source->expansion();
+  const random::Grid &grid = expansion.grid;
+  ASSERT_EQ(grid.n, (std::array<int, 2>{n_x, n_y}));
+  EXPECT_NEAR(expansion.variance_kept(), 1, 1e-12);
+  for (unsigned int k = 1; k <= 3; ++k)
+  {
+    const scene::Scene one = at_sample(whole, {}, k);
+    std::vector<double> values;
+    for (int j = 0; j < n_y; ++j)
+      for (int i = 0; i < n_x; ++i)
+        values.push_back(field_at(one, grid.node(i, j)));
+    const std::vector<double> xi = expansion.coordinates(values);
+    const scene::Scene again = at_sample(modes, {1, 3, xi[0], xi[1]}, 1);
+    for (int j = 0; j < n_y; ++j)
+      for (int i = 0; i < n_x; ++i)
+        EXPECT_NEAR(field_at(again, grid.node(i, j)), field_at(one, grid.node(i, j)), 1e-12);
+  }
+}
+
+TEST(RandomScene, FilesThatMakeNoFieldAreRefused)
+{
+  const tests::TextFolder folder("pictures");
+  const std::string wide = folder.write("wide.csv", "1,2,3\n4,5,6\n"),
+                    high = folder.write("high.csv", "1,2\n3,4\n5,6\n"),
+                    point = folder.write("point.csv", "1\n"),
+                    ragged = folder.write("ragged.csv", "1,2\n3,4,5\n"),
+                    words = folder.write("words.csv", "1,2\n3,four\n"),
+                    none = folder.write("none.csv", "\n"),
+                    missing = (folder.path() / "missing.csv").string();
+  expect_refused(with_files(""), "Random/field = files needs Random/files, which is empty; give");
+  expect_refused(with_files(wide + ", " + missing),
+                 "Random/files: '" + missing + "' cannot be read; give the name of a file");
+  expect_refused(with_files(folder.path().string()), "cannot be read; give the name of a file");
+  expect_refused(with_files(ragged), "Random/files: '" + ragged +
+                                         "', line 2: has 3 numbers, and the rows above have 2");
+  expect_refused(with_files(words), "Random/files: '" + words +
+                                        "', line 2: 'four' is not a finite number; write numbers");
+  expect_refused(with_files(none), "Random/files: '" + none + "' has no numbers; write a row");
+  expect_refused(with_files(wide + ", " + high), "Random/files: '" + high +
+                                                     "' has 2 x 3 numbers along x and y, and '" +
+                                                     wide + "' has 3 x 2; all must have one size");
+  expect_refused(solid({{"Random/files", "a.csv, b.csv"}}),
+                 "Random/files = a.csv, b.csv is for Random/field = files, but Random/field = "
+                 "ellipses; clear it, or write files");
+  expect_refused({{"Random/files", "a.csv"}}, "but Random/field = none; clear it");
+  const auto modes = [](const std::string &files, const std::string &n) {
+    return with_files(files, {{"Random/modes", n}});
+  };
+  expect_refused(modes(wide, "1"),
+                 "Random/modes = 1, but Random/files (1, of 6 cells each) have 0 principal "
+                 "components; write no more, 0 to draw them whole, or give more files");
+  expect_refused(modes(wide + ", " + wide + ", " + wide, "3"),
+                 "Random/modes = 3, but Random/files (3, of 6 cells each) have 2 principal");
+  expect_refused(modes(point + ", " + point + ", " + point, "2"),
+                 "Random/modes = 2, but Random/files (3, of 1 cells each) have 1 principal");
+  expect_refused(with_files(wide, {{"Sampling/rule", "tensor"}}),
+                 "Random/field = files is drawn as a whole; write Random/modes");
+  expect_refused(
+      with_files(wide, {{"Domain/mesh", "hyper_cube"},
+                        {"Domain/arguments", "-3 : 3 : false"},
+                        {"Domain/inside", "1 - x^2 - y^2"}}),
+      "Random/field = files with Domain/mesh = hyper_cube fills a box that is not known");
 }
 
 TEST(RandomScene, IsRefusedWithTheRemedy)

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "study/exact_statistics.h"
+#include "tests/text_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -383,6 +384,26 @@ TEST(SampleStatistics, OfIndependentSamplesDoWithoutOne)
   EXPECT_NEAR(set.quantities.at("q").standard_error,
               *set.quantities.at("q").deviation() / std::sqrt(3.), 1e-15);
   EXPECT_NEAR(results.cases[0].field->mean[0], (1 + mean) * .1, 1e-15);
+}
+
+TEST(SampleStatistics, OfFilesThatComeTwiceSaySo)
+{
+  const tests::TextFolder folder("sampled_files");
+  const std::string files = folder.write("a.csv", "1\n") + ", " + folder.write("b.csv", "2\n");
+  const auto n_said = [&](const std::string &n_samples)
+  {
+    const scene::Scene scene = random_scene({{"Random/field", "files"},
+                                             {"Random/files", files},
+                                             {"Sampling/rule", "Monte Carlo"},
+                                             {"Sampling/counts", n_samples}});
+    const SamplingResults results = conclude(scene, make_sampling_plan(scene), first);
+    return std::count_if(results.findings.begin(), results.findings.end(),
+                         [&](const std::string &finding) {
+                           return finding.find("2 of Random/files in turn") != std::string::npos;
+                         });
+  };
+  EXPECT_EQ(n_said("2"), 0);
+  EXPECT_EQ(n_said("3"), 1);
 }
 
 TEST(SampleStatistics, ThatAreNotThereLeaveResultsIncomplete)

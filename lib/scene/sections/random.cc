@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "base/text_file.h"
 #include "scene/keys.h"
 #include "scene/problem_sections.h"
 #include "scene/random_section.h"
@@ -134,16 +135,24 @@ namespace plumbline::scene
         "A random field, R in the same expressions. exponential, separable exponential, Gaussian, "
         "Matern: of Karhunen and Loeve's modes of such a covariance. ellipses: 1 in ellipses that "
         "lie at random, else 0, drawn whole, or, with Random/modes, of the principal components "
-        "of many.");
+        "of many. files: those of Random/files, one drawn whole, or of their principal "
+        "components.");
     keys.add("modes", n_modes, count(0, 10000),
              "Of the field, each a standard normal variable after Random/variables; 0: it is drawn "
-             "whole (ellipses).");
+             "whole (ellipses, files). Of n files n - 1 at most.");
+    keys.add(
+        "files", "", any_text(), [this](const std::string &text) { files = to_names(text); },
+        "Of the field files: names of CSV files from the scene's folder, separated by ','. Each is "
+        "a grid of numbers that fills the field's box, a line for each row of cells, the first one "
+        "along the upper side, all of one size; R is the number of the cell. Realisations 1, 2, "
+        "... take them in this order, and again from the first one after the last.");
     keys.add(
         "box", "", boxes(), [this](const std::string &text) { box = to_boxes(text); },
         "That the field fills, written like Domain/boxes; beyond it the field is what it is at "
         "the nearest point. Empty: the box about Domain/boxes. [length]");
     keys.add("cell", cell, any_number(),
-             "Mesh size of the lattice over the field's box that modes are found on. [length]");
+             "Mesh size of the lattice over the field's box that modes are found on; files bring "
+             "theirs. [length]");
     keys.add("mean", mean, any_number(), "Of a field of a covariance.");
     keys.add("deviation", deviation, any_number(), "Of a field of a covariance, > 0.");
     keys.add(
@@ -213,9 +222,16 @@ namespace plumbline::scene
     return result;
   }
 
-  void RandomSection::complete(const DomainSection &domain)
+  void RandomSection::complete(const DomainSection &domain, const std::string &folder)
   {
     check_variables();
+    require(files.empty() || field == FieldKind::files,
+            "Random/files = " + base::shown(join(files, ", ")) +
+                " is for Random/field = files, but Random/field = " + base::word(field) +
+                "; clear it, or write files");
+    require(!files.empty() || field != FieldKind::files,
+            "Random/field = files needs Random/files, which is empty; give names of CSV files, "
+            "separated by ','");
     if (field == FieldKind::none)
     {
       require(n_modes == 0, "Random/modes = " + std::to_string(n_modes) +
@@ -230,8 +246,8 @@ namespace plumbline::scene
                 " fills a box that is not known before the mesh is made; give Random/box = 'x0, y0 "
                 ": x1, y1'");
     if (!source)
-      source = std::make_shared<const RandomField>(*this, box.empty() ? bounding_box(domain.boxes)
-                                                                      : box.front());
+      source = std::make_shared<const RandomField>(
+          *this, box.empty() ? bounding_box(domain.boxes) : box.front(), folder);
     std::vector<double> modes(n_modes, 0);
     if (!values.empty())
       modes.assign(values.end() - n_modes, values.end());
