@@ -83,7 +83,8 @@ namespace plumbline::app
     }
 
     /// Its memory and disk are there; nothing is made before that.
-    void check_size(const scene::Scene &scene, const scene::Level &level, const CrackPlan &plan)
+    void check_size(const scene::Scene &scene, const scene::Level &level, const CrackPlan &plan,
+                    unsigned int n_jobs)
     {
       // in vectors of a number a node: u, v, a and fields to which margins are added (11), a view
       // (4), the moments and their copy in a checkpoint
@@ -91,7 +92,7 @@ namespace plumbline::app
       const double n_nodes =
           sides(scene)[0] / level.h * (sides(scene)[1] + 2 * level.horizon) / level.h;
       base::require_memory(bytes * n_nodes, "a strip of " + base::to_text(n_nodes, 3) + " nodes",
-                           "choose a larger h (Study/h)");
+                           "choose a larger h (Study/h)", n_jobs);
       study::check_room(plan, n_nodes);
     }
 
@@ -214,12 +215,13 @@ namespace plumbline::app
     }
   } // namespace
 
-  void check_crack_size(const scene::Scene &scene, unsigned int n_levels, const fs::path &folder)
+  void check_crack_size(const scene::Scene &scene, unsigned int n_levels, const fs::path &folder,
+                        unsigned int n_jobs)
   {
     const CrackPlan plan = make_plan(scene, folder);
     for_each_level(scene, n_levels,
                    [&](const scene::Series &, const scene::Level &level, bool)
-                   { check_size(scene, level, plan); });
+                   { check_size(scene, level, plan, n_jobs); });
   }
 
   CrackResults move_crack(const scene::Scene &scene, unsigned int n_levels, const fs::path &folder,

@@ -11,9 +11,10 @@ namespace plumbline::app
   };
 
   /// Memory for the crack of a scene with a notched strip, and disk for its files.
+  /// @param n_jobs  processes that each take the memory side by side (--jobs)
   /// @throws InputError  they are not there
   void check_crack_size(const scene::Scene &scene, unsigned int n_levels,
-                        const std::filesystem::path &folder);
+                        const std::filesystem::path &folder, unsigned int n_jobs = 1);
 
   /// The thresholds of all levels, and the crack's motion at the last one of the first series.
   /// @param folder  of its checkpoint, and of frames/ if there are some

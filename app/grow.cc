@@ -5,13 +5,12 @@
 #include "base/memory.h"
 #include "base/number_text.h"
 #include "meshfree/fracture/breaking_network.h"
-#include "meshfree/fracture/strip.h"
 #include "physics/expression.h"
 #include "report/formats.h"
 #include "report/growth_page.h"
 #include "run_parts.h"
+#include "strip_growth.h"
 #include "study/sampling.h"
-#include "study/strip_growth.h"
 
 #include <cmath>
 #include <filesystem>
@@ -50,37 +49,6 @@ namespace plumbline::app
       return solid;
     }
 
-    /// Nothing is made before its memory is there.
-    GrowthSize check_size(const scene::Scene &scene)
-    {
-      const GrowthSize size = expected_size(scene);
-      const bool is_factor = size.solver == scene::GrowthSolver::factor;
-      const bool may_iterate = is_factor && scene.fracture.can_iterate();
-      base::require_memory(is_factor ? size.factor_bytes : size.multigrid_bytes,
-                           "a body of " + base::to_text(size.n_nodes, 3) + " nodes",
-                           may_iterate ? "choose a larger h (Study/h), or Fracture/solver = "
-                                         "multigrid, which takes " +
-                                             base::bytes_to_text(size.multigrid_bytes)
-                                       : "choose a larger h (Study/h)");
-      return size;
-    }
-
-    study::GrowthModel make_model(meshfree::BreakingNetwork &body, const Point<2> &notch_tip)
-    {
-      study::GrowthModel model;
-      const meshfree::BondNetwork &network = body.network();
-      model.body = &body;
-      model.h = network.h;
-      model.nodes = network.nodes;
-      for (const meshfree::BondNetwork::Bond &bond : network.bonds)
-        model.bonds.push_back({bond.from, bond.to});
-      model.cut = network.cut;
-      model.notch_tip = notch_tip;
-      model.damage = [&network](const std::vector<std::size_t> &broken)
-      { return network.damage(broken); };
-      return model;
-    }
-
     /// By what G is to be divided for a crack to go on at G in this lattice: the largest energy,
     /// over G, that one needs in a strip whose height is eight horizons.
     double find_trapping(const scene::Scene &scene, const meshfree::Recipe &recipe,
@@ -88,21 +56,15 @@ namespace plumbline::app
     {
       const int m = static_cast<int>(std::ceil(influence.horizon() / h - 1e-9)), height = 8 * m;
       const physics::Lame lame = scene.material.lame()(scene.domain.cracks.front().back());
-      const auto make = [&](int n_crack, bool has_surface_terms)
-      {
-        auto solid =
-            meshfree::make_strip({height, 5 * height, n_crack, h}, lame, influence.horizon());
-        solid.has_surface_terms = has_surface_terms;
-        return meshfree::BreakingNetwork(
-            make_bond_network(solid, recipe, influence, h, scene.geometry.backend),
-            scene::Stretch::linear);
-      };
-      const int n_crack = 2 * height; // as far from the left end, farther from the right one
-      const auto energy = [&](int n) { return make(n, false).response().energy; };
-      const double W1 = (energy(n_crack) - energy(n_crack + 1)) / h; // of the strip far from ends
-      meshfree::BreakingNetwork strip = make(n_crack, scene.fracture.has_surface_terms);
-      const double tip = n_crack * h;
-      return measure_strip(make_model(strip, {tip, 0}), W1, tip + 2 * h, tip + 6 * h).peak;
+      // as far from the left end as the crack is long, farther from the right one
+      return grow_through_strip({{height, 5 * height, 2 * height, h, {}},
+                                 4,
+                                 lame,
+                                 scene.fracture.has_surface_terms,
+                                 recipe,
+                                 influence,
+                                 scene.geometry.backend})
+          .peak;
     }
 
     /// y in the middle of the body.
@@ -158,7 +120,7 @@ namespace plumbline::app
     }
   } // namespace
 
-  GrowthSize expected_size(const scene::Scene &scene)
+  GrowthSize expected_size(const scene::Scene &scene, unsigned int n_jobs)
   {
     const scene::Level &level = scene.study.series.front().levels.front();
     const double m = level.horizon / level.h;
@@ -184,9 +146,10 @@ namespace plumbline::app
     size.multigrid_bytes = 400 * size.n_bonds + 44 * n_entries;
     size.solver = scene.fracture.solver;
     if (size.solver == scene::GrowthSolver::automatic)
-      size.solver = scene.fracture.can_iterate() && size.factor_bytes > base::available_memory()
-                        ? scene::GrowthSolver::multigrid
-                        : scene::GrowthSolver::factor;
+      size.solver =
+          scene.fracture.can_iterate() && n_jobs * size.factor_bytes > base::available_memory()
+              ? scene::GrowthSolver::multigrid
+              : scene::GrowthSolver::factor;
     size.n_breaks = 2. / 3 * m * m * m * way / level.h; // 18 a column of nodes at m = 3
     // a solution for each bond, 2 ns an entry of the factor, and half of that for updates and new
     // factors; or iterations of 6.6 ns an entry of the matrix, and a fourth of that for set-ups
@@ -197,11 +160,27 @@ namespace plumbline::app
     return size;
   }
 
+  GrowthSize check_growth_size(const scene::Scene &scene, unsigned int n_jobs)
+  {
+    const GrowthSize size = expected_size(scene, n_jobs);
+    const bool is_factor = size.solver == scene::GrowthSolver::factor;
+    const bool may_iterate = is_factor && scene.fracture.can_iterate();
+    base::require_memory(
+        is_factor ? size.factor_bytes : size.multigrid_bytes,
+        "Study/h = " + base::to_text(scene.study.series.front().levels.front().h, 4) +
+            " gives a body of " + base::to_text(size.n_nodes, 3) + " nodes",
+        may_iterate ? "choose a larger h, or Fracture/solver = multigrid, which takes " +
+                          base::bytes_to_text(size.multigrid_bytes)
+                    : "choose a larger h",
+        n_jobs);
+    return size;
+  }
+
   study::GrowthResults grow_body(const scene::Scene &scene, const fs::path &checkpoint,
                                  const std::function<void()> &before_it_grows)
   {
     const scene::Level &level = scene.study.series.front().levels.front();
-    const scene::GrowthSolver solver = check_size(scene).solver;
+    const scene::GrowthSolver solver = check_growth_size(scene).solver;
     const auto influence = physics::influence_function(scene.kernel.profile, level.horizon);
     const meshfree::Rule rule = find_rule(scene.methods.names.front());
     const meshfree::Recipe recipe = rule.recipe(physics::deviatoric_kernel(influence, 1));
@@ -214,7 +193,7 @@ namespace plumbline::app
                                    scene.fracture.stretch, solver);
     if (before_it_grows)
       before_it_grows();
-    study::GrowthModel model = make_model(body, scene.domain.cracks.front().back());
+    study::GrowthModel model = growth_model(body, scene.domain.cracks.front().back());
     model.toughness = toughness_of_nodes(scene, model.nodes, level.horizon);
     if (has_newer_files(scene, checkpoint))
       fs::remove(checkpoint); // of another body
@@ -270,7 +249,7 @@ namespace plumbline::app
       throw InputError("scene '" + scene.name +
                        "': Fracture/toughness is empty, so that nothing breaks; give it, or use "
                        "'plumbline run' ('plumbline crack' where Crack/notch is given)");
-    check_size(scene);
+    check_growth_size(scene);
     const fs::path folder = output_folder(options, scene);
     const study::GrowthResults results =
         grow_body(scene, folder / "checkpoint.h5",

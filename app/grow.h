@@ -21,7 +21,13 @@ namespace plumbline::app
     double seconds = 0;  ///< CPU time of those, by rates that were measured on one machine; to a
                          ///< factor of two on others
   };
-  GrowthSize expected_size(const scene::Scene &scene);
+  /// @param n_jobs  processes that each take its memory side by side (--jobs), by which an
+  /// automatic solver is chosen
+  GrowthSize expected_size(const scene::Scene &scene, unsigned int n_jobs = 1);
+
+  /// Memory for the growth of a scene: nothing is made before it is there.
+  /// @throws InputError  it is not, naming Study/h
+  GrowthSize check_growth_size(const scene::Scene &scene, unsigned int n_jobs = 1);
 
   /// The growth of a scene at its one level, from the checkpoint if there is one and no file that
   /// the scene names is newer.

@@ -81,7 +81,18 @@ namespace plumbline::app
       return std::max(1u, std::thread::hardware_concurrency());
     }
 
-    std::vector<std::string> worker_arguments(const SampleOptions &options, const fs::path &folder)
+    /// That take samples side by side, of each rank.
+    unsigned int n_processes(const SampleOptions &options, const study::SamplingPlan &plan)
+    {
+      return static_cast<unsigned int>(
+          std::min<std::size_t>(options.n_jobs, std::max<std::size_t>(1, plan.values.size())));
+    }
+
+    /// @param n_jobs  processes side by side, of which all take what this one finds best: what
+    /// memory they find themselves depends on the others
+    std::vector<std::string> worker_arguments(const SampleOptions &options,
+                                              const scene::Scene &scene, unsigned int n_jobs,
+                                              const fs::path &folder)
     {
       const unsigned int n_threads =
           options.n_threads > 0 ? options.n_threads : std::max(1u, n_cores() / options.n_jobs);
@@ -90,6 +101,10 @@ namespace plumbline::app
           "--threads", std::to_string(n_threads)};
       for (const scene::Override &one : options.overrides)
         arguments.insert(arguments.end(), {"--set", one.key + "=" + one.value});
+      if (is_growth(scene))
+        arguments.insert(
+            arguments.end(),
+            {"--set", "Fracture/solver=" + base::word(expected_size(scene, n_jobs).solver)});
       if (!options.methods.empty())
         arguments.insert(arguments.end(), {"--methods", options.methods});
       if (options.n_levels > 0)
@@ -98,16 +113,19 @@ namespace plumbline::app
     }
 
     /// How long samples of growth will take, before there is one.
-    void tell_size(const scene::Scene &scene, std::size_t n, unsigned int n_jobs)
+    /// @param n_jobs  of each rank
+    void tell_size(const scene::Scene &scene, std::size_t n, unsigned int n_jobs,
+                   unsigned int n_ranks)
     {
       constexpr double worth_saying = 30; // [s]
-      const GrowthSize size = expected_size(scene);
-      const double all = size.seconds * static_cast<double>(n) / n_jobs;
+      const GrowthSize size = expected_size(scene, n_jobs);
+      const unsigned int n_in_all = n_jobs * n_ranks;
+      const double all = size.seconds * static_cast<double>(n) / n_in_all;
       if (all > worth_saying)
         std::cerr << n << (n > 1 ? " samples of " : " sample of ") << base::to_text(size.n_nodes, 6)
                   << " nodes: some " << report::rounded_seconds(size.seconds) << " each, "
-                  << report::rounded_seconds(all) << " in all by " << n_jobs
-                  << (n_jobs > 1 ? " processes" : " process")
+                  << report::rounded_seconds(all) << " in all by " << n_in_all
+                  << (n_in_all > 1 ? " processes" : " process")
                   << ", to a factor of two and for straight cracks of "
                   << base::to_text(size.n_breaks, 4)
                   << " bonds; those that wind take up to three times as long\n";
@@ -148,16 +166,20 @@ namespace plumbline::app
                   const fs::path &folder)
     {
       const base::Team team = base::Team::all();
+      const unsigned int n_jobs = n_processes(options, plan);
       std::vector<std::uint64_t> due;
       for (std::size_t i = team.rank(); i < plan.values.size(); i += team.n_ranks())
-        if (!files.has(i))
+        if (!files.read(i)) // there is none, or it is not whole
+        {
+          files.remove(i);
           due.push_back(i);
+        }
       const bool is_talking = !options.quiet && team.rank() == 0;
       if (is_talking && due.size() < plan.values.size() && team.n_ranks() == 1)
         std::cerr << "continuing: " << plan.values.size() - due.size() << " samples are in '"
                   << folder.string() << "' already\n";
       if (is_talking && is_growth(scene))
-        tell_size(scene, due.size(), options.n_jobs * team.n_ranks());
+        tell_size(scene, due.size(), n_jobs, team.n_ranks());
       ProgressLine progress(is_talking);
       Forecast forecast(due.size(), is_talking);
       const auto n_done = [&]
@@ -179,7 +201,7 @@ namespace plumbline::app
         return !is_interrupted();
       };
       const std::vector<std::string> endings =
-          work_off(due, options.n_jobs, worker_arguments(options, folder), wait);
+          work_off(due, n_jobs, worker_arguments(options, scene, n_jobs, folder), wait);
       for (const std::string &how : endings)
         std::cerr << "plumbline: a process of samples " << how
                   << "; its sample is not there, the same command tries it again\n";
@@ -195,7 +217,7 @@ namespace plumbline::app
     if (options.is_worker)
       return take_samples(scene, plan, files);
 
-    sample_taker(scene).check(scene, folder);
+    sample_taker(scene).check(scene, folder, n_processes(options, plan));
     prepare_folder(folder);
     const base::Team team = base::Team::all();
     team.together(

@@ -108,7 +108,7 @@ namespace plumbline::app
       for (const study::StripRow &row : stand_cracks(scene, strip_methods(scene, 0), 0).rows)
       {
         SampleCase one = case_of(row, cases);
-        for (const std::string &name : study::strip_quantities(row.edges()))
+        for (const std::string &name : study::strip_quantities(scene.strip))
           add_if_finite(one, name, row.quantity(name));
         add_if_finite(one, "release", row.release);
         cases.push_back(std::move(one));
@@ -159,10 +159,11 @@ namespace plumbline::app
 
     SampleTaker statics_taker()
     {
-      return {[](const scene::Scene &scene, const fs::path &)
+      return {[](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
               {
                 const method::Methods available = all_methods();
-                study::check_memory(scene, study::choose_methods(scene, available), available, 0);
+                study::check_memory(scene, study::choose_methods(scene, available), available, 0,
+                                    n_jobs);
                 study::check_data(scene);
               },
               [](const scene::Scene &sample, const fs::path &)
@@ -175,7 +176,7 @@ namespace plumbline::app
 
     SampleTaker motion_taker()
     {
-      return {[](const scene::Scene &scene, const fs::path &)
+      return {[](const scene::Scene &scene, const fs::path &, unsigned int)
               { study::check_motions(scene, study::choose_methods(scene, all_methods()), 0); },
               [](const scene::Scene &sample, const fs::path &)
               {
@@ -186,17 +187,18 @@ namespace plumbline::app
 
     SampleTaker stability_taker()
     {
-      return {[](const scene::Scene &scene, const fs::path &)
+      return {[](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
               {
                 const method::Methods available = all_methods();
-                study::check_memory(scene, study::choose_methods(scene, available), available, 0);
+                study::check_memory(scene, study::choose_methods(scene, available), available, 0,
+                                    n_jobs);
               },
               [](const scene::Scene &sample, const fs::path &) { return measure_sample(sample); }};
     }
 
     SampleTaker dispersion_taker()
     {
-      return {[](const scene::Scene &scene, const fs::path &)
+      return {[](const scene::Scene &scene, const fs::path &, unsigned int)
               {
                 (void)study::plan_waves(scene, usual_angles);
                 (void)study::choose_methods(scene, all_methods());
@@ -206,15 +208,23 @@ namespace plumbline::app
 
     SampleTaker strip_taker()
     {
-      return {[](const scene::Scene &scene, const fs::path &) { (void)strip_methods(scene, 0); },
+      return {[](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
+              { (void)strip_methods(scene, 0, n_jobs); },
               [](const scene::Scene &sample, const fs::path &) { return strip_sample(sample); }};
     }
 
     SampleTaker crack_taker()
     {
-      return {[](const scene::Scene &scene, const fs::path &folder)
-              { check_crack_size(scene, 0, folder); },
+      return {[](const scene::Scene &scene, const fs::path &folder, unsigned int n_jobs)
+              { check_crack_size(scene, 0, folder, n_jobs); },
               crack_sample};
+    }
+
+    SampleTaker growth_taker()
+    {
+      return {[](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
+              { check_growth_size(scene, n_jobs); },
+              grow_sample};
     }
 
     /// Without its files when it is there.
@@ -242,7 +252,7 @@ namespace plumbline::app
     if (scene.sampling.analysis == SampledAnalysis::dispersion)
       return dispersion_taker();
     if (is_growth(scene))
-      return clean({[](const scene::Scene &, const fs::path &) {}, grow_sample});
+      return clean(growth_taker());
     if (scene.crack.is_there())
       return clean(crack_taker());
     if (scene.strip.is_there())

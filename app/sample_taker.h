@@ -10,8 +10,11 @@ namespace plumbline::app
   struct SampleTaker
   {
     /// Before there is one.
+    /// @param n_jobs  processes that take samples side by side, each with memory of its own
     /// @throws InputError  methods, memory or data that no sample will have
-    std::function<void(const scene::Scene &scene, const std::filesystem::path &folder)> check;
+    std::function<void(const scene::Scene &scene, const std::filesystem::path &folder,
+                       unsigned int n_jobs)>
+        check;
     /// @param own  where the sample alone may keep files while it is taken; gone when it is there
     /// @throws InputError, NumericalError  as the analysis itself
     std::function<std::vector<study::SampleCase>(const scene::Scene &sample,

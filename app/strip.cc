@@ -1,11 +1,13 @@
 #include "strip.h"
 
+#include "base/cost.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/number_text.h"
 #include "methods.h"
 #include "report/formats.h"
 #include "report/strip_page.h"
+#include "strip_growth.h"
 #include "study/preflight.h"
 
 #include <algorithm>
@@ -52,7 +54,7 @@ namespace plumbline::app
 
     /// Nothing is made before its memory is there.
     void check_size(const scene::Scene &scene, const method::Methods &methods,
-                    unsigned int n_levels)
+                    unsigned int n_levels, unsigned int n_jobs)
     {
       constexpr double most_cells = 10000; // along a side
       for_each_level(
@@ -74,15 +76,44 @@ namespace plumbline::app
             for (const auto &method : methods)
               base::require_memory(method->side() == method::Side::meshfree ? of_rules
                                                                             : of_galerkin,
-                                   what + " by " + method->name(), remedy);
+                                   what + " by " + method->name(), remedy, n_jobs);
           });
     }
   } // namespace
 
-  method::Methods strip_methods(const scene::Scene &scene, unsigned int n_levels)
+  namespace
+  {
+    /// Of rules, unless the strip has failed already.
+    void add_growth(const scene::Scene &scene, study::StripRow &row)
+    {
+      if (row.side != method::Side::meshfree || !row.failure.empty())
+        return;
+      const base::CpuTimer timer;
+      const auto influence = physics::influence_function(scene.kernel.profile, row.horizon);
+      try
+      {
+        row.growth = grow_through_strip(
+            {row.strip,
+             scene.strip.n_growth,
+             {1, 1},
+             false,
+             find_rule(row.method).recipe(physics::deviatoric_kernel(influence, 1)),
+             influence,
+             scene.geometry.backend});
+      }
+      catch (const NumericalError &error)
+      {
+        row.failure = error.what();
+      }
+      row.seconds += timer.seconds();
+    }
+  } // namespace
+
+  method::Methods strip_methods(const scene::Scene &scene, unsigned int n_levels,
+                                unsigned int n_jobs)
   {
     method::Methods methods = choose(scene);
-    check_size(scene, methods, n_levels);
+    check_size(scene, methods, n_levels, n_jobs);
     return methods;
   }
 
@@ -93,10 +124,13 @@ namespace plumbline::app
         scene.name, scene.purpose, scene.strip, scene.material.lame()({}).mu, {}, {}};
     for (const auto &method : methods)
       for_each_level(scene, n_levels,
-                     [&](const scene::Series &series, const scene::Level &level, bool) {
+                     [&](const scene::Series &series, const scene::Level &level, bool)
+                     {
                        results.rows.push_back(study::stand_crack(*method, scene, series, level));
+                       if (scene.strip.n_growth > 0)
+                         add_growth(scene, results.rows.back());
                      });
-    results.limits = study::strip_limits(results.rows);
+    results.limits = study::strip_limits(scene.strip, results.rows);
     return results;
   }
 

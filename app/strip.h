@@ -12,8 +12,10 @@ namespace plumbline::app
   };
 
   /// The methods of a scene with a strip, checked, and with memory for all of its levels.
+  /// @param n_jobs  processes that each take it side by side (--jobs)
   /// @throws InputError  a method that is not for lattices, or does not fit
-  method::Methods strip_methods(const scene::Scene &scene, unsigned int n_levels);
+  method::Methods strip_methods(const scene::Scene &scene, unsigned int n_levels,
+                                unsigned int n_jobs = 1);
 
   /// Strips with a standing crack by methods at all levels of a scene.
   study::StripResults stand_cracks(const scene::Scene &scene, const method::Methods &methods,

@@ -108,18 +108,22 @@ namespace plumbline::base
     return text.str();
   }
 
-  std::string memory_fault(double bytes, const std::string &what, const std::string &remedy)
+  std::string memory_fault(double bytes, const std::string &what, const std::string &remedy,
+                           unsigned int n_jobs)
   {
     const double available = available_memory();
-    if (bytes <= available)
+    if (n_jobs * bytes <= available)
       return {};
-    return what + ": needs some " + bytes_to_text(bytes) + " of memory, and " +
-           bytes_to_text(available) + " are available; " + remedy;
+    return what + ": needs some " + bytes_to_text(bytes) + " of memory" +
+           (n_jobs > 1 ? " in each of " + std::to_string(n_jobs) + " processes (--jobs)" : "") +
+           ", and " + bytes_to_text(available) + " are available; " +
+           (bytes <= available ? "lower --jobs, or " : "") + remedy;
   }
 
-  void require_memory(double bytes, const std::string &what, const std::string &remedy)
+  void require_memory(double bytes, const std::string &what, const std::string &remedy,
+                      unsigned int n_jobs)
   {
-    if (const std::string fault = memory_fault(bytes, what, remedy); !fault.empty())
+    if (const std::string fault = memory_fault(bytes, what, remedy, n_jobs); !fault.empty())
       throw InputError(fault);
   }
 

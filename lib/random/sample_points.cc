@@ -10,33 +10,20 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numeric>
 
 namespace plumbline::random
 {
   namespace
   {
-    unsigned int n_points(Law law, Growth growth, unsigned int level)
-    {
-      switch (growth)
-      {
-      case Growth::linear:
-        return level;
-      case Growth::odd:
-        return 2 * level - 1;
-      case Growth::doubling:
-        return (1u << level) - 1;
-      default:
-        if (law == Law::normal)
-          return std::array{1u, 3u, 9u, 19u, 35u}[level - 1];
-        return level == 1 ? 1 : (1u << (level - 1)) + 1;
-      }
-    }
+    /// More than this are counted as this many.
+    constexpr double endless = 1e300;
 
     LineRule line_rule(Law law, Growth growth, unsigned int level)
     {
       if (growth == Growth::nested && law == Law::normal)
         return genz_keister_rule(level);
-      const unsigned int n = n_points(law, growth, level);
+      const auto n = static_cast<unsigned int>(n_line_points(law, growth, level));
       return growth == Growth::nested ? clenshaw_curtis_rule(n) : gauss_rule(law, n);
     }
 
@@ -135,22 +122,44 @@ namespace plumbline::random
     return std::sqrt(sum);
   }
 
+  double n_line_points(Law law, Growth growth, unsigned int level)
+  {
+    const double l = level;
+    switch (growth)
+    {
+    case Growth::linear:
+      return l;
+    case Growth::odd:
+      return 2 * l - 1;
+    case Growth::doubling:
+      return std::min(endless, std::exp2(l) - 1);
+    default:
+      if (law == Law::normal)
+        return std::array{1., 3., 9., 19., 35.}.at(level - 1);
+      return level == 1 ? 1 : std::min(endless, std::exp2(l - 1) + 1);
+    }
+  }
+
   double n_tensor_points(std::size_t n_variables, unsigned int n)
   {
-    return std::pow(n, static_cast<double>(n_variables));
+    return std::min(endless, std::pow(n, static_cast<double>(n_variables)));
   }
 
   double n_smolyak_points(const std::vector<Law> &laws, unsigned int level, Growth growth)
   {
+    for (const Law law : laws)
+      if (const double n = n_line_points(law, growth, level + 1); n > most_line_points)
+        return n;
     // new points of a variable at a level, if none but those of the level before come again
     const auto fresh = [growth](Law law, unsigned int l)
     {
       const bool is_nested = growth == Growth::nested && l > 0;
-      return n_points(law, growth, l + 1) - (is_nested ? n_points(law, growth, l) : 0.);
+      return n_line_points(law, growth, l + 1) - (is_nested ? n_line_points(law, growth, l) : 0);
     };
     // of all variables, by the sum of what their levels exceed 1
     std::vector<double> of_sum(level + 1, 0);
     of_sum[0] = 1;
+    double n = 1;
     for (const Law law : laws)
     {
       std::vector<double> next(level + 1, 0);
@@ -158,11 +167,11 @@ namespace plumbline::random
         for (unsigned int e = 0; e <= s; ++e)
           next[s] += of_sum[s - e] * fresh(law, e);
       of_sum = next;
+      n = std::accumulate(of_sum.begin(), of_sum.end(), 0.);
+      if (n >= endless) // each variable adds to them
+        return endless;
     }
-    double sum = 0;
-    for (const double n : of_sum)
-      sum += n;
-    return sum;
+    return n;
   }
 
   SamplePoints tensor_points(const std::vector<Law> &laws, unsigned int n)
@@ -186,11 +195,14 @@ namespace plumbline::random
   SamplePoints smolyak_points(const std::vector<Law> &laws, unsigned int level, Growth growth)
   {
     const std::size_t n = laws.size();
-    std::map<std::pair<Law, unsigned int>, LineRule> rules; // by law and excess
-    for (const Law law : laws)
-      for (unsigned int e = 0; e <= level; ++e)
-        if (const auto key = std::pair(law, e); rules.count(key) == 0)
-          rules.emplace(key, line_rule(law, growth, e + 1));
+    std::map<std::pair<Law, unsigned int>, LineRule> rules; // by law and excess, where needed
+    const auto rule_of = [&](Law law, unsigned int excess)
+    {
+      const auto key = std::pair(law, excess);
+      if (rules.count(key) == 0)
+        rules.emplace(key, line_rule(law, growth, excess + 1));
+      return &rules.at(key);
+    };
     struct Sum
     {
       double weight = 0, size = 0;
@@ -204,7 +216,7 @@ namespace plumbline::random
                          {
                            std::vector<const LineRule *> chosen;
                            for (std::size_t d = 0; d < n; ++d)
-                             chosen.push_back(&rules.at({laws[d], excess[d]}));
+                             chosen.push_back(rule_of(laws[d], excess[d]));
                            for_each_combination(chosen,
                                                 [&](const std::vector<double> &point, double weight)
                                                 {

@@ -36,11 +36,22 @@ namespace plumbline::random
     double noise() const;
   };
 
-  /// How many points there will be, before any is made; of Smolyak's rule at most.
+  /// The most points that the rule of one variable may have: Gauss's takes n² numbers and some
+  /// 10 n³ operations, ten seconds here.
+  constexpr double most_line_points = 1025;
+
+  /// How many points a variable has at level 1, 2, ... of Smolyak's rule; 1e300 for all beyond.
+  /// @pre level > 0; Growth::nested and a normal law: level <= n_genz_keister_rules
+  double n_line_points(Law law, Growth growth, unsigned int level);
+
+  /// How many points there will be, before any is made; 1e300 for all beyond. Of Smolyak's rule at
+  /// most; where one variable alone has more than most_line_points, how many it has.
+  /// @pre of Smolyak's rule as n_line_points, at level + 1
   double n_tensor_points(std::size_t n_variables, unsigned int n);
   double n_smolyak_points(const std::vector<Law> &laws, unsigned int level, Growth growth);
 
   /// All combinations of n Gauss points each.
+  /// @pre n <= most_line_points
   SamplePoints tensor_points(const std::vector<Law> &laws, unsigned int n);
 
   /// Smolyak's combination of tensor products, of levels whose sum exceeds their number by at most
@@ -48,7 +59,8 @@ namespace plumbline::random
   /// sorted; points that come twice are one, and none where their weights cancel.
   /// Source: Wasilkowski & Wozniakowski 1995, doi:10.1006/jcom.1995.1001; Fan et al. 2022,
   /// doi:10.1016/j.cma.2022.115340, eq. (3.8), ζ - N being the level.
-  /// @pre Growth::nested and a normal law: level < n_genz_keister_rules
+  /// @pre Growth::nested and a normal law: level < n_genz_keister_rules; no variable has more than
+  /// most_line_points
   SamplePoints smolyak_points(const std::vector<Law> &laws, unsigned int level, Growth growth);
 
   /// Independent samples by Generator(seed), point by point. The first ones of more are the same.

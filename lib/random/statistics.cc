@@ -1,5 +1,7 @@
 #include "random/statistics.h"
 
+#include <boost/math/distributions/students_t.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +12,13 @@ namespace plumbline::random
     if (variance < 0)
       return {};
     return std::sqrt(variance);
+  }
+
+  double confidence_factor(std::size_t n)
+  {
+    constexpr double above = .025; // as much is left out on either side
+    return boost::math::quantile(
+        boost::math::complement(boost::math::students_t(static_cast<double>(n - 1)), above));
   }
 
   Statistics statistics(const std::vector<double> &values, const std::vector<double> &weights,
@@ -28,6 +37,7 @@ namespace plumbline::random
     {
       result.variance *= n / (n - 1);
       result.standard_error = std::sqrt(result.variance / n);
+      result.confidence = confidence_factor(values.size()) * result.standard_error;
     }
     return result;
   }
@@ -51,6 +61,7 @@ namespace plumbline::random
       first_ = values;
       sum_.assign(values.size(), 0);
       squares_.assign(values.size(), 0);
+      sizes_.assign(values.size(), 0);
     }
     weights_ += weight;
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -58,6 +69,7 @@ namespace plumbline::random
       const double d = values[i] - first_[i];
       sum_[i] += weight * d;
       squares_[i] += weight * d * d;
+      sizes_[i] += std::abs(weight) * d * d;
     }
   }
 
@@ -71,11 +83,16 @@ namespace plumbline::random
 
   std::vector<double> FieldSums::variance(std::size_t n_independent) const
   {
+    constexpr double rounding = 1e-12; // of the parts, thousands of which add up
     const auto n = static_cast<double>(n_independent);
     const double factor = n_independent > 1 ? n / (n - 1) : 1;
     std::vector<double> result(sum_.size());
     for (std::size_t i = 0; i < result.size(); ++i)
-      result[i] = factor * (squares_[i] - sum_[i] * sum_[i] / weights_) / weights_;
+    {
+      const double squares = squares_[i] - sum_[i] * sum_[i] / weights_;
+      const bool is_rounding = squares < 0 && -squares <= rounding * sizes_[i];
+      result[i] = is_rounding ? 0 : factor * squares / weights_;
+    }
     return result;
   }
 

@@ -56,7 +56,7 @@ namespace plumbline::report
       const auto n = json.at("n_places").get<std::size_t>();
       const auto take = [&](std::vector<double> &values, std::size_t count)
       {
-        if (at + count > fields.size())
+        if (count > fields.size() - at)
           throw InputError("a sample's fields are not whole");
         const auto first = fields.begin() + static_cast<std::ptrdiff_t>(at);
         values.assign(first, first + static_cast<std::ptrdiff_t>(count));
@@ -124,6 +124,12 @@ namespace plumbline::report
   bool SampleFiles::has(std::size_t sample) const
   {
     return fs::exists(file(sample, ".json"));
+  }
+
+  void SampleFiles::remove(std::size_t sample) const
+  {
+    std::error_code not_there;
+    fs::remove(file(sample, ".json"), not_there);
   }
 
   void SampleFiles::write(const SampleRecord &record) const

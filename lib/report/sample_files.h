@@ -21,7 +21,11 @@ namespace plumbline::report
     /// @throws InputError  it cannot be written, or holds what no samples wrote
     void begin() const;
 
+    /// There is a file of it, whole or not.
     bool has(std::size_t sample) const;
+
+    /// So that it is taken anew, where read() has nothing of its file.
+    void remove(std::size_t sample) const;
 
     /// @throws InputError  the folder cannot be written
     void write(const study::SampleRecord &record) const;

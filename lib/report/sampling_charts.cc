@@ -141,14 +141,21 @@ namespace plumbline::report
           charts.push_back(std::move(*chart));
     }
 
-    /// Of independent samples, where there are enough to see something.
+    /// Of samples of equal weights, where there are enough to see something.
     void add_histograms(const SamplingResults &results, std::vector<DataChart> &charts)
     {
       constexpr std::size_t least = 16;
+      const bool is_of_equal_weights =
+          results.sampling.rule == random::SampleRule::monte_carlo ||
+          results.sampling.rule == random::SampleRule::quasi_monte_carlo;
       for (const CaseStatistics &one : results.cases)
-        for (const auto &[name, values] : one.values)
+        for (const auto &[name, of_samples] : one.values)
         {
-          if (values.size() < least || results.sampling.rule != random::SampleRule::monte_carlo)
+          std::vector<double> values;
+          for (const auto &value : of_samples)
+            if (value)
+              values.push_back(*value);
+          if (values.size() < least || !is_of_equal_weights)
             continue;
           const auto n = static_cast<unsigned int>(
               std::ceil(2 * std::cbrt(static_cast<double>(values.size()))));

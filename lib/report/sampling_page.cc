@@ -3,8 +3,7 @@
 #include "report/page_parts.h"
 #include "report/seeds.h"
 #include "report/text_table.h"
-
-#include <nlohmann/json.hpp>
+#include "study/sampling_balance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,27 +12,9 @@ namespace plumbline::report
 {
   namespace
   {
-    using Json = nlohmann::ordered_json;
     using study::CaseStatistics;
     using study::SamplingResults;
     using study::SetStatistics;
-
-    Cell known_error(const std::optional<double> &value)
-    {
-      return value ? error_cell(*value) : empty_cell();
-    }
-
-    std::vector<Cell> names(const CaseStatistics &one)
-    {
-      return {text_cell(one.of.method), text_cell(one.of.problem), text_cell(one.of.series),
-              number_cell(one.of.h)};
-    }
-
-    /// Only where sets differ by them.
-    Cell modes_cell(const SamplingResults &results, unsigned int n_modes)
-    {
-      return results.sampling.modes.empty() ? empty_cell() : count_cell(n_modes);
-    }
 
     bool is_own(const SamplingResults &results)
     {
@@ -72,6 +53,9 @@ namespace plumbline::report
                 ", noise √Σw² " + rounded(set->noise) +
                 (set->noise > 1 ? ", by which independent errors of samples grow"
                                 : ", by which independent errors of samples shrink");
+      if (sampling.rule == random::SampleRule::monte_carlo)
+        text += ". Intervals hold means with 95 % confidence, by Student's t, but for the errors "
+                "that all samples have in common, as those of h";
       return text + ".";
     }
 
@@ -97,72 +81,65 @@ namespace plumbline::report
       if (const SetStatistics *const set = best(r); set != nullptr && r.cheapest.empty())
         for (const auto &[name, s] : set->quantities)
           if (name.size() > 2 && name.compare(0, 2, "K ") == 0)
-            text += "Mean of " + name + " " + rounded(s.mean) +
-                    (s.deviation() ? ", deviation " + rounded(*s.deviation()) : "") +
-                    (s.standard_error > 0 ? ", standard error " + rounded(s.standard_error) : "") +
-                    ". ";
+            text +=
+                "Mean of " + name + " " + rounded(s.mean) +
+                (s.deviation() ? ", deviation " + rounded(*s.deviation()) : "") +
+                (s.standard_error > 0
+                     ? ", standard error " + rounded(s.standard_error) + ", with 95 % confidence " +
+                           rounded(s.mean - s.confidence) + " to " + rounded(s.mean + s.confidence)
+                     : "") +
+                ". ";
       return text.empty() ? "All samples are there." : text;
     }
 
-    Table cheapest_table(const SamplingResults &r)
-    {
-      Table table;
-      table.columns = {"error of the mean below",
-                       "method",
-                       "problem",
-                       "series",
-                       "h",
-                       "modes",
-                       "count",
-                       "error",
-                       "CPU seconds"};
-      for (const study::CheapestPair &pair : r.cheapest)
-        table.rows.push_back({text_cell(short_power(pair.target)), text_cell(pair.method),
-                              text_cell(pair.problem), text_cell(pair.series), number_cell(pair.h),
-                              modes_cell(r, pair.n_modes), count_cell(pair.count),
-                              error_cell(pair.error), number_cell(pair.seconds)});
-      return without_empty_columns(table);
-    }
-
-    Table failure_table(const SamplingResults &r)
-    {
-      Table table;
-      table.columns = {"sample", "values", "reason"};
-      for (const study::SampleFailure &failure : r.failures)
-      {
-        std::string values;
-        for (const double value : failure.values)
-          values += (values.empty() ? "" : ", ") + rounded(value);
-        table.rows.push_back(
-            {count_cell(failure.sample), text_cell(values), text_cell(failure.reason)});
-      }
-      return table;
-    }
-
-    Table samples_table(const CaseStatistics &one)
-    {
-      Table table;
-      std::size_t n = 0;
-      for (const auto &[name, values] : one.values)
-      {
-        table.columns.emplace_back(name);
-        n = std::max(n, values.size());
-      }
-      for (std::size_t i = 0; i < n; ++i)
-      {
-        table.rows.emplace_back();
-        for (const auto &[name, values] : one.values)
-          table.rows.back().push_back(i < values.size() ? number_cell(values[i]) : empty_cell());
-      }
-      return table;
-    }
-
-    std::string findings(const SamplingResults &r)
+    std::string list_of(const std::vector<std::string> &sentences)
     {
       std::string text;
-      for (const std::string &one : r.findings)
+      for (const std::string &one : sentences)
         text += "<li>" + escape_html(one) + "</li>\n";
       return text.empty() ? "" : "<ul>\n" + text + "</ul>\n";
+    }
+
+    /// A sentence for each method and level.
+    std::vector<std::string> balance(const SamplingResults &r)
+    {
+      std::vector<std::string> sentences;
+      for (const study::SamplingBalance &one : r.balance)
+        sentences.push_back(words_of(one, !r.sampling.modes.empty()));
+      return sentences;
+    }
+
+    std::string samples_file(const CaseStatistics &one)
+    {
+      return "sample/samples_" +
+             slug(one.of.method + "_" + one.of.problem + "_" + one.of.series + "_" +
+                  rounded(one.of.h)) +
+             ".csv";
+    }
+
+    /// Of each method at its finest level, folded.
+    std::string samples(const SamplingResults &r)
+    {
+      constexpr std::size_t most_rows = 100, most_variables = 10; // that a page has room for
+      std::string text;
+      for (const CaseStatistics &one : r.cases)
+      {
+        if (!one.is_finest || one.samples.empty())
+          continue;
+        std::string what = "Samples of " + one.of.method +
+                           (one.of.problem.empty() ? "" : ", " + one.of.problem) + ", " +
+                           one.of.series + ", h = " + rounded(one.of.h);
+        if (one.samples.size() > most_rows)
+          what += ": the first " + std::to_string(most_rows) + " of " +
+                  std::to_string(one.samples.size());
+        if (r.variables.size() > most_variables)
+          what += ", with the first " + std::to_string(most_variables) + " of " +
+                  std::to_string(r.variables.size()) + " variables";
+        text +=
+            page::folded(what, to_html(sampling_samples_table(r, one, most_rows, most_variables)) +
+                                   page::paragraph("All: <code>" + samples_file(one) + "</code>"));
+      }
+      return text;
     }
 
     std::string page_of(const SamplingResults &r, const std::vector<std::string> &faults,
@@ -181,131 +158,39 @@ namespace plumbline::report
       if (has_damage_maps(r))
         pictures += page::figure(dir / "sample/damage.svg", "damage-", "Where bonds are broken",
                                  "Mean and deviation over the samples of the largest set, of the "
-                                 "part of each node's bonds that is broken or cut.",
+                                 "part of each node's bonds that is broken or cut." +
+                                     std::string(best(r)->negative_part > 0
+                                                     ? " Where the variance is negative it has no "
+                                                       "root, and the deviation is drawn as 0."
+                                                     : ""),
                                  false);
       std::string numbers = is_own(r) ? page::paragraph(words_of_own) : "";
       numbers += to_html(sampling_field_table(r));
       if (!r.cheapest.empty())
         numbers += page::paragraph("Pairs of h and samples that reach an error most cheaply.") +
-                   to_html(cheapest_table(r));
+                   to_html(sampling_cheapest_table(r));
+      if (!r.balance.empty())
+        numbers += page::paragraph("What limits the error of the mean, samples or h:") +
+                   list_of(balance(r));
       numbers +=
           page::paragraph("Quantities at the finest level.") + to_html(sampling_quantity_table(r));
       if (!r.failures.empty())
-        numbers +=
-            page::paragraph("Samples that failed; the others stand.") + to_html(failure_table(r));
+        numbers += page::paragraph("Samples that failed; the others stand.") +
+                   to_html(sampling_failure_table(r));
       return page::document(
           r.scene_name, "sample", header,
           page::section("picture", "What samples say",
                         "<p class=\"answer\">" + escape_html(verdict(r, faults)) + "</p>\n" +
-                            findings(r) + "<div class=\"grid\">\n" + pictures + "</div>\n") +
+                            list_of(r.findings) + "<div class=\"grid\">\n" + pictures +
+                            "</div>\n") +
               page::section("numbers", "Numbers", numbers) +
-              page::section("rule", "Rule and samples", page::paragraph(rule_words(r))) +
+              page::section("rule", "Rule and samples",
+                            page::paragraph(rule_words(r)) + samples(r)) +
               page::section(
                   "scene", "The scene",
                   page::folded("as read", "<pre>" + escape_html(r.scene_text) + "</pre>")));
     }
-
-    Json known(double value)
-    {
-      return std::isfinite(value) ? Json(value) : Json();
-    }
-
-    Json known(const std::optional<double> &value)
-    {
-      return value ? known(*value) : Json();
-    }
-
-    Json to_json(const SetStatistics &set)
-    {
-      Json json{{"count", set.count},
-                {"modes", set.n_modes},
-                {"samples", set.n_samples},
-                {"missing", set.n_missing},
-                {"sum_of_sizes", set.sum_of_sizes},
-                {"noise", set.noise},
-                {"seconds", set.seconds},
-                {"mean_size", set.mean_size},
-                {"deviation_size", set.deviation_size},
-                {"standard_error", set.standard_error},
-                {"negative_variance_part", set.negative_part},
-                {"mean_error", known(set.mean_error)},
-                {"deviation_error", known(set.deviation_error)},
-                {"mean_uncertainty", set.mean_uncertainty},
-                {"deviation_uncertainty", set.deviation_uncertainty},
-                {"quantities", Json::object()}};
-      for (const auto &[name, s] : set.quantities)
-        json["quantities"][name] = {{"mean", known(s.mean)},
-                                    {"variance", known(s.variance)},
-                                    {"deviation", known(s.deviation())},
-                                    {"standard_error", known(s.standard_error)},
-                                    {"least", known(s.least)},
-                                    {"largest", known(s.largest)}};
-      return json;
-    }
   } // namespace
-
-  Table sampling_field_table(const SamplingResults &results)
-  {
-    Table table;
-    table.columns = {"method",
-                     "problem",
-                     "series",
-                     "h",
-                     "modes",
-                     "count",
-                     "samples",
-                     "missing",
-                     "‖mean‖",
-                     "‖deviation‖",
-                     "error of the mean",
-                     "error of the deviation",
-                     "standard error",
-                     "noise",
-                     "CPU seconds"};
-    for (const CaseStatistics &one : results.cases)
-      for (const SetStatistics &set : one.sets)
-      {
-        std::vector<Cell> row = names(one);
-        const bool is_random = results.sampling.rule == random::SampleRule::monte_carlo;
-        for (const Cell &cell :
-             {modes_cell(results, set.n_modes), count_cell(set.count), count_cell(set.n_samples),
-              known(set.n_missing > 0, count_cell(set.n_missing)), number_cell(set.mean_size),
-              number_cell(set.deviation_size), known_error(set.mean_error),
-              known_error(set.deviation_error), known(is_random, error_cell(set.standard_error)),
-              number_cell(set.noise), number_cell(set.seconds)})
-          row.push_back(cell);
-        table.rows.push_back(std::move(row));
-      }
-    return without_empty_columns(table);
-  }
-
-  Table sampling_quantity_table(const SamplingResults &results)
-  {
-    Table table;
-    table.columns = {"method",         "problem", "series",  "h",    "quantity",
-                     "modes",          "count",   "samples", "mean", "deviation",
-                     "standard error", "least",   "largest"};
-    for (const CaseStatistics &one : results.cases)
-    {
-      for (const SetStatistics &set : one.sets)
-        for (const auto &[name, s] : set.quantities)
-        {
-          if (!one.is_finest)
-            continue;
-          std::vector<Cell> row = names(one);
-          for (const Cell &cell :
-               {text_cell(name), modes_cell(results, set.n_modes), count_cell(set.count),
-                count_cell(set.n_samples), number_cell(s.mean),
-                s.deviation() ? number_cell(*s.deviation())
-                              : text_cell("unknown: variance " + rounded(s.variance)),
-                known(s.standard_error > 0, error_cell(s.standard_error)), number_cell(s.least),
-                number_cell(s.largest)})
-            row.push_back(cell);
-          table.rows.push_back(std::move(row));
-        }
-    }
-    return without_empty_columns(table);
-  }
 
   std::string sampling_text(const SamplingResults &r)
   {
@@ -314,53 +199,10 @@ namespace plumbline::report
                        wrapped(rule_words(r), 120) + "\n";
     if (is_own(r))
       text += wrapped(words_of_own, 120) + "\n";
-    for (const std::string &finding : r.findings)
-      text += "- " + wrapped(finding, 120, 2) + "\n";
+    for (const auto &sentences : {r.findings, balance(r)})
+      for (const std::string &one : sentences)
+        text += "- " + wrapped(one, 120, 2) + "\n";
     return text + "\n" + wrapped(verdict(r, {}), 120) + "\n";
-  }
-
-  std::string sampling_json(const SamplingResults &r)
-  {
-    const bool has_field = r.random.field != scene::FieldKind::none;
-    Json json{{"scene", r.scene_name},
-              {"rule", base::word(r.sampling.rule)},
-              {"growth", base::word(r.sampling.growth)},
-              {"seed", r.sampling.seed},
-              {"field_seed", has_field ? Json(r.random.seed) : Json()},
-              {"target", r.target},
-              {"n_samples", r.n_samples},
-              {"variance_kept", r.spectrum ? Json(r.spectrum->variance_kept()) : Json()},
-              {"spectrum", r.spectrum ? Json(r.spectrum->share) : Json::array()},
-              {"is_complete", r.is_complete},
-              {"findings", r.findings},
-              {"failures", Json::array()},
-              {"cheapest", Json::array()},
-              {"cases", Json::array()},
-              {"scene_text", r.scene_text}};
-    for (const auto &failure : r.failures)
-      json["failures"].push_back(
-          {{"sample", failure.sample}, {"values", failure.values}, {"reason", failure.reason}});
-    for (const auto &pair : r.cheapest)
-      json["cheapest"].push_back({{"target", pair.target},
-                                  {"method", pair.method},
-                                  {"problem", pair.problem},
-                                  {"series", pair.series},
-                                  {"h", pair.h},
-                                  {"count", pair.count},
-                                  {"modes", pair.n_modes},
-                                  {"error", pair.error},
-                                  {"seconds", pair.seconds}});
-    for (const CaseStatistics &one : r.cases)
-    {
-      Json entry{{"method", one.of.method}, {"problem", one.of.problem},
-                 {"series", one.of.series}, {"level", one.of.level},
-                 {"h", one.of.h},           {"horizon", one.of.horizon},
-                 {"sets", Json::array()}};
-      for (const SetStatistics &set : one.sets)
-        entry["sets"].push_back(to_json(set));
-      json["cases"].push_back(std::move(entry));
-    }
-    return json.dump(2) + "\n";
   }
 
   namespace
@@ -372,8 +214,9 @@ namespace plumbline::report
                          to_markdown(sampling_quantity_table(r)) + "\n" + rule_words(r) + "\n\n";
       if (is_own(r))
         text += std::string(words_of_own) + "\n\n";
-      for (const std::string &finding : r.findings)
-        text += "- " + finding + "\n";
+      for (const auto &sentences : {r.findings, balance(r)})
+        for (const std::string &one : sentences)
+          text += "- " + one + "\n";
       return text;
     }
   } // namespace
@@ -386,11 +229,7 @@ namespace plumbline::report
     write_file(dir / "sample/fields.csv", to_csv(sampling_field_table(results)));
     write_file(dir / "sample/quantities.csv", to_csv(sampling_quantity_table(results)));
     for (const CaseStatistics &one : results.cases)
-      write_file(dir / ("sample/samples_" +
-                        slug(one.of.method + "_" + one.of.problem + "_" + one.of.series + "_" +
-                             rounded(one.of.h)) +
-                        ".csv"),
-                 to_csv(samples_table(one)));
+      write_file(dir / samples_file(one), to_csv(sampling_samples_table(results, one)));
     write_with_pictures(
         dir / "sample.html",
         [&]

@@ -4,6 +4,7 @@
 #include "study/sampling.h"
 
 #include <filesystem>
+#include <limits>
 
 namespace plumbline::report
 {
@@ -14,8 +15,23 @@ namespace plumbline::report
   /// A row for each quantity of each method at its finest level, over each set.
   Table sampling_quantity_table(const study::SamplingResults &results);
 
+  /// A row for each pair of h and set that reaches an error of the mean most cheaply.
+  Table sampling_cheapest_table(const study::SamplingResults &results);
+
+  /// A row for each sample that failed.
+  Table sampling_failure_table(const study::SamplingResults &results);
+
+  /// A row for each sample of the largest set of a case: its number, as of its file, the values of
+  /// its variables and its quantities.
+  /// @param most_rows, most_variables  no more than the first so many
+  Table
+  sampling_samples_table(const study::SamplingResults &results, const study::CaseStatistics &one,
+                         std::size_t most_rows = std::numeric_limits<std::size_t>::max(),
+                         std::size_t most_variables = std::numeric_limits<std::size_t>::max());
+
   /// Errors of mean and deviation over h and over the number of samples, and over CPU seconds;
-  /// histograms of quantities; the spectrum of a field of modes.
+  /// histograms of quantities where 16 samples or more have equal weights (Monte Carlo and
+  /// quasi-Monte Carlo); the spectrum of a field of modes.
   std::vector<DataChart> sampling_charts(const study::SamplingResults &results);
 
   /// Whether samples are of growth, whose damage has a mean to be drawn.

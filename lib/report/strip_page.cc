@@ -32,7 +32,9 @@ namespace plumbline::report
         "tells of bookkeeping and of a strip that is too short. What sees the tip is its energy, "
         "what it adds to an intact strip from there on, and the opening there: u_y above less that "
         "below, of the last cells behind it, of rules at the last nodes. Continuous functions "
-        "close there.";
+        "close there. Growth is that of a crack by rules, bond by bond, over the toughness of the "
+        "law: the most that it gets before it goes on (peak: what lattices trap) and the mean of "
+        "all events, what it sets free for its advance, and what its bonds held at their limits.";
 
     bool is_between_grips(const StripResults &results)
     {
@@ -61,12 +63,18 @@ namespace plumbline::report
       return lines;
     }
 
+    Cell growth_cell(const StripRow &row, const std::string &quantity)
+    {
+      return known(row.growth.has_value(), number_cell(row.growth ? row.quantity(quantity) : 0));
+    }
+
     Table rows_table(const StripResults &results)
     {
       Table table;
-      table.columns = {"method",         "series",     "h [length]", "m",
-                       "W1 [mu length]", "tip energy", "opening",    "G/W1 - 1",
-                       "G E'/K^2",       "unknowns",   "CPU s",      "failure"};
+      table.columns = {"method",         "series",      "h [length]", "m",
+                       "W1 [mu length]", "tip energy",  "opening",    "G/W1 - 1",
+                       "G E'/K^2",       "growth peak", "mean",       "released",
+                       "bonds",          "unknowns",    "CPU s",      "failure"};
       const bool has_grips = is_between_grips(results);
       for (const StripRow &row : results.rows)
       {
@@ -78,6 +86,8 @@ namespace plumbline::report
              known(is, number_cell(is ? row.quantity("opening") : 0)),
              known(is && has_grips, number_cell(is ? row.imbalance() : 0)),
              known(is && !has_grips, number_cell(is ? row.quantity("G") : 0)),
+             growth_cell(row, "growth peak"), growth_cell(row, "growth mean"),
+             growth_cell(row, "growth released"), growth_cell(row, "growth bonds"),
              known(is, count_cell(row.state.n_unknowns)), number_cell(row.seconds),
              text_cell(row.failure)});
       }
@@ -88,7 +98,7 @@ namespace plumbline::report
     {
       Table table;
       table.columns = {"quantity", "method", "series", "limit", "rate", "change"};
-      for (const std::string &quantity : study::strip_quantities(results.strip.edges))
+      for (const std::string &quantity : study::strip_quantities(results.strip))
         for (const study::StripLimit &one : results.limits)
           if (one.quantity == quantity)
             table.rows.push_back({text_cell(one.quantity), text_cell(one.method),
@@ -146,7 +156,7 @@ namespace plumbline::report
             {text_cell(method), text_cell(series), number_cell(h), number_cell(value)});
       };
       for (const StripRow &row : results.rows)
-        if (row.failure.empty())
+        if (row.failure.empty() && std::isfinite(row.quantity(quantity)))
           add(row.method, row.series, is_over_horizon ? row.horizon : row.h,
               row.quantity(quantity));
       for (const study::StripLimit &one : results.limits)
@@ -207,8 +217,14 @@ namespace plumbline::report
       if (!is_between_grips(results))
         return {quantity_chart(results, "G"), opening_chart(results),
                 quantity_chart(results, "opening")};
-      return {quantity_chart(results, "tip energy"), opening_chart(results),
-              quantity_chart(results, "opening"), quantity_chart(results, "W1")};
+      std::vector<DataChart> charts = {quantity_chart(results, "tip energy"),
+                                       opening_chart(results), quantity_chart(results, "opening"),
+                                       quantity_chart(results, "W1")};
+      if (std::any_of(results.rows.begin(), results.rows.end(),
+                      [](const StripRow &row) { return row.growth.has_value(); }))
+        for (const char *const quantity : {"growth peak", "growth released"})
+          charts.push_back(quantity_chart(results, quantity));
+      return charts;
     }
 
     std::string model_words(const StripResults &results)
@@ -265,6 +281,11 @@ namespace plumbline::report
              {"energy", row.state.energy},
              {"tip_energy", is_between_grips(results) ? Json(row.quantity("tip energy")) : Json()},
              {"release", row.release},
+             {"growth", row.growth ? Json{{"peak", row.growth->peak},
+                                          {"mean", row.growth->mean},
+                                          {"released", row.growth->released},
+                                          {"bonds", row.growth->bonds}}
+                                   : Json()},
              {"n_unknowns", row.state.n_unknowns},
              {"opening", row.state.opening}});
       json["levels"].push_back(one);

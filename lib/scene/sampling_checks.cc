@@ -22,6 +22,42 @@ namespace plumbline::scene
         return random::n_smolyak_points(laws, count, sampling.growth);
       return count;
     }
+
+    /// Of the largest rule of one variable; 0 where there are none.
+    double n_line_points(const SamplingSection &sampling, const std::vector<random::Law> &laws,
+                         unsigned int count)
+    {
+      double most = sampling.rule == SampleRule::tensor ? count : 0.;
+      if (sampling.rule == SampleRule::smolyak)
+        for (const random::Law law : laws)
+          most = std::max(most, random::n_line_points(law, sampling.growth, count + 1));
+      return most;
+    }
+
+    void check_size(const SamplingSection &sampling, const std::vector<random::Law> &laws)
+    {
+      const unsigned int count = sampling.counts.back();
+      const double n = n_samples(sampling, laws, count) *
+                       static_cast<double>(std::max<std::size_t>(1, sampling.modes.size())),
+                   n_line = n_line_points(sampling, laws, count);
+      const bool is_smolyak = sampling.rule == SampleRule::smolyak,
+                 is_line_too_large = n_line > random::most_line_points;
+      const std::string key = "Sampling/counts = " + std::to_string(count) +
+                              " with Sampling/rule = " + base::word(sampling.rule),
+                        fewer = is_smolyak ? "take a lower level" : "take fewer";
+      require(n <= most_samples,
+              key + " and " + std::to_string(laws.size()) +
+                  (laws.size() == 1 ? " variable " : " variables ") +
+                  (sampling.modes.empty() ? "" : "for each of Sampling/modes ") + "takes " +
+                  (is_smolyak && is_line_too_large ? "at least " : "") + base::to_text(n, 4) +
+                  " samples, more than " + base::to_text(most_samples, 4) + "; " + fewer +
+                  (sampling.rule == SampleRule::tensor ? ", or Sampling/rule = Smolyak" : "") +
+                  (is_smolyak ? ", or Sampling/rule = quasi-Monte Carlo" : ""));
+      require(!is_line_too_large,
+              key + " takes " + base::to_text(n_line, 4) + " points of a variable, more than " +
+                  base::to_text(random::most_line_points, 4) + ", which a rule of one may have; " +
+                  fewer + ", or Sampling/rule = quasi-Monte Carlo");
+    }
   } // namespace
 
   void check_sampling(const Scene &scene)
@@ -60,14 +96,6 @@ namespace plumbline::scene
             "Sampling/counts = " + std::to_string(sampling.counts.back()) +
                 " with Sampling/growth = nested: of normal variables there are levels 0 to " +
                 std::to_string(random::n_genz_keister_rules - 1) + " (35 points); write odd");
-    const double n = n_samples(sampling, laws, sampling.counts.back()) *
-                     static_cast<double>(std::max<std::size_t>(1, modes.size())); // at most
-    require(n <= most_samples,
-            "Sampling/counts = " + std::to_string(sampling.counts.back()) + " with " + rule +
-                " and " + std::to_string(laws.size()) + " variables " +
-                (modes.empty() ? "" : "for each of Sampling/modes ") + "takes " +
-                base::to_text(n, 4) + " samples, more than " + base::to_text(most_samples, 4) +
-                "; take fewer" +
-                (sampling.rule == SampleRule::tensor ? ", or Sampling/rule = Smolyak" : ""));
+    check_size(sampling, laws);
   }
 } // namespace plumbline::scene

@@ -53,9 +53,11 @@ namespace plumbline::scene
           throw InputError("Strip/height = " + short_number(strip.height) +
                            " is less than four horizons, " + short_number(4 * level.horizon) + at +
                            "; raise it, or lower Study/h or Study/m");
-        if (std::min(strip.crack, strip.length - strip.crack) < 2 * level.horizon)
-          throw InputError("Strip/crack = " + short_number(strip.crack) +
-                           " ends within two horizons of an end of the strip" + at +
+        const double grown = strip.n_growth > 0 ? (strip.n_growth + 2) * level.h : 0;
+        if (std::min(strip.crack, strip.length - strip.crack - grown) < 2 * level.horizon)
+          throw InputError("Strip/crack = " + short_number(strip.crack) + " ends " +
+                           (grown > 0 ? "after its growth " : "") +
+                           "within two horizons of an end of the strip" + at +
                            "; give a longer strip (Strip/length), or a shorter horizon");
       }
   }

@@ -20,6 +20,7 @@ namespace plumbline::scene
     double length = 0; ///< 0: there is none [length]
     double crack = 0;  ///< from its left end [length]
     StripEdges edges = StripEdges::grips;
+    unsigned int n_growth = 0; ///< columns that it grows through, by rules
 
     bool is_there() const { return length != 0; }
 

@@ -148,7 +148,8 @@ namespace plumbline::study
     const CellPieces others = squares(from), cells = squares(to);
     ExactStatistics result;
     result.mean = transferred_averages(others, statistics.mean, cells, to.n_components);
-    result.deviation = transferred_averages(others, statistics.deviation, cells, to.n_components);
+    if (!statistics.deviation.empty())
+      result.deviation = transferred_averages(others, statistics.deviation, cells, to.n_components);
     return result;
   }
 } // namespace plumbline::study

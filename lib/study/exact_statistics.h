@@ -8,7 +8,7 @@ namespace plumbline::study
   /// (n_places, n_components), and their own L2 uncertainty.
   struct ExactStatistics
   {
-    std::vector<double> mean, deviation;
+    std::vector<double> mean, deviation; ///< this is empty where it is not known
     double mean_uncertainty = 0, deviation_uncertainty = 0;
   };
 

@@ -60,7 +60,8 @@ namespace plumbline::study
       return size;
     }
 
-    void require(const Method &method, const method::ProblemSize &size, const std::string &what)
+    void require(const Method &method, const method::ProblemSize &size, const std::string &what,
+                 unsigned int n_jobs)
     {
       std::ostringstream text;
       text << what << method.name() << " at h = " << size.level.h
@@ -72,18 +73,19 @@ namespace plumbline::study
       base::require_memory(method.expected_bytes(size), text.str(),
                            "choose a larger h or a smaller horizon (Study/h, Study/m, "
                            "Study/horizon), run the first levels only (--levels), or leave this "
-                           "method out (--methods)");
+                           "method out (--methods)",
+                           n_jobs);
     }
 
     /// With what an estimate of its error solves besides.
     void require_estimate(const scene::Scene &scene, const Method &method,
-                          const method::ProblemSize &size)
+                          const method::ProblemSize &size, unsigned int n_jobs)
     {
       const std::string what = "the estimate of the error of ";
       if (size.is_lattice() || method.name() == scene.reference.method)
-        require(method, at_level(size, {size.level.h / 2, size.level.horizon}), what);
+        require(method, at_level(size, {size.level.h / 2, size.level.horizon}), what, n_jobs);
       if (const auto higher = method.higher_degree(); higher && size.is_lattice())
-        require(*higher, size, what);
+        require(*higher, size, what, n_jobs);
     }
 
     bool is_estimated(const scene::Scene &scene, const Method &method)
@@ -126,19 +128,19 @@ namespace plumbline::study
 
     /// The first error of a method that does not fit.
     void require_all(const scene::Scene &scene, const Methods &methods,
-                     const method::ProblemSize &size)
+                     const method::ProblemSize &size, unsigned int n_jobs)
     {
       for (const auto &method : methods)
       {
-        require(*method, size, "");
+        require(*method, size, "", n_jobs);
         if (is_estimated(scene, *method))
-          require_estimate(scene, *method, size);
+          require_estimate(scene, *method, size, n_jobs);
       }
     }
   } // namespace
 
   void check_memory(const scene::Scene &scene, const Methods &methods, const Methods &available,
-                    unsigned int n_levels)
+                    unsigned int n_levels, unsigned int n_jobs)
   {
     Methods all = methods;
     if (scene.reference.method)
@@ -152,13 +154,13 @@ namespace plumbline::study
       for (std::size_t i = 0; i < n; ++i)
         try
         {
-          require_all(scene, all, at_level(coarse, series.levels[i]));
+          require_all(scene, all, at_level(coarse, series.levels[i]), n_jobs);
         }
         catch (const InputError &)
         {
           if (follows_h(scene, coarse))
             throw;
-          require_all(scene, all, of_same_cells(coarse, series.levels[i]));
+          require_all(scene, all, of_same_cells(coarse, series.levels[i]), n_jobs);
         }
     }
   }

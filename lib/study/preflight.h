@@ -22,9 +22,10 @@ namespace plumbline::study
   /// coarsest level: a finer level has its cells times the square of what h falls by. Where that
   /// would not fit, a file .geo is meshed at half of its h, too: its cells may not follow h.
   /// @param n_levels  the first so many of each series; 0: all
+  /// @param n_jobs    processes that each take it side by side (--jobs)
   /// @throws InputError  naming method, level, the memory it needs and what there is
   void check_memory(const scene::Scene &scene, const Methods &methods, const Methods &available,
-                    unsigned int n_levels);
+                    unsigned int n_levels, unsigned int n_jobs = 1);
 
   /// Check that meshes, nodes and cracks of all levels can be used, and that expressions are finite
   /// in Ω and its collar on a grid of samples: for all cases and series, at the level whose ball

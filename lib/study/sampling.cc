@@ -4,6 +4,7 @@
 #include "base/number_text.h"
 #include "study/cheapest_pair.h"
 #include "study/exact_statistics.h"
+#include "study/sampling_balance.h"
 #include "study/sampling_findings.h"
 
 #include <algorithm>
@@ -35,6 +36,21 @@ namespace plumbline::study
     {
       SampleCase first;
       std::vector<SetSums> sets;
+      // of the last set, see CaseStatistics
+      std::vector<std::size_t> samples = {};
+      std::map<std::string, std::vector<std::optional<double>>> values = {};
+
+      void add_row(std::size_t sample, const std::map<std::string, double> &quantities)
+      {
+        for (const auto &[name, value] : quantities) // which others may lack
+          values[name].resize(samples.size());
+        samples.push_back(sample);
+        for (auto &[name, known] : values)
+        {
+          const auto found = quantities.find(name);
+          known.push_back(found == quantities.end() ? std::nullopt : std::optional(found->second));
+        }
+      }
     };
 
     /// Where in each set a sample is, if it is.
@@ -48,8 +64,9 @@ namespace plumbline::study
       return weights;
     }
 
-    void add(const SampleRecord &record, const std::vector<std::optional<double>> &weights,
-             std::vector<CaseSums> &cases)
+    /// @param sample  whose record it is
+    void add(std::size_t sample, const SampleRecord &record,
+             const std::vector<std::optional<double>> &weights, std::vector<CaseSums> &cases)
     {
       for (const SampleCase &one : record.cases)
       {
@@ -72,6 +89,8 @@ namespace plumbline::study
           if (!one.field.values.empty())
             set.field.add(one.field.values, *weights[s]);
         }
+        if (weights.back())
+          found->add_row(sample, one.quantities);
       }
     }
 
@@ -90,16 +109,20 @@ namespace plumbline::study
         if (variance[i] < 0)
           set.negative_part += places.area[i / places.n_components] / area / places.n_components;
       set.mean_size = l2(places, [&](std::size_t i) { return mean[i]; });
-      set.deviation_size = l2(places, [&](std::size_t i) { return deviation[i]; });
-      if (independent)
+      const bool has_deviation = set.negative_part == 0;
+      if (has_deviation)
+        set.deviation_size = l2(places, [&](std::size_t i) { return deviation[i]; });
+      if (independent && has_deviation)
         set.standard_error =
-            set.deviation_size / std::sqrt(static_cast<double>(sums.weights.size()));
+            *set.deviation_size / std::sqrt(static_cast<double>(sums.weights.size()));
       if (!exact)
         return;
       set.mean_error = l2(places, [&](std::size_t i) { return mean[i] - exact->mean[i]; });
+      set.mean_uncertainty = exact->mean_uncertainty;
+      if (!has_deviation || exact->deviation.empty())
+        return;
       set.deviation_error =
           l2(places, [&](std::size_t i) { return deviation[i] - exact->deviation[i]; });
-      set.mean_uncertainty = exact->mean_uncertainty;
       set.deviation_uncertainty = exact->deviation_uncertainty;
     }
 
@@ -148,7 +171,12 @@ namespace plumbline::study
       if (!says_something(plan.sets.back(), sums, plan.are_independent))
         return {};
       const std::size_t n_independent = plan.are_independent ? sums.weights.size() : 0;
-      const ExactStatistics own{sums.field.mean(), sums.field.deviation(n_independent)};
+      const std::vector<double> variance = sums.field.variance(n_independent);
+      const bool has_deviation =
+          std::all_of(variance.begin(), variance.end(), [](double one) { return one >= 0; });
+      const ExactStatistics own{sums.field.mean(), has_deviation
+                                                       ? sums.field.deviation(n_independent)
+                                                       : std::vector<double>()};
       return at_places(own, finest.first.field, places);
     }
 
@@ -201,7 +229,8 @@ namespace plumbline::study
         }
         result.sets.push_back(std::move(set));
       }
-      result.values = sums.sets.back().values;
+      result.samples = sums.samples;
+      result.values = sums.values;
       return result;
     }
   } // namespace
@@ -235,6 +264,11 @@ namespace plumbline::study
     results.sampling = scene.sampling;
     results.target = base::word(scene.study.decisive_error.target);
     results.n_samples = plan.values.size();
+    results.points = plan.values;
+    for (const random::Variable &variable : scene.random.variables)
+      results.variables.push_back(variable.name);
+    for (unsigned int k = 1; k <= scene.random.n_modes; ++k)
+      results.variables.push_back("mode " + std::to_string(k));
     try
     {
       results.spectrum = field_spectrum(scene.random);
@@ -257,7 +291,7 @@ namespace plumbline::study
       ++n_read;
       if (!record->failure.empty())
         results.failures.push_back({i, plan.values[i], record->failure});
-      add(*record, weights[i], cases);
+      add(i, *record, weights[i], cases);
     }
     results.is_complete = n_read == plan.values.size();
     for (const CaseSums &one : cases)
@@ -269,6 +303,7 @@ namespace plumbline::study
       results.cases.push_back(conclude_case(scene, plan, one, *finest, results.findings));
     }
     results.cheapest = find_cheapest(results.cases);
+    results.balance = find_balance(results.cases);
     for (const std::string &finding : find_findings(results))
       results.findings.push_back(finding);
     return results;

@@ -76,11 +76,13 @@ namespace plumbline::study
     double seconds = 0; ///< CPU time of its samples
     std::map<std::string, random::Statistics> quantities;
     // of the field, L2 over Ω
-    double mean_size = 0, deviation_size = 0;
-    double negative_part = 0;  ///< of Ω, where the variance is negative; it counts as 0 there
-    double standard_error = 0; ///< of the mean of independent samples
+    double mean_size = 0;
+    std::optional<double> deviation_size; ///< nothing where a variance is negative: it has no root
+    double negative_part = 0;             ///< of Ω, where it is
+    double standard_error = 0;            ///< of the mean of independent samples
     /// Against the exact field's, or, with the target own finest level, the last set's there, whose
-    /// deviations of averages over smaller cells are averaged.
+    /// deviations of averages over smaller cells are averaged. Of deviations none where a variance
+    /// is negative, of this set or of the one that it is held against.
     std::optional<double> mean_error, deviation_error;
     bool is_target = false; ///< this is that set, which has no errors
     double mean_uncertainty = 0, deviation_uncertainty = 0; ///< of what these are held against
@@ -89,8 +91,8 @@ namespace plumbline::study
   /// Mean and deviation of the largest set's field, for pictures.
   struct FieldStatistics
   {
-    SampleField places; ///< without values
-    std::vector<double> mean, deviation;
+    SampleField places;                  ///< without values
+    std::vector<double> mean, deviation; ///< this is 0 where the variance is negative
   };
 
   struct CaseStatistics
@@ -101,8 +103,9 @@ namespace plumbline::study
     bool is_target_level = false;
     std::vector<SetStatistics> sets;
     std::optional<FieldStatistics> field; ///< of the finest level
-    /// Of each quantity over the largest set, sample by sample.
-    std::map<std::string, std::vector<double>> values;
+    std::vector<std::size_t> samples;     ///< of the largest set, those that there are
+    /// Of each quantity for these, or nothing where one has none.
+    std::map<std::string, std::vector<std::optional<double>>> values;
   };
 
   struct SampleFailure
@@ -122,6 +125,18 @@ namespace plumbline::study
     unsigned int count = 0, n_modes = 0;
   };
 
+  /// Whether more samples lower the error of the mean of a method at a level.
+  struct SamplingBalance
+  {
+    std::string method, problem, series;
+    double h = 0;                          ///< [length]
+    unsigned int n_modes = 0, largest = 0; ///< count of the largest set
+    double error = 0;                      ///< of the mean there
+    /// The least count from which on sets have an error within a tenth of that; nothing where only
+    /// the largest has: samples still limit it.
+    std::optional<unsigned int> enough;
+  };
+
   struct SamplingResults
   {
     std::string scene_name, purpose, scene_text;
@@ -129,10 +144,13 @@ namespace plumbline::study
     scene::SamplingSection sampling;
     std::string target; ///< of errors of means, e.g. "local"; empty: none is known
     std::size_t n_samples = 0;
+    std::vector<std::string> variables;       ///< their names, those of modes last
+    std::vector<std::vector<double>> points;  ///< their values, shape (n_samples, n_variables)
     std::optional<random::Spectrum> spectrum; ///< of a field of modes
     std::vector<CaseStatistics> cases;
     std::vector<SampleFailure> failures;
     std::vector<CheapestPair> cheapest;
+    std::vector<SamplingBalance> balance;
     std::vector<std::string> findings; ///< sentences for the report
     std::size_t n_expected = 0;        ///< lines of Expected/sampling
     bool is_complete = false;

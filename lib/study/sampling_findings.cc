@@ -40,8 +40,9 @@ namespace plumbline::study
         if (set.negative_part > 0)
           say(where + "the variance of the field is negative in " +
               base::to_text(100 * set.negative_part, 3) +
-              " % of the domain, where it counts as "
-              "0");
+              " % of the domain: weights are negative (sum of sizes " +
+              base::to_text(set.sum_of_sizes, 4) + "), and its deviation is not known" +
+              (set.is_target ? ", so that those of other sets are held against nothing" : ""));
         if (set.mean_error && set.mean_uncertainty > .1 * *set.mean_error)
           say(where + "the exact mean is known to " + base::to_text(set.mean_uncertainty, 3) +
               " only, no tenth of its error");

@@ -16,6 +16,11 @@ namespace plumbline::study
   {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+    bool is_of_growth(const std::string &quantity)
+    {
+      return quantity.find("growth ") == 0;
+    }
+
     int cells(double length, double h)
     {
       return static_cast<int>(std::lround(length / h));
@@ -62,26 +67,35 @@ namespace plumbline::study
     }
   } // namespace
 
-  const std::vector<std::string> &strip_quantities(scene::StripEdges edges)
+  std::vector<std::string> strip_quantities(const scene::StripSection &strip)
   {
-    static const std::vector<std::string> of_grips = {"W1", "tip energy", "opening"},
-                                          of_field = {"G", "opening"};
-    return edges == scene::StripEdges::grips ? of_grips : of_field;
+    if (strip.edges == scene::StripEdges::K_field)
+      return {"G", "opening"};
+    if (strip.n_growth == 0)
+      return {"W1", "tip energy", "opening"};
+    return {"W1",          "tip energy",      "opening",     "growth peak",
+            "growth mean", "growth released", "growth bonds"};
   }
 
   double StripRow::quantity(const std::string &name) const
   {
-    return name == "W1"           ? state.intact
-           : name == "G"          ? release / state.intact
-           : name == "tip energy" ? state.tip_energy(strip)
-                                  : state.opening.back();
+    if (is_of_growth(name) && !growth)
+      return unknown;
+    return name == "growth peak"       ? growth->peak
+           : name == "growth mean"     ? growth->mean
+           : name == "growth released" ? growth->released
+           : name == "growth bonds"    ? growth->bonds
+           : name == "W1"              ? state.intact
+           : name == "G"               ? release / state.intact
+           : name == "tip energy"      ? state.tip_energy(strip)
+                                       : state.opening.back();
   }
 
   StripRow stand_crack(const method::Method &method, const scene::Scene &scene,
                        const scene::Series &series, const scene::Level &level)
   {
     StripRow row{
-        method.name(), method.side(), series.name, level.h, level.horizon, {}, {}, 0, 0, {}};
+        method.name(), method.side(), series.name, level.h, level.horizon, {}, {}, 0, {}, 0, {}};
     row.strip = {cells(scene.strip.height, level.h),
                  cells(scene.strip.length, level.h),
                  cells(scene.strip.crack, level.h),
@@ -106,7 +120,8 @@ namespace plumbline::study
     return row;
   }
 
-  std::vector<StripLimit> strip_limits(const std::vector<StripRow> &rows)
+  std::vector<StripLimit> strip_limits(const scene::StripSection &strip,
+                                       const std::vector<StripRow> &rows)
   {
     std::vector<StripLimit> limits;
     for (auto begin = rows.begin(); begin != rows.end();)
@@ -119,10 +134,12 @@ namespace plumbline::study
       for (auto row = begin; row != end; ++row)
         if (row->failure.empty())
           levels.push_back(&*row);
-      for (const std::string &quantity : strip_quantities(begin->edges()))
+      for (const std::string &quantity : strip_quantities(strip))
       {
         if (levels.size() < 3)
           break;
+        if (is_of_growth(quantity)) // of what lattices trap, which has no power of h
+          continue;
         const std::size_t last = levels.size() - 1;
         const auto limit = find_limit(levels, last, quantity);
         if (!limit)
@@ -168,7 +185,7 @@ namespace plumbline::study
   {
     constexpr double worst_imbalance = 1e-2;
     const std::string of_limit = " limit";
-    const std::vector<std::string> &quantities = strip_quantities(results.strip.edges);
+    const std::vector<std::string> quantities = strip_quantities(results.strip);
     std::vector<std::string> faults;
     for (const StripRow &row : results.rows)
       if (!row.failure.empty())

@@ -2,6 +2,9 @@
 
 #include "method/method.h"
 #include "study/results.h"
+#include "study/strip_growth.h"
+
+#include <optional>
 
 namespace plumbline::study
 {
@@ -15,22 +18,20 @@ namespace plumbline::study
     method::RiceStrip strip;
     method::StripState state;
     double release = 0; ///< G, by another strip whose crack is a column longer [μ length]
-    double seconds = 0; ///< CPU time of both
+    std::optional<StripGrowth> growth; ///< of a crack like it, by rules, if the scene wants it
+    double seconds = 0;                ///< CPU time of both
     std::string failure;
 
     double m() const { return horizon / h; }
-    scene::StripEdges edges() const
-    {
-      return strip.K_tip ? scene::StripEdges::K_field : scene::StripEdges::grips;
-    }
-    /// One of strip_quantities.
+    /// One of strip_quantities; NaN where it is not known.
     double quantity(const std::string &name) const;
     /// G/W1 - 1: 0 but for what the strip's ends do, whatever the method does at the tip.
     double imbalance() const { return release / state.intact - 1; }
   };
 
-  /// W1, tip energy and opening; in a field of K: G, over K²/E', and opening.
-  const std::vector<std::string> &strip_quantities(scene::StripEdges edges);
+  /// W1, tip energy and opening, and of growth what it is over the law's toughness; in a field of
+  /// K: G, over K²/E', and opening.
+  std::vector<std::string> strip_quantities(const scene::StripSection &strip);
 
   /// q(h) = limit + C h^rate through the three finest levels.
   struct StripLimit
@@ -56,7 +57,8 @@ namespace plumbline::study
 
   /// Of each method, series over h alone, and quantity, as far as three levels show one: those
   /// whose last two steps go one way and shrink.
-  std::vector<StripLimit> strip_limits(const std::vector<StripRow> &rows);
+  std::vector<StripLimit> strip_limits(const scene::StripSection &strip,
+                                       const std::vector<StripRow> &rows);
 
   /// Between which values the limits of a quantity lie in a series, of so many methods, at least
   /// two, whose limits change by at most a twentieth with the finest level: rules and Galerkin

@@ -235,7 +235,7 @@ TEST(GrowCommand, refuses_what_cannot_grow)
   expect_refused(set("Kernel/type=constant"), "Kernel/type = 1/r");
   expect_refused(set("Study/h=0.05, 0.025"), "one Study/h");
   expect_refused(set("Study/h=0.03"), "mesh size h = 0.03 does not divide");
-  expect_refused(set("Study/h=0.0005"), "a body of 8e+06 nodes");
+  expect_refused(set("Study/h=0.0005"), "Study/h = 0.0005 gives a body of 8e+06 nodes");
   expect_refused(set("Fracture/breaking=steps"), "Fracture/load step = 0 must be positive");
   expect_refused(set("Fracture/breaking=often"), "Fracture/breaking");
   expect_refused(set("Fracture/largest load=0"), "Fracture/largest load = 0 must be positive");

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <map>
 
 namespace
 {
@@ -45,6 +46,28 @@ TEST(SampleCommand, tells_mean_and_deviation_and_draws_them)
   expect_found(page, "Error of the mean over samples");
   for (const char *const name : {"fields.csv", "quantities.csv", "mean-samples.csv"})
     EXPECT_TRUE(fs::exists(folder / "sample" / name)) << name;
+  fs::remove_all(folder);
+}
+
+TEST(SampleCommand, draws_how_samples_of_equal_weights_are_spread)
+{
+  const fs::path folder = temporary("sample");
+  const Outcome outcome =
+      run(smooth() +
+          " --quiet --set 'Sampling/rule=quasi-Monte Carlo' --set Sampling/counts=16 "
+          "-o " +
+          folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string name = "histogram-opt-0.125-nodal-l2-local";
+  EXPECT_TRUE(fs::exists(folder / "sample" / (name + ".svg")));
+  std::istringstream rows(read(folder / "sample" / (name + ".csv")));
+  std::string row;
+  std::getline(rows, row);
+  EXPECT_EQ(row, "from,to,samples");
+  int n = 0;
+  while (std::getline(rows, row))
+    n += std::stoi(row.substr(row.rfind(',') + 1));
+  EXPECT_EQ(n, 16);
   fs::remove_all(folder);
 }
 
@@ -109,6 +132,45 @@ TEST(SampleCommand, takes_given_pictures_and_begins_anew_when_one_has_changed)
   fs::remove(rim);
 }
 
+TEST(SampleCommand, takes_samples_anew_whose_files_are_not_whole)
+{
+  const fs::path whole = temporary("sample_whole"), broken = temporary("sample_broken");
+  ASSERT_EQ(run(smooth() + " --quiet -o " + whole.string()).exit_code, 0);
+  fs::copy(whole, broken, fs::copy_options::recursive);
+  const fs::path first = broken / "samples/000000.json";
+  const std::string record = read(first);
+  std::ofstream(first) << record.substr(0, record.size() / 2);
+  std::ofstream(broken / "samples/000001.json") << "{}";
+  fs::remove(broken / "samples/000002.h5"); // that its record tells of
+  const Outcome outcome = run(smooth() + " --quiet -o " + broken.string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(results(whole), results(broken));
+  std::ofstream(broken / "samples/000002.h5") << "no fields";
+  const Outcome again = run(smooth() + " -o " + broken.string());
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  expect_found(again.err, "continuing: 2 samples");
+  EXPECT_EQ(results(whole), results(broken));
+  fs::remove_all(whole);
+  fs::remove_all(broken);
+}
+
+TEST(SampleCommand, goes_on_after_it_was_killed_to_the_same_bits)
+{
+  const fs::path whole = temporary("sample_whole"), killed = temporary("sample_killed");
+  const std::string command = smooth(2) + " --quiet --set Sampling/counts=24 -o ";
+  ASSERT_EQ(run(command + whole.string()).exit_code, 0);
+  ASSERT_TRUE(kill_at(command + killed.string(), killed / "samples/000002.json"))
+      << "the run had ended before it was killed";
+  EXPECT_FALSE(fs::exists(killed / "sample.json"));
+  const auto kept = fs::last_write_time(killed / "samples/000001.json");
+  const Outcome resumed = run(command + killed.string());
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(fs::last_write_time(killed / "samples/000001.json"), kept);
+  EXPECT_EQ(results(whole), results(killed));
+  fs::remove_all(whole);
+  fs::remove_all(killed);
+}
+
 TEST(SampleCommand, touches_no_files_that_are_not_its_own)
 {
   const fs::path folder = temporary("sample");
@@ -142,9 +204,10 @@ TEST(SampleCommand, shares_samples_among_ranks)
 TEST(SampleCommand, lists_a_sample_that_fails_and_keeps_the_rest)
 {
   const fs::path folder = temporary("sample");
-  const Outcome outcome =
-      run(smooth() + " --set 'Random/variables=xi: normal 0 1' --set 'Material/E=2 + 3*xi' -o " +
-          folder.string());
+  const std::string command =
+      smooth() + " --set 'Random/variables=xi: normal 0 1' --set 'Material/E=2 + 3*xi' -o " +
+      folder.string();
+  const Outcome outcome = run(command);
   EXPECT_EQ(outcome.exit_code, 3);
   expect_found(outcome.err, "failed: Material/E");
   const Json json = results(folder);
@@ -153,6 +216,16 @@ TEST(SampleCommand, lists_a_sample_that_fails_and_keeps_the_rest)
   EXPECT_TRUE(json["cases"][0]["sets"][1]["quantities"].empty());
   EXPECT_FALSE(json["cases"][0]["sets"][0]["quantities"].empty());
   expect_found(read(folder / "sample.html"), "Samples that failed");
+  // it is not tried again: it would fail again
+  std::map<std::string, fs::file_time_type> written;
+  for (const auto &file : fs::directory_iterator(folder / "samples"))
+    written[file.path().string()] = fs::last_write_time(file);
+  const Outcome again = run(command);
+  EXPECT_EQ(again.exit_code, 3);
+  expect_found(again.err, "failed: Material/E");
+  for (const auto &[file, time] : written)
+    EXPECT_EQ(fs::last_write_time(file), time) << file;
+  EXPECT_EQ(results(folder), json);
   fs::remove_all(folder);
 }
 
@@ -219,6 +292,29 @@ TEST(SampleCommand, says_what_growths_will_take_before_the_first)
   fs::remove_all(folder);
 }
 
+TEST(SampleCommand, refuses_what_does_not_fit_so_many_times)
+{
+  const std::string scenes = std::string(PLUMBLINE_SCENES),
+                    plate = "sample " + scenes + "/glass_ceramics/half_plate.prm",
+                    jobs = " --jobs 4096 --set Sampling/counts=4096";
+  expect_refused(plate + " --set Study/h=0.04", "Study/h = 0.04 gives a body of 5e+07 nodes");
+  const auto drawn = [&](const std::string &command)
+  {
+    return command + jobs + " --set 'Random/variables=a: normal' --set 'Sampling/rule=Monte Carlo'";
+  };
+  const std::string smooth_scene = "sample " + scenes + "/random/smooth.prm";
+  for (const std::string &command :
+       {plate + jobs + " --set Study/h=2",
+        smooth_scene + jobs + " --set 'Sampling/rule=Monte Carlo' --set Study/h=0.0078125",
+        drawn("sample " + scenes +
+              "/griffith/run.prm --set Study/h=0.025,0.003125 --set "
+              "'Random/keys=Crack/load: 1.03 + 0.001*a'"),
+        drawn("sample " + scenes +
+              "/fracture/strip.prm --methods PA-AC --set "
+              "'Random/keys=Material/E: 2.5 + 0.1*a'")})
+    expect_refused(command, "in each of 4096 processes (--jobs)");
+}
+
 TEST(SampleCommand, a_scene_is_run_at_any_sample)
 {
   const fs::path folder = temporary("run");
@@ -234,4 +330,7 @@ TEST(SampleCommand, refuses_what_it_cannot_take)
 {
   expect_refused(smooth() + " --set Sampling/rule=none", "Sampling/rule = none");
   expect_refused(smooth() + " --set Sampling/counts=2000000", "2e+06 samples, more than");
+  expect_refused(smooth() + " --set Sampling/counts=100000", "1e+05 points of a variable");
+  expect_refused(smooth() + " --set Sampling/rule=Smolyak --set Sampling/counts=1000000000",
+                 "at least 2e+09 samples, more than 1e+06");
 }

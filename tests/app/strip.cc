@@ -51,6 +51,26 @@ TEST(StripCommand, charts_a_crack_in_its_own_field)
   fs::remove_all(folder);
 }
 
+TEST(StripCommand, lets_cracks_grow_by_rules)
+{
+  const fs::path folder = temporary("strip");
+  const std::string command =
+      "strip " + std::string(PLUMBLINE_SCENES) + "/fracture/strip_growth.prm --levels 1";
+  const Outcome outcome = run(command + " --methods OPT,DGQ0 -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "growth peak");
+  const auto json = nlohmann::json::parse(read(folder / "strip.json"));
+  const auto &growth = json["levels"][0]["growth"];
+  EXPECT_NEAR(growth["peak"], 1.994, .006);  // of a prototype, at a horizon of 1/16
+  EXPECT_NEAR(growth["bonds"], .7854, 5e-5); // all bonds across a straight line, pi/4 here
+  EXPECT_GT(growth["released"], growth["bonds"]);
+  EXPECT_TRUE(json["levels"][1]["growth"].is_null()); // of Galerkin methods
+  EXPECT_TRUE(fs::exists(folder / "strip/growth-peak.svg"));
+  fs::remove_all(folder);
+  expect_refused(command + " --set Strip/length=6", "after its growth");
+  expect_refused(command + " --set 'Strip/edges=K field'", "needs Strip/edges = grips");
+}
+
 TEST(StripCommand, says_what_is_not_as_expected)
 {
   const fs::path folder = temporary("strip");

@@ -33,6 +33,20 @@ TEST(Memory, of_more_than_there_is_is_refused_with_both_numbers_and_the_remedy)
   }
 }
 
+TEST(Memory, of_processes_side_by_side_is_that_of_all_of_them)
+{
+  const double part = 1e-3 * available_memory();
+  EXPECT_EQ(memory_fault(part, "Q1", "take less"), "");
+  EXPECT_EQ(memory_fault(part, "Q1", "take less", 10), "");
+  const std::string text = memory_fault(part, "Q1", "take less", 4000);
+  EXPECT_NE(text.find(" of memory in each of 4000 processes (--jobs), and "), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("; lower --jobs, or take less"), std::string::npos) << text;
+  // where not one fits, fewer of them are no remedy
+  const std::string large = memory_fault(1.23e30, "Q1", "take less", 4);
+  EXPECT_NE(large.find("available; take less"), std::string::npos) << large;
+}
+
 TEST(Memory, is_said_to_two_digits)
 {
   EXPECT_EQ(bytes_to_text(1.56e9), "1.6 GB");

@@ -1,6 +1,7 @@
 // Rules for means over random variables: exactness, weights, and what negative ones do.
 
 #include "random/sample_points.h"
+#include "random/generator.h"
 #include "random/statistics.h"
 
 #include <gtest/gtest.h>
@@ -213,6 +214,39 @@ TEST(SamplePoints, NestedSmolyakCountsItsPoints)
   EXPECT_EQ(n_points(3, 1), 6);
 }
 
+// Coefficients of 1/(1-z)^2N+1 and, with odd numbers, of (1+z)^N/(1-z)^2N+1.
+TEST(SamplePoints, CountsOfHighLevelsAreThereBeforeAnyPoint)
+{
+  const auto binomial = [](unsigned int n, unsigned int k)
+  {
+    double result = 1;
+    for (unsigned int i = 1; i <= k; ++i)
+      result *= static_cast<double>(n - k + i) / i;
+    return result;
+  };
+  const std::vector<Law> normal(20, Law::normal), one(1, Law::uniform);
+  for (const unsigned int level : {20u, 31u, 32u})
+  {
+    double odd = 0;
+    for (unsigned int k = 0; k <= std::min(20u, level); ++k)
+      odd += binomial(20, k) * binomial(level - k + 40, 40);
+    EXPECT_NEAR(n_smolyak_points(normal, level, Growth::linear) / binomial(level + 40, 40), 1,
+                1e-12);
+    EXPECT_NEAR(n_smolyak_points(normal, level, Growth::odd) / odd, 1, 1e-12);
+    EXPECT_EQ(n_smolyak_points(normal, level, Growth::doubling), std::exp2(level + 1.) - 1);
+    EXPECT_EQ(n_smolyak_points(one, level, Growth::nested), std::exp2(level) + 1);
+  }
+  EXPECT_EQ(n_smolyak_points(one, 10, Growth::nested), 1025);
+  EXPECT_EQ(n_smolyak_points(one, 9, Growth::doubling), 2036); // Σ (2^l - 1), l = 1 ... 10
+  // at once, and finite
+  constexpr unsigned int billion = 1000000000;
+  EXPECT_EQ(n_smolyak_points(normal, billion, Growth::odd), 2e9 + 1);
+  EXPECT_EQ(n_smolyak_points(one, billion, Growth::nested), 1e300);
+  EXPECT_EQ(n_smolyak_points(std::vector<Law>(10000, Law::normal), 300, Growth::odd), 1e300);
+  EXPECT_EQ(n_tensor_points(1, billion), 1e9);
+  EXPECT_EQ(n_tensor_points(10000, 2), 1e300);
+}
+
 TEST(SamplePoints, VarianceOfSmolyakCanBeNegativeAndHasNoRoot)
 {
   const SamplePoints rule = smolyak_points(std::vector<Law>(20, Law::normal), 1, Growth::odd);
@@ -288,6 +322,53 @@ TEST(Statistics, OfIndependentSamplesTakeOneLess)
   EXPECT_EQ(found.least, 1);
   EXPECT_EQ(found.largest, 6);
   EXPECT_EQ(histogram({1, 2, 3, 6}, 5), (std::vector<std::size_t>{1, 1, 1, 0, 1}));
+}
+
+// Student's t of one degree of freedom is Cauchy's law; of two the quantile is a square root.
+TEST(Statistics, IntervalsAreStudents)
+{
+  EXPECT_NEAR(confidence_factor(2), std::tan(.475 * M_PI), 1e-10);
+  EXPECT_NEAR(confidence_factor(3), .95 * std::sqrt(2 / (4 * .975 * .025)), 1e-12);
+  EXPECT_NEAR(confidence_factor(1000000), std::sqrt(2.) * 1.3859038243496777, 1e-5); // erf = .95
+  const Statistics found = statistics({1, 2, 3, 6}, {.25, .25, .25, .25}, true);
+  EXPECT_NEAR(found.confidence, confidence_factor(4) * std::sqrt(14. / 12), 1e-14);
+  EXPECT_EQ(statistics({1, 2, 3, 6}, {.25, .25, .25, .25}, false).confidence, 0);
+}
+
+TEST(Statistics, IntervalsHoldTheMeanNinetyFiveTimesOfAHundred)
+{
+  constexpr std::size_t n = 5, n_trials = 20000;
+  Generator generator(1);
+  std::size_t n_held = 0;
+  for (std::size_t i = 0; i < n_trials; ++i)
+  {
+    std::vector<double> values;
+    for (std::size_t k = 0; k < n; ++k)
+      values.push_back(3 + 2 * generator.normal());
+    const Statistics found = statistics(values, std::vector<double>(n, 1. / n), true);
+    n_held += std::abs(found.mean - 3) <= found.confidence ? 1 : 0;
+  }
+  // four deviations of a count; 1.96 standard errors would hold it in 88 %
+  const double share = static_cast<double>(n_held) / n_trials;
+  EXPECT_NEAR(share, .95, 4 * std::sqrt(.95 * .05 / n_trials));
+}
+
+// What is the same at all samples that count has no variance, whatever the first one was.
+TEST(Statistics, VariancesThatRoundingMakesNegativeAreNone)
+{
+  FieldSums sums;
+  constexpr std::size_t n = 100;
+  std::vector<double> values(n);
+  for (std::size_t i = 0; i < n; ++i)
+    values[i] = 1 + .1 * static_cast<double>(i);
+  sums.add(std::vector<double>(n, .3), 0);
+  for (const double weight : {.3, -1.7, .1, 2.3})
+    sums.add(values, weight);
+  for (const double one : sums.variance())
+  {
+    EXPECT_GE(one, 0);
+    EXPECT_LT(one, 1e-10);
+  }
 }
 
 TEST(Statistics, OfFieldsAreThoseOfEachValue)

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace plumbline::report
 {
@@ -25,6 +26,150 @@ namespace plumbline::report
       return r;
     }
   } // namespace
+
+  TEST(SamplingReport, TellsIntervalsOfMeansOfIndependentSamples)
+  {
+    study::SamplingResults results = sampled();
+    study::CaseStatistics one;
+    one.of.method = "OPT";
+    one.of.h = .25;
+    one.is_finest = true;
+    study::SetStatistics set;
+    set.n_samples = 4;
+    set.quantities["K by bonds"] = random::statistics({1, 2, 3, 6}, {.25, .25, .25, .25}, true);
+    one.sets = {set};
+    results.cases = {one};
+    const std::string interval = "-0.4374 to 6.437"; // 3 ± 3.18245 √(14/12)
+    const fixture::Folder folder;
+    write_sampling(results, {}, folder.path());
+    for (const std::string &text :
+         {fixture::read(folder.path() / "sample.html"), fixture::read(folder.path() / "sample.md"),
+          sampling_text(results)})
+      EXPECT_NE(text.find(interval), std::string::npos) << text;
+    const auto confidence = [&]
+    {
+      const auto json = nlohmann::json::parse(sampling_json(results));
+      return json["cases"][0]["sets"][0]["quantities"]["K by bonds"]["confidence_interval"];
+    };
+    EXPECT_NEAR(confidence()[0], 3 - 3.182446305 * std::sqrt(14. / 12), 1e-8);
+    EXPECT_NEAR(confidence()[1], 3 + 3.182446305 * std::sqrt(14. / 12), 1e-8);
+    const Table table = sampling_quantity_table(results);
+    const std::string csv = to_csv(table);
+    EXPECT_NE(csv.find(",mean from,mean to,"), std::string::npos) << csv;
+    // none where samples are not independent
+    results.sampling.rule = random::SampleRule::tensor;
+    results.cases[0].sets[0].quantities["K by bonds"] =
+        random::statistics({1, 2, 3, 6}, {.25, .25, .25, .25}, false);
+    EXPECT_TRUE(confidence().is_null());
+    EXPECT_EQ(sampling_text(results).find("95 %"), std::string::npos) << sampling_text(results);
+  }
+
+  TEST(SamplingReport, HasNoDeviationWhereAVarianceIsNegative)
+  {
+    study::SamplingResults results = sampled();
+    study::CaseStatistics one;
+    one.of.method = "OPT";
+    one.sets.resize(2);
+    one.sets[0].deviation_size = .125;
+    one.sets[1].mean_size = 1;
+    one.sets[1].negative_part = .5;
+    one.sets[1].mean_error = .25;
+    results.cases = {one};
+    const auto sets = nlohmann::json::parse(sampling_json(results))["cases"][0]["sets"];
+    EXPECT_EQ(sets[0]["deviation_size"], .125);
+    EXPECT_EQ(sets[1]["negative_variance_part"], .5);
+    EXPECT_EQ(sets[1]["mean_error"], .25);
+    EXPECT_TRUE(sets[1]["deviation_size"].is_null());
+    EXPECT_TRUE(sets[1]["deviation_error"].is_null());
+    const Table table = sampling_field_table(results);
+    const auto column = std::find_if(table.columns.begin(), table.columns.end(),
+                                     [](const Column &c) { return c.head == "‖deviation‖"; }) -
+                        table.columns.begin();
+    EXPECT_EQ(table.rows[0].at(column).text, "0.125");
+    EXPECT_EQ(table.rows[1].at(column).text, empty_cell().text);
+  }
+
+  TEST(SamplingReport, HasATableOfSamplesWithTheirVariables)
+  {
+    study::SamplingResults results = sampled();
+    results.variables = {"a", "mode 1"};
+    study::CaseStatistics one;
+    one.of.method = "OPT";
+    one.of.series = "m = 3";
+    one.of.h = .25;
+    one.is_finest = true;
+    for (std::size_t i = 0; i < 120; ++i)
+    {
+      results.points.push_back({.5 * static_cast<double>(i), -1});
+      if (i == 1)
+        continue; // that failed
+      one.samples.push_back(i);
+      one.values["K"].push_back(i == 2 ? std::nullopt : std::optional(1000. + i));
+    }
+    results.cases = {one};
+    const fixture::Folder folder;
+    results.sampling.rule = random::SampleRule::tensor; // there is no histogram to draw
+    write_sampling(results, {}, folder.path());
+    const std::string csv = fixture::read(folder.path() / "sample/samples_opt-m-3-0.25.csv");
+    EXPECT_EQ(csv.substr(0, csv.find("4,2,")), "sample,a,mode 1,K\n0,0,-1,1000\n2,1,-1,\n"
+                                               "3,1.5,-1,1003\n");
+    EXPECT_NE(csv.find("\n119,59.5,-1,1119\n"), std::string::npos);
+    const std::string page = fixture::read(folder.path() / "sample.html");
+    EXPECT_NE(page.find("Samples of OPT, m = 3, h = 0.25: the first 100 of 119"),
+              std::string::npos);
+    EXPECT_NE(page.find(">1100<"), std::string::npos); // the hundredth
+    EXPECT_EQ(page.find(">1101<"), std::string::npos);
+  }
+
+  TEST(SamplingReport, TellsWhereSamplesAndMeshBalance)
+  {
+    study::SamplingResults results = sampled();
+    results.balance = {{"OPT", "u", "m = 3", .5, 0, 8, .02, 2},
+                       {"OPT", "u", "m = 3", .25, 0, 8, .005, std::nullopt}};
+    const fixture::Folder folder;
+    write_sampling(results, {}, folder.path());
+    for (std::string text : {fixture::read(folder.path() / "sample.html"),
+                             fixture::read(folder.path() / "sample.md"), sampling_text(results)})
+    {
+      std::replace(text.begin(), text.end(), '\n', ' '); // it may be wrapped
+      text.erase(std::unique(text.begin(), text.end(),
+                             [](char a, char b) { return a == ' ' && b == ' '; }),
+                 text.end());
+      EXPECT_NE(text.find("h = 0.5: from count 2 on more samples do not lower the error"),
+                std::string::npos)
+          << text;
+      EXPECT_NE(text.find("h = 0.25: samples still limit the error of the mean, 0.005 at count 8"),
+                std::string::npos)
+          << text;
+    }
+    const auto json = nlohmann::json::parse(sampling_json(results))["balance"];
+    EXPECT_EQ(json[0]["enough"], 2);
+    EXPECT_EQ(json[0]["largest"], 8);
+    EXPECT_TRUE(json[1]["enough"].is_null());
+    EXPECT_EQ(json[1]["error"], .005);
+  }
+
+  TEST(SamplingReport, DrawsHistogramsOfSamplesOfEqualWeights)
+  {
+    study::SamplingResults results = sampled();
+    study::CaseStatistics one;
+    one.of.method = "OPT";
+    one.of.h = .25;
+    one.values["K by bonds"] = {0,   .5,  .5,  1.5, 1.5, 1.5, 2.5, 3.5,
+                                3.5, 3.5, 3.5, 4.5, 5.5, 5.5, 5.5, 6};
+    results.cases = {one};
+    for (const auto rule : {random::SampleRule::monte_carlo, random::SampleRule::quasi_monte_carlo})
+    {
+      results.sampling.rule = rule;
+      const std::vector<DataChart> charts = sampling_charts(results);
+      ASSERT_EQ(charts.size(), 1u);
+      EXPECT_EQ(charts[0].name, "histogram-opt-0.25-k-by-bonds");
+      EXPECT_EQ(to_csv(charts[0].data),
+                "from,to,samples\n0,1,3\n1,2,3\n2,3,1\n3,4,4\n4,5,1\n5,6,4\n");
+    }
+    results.sampling.rule = random::SampleRule::tensor; // whose weights differ
+    EXPECT_TRUE(sampling_charts(results).empty());
+  }
 
   TEST(SamplingReport, TellsTheSeedsOfSamplesAndOfFields)
   {

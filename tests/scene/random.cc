@@ -372,6 +372,33 @@ TEST(RandomScene, IsRefusedWithTheRemedy)
   expect_refused(
       {{"Sampling/rule", "Smolyak"}, {"Sampling/growth", "nested"}, {"Sampling/counts", "5"}},
       "of normal variables there are levels 0 to 4");
+  std::string twenty;
+  for (int i = 0; i < 20; ++i)
+    twenty += "c" + std::to_string(i) + ": normal; ";
+  const auto refuse_counts = [](const std::string &counts, const std::string &variables,
+                                const Settings &rule, const std::string &message)
+  {
+    Settings settings = {
+        {"Sampling/counts", counts}, {"Random/variables", variables}, {"Problem/solution", "x"}};
+    settings.insert(settings.end(), rule.begin(), rule.end());
+    expect_refused(settings, "Sampling/counts = " + counts + " with Sampling/rule = " + message);
+  };
+  const Settings smolyak = {{"Sampling/rule", "Smolyak"}},
+                 nested = {{"Sampling/rule", "Smolyak"}, {"Sampling/growth", "nested"}};
+  refuse_counts("20", twenty, smolyak,
+                "Smolyak and 20 variables takes 8.904e+17 samples, more than 1e+06; take a lower "
+                "level, or Sampling/rule = quasi-Monte Carlo");
+  refuse_counts("31", twenty, smolyak, "Smolyak and 20 variables takes 1.281e+23 samples");
+  refuse_counts("32", twenty, smolyak, "Smolyak and 20 variables takes 3.234e+23 samples");
+  refuse_counts("1000000000", twenty, smolyak,
+                "Smolyak and 20 variables takes at least 2e+09 samples, more than 1e+06");
+  refuse_counts("32", "c: uniform", nested,
+                "Smolyak and 1 variable takes at least 4.295e+09 samples, more than 1e+06");
+  refuse_counts("12", "c: uniform", nested,
+                "Smolyak takes 4097 points of a variable, more than 1025, which a rule of one may "
+                "have; take a lower level, or Sampling/rule = quasi-Monte Carlo");
+  refuse_counts("100000", "c: normal", {},
+                "tensor takes 1e+05 points of a variable, more than 1025");
   expect_refused(solid({{"Random/field", "exponential"}}), "needs Random/modes");
   expect_refused(solid({{"Random/field", "Matern"}, {"Random/modes", "4"}}), "Random/cell > 0");
   const auto matern = [](const std::string &key, const std::string &value)

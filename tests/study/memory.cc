@@ -1,4 +1,5 @@
 // What methods expect to take, against what they take.
+#include "base/error.h"
 #include "meshfree/method.h"
 #include "reference/method.h"
 #include "study/preflight.h"
@@ -66,6 +67,15 @@ TEST(CheckMemory, of_triangles_of_their_own_size_is_what_they_take)
   const Methods available = reference::methods();
   const Methods one = {find_method(available, "DGP3", "Methods/names")};
   EXPECT_NO_THROW(check_memory(bar, one, available, 0));
+}
+
+TEST(CheckMemory, of_samples_side_by_side_is_that_of_all_of_them)
+{
+  const scene::Scene scene = parse(scalar + sizes("0.0078125", "3"), "Q1");
+  const Methods available = reference::methods();
+  const Methods one = {find_method(available, "Q1", "Methods/names")};
+  EXPECT_NO_THROW(check_memory(scene, one, available, 0, 1));
+  EXPECT_THROW(check_memory(scene, one, available, 0, 1000000000), InputError);
 }
 
 #ifndef __SANITIZE_ADDRESS__ // which has memory of its own

@@ -166,7 +166,7 @@ TEST(SampleStatistics, OfExactFieldsHaveNoErrorButTheRules)
   EXPECT_LT(*two.deviation_error, 1e-8); // √ of rounding
   EXPECT_NEAR(*one.deviation_error, .2 * size, 1e-8);
   EXPECT_NEAR(two.mean_size, size, 1e-14);
-  EXPECT_NEAR(two.deviation_size, .2 * size, 1e-14);
+  EXPECT_NEAR(*two.deviation_size, .2 * size, 1e-14);
   EXPECT_EQ(two.seconds, 4);
   EXPECT_NEAR(two.quantities.at("q").mean, 0, 1e-15);
   EXPECT_NEAR(*two.quantities.at("q").deviation(), .2, 1e-14);
@@ -194,6 +194,9 @@ TEST(SampleStatistics, ThatWereMovedShowIt)
   EXPECT_NEAR(*results.cases[0].sets[1].mean_error, .02, 1e-14);
   EXPECT_NEAR(*results.cases[0].sets[1].deviation_error, 0, 1e-8);
   EXPECT_EQ(results.cheapest.size(), 1); // 1e-1
+  ASSERT_EQ(results.balance.size(), 1);  // one point has the mean of what is linear
+  EXPECT_EQ(results.balance[0].enough.value_or(0), 1);
+  EXPECT_NEAR(results.balance[0].error, .02, 1e-14);
 }
 
 // At h = 1/4 errors of mesh and of two samples cancel; at h = 1/8 they do not.
@@ -346,6 +349,17 @@ TEST(SampleStatistics, OfAQuantityThatIsPartlyThereAreNoneAndThatIsSaid)
   EXPECT_EQ(std::count(results.findings.begin(), results.findings.end(),
                        "K of PA-AC is there for 3 of 4 samples, so that it has no statistics"),
             1);
+  // sample by sample, of the larger set: 2 has none
+  const CaseStatistics &one = results.cases[0];
+  EXPECT_EQ(one.samples, (std::vector<std::size_t>{1, 2, 3, 4}));
+  using Values = std::vector<std::optional<double>>;
+  EXPECT_EQ(one.values.at("K"), (Values{1., std::nullopt, 1., 1.}));
+  Values q;
+  for (const std::size_t i : one.samples)
+    q.emplace_back(plan.values[i][0]);
+  EXPECT_EQ(one.values.at("q"), q);
+  EXPECT_EQ(results.variables, (std::vector<std::string>{"c", "d"}));
+  EXPECT_EQ(results.points, plan.values);
 }
 
 TEST(SampleStatistics, OfRulesSayNothingWithoutAPoint)
@@ -453,6 +467,82 @@ TEST(SampleStatistics, NegativeVariancesAreSaidAndHaveNoDeviation)
   EXPECT_NEAR(*sampled_quantity(results.cases[0], "variance of q"), -340, 1e-9);
 }
 
+// Σ c_i² of twenty variables: at level 1 its variance is -340, at level 2 it is 40, which is exact.
+TEST(SampleStatistics, NegativeVariancesOfFieldsHaveNoDeviationAndNoErrorOfIt)
+{
+  std::string variables;
+  for (int i = 0; i < 20; ++i)
+    variables += "c" + std::to_string(i) + ": normal; ";
+  const auto conclude_counts = [&](const std::string &counts)
+  {
+    const scene::Scene scene =
+        random_scene({{"Random/variables", variables},
+                      {"Sampling/rule", "Smolyak"},
+                      {"Sampling/counts", counts},
+                      {"Problem/solution", ""},
+                      {"Problem/load", "1"},
+                      {"Problem/constraint", "0"},
+                      {"Study/h", "0.5, 0.25"},
+                      {"Study/norms", "averages L2"},
+                      {"Study/decisive error", "averages L2 | own finest level"}});
+    const SamplingPlan plan = make_sampling_plan(scene);
+    const auto record_of = [&](std::size_t sample)
+    {
+      double sum = 0;
+      for (const double one : plan.values[sample])
+        sum += one * one;
+      SampleRecord record{sample, "", {}};
+      for (const unsigned int level : {0u, 1u})
+      {
+        SampleCase one;
+        one.method = "PA-AC";
+        one.series = "m = 3";
+        one.level = level;
+        one.h = level == 0 ? .5 : .25;
+        const int n = level == 0 ? 2 : 4;
+        for (int i = 0; i < n * n; ++i)
+        {
+          one.field.x.push_back((i % n + .5) * one.h);
+          one.field.y.push_back((std::floor(i / n) + .5) * one.h);
+          one.field.area.push_back(one.h * one.h);
+          one.field.values.push_back(one.field.x.back() < .5 ? sum : 3); // constant on the right
+        }
+        record.cases.push_back(one);
+      }
+      return record;
+    };
+    return conclude_samples(scene, plan, record_of);
+  };
+  const SamplingResults results = conclude_counts("1, 2");
+  for (const CaseStatistics &one : results.cases)
+  {
+    EXPECT_NEAR(one.sets[0].negative_part, .5, 1e-15);
+    EXPECT_FALSE(one.sets[0].deviation_size);
+    EXPECT_FALSE(one.sets[0].deviation_error);
+    EXPECT_LT(*one.sets[0].mean_error, 1e-10); // exact for squares
+    EXPECT_EQ(one.sets[1].negative_part, 0);
+    EXPECT_NEAR(*one.sets[1].deviation_size, std::sqrt(.5 * 40), 1e-9);
+  }
+  EXPECT_LT(*results.cases[0].sets[1].deviation_error, 1e-9);
+  const auto n_said = [](const SamplingResults &of, const std::string &what)
+  {
+    return std::count_if(of.findings.begin(), of.findings.end(),
+                         [&](const std::string &one) { return one.find(what) != one.npos; });
+  };
+  const std::string what = "the variance of the field is negative in 50 % of the domain";
+  EXPECT_EQ(n_said(results, what), 2);
+  EXPECT_FALSE(sampled_quantity(conclude_counts("1").cases[1], "size of the deviation"));
+  // one sample has a deviation, 0, but what it is held against has none
+  const SamplingResults without = conclude_counts("0, 1");
+  for (const CaseStatistics &one : without.cases)
+  {
+    EXPECT_EQ(*one.sets[0].deviation_size, 0);
+    EXPECT_FALSE(one.sets[0].deviation_error);
+    EXPECT_NEAR(*one.sets[0].mean_error, 20 * std::sqrt(.5), 1e-10);
+  }
+  EXPECT_EQ(n_said(without, "those of other sets are held against nothing"), 1);
+}
+
 // Of exp(-|x-y|/l) in x and y, l = .2: the first eigenvalue in one dimension is .3309, the second
 // .2098.
 TEST(SampleStatistics, OfModesSayWhatVarianceTheyHold)
@@ -471,6 +561,7 @@ TEST(SampleStatistics, OfModesSayWhatVarianceTheyHold)
   };
   const SamplingResults few = with_modes("3");
   ASSERT_TRUE(few.spectrum);
+  EXPECT_EQ(few.variables, (std::vector<std::string>{"c", "d", "mode 1", "mode 2", "mode 3"}));
   const double kept = .3309206 * (.3309206 + 2 * .2097761);
   EXPECT_NEAR(few.spectrum->variance_kept(), kept, 1e-3);
   EXPECT_NEAR(few.spectrum->deviation, 3 * std::sqrt(kept), 5e-3);

@@ -43,7 +43,7 @@ TEST(StripLimits, are_those_of_a_power_of_h)
   std::vector<double> q;
   for (const double h : sizes)
     q.push_back(curve(h));
-  const auto limits = strip_limits(rows("A", sizes, q)); // W1 and opening do not move
+  const auto limits = strip_limits({}, rows("A", sizes, q)); // W1 and opening do not move
   ASSERT_EQ(limits.size(), 1u);
   EXPECT_EQ(limits[0].quantity, "tip energy");
   EXPECT_NEAR(limits[0].limit, .4, 1e-9);
@@ -62,13 +62,15 @@ TEST(StripLimits, of_a_field_of_K_are_those_of_its_release)
     field[i].strip.K_tip = 10.5;
     field[i].release = q[i] * (field[i].state.intact = .375);
   }
-  const auto limits = strip_limits(field);
+  scene::StripSection held;
+  held.edges = scene::StripEdges::K_field;
+  const auto limits = strip_limits(held, field);
   ASSERT_EQ(limits.size(), 1u);
   EXPECT_EQ(limits[0].quantity, "G");
   EXPECT_NEAR(limits[0].limit, .4, 1e-9);
   // no strip that is too short: .4 is what it gets
   study::StripResults results;
-  results.strip.edges = scene::StripEdges::K_field;
+  results.strip = held;
   results.rows = field;
   EXPECT_TRUE(strip_faults(results, {}).empty());
   for (StripRow &row : results.rows)
@@ -78,8 +80,8 @@ TEST(StripLimits, of_a_field_of_K_are_those_of_its_release)
 
 TEST(StripLimits, are_not_there_where_values_go_up_and_down)
 {
-  EXPECT_TRUE(strip_limits(rows("A", sizes, {.4, .5, .45, .47})).empty());
-  EXPECT_TRUE(strip_limits(rows("A", {.5, .3}, {.5, .45})).empty());
+  EXPECT_TRUE(strip_limits({}, rows("A", sizes, {.4, .5, .45, .47})).empty());
+  EXPECT_TRUE(strip_limits({}, rows("A", {.5, .3}, {.5, .45})).empty());
 }
 
 TEST(StripLimits, agree_as_far_as_they_lie_apart)
@@ -102,7 +104,7 @@ TEST(StripFaults, are_what_is_not_as_expected)
 {
   study::StripResults results;
   results.rows = rows("A", sizes, {.7, .6, .55, .5});
-  results.limits = strip_limits(results.rows);
+  results.limits = strip_limits({}, results.rows);
   scene::ExpectedSection expected;
   expected.error_tolerance = 1e-6;
   const auto expect = [&](const std::string &quantity, const std::vector<double> &values)
@@ -127,4 +129,38 @@ TEST(StripFaults, are_what_is_not_as_expected)
   EXPECT_EQ(expect("W1", {1, 1, 1, 1}), 1u);
   results.rows[1].failure = "no weights";
   EXPECT_EQ(expect("W1", {1, 1, 1}), 1u);
+}
+
+TEST(StripFaults, are_of_growth_where_a_rule_has_grown)
+{
+  study::StripResults results;
+  results.strip.n_growth = 4;
+  results.rows = rows("A", {.5, .25, .125}, {.7, .6, .55});
+  for (const StripRow &row : results.rows)
+    EXPECT_TRUE(std::isnan(row.quantity("growth peak")));
+  double peak = 2;
+  for (StripRow &row : results.rows)
+    row.growth = study::StripGrowth{peak /= 1.1, 1.1, 1.05, .9};
+  results.limits = strip_limits(results.strip, results.rows);
+  for (const StripLimit &limit : results.limits) // what lattices trap has none
+    EXPECT_EQ(limit.quantity.find("growth"), std::string::npos);
+  scene::ExpectedSection expected;
+  expected.error_tolerance = 1e-6;
+  const auto expect = [&](const std::string &quantity, const std::vector<double> &values)
+  {
+    scene::Expected one;
+    one.kind = scene::ExpectedKind::strip;
+    one.method = "A";
+    one.problem = quantity;
+    one.values = values;
+    expected.all = {one};
+    return study::strip_faults(results, expected).size();
+  };
+  EXPECT_EQ(expect("growth peak", {2 / 1.1, 2 / 1.21, 2 / 1.331}), 0u);
+  EXPECT_EQ(expect("growth peak", {2 / 1.1, 2 / 1.21, 1.4}), 1u);
+  EXPECT_EQ(expect("growth mean", {1.1, 1.1, 1.1}), 0u);
+  EXPECT_EQ(expect("growth released", {1.05, 1.05, 1.05}), 0u);
+  EXPECT_EQ(expect("growth bonds", {.9, .9, .9}), 0u);
+  results.strip.n_growth = 0;
+  EXPECT_EQ(expect("growth mean", {1.1, 1.1, 1.1}), 1u);
 }

@@ -26,6 +26,10 @@ namespace plumbline::scene
         "advance (Rice 1968). K field: all around the strip is held at the field of a crack at "
         "K = 1 whose tip is half a column ahead, and a crack that goes on by a column gets "
         "K^2/E' as h and the horizon vanish (Irwin 1957).");
+    keys.add("growth", n_growth, count(0, 1000),
+             "Columns of nodes that a second crack grows through, bond by bond, by meshfree rules, "
+             "after its first two: what it needs and what it sets free is told over G, the "
+             "toughness of the law. 0: it stands alone.");
   }
 
   void StripSection::complete() const
@@ -41,6 +45,9 @@ namespace plumbline::scene
     if (!is_there())
       return;
     require(height > 0 && std::isfinite(height), "height", height, "must be a length > 0");
+    if (n_growth > 0 && edges != StripEdges::grips)
+      throw InputError("Strip/growth = " + std::to_string(n_growth) +
+                       " needs Strip/edges = grips, between which a crack gets W1 all the way");
     require(crack > 0 && crack < length, "crack", crack,
             "must end in the strip, between 0 and Strip/length = " + short_number(length));
   }
