@@ -150,6 +150,30 @@ TEST(SamplingPlan, ScenesTakeItsValues)
   EXPECT_EQ(scene.names(1).constants.at("d"), 3); // its mean
 }
 
+TEST(SampleStatistics, OfGrowthSayWhichSchemeTheyAreOf)
+{
+  for (const bool has_surface_terms : {false, true})
+  {
+    scene::Scene scene;
+    scene.fracture.toughness = "1";
+    scene.fracture.has_surface_terms = has_surface_terms;
+    const auto said = [&]
+    {
+      const auto findings =
+          study::conclude_samples(scene, SamplingPlan{}, [](std::size_t) { return std::nullopt; })
+              .findings;
+      return std::count_if(findings.begin(), findings.end(),
+                           [&](const std::string &one) {
+                             return one.find(has_surface_terms ? "grow with surface"
+                                                               : "grow without surface") == 7;
+                           });
+    };
+    EXPECT_EQ(said(), 1);
+    scene.sampling.analysis = scene::SampledAnalysis::stability;
+    EXPECT_EQ(said(), 0);
+  }
+}
+
 TEST(SampleStatistics, OfExactFieldsHaveNoErrorButTheRules)
 {
   const scene::Scene scene = random_scene({});
