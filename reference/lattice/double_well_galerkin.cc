@@ -48,6 +48,21 @@ namespace plumbline::reference
     {
       return ((i % n) + n) % n;
     }
+
+    /// Of a power of (h/6) (1, 4, 1), whose symbol is h (2 + cos t)/3: its Fourier coefficients,
+    /// which fall like (2 - √3)^k, by the rule of rectangles.
+    std::vector<double> mass_root_weights(double h, double power)
+    {
+      constexpr int reach = 30, n = 4 * reach;
+      std::vector<double> weights(reach + 1);
+      for (int q = 0; q < n; ++q)
+      {
+        const double t = 2 * M_PI * q / n, symbol = std::pow(h * (2 + std::cos(t)) / 3, power);
+        for (int k = 0; k <= reach; ++k)
+          weights[k] += symbol * std::cos(k * t) / n;
+      }
+      return weights;
+    }
   } // namespace
 
   template <int dim>
@@ -116,63 +131,75 @@ namespace plumbline::reference
     ways_.push_back(std::move(way));
   }
 
-  /// visit(way, sample, row, strains of all cells of a row)
+  /// visit(way, sample, row, strains of each field in all cells of a row)
   template <int dim>
-  template <typename Visit>
-  void DoubleWellGalerkin<dim>::over_ways(const std::vector<double> &u, const Visit &visit) const
+  template <std::size_t n_fields, typename Visit>
+  void DoubleWellGalerkin<dim>::over_ways(const Fields<n_fields> &fields, const Visit &visit) const
   {
     const int margin = dim == 1 ? 0 : reach_;
-    std::vector<double> padded(width_ * (n_[1] + 2 * margin)), strain(n_[0]);
+    std::array<std::vector<double>, n_fields> padded, strains;
+    padded.fill(std::vector<double>(width_ * (n_[1] + 2 * margin)));
+    strains.fill(std::vector<double>(n_[0]));
     for (const Way &way : ways_)
     {
-      for (int j = -margin; j < n_[1] + margin; ++j)
-        for (int i = -reach_; i < n_[0] + reach_; ++i)
-        {
-          const std::size_t node =
-              static_cast<std::size_t>(wrap(j, n_[1])) * n_[0] + wrap(i, n_[0]);
-          double value = way.e[0] * u[node];
-          if constexpr (dim == 2)
-            value += way.e[1] * u[n_nodes() + node];
-          padded[(j + margin) * width_ + reach_ + i] = value / way.r;
-        }
+      for (std::size_t f = 0; f < n_fields; ++f)
+        for (int j = -margin; j < n_[1] + margin; ++j)
+          for (int i = -reach_; i < n_[0] + reach_; ++i)
+          {
+            const std::vector<double> &u = *fields[f];
+            const std::size_t node =
+                static_cast<std::size_t>(wrap(j, n_[1])) * n_[0] + wrap(i, n_[0]);
+            double value = way.e[0] * u[node];
+            if constexpr (dim == 2)
+              value += way.e[1] * u[n_nodes() + node];
+            padded[f][(j + margin) * width_ + reach_ + i] = value / way.r;
+          }
       for (const Sample &sample : way.samples)
         for (int j = 0; j < n_[1]; ++j)
         {
           const std::size_t row = (j + margin) * width_ + reach_;
-          std::fill(strain.begin(), strain.end(), 0.);
-          for (int s = 0; s < 2 * n_corners; ++s)
+          for (std::size_t f = 0; f < n_fields; ++f)
           {
-            const double *const from = padded.data() + row + sample.shift[s];
-            for (int i = 0; i < n_[0]; ++i)
-              strain[i] += sample.coefficient[s] * from[i];
+            std::vector<double> &strain = strains[f];
+            std::fill(strain.begin(), strain.end(), 0.);
+            for (int s = 0; s < 2 * n_corners; ++s)
+            {
+              const double *const from = padded[f].data() + row + sample.shift[s];
+              for (int i = 0; i < n_[0]; ++i)
+                strain[i] += sample.coefficient[s] * from[i];
+            }
           }
-          visit(way, sample, row, strain);
+          visit(way, sample, row, strains);
         }
     }
   }
 
+  /// r = -Σ weight pull(r, strains of each field) ∂S/∂u.
   template <int dim>
-  void DoubleWellGalerkin<dim>::residual(const std::vector<double> &u, std::vector<double> &r) const
+  template <std::size_t n_fields, typename Pull>
+  void DoubleWellGalerkin<dim>::test(const Fields<n_fields> &fields, const Pull &pull,
+                                     std::vector<double> &r) const
   {
     const int margin = dim == 1 ? 0 : reach_;
     const std::size_t block = width_ * (n_[1] + 2 * margin);
     std::vector<double> padded(dim * block);
-    over_ways(
-        u,
-        [&](const Way &way, const Sample &sample, std::size_t row, std::vector<double> &strain)
-        {
-          const double factor = way.weight * sample.weight;
-          for (double &s : strain)
-            s *= factor * law_.derivative(way.r * s * s);
-          for (int a = 0; a < dim; ++a)
-            for (int s = 0; s < 2 * n_corners; ++s)
-            {
-              double *const to = padded.data() + a * block + row + sample.shift[s];
-              const double weight = way.e[a] * sample.coefficient[s];
-              for (int i = 0; i < n_[0]; ++i)
-                to[i] -= weight * strain[i];
-            }
-        });
+    over_ways<n_fields>(fields,
+                        [&](const Way &way, const Sample &sample, std::size_t row,
+                            std::array<std::vector<double>, n_fields> &strains)
+                        {
+                          const double factor = way.weight * sample.weight;
+                          std::vector<double> &pulls = strains[0];
+                          for (int i = 0; i < n_[0]; ++i)
+                            pulls[i] = factor * pull(way.r, strains, i);
+                          for (int a = 0; a < dim; ++a)
+                            for (int s = 0; s < 2 * n_corners; ++s)
+                            {
+                              double *const to = padded.data() + a * block + row + sample.shift[s];
+                              const double weight = way.e[a] * sample.coefficient[s];
+                              for (int i = 0; i < n_[0]; ++i)
+                                to[i] -= weight * pulls[i];
+                            }
+                        });
     r.assign(size(), 0.);
     for (int a = 0; a < dim; ++a)
       for (int j = -margin; j < n_[1] + margin; ++j)
@@ -182,16 +209,42 @@ namespace plumbline::reference
   }
 
   template <int dim>
+  void DoubleWellGalerkin<dim>::residual(const std::vector<double> &u, std::vector<double> &r) const
+  {
+    test<1>(
+        {&u},
+        [this](double length, const auto &strains, int i)
+        {
+          const double s = strains[0][i];
+          return law_.derivative(length * s * s) * s;
+        },
+        r);
+  }
+
+  template <int dim>
+  void DoubleWellGalerkin<dim>::tangent(const std::vector<double> &u, const std::vector<double> &v,
+                                        std::vector<double> &out) const
+  {
+    test<2>(
+        {&u, &v},
+        [this](double length, const auto &strains, int i)
+        {
+          const double stretched = length * strains[0][i] * strains[0][i]; // f'' = -β f'
+          return law_.derivative(stretched) * (1 - 2 * law_.beta() * stretched) * strains[1][i];
+        },
+        out);
+  }
+
+  template <int dim>
   double DoubleWellGalerkin<dim>::energy(const std::vector<double> &u) const
   {
     double sum = 0;
-    over_ways(
-        u,
-        [&](const Way &way, const Sample &sample, std::size_t, const std::vector<double> &strain)
-        {
-          for (const double s : strain)
-            sum += way.weight * sample.weight * law_.potential(way.r * s * s);
-        });
+    over_ways<1>({&u},
+                 [&](const Way &way, const Sample &sample, std::size_t, const auto &strains)
+                 {
+                   for (const double s : strains[0])
+                     sum += way.weight * sample.weight * law_.potential(way.r * s * s);
+                 });
     return .5 * sum;
   }
 
@@ -236,6 +289,18 @@ namespace plumbline::reference
     for (int k = 0; k <= reach; ++k)
       weights.push_back(std::sqrt(3.) * std::pow(std::sqrt(3.) - 2, k) / h_);
     convolve(weights, x);
+  }
+
+  template <int dim>
+  void DoubleWellGalerkin<dim>::apply_mass_root(std::vector<double> &x) const
+  {
+    convolve(mass_root_weights(h_, .5), x);
+  }
+
+  template <int dim>
+  void DoubleWellGalerkin<dim>::apply_inverse_mass_root(std::vector<double> &x) const
+  {
+    convolve(mass_root_weights(h_, -.5), x);
   }
 
   template <int dim>

@@ -36,7 +36,11 @@ namespace plumbline::reference
     /// -∂PD/∂u.
     void residual(const std::vector<double> &u, std::vector<double> &r) const;
 
-    /// M⁻¹ of that, with the consistent mass.
+    /// The derivative of that along v, symmetric.
+    void tangent(const std::vector<double> &u, const std::vector<double> &v,
+                 std::vector<double> &out) const;
+
+    /// M⁻¹ of -∂PD/∂u, with the consistent mass.
     void acceleration(const std::vector<double> &u, std::vector<double> &a) const;
 
     double energy(const std::vector<double> &u) const; ///< PD(u)
@@ -44,6 +48,9 @@ namespace plumbline::reference
     /// M x and, to round-off, M⁻¹ x, in place.
     void apply_mass(std::vector<double> &x) const;
     void apply_inverse_mass(std::vector<double> &x) const;
+    /// M^½ x and M^-½ x, the same.
+    void apply_mass_root(std::vector<double> &x) const;
+    void apply_inverse_mass_root(std::vector<double> &x) const;
 
   private:
     static constexpr int n_corners = dim == 1 ? 2 : 4;
@@ -65,8 +72,12 @@ namespace plumbline::reference
 
     void add_way(const physics::DoubleWell &law, const std::array<double, 2> &z, double weight,
                  unsigned int n_points);
-    template <typename Visit>
-    void over_ways(const std::vector<double> &u, const Visit &visit) const;
+    template <std::size_t n_fields>
+    using Fields = std::array<const std::vector<double> *, n_fields>;
+    template <std::size_t n_fields, typename Visit>
+    void over_ways(const Fields<n_fields> &fields, const Visit &visit) const;
+    template <std::size_t n_fields, typename Pull>
+    void test(const Fields<n_fields> &fields, const Pull &pull, std::vector<double> &r) const;
     void convolve(const std::vector<double> &weights, std::vector<double> &x) const;
 
     physics::DoubleWell law_;

@@ -6,10 +6,13 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <numeric>
+
 namespace plumbline::reference
 {
   namespace
   {
+    /// States are M^½ u, in which the tangent is symmetric.
     class Q1Motion : public method::NodalMotion<>
     {
     public:
@@ -32,33 +35,40 @@ namespace plumbline::reference
       {
         return tested(*instant.solution);
       }
-      void acceleration(const State &u, const std::vector<double> &g, State &a) const override
+      State state(const scene::Field &field) const override
       {
-        space_.residual(u, a);
-        over_mass(a);
+        State x = NodalMotion::state(field);
+        if (is_lumped_)
+          scale(x, lattice_.h());
+        else
+          space_.apply_mass_root(x);
+        return x;
+      }
+      std::vector<double> nodal(const State &x) const override
+      {
+        return NodalMotion::nodal(over_root(x));
+      }
+      void acceleration(const State &x, const std::vector<double> &g, State &a) const override
+      {
+        space_.residual(over_root(x), a);
+        a = over_root(std::move(a));
         for (std::size_t i = 0; i < a.size(); ++i)
           a[i] += g[i];
       }
-      void tangent(const State &, const std::vector<double> &, const State &,
-                   State &) const override
+      void tangent(const State &x, const std::vector<double> &, const State &y,
+                   State &out) const override
       {
-        throw NumericalError("Q1 of double wells has no tangent; take an explicit scheme");
+        space_.tangent(over_root(x), over_root(y), out);
+        out = over_root(std::move(out));
       }
-      bool has_tangent() const override { return false; }
       std::optional<double> largest_eigenvalue() const override { return largest_; }
-      double product(const State &u, const State &v) const override
+      double product(const State &x, const State &y) const override
       {
-        State mass_v = v;
-        if (!is_lumped_)
-          space_.apply_mass(mass_v);
-        double sum = 0;
-        for (std::size_t i = 0; i < u.size(); ++i)
-          sum += u[i] * mass_v[i];
-        return is_lumped_ ? cell() * sum : sum;
+        return std::inner_product(x.begin(), x.end(), y.begin(), 0.);
       }
-      double energy(const State &u, const std::vector<double> &) const override
+      double energy(const State &x, const std::vector<double> &) const override
       {
-        return space_.energy(u);
+        return space_.energy(over_root(x));
       }
       double power(const State &, const State &v, const std::vector<double> &g,
                    const std::vector<double> &) const override
@@ -69,15 +79,23 @@ namespace plumbline::reference
     private:
       double cell() const { return lattice_.h() * lattice_.h(); }
 
-      void over_mass(State &x) const
+      static void scale(State &x, double factor)
       {
-        if (!is_lumped_)
-          return space_.apply_inverse_mass(x);
         for (double &value : x)
-          value /= cell();
+          value *= factor;
       }
 
-      /// M⁻¹ ∫ b φ.
+      /// M^-½ x.
+      State over_root(State x) const
+      {
+        if (is_lumped_)
+          scale(x, 1 / lattice_.h());
+        else
+          space_.apply_inverse_mass_root(x);
+        return x;
+      }
+
+      /// M^-½ ∫ b φ.
       State tested(const scene::Field &b) const
       {
         const dealii::QGauss<2> gauss(3);
@@ -98,8 +116,7 @@ namespace plumbline::reference
                         value * (k == 0 ? 1 - s[0] : s[0]) * (l == 0 ? 1 - s[1] : s[1]);
               }
             }
-        over_mass(result);
-        return result;
+        return over_root(std::move(result));
       }
 
       // the load is wrong by 1e-6 of itself; with 2 points by 3e-4, at a fifth of the cost, which

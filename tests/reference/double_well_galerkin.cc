@@ -90,6 +90,47 @@ TEST(DoubleWellGalerkin, residual_is_the_gradient_of_the_energy)
   expect_gradient(DoubleWellGalerkin<2>({2, decaying, 1.3, 2.1, .23}, .1, {5, 7}, 2));
 }
 
+TEST(DoubleWellGalerkin, tangent_is_the_derivative_of_the_residual)
+{
+  const auto expect = [](const auto &space)
+  {
+    const double step = 1e-5;
+    const Vector u = field(space.size(), .25), v = field(space.size() + 3, .4);
+    Vector along(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(space.size())), plus = u,
+                                                                                    minus = u;
+    analysis::add(plus, step, along);
+    analysis::add(minus, -step, along);
+    Vector found, at_plus, at_minus, other;
+    space.tangent(u, along, found);
+    space.residual(plus, at_plus);
+    space.residual(minus, at_minus);
+    for (std::size_t i = 0; i < u.size(); ++i)
+      EXPECT_NEAR(found[i], (at_plus[i] - at_minus[i]) / (2 * step), 1e-7);
+    space.tangent(u, u, other); // symmetric
+    EXPECT_NEAR(analysis::dot(u, found), analysis::dot(along, other),
+                1e-12 * analysis::norm(u) * analysis::norm(found));
+  };
+  expect(DoubleWellGalerkin<1>({1, constant, 1.3, 2.1, .23}, .1, {10, 1}));
+  expect(DoubleWellGalerkin<2>({2, decaying, 1.3, 2.1, .23}, .1, {5, 7}, 2));
+}
+
+TEST(DoubleWellGalerkin, mass_is_the_square_of_its_root)
+{
+  const DoubleWellGalerkin<2> space({2, constant, 1, 1, .2}, .2, {5, 4}, 1);
+  const Vector x = field(space.size(), 1);
+  Vector y = x, z = x;
+  space.apply_mass(y);
+  space.apply_mass_root(z);
+  Vector once = z;
+  space.apply_mass_root(z);
+  space.apply_inverse_mass_root(once);
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    EXPECT_NEAR(z[i], y[i], 1e-15);
+    EXPECT_NEAR(once[i], x[i], 1e-13);
+  }
+}
+
 TEST(DoubleWellGalerkin, inverse_mass_undoes_the_mass)
 {
   const DoubleWellGalerkin<2> space({2, constant, 1, 1, .2}, .2, {5, 4}, 1);
