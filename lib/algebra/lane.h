@@ -8,9 +8,11 @@
 #define PLUMBLINE_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
 #define PLUMBLINE_WIDE_CLONES                                                                      \
   __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#define PLUMBLINE_WIDE_TARGET __attribute__((target("arch=x86-64-v4")))
 #else
 #define PLUMBLINE_VECTOR_CLONES
 #define PLUMBLINE_WIDE_CLONES
+#define PLUMBLINE_WIDE_TARGET
 #endif
 
 namespace plumbline::algebra
@@ -19,9 +21,19 @@ namespace plumbline::algebra
   constexpr int lanes = 4;
   using Lane = double __attribute__((vector_size(lanes * sizeof(double))));
 
-  /// The same for the widest registers; where these are shorter the compiler takes several.
+  /// The same for the widest registers: functions of it are PLUMBLINE_WIDE_TARGET, and called where
+  /// has_wide_registers().
   constexpr int wide = 8;
   using Wide = double __attribute__((vector_size(wide * sizeof(double))));
+
+  inline bool has_wide_registers()
+  {
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
+    return __builtin_cpu_supports("x86-64-v4") != 0;
+#else
+    return false;
+#endif
+  }
 
   template <typename Values = Lane>
   [[gnu::always_inline]] inline Values load(const double *from)

@@ -135,7 +135,7 @@ namespace plumbline::scene
         {base::word(Model::lps), solids | of_damage},
         {base::word(Model::variational), solids | Capabilities{C::free_boundary, C::floating}},
         {base::word(Model::double_well),
-         of_double_wells |
+         of_meshes | of_double_wells |
              Capabilities{C::lattice, C::notch, C::nonlocal, C::dynamic, C::periodic}}};
     return all;
   }

@@ -18,6 +18,8 @@ namespace plumbline::scene
       { require(is_good, "Domain/boundary = periodic needs " + what); };
       needs(domain.boxes.include.size() == 1 && domain.boxes.exclude.empty(),
             "one box (Domain/boxes) without holes");
+      needs(domain.mesh.is_lattice(), "Domain/mesh = lattice: other nodes have no neighbours "
+                                      "across the sides of the box");
       needs(!domain.collar, "Domain/collar = auto: there is none");
       needs(scene.material.boundary_function == BoundaryFunction::one,
             "Material/boundary function = one: there is no boundary");
@@ -68,6 +70,12 @@ namespace plumbline::scene
       positive("beta", material.beta,
                "bonds soften at strains 1/sqrt(2 beta r), take for example 1");
       (void)make_double_well(scene, 1);
+      require(material.boundary_function == BoundaryFunction::one ||
+                  (scene.domain.mesh.is_of_boxes() && scene.domain.mesh.map.empty()),
+              "Material/boundary function = smoothstep falls to 0 at the sides of Domain/boxes, "
+              "which Domain/mesh = " +
+                  scene.domain.mesh.name +
+                  " need not have; write one, or Domain/mesh = lattice, squares or triangles");
       require(material.boundary_function == BoundaryFunction::one ||
                   scene.problem.solutions.empty() || !scene.problem.loads.empty(),
               "Problem/load = manufactured with Material/boundary function = smoothstep: its kinks "

@@ -51,15 +51,19 @@ namespace plumbline::meshfree
     }
   } // namespace
 
+  WellBond well_bond(const physics::DoubleWell &law, double weight, const Point<2> &kernel_point)
+  {
+    return make_bond(law, {}, weight, law.influence(kernel_point.norm()), kernel_point);
+  }
+
   std::vector<WellBond> well_bonds(const physics::DoubleWell &law, const Bonds &bonds)
   {
     std::vector<WellBond> result;
     for (const Bond &bond : bonds.family)
     {
-      const std::array<int, 2> k{static_cast<int>(std::lround(bond.xi[0] / bonds.h)),
-                                 static_cast<int>(std::lround(bond.xi[1] / bonds.h))};
-      result.push_back(make_bond(law, k, bond.weight, law.influence(bond.kernel_point.norm()),
-                                 bond.kernel_point));
+      result.push_back(well_bond(law, bond.weight, bond.kernel_point));
+      result.back().k = {static_cast<int>(std::lround(bond.xi[0] / bonds.h)),
+                         static_cast<int>(std::lround(bond.xi[1] / bonds.h))};
     }
     return result;
   }

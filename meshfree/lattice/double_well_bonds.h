@@ -17,6 +17,9 @@ namespace plumbline::meshfree
     double strength = 0;         ///< 4 c w J / (ε^(dim+1) ω_dim), w the weight
   };
 
+  /// Of one weight, the kernel point being where J, r and e are taken. k is left 0.
+  WellBond well_bond(const physics::DoubleWell &law, double weight, const Point<2> &kernel_point);
+
   /// A rule's bonds, sorted. What the rule takes at the kernel point is the kernel of small strains
   /// as a whole, J, r and e: at the node for most rules, at the centroid for IPA-AC.
   /// @pre law.dim() == 2

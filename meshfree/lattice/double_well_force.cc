@@ -14,7 +14,7 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    constexpr int n_registers = 2, tile = algebra::wide * n_registers; // nodes at a time
+    constexpr int n_registers = 2, tile = algebra::wide * n_registers; // nodes of a row at a time
     constexpr int n_images = 4;
 
     /// Where a tile's values stand, fields `block` behind each other.
@@ -27,11 +27,11 @@ namespace plumbline::meshfree
 
     /// Mirror images are numbered (+,+), (+,-), (-,+), (-,-) where they are oblique, and (+,0),
     /// (-,0), (0,+), (0,-) where they are axial; in 1D there are two.
-    template <int dim, bool is_axial>
+    template <int dim, bool is_axial, class Vector>
     struct Images
     {
-      static constexpr int n = dim == 1 ? 2 : n_images;
-      Wide value[n][n_registers];
+      static constexpr int n = dim == 1 ? 2 : n_images, width = width_of<Vector>;
+      Vector value[n][n_registers];
 
       /// way·(u_j - u_i) of all images.
       template <class Group>
@@ -40,21 +40,21 @@ namespace plumbline::meshfree
         for (int i = 0; i < n; ++i)
           for (int l = 0; l < n_registers; ++l)
           {
-            const double *const from = u + l * algebra::wide, *const to = from + group.shift[i];
+            const double *const from = u + l * width, *const to = from + group.shift[i];
             if constexpr (is_axial)
             {
               const std::size_t axis = i / 2;
               const double way = i % 2 == 0 ? group.way[0] : -group.way[0];
-              value[i][l] = way * (algebra::load<Wide>(to + axis * block) -
-                                   algebra::load<Wide>(from + axis * block));
+              value[i][l] = way * (algebra::load<Vector>(to + axis * block) -
+                                   algebra::load<Vector>(from + axis * block));
             }
             else
             {
               const double way0 = i < 2 ? group.way[0] : -group.way[0];
               const double way1 = i % 2 == 0 ? group.way[1] : -group.way[1];
               value[i][l] =
-                  way0 * (algebra::load<Wide>(to) - algebra::load<Wide>(from)) +
-                  way1 * (algebra::load<Wide>(to + block) - algebra::load<Wide>(from + block));
+                  way0 * (algebra::load<Vector>(to) - algebra::load<Vector>(from)) +
+                  way1 * (algebra::load<Vector>(to + block) - algebra::load<Vector>(from + block));
             }
           }
       }
@@ -65,13 +65,13 @@ namespace plumbline::meshfree
       {
         for (int i = 0; i < n; ++i)
           for (int l = 0; l < n_registers; ++l)
-            value[i][l] *= algebra::load<Wide>(omega + group.shift[i] + l * algebra::wide);
+            value[i][l] *= algebra::load<Vector>(omega + group.shift[i] + l * width);
       }
 
       /// Add Σ value way. Images in a mirror are added before others, so that a mirror swaps
       /// summands.
       template <class Group>
-      [[gnu::always_inline]] void add_vector(const Group &group, Wide (&sum)[dim][n_registers])
+      [[gnu::always_inline]] void add_vector(const Group &group, Vector (&sum)[dim][n_registers])
       {
         for (int l = 0; l < n_registers; ++l)
           if constexpr (is_axial)
@@ -88,7 +88,7 @@ namespace plumbline::meshfree
       }
 
       template <class Group>
-      [[gnu::always_inline]] void add_scalar(const Group &group, Wide (&sum)[dim][n_registers])
+      [[gnu::always_inline]] void add_scalar(const Group &group, Vector (&sum)[dim][n_registers])
       {
         for (int i = 0; i < n; ++i)
           for (int l = 0; l < n_registers; ++l)
@@ -97,30 +97,31 @@ namespace plumbline::meshfree
     };
 
     /// One tile of F (derivative 0), F' v (1) or the energy's density (-1).
-    template <int dim, bool is_axial, int derivative, class Group>
+    template <int dim, bool is_axial, int derivative, class Group, class Vector>
     [[gnu::always_inline]] inline void add_groups(const Place &at, const Group *group,
-                                                  const Group *end, Wide (&sum)[dim][n_registers])
+                                                  const Group *end, Vector (&sum)[dim][n_registers])
     {
       constexpr double twice_ln2 = 1.3862943611198906; // q² counts in powers of two
       for (; group != end; ++group)
       {
-        Images<dim, is_axial> q, change;
+        Images<dim, is_axial, Vector> q, change;
         q.stretch(*group, at.u, at.block);
         if constexpr (derivative == 1)
           change.stretch(*group, at.v, at.block);
         for (int i = 0; i < q.n; ++i)
           for (int l = 0; l < n_registers; ++l)
           {
-            Wide &value = q.value[i][l];
-            const Wide square = value * value;
-            const PowerOfTwo power = power_of_two(-square);
+            Vector &value = q.value[i][l];
+            const Vector square = value * value;
+            const auto power = power_of_two(-square);
             if constexpr (derivative == -1)
               value = (1 - power.scale) - power.scale * power.tail;
             else
             {
-              const Wide decay = power.scale + power.scale * power.tail;
-              value = derivative == 0 ? Wide(value * decay)
-                                      : Wide(change.value[i][l] * decay * (1 - twice_ln2 * square));
+              const Vector decay = power.scale + power.scale * power.tail;
+              value = derivative == 0
+                          ? Vector(value * decay)
+                          : Vector(change.value[i][l] * decay * (1 - twice_ln2 * square));
             }
           }
         if (at.omega != nullptr)
@@ -132,16 +133,46 @@ namespace plumbline::meshfree
       }
     }
 
-    template <int dim, int derivative, class Group>
-    PLUMBLINE_WIDE_CLONES void sum_tile(const Place &at, const Group *oblique,
-                                        const Group *oblique_end, const Group *axial,
-                                        const Group *axial_end, double *result)
+    /// The groups of bonds of every node.
+    template <class Group>
+    struct Groups
     {
-      Wide sum[dim][n_registers] = {};
-      if constexpr (dim == 2)
-        add_groups<dim, false, derivative>(at, oblique, oblique_end, sum);
-      add_groups<dim, true, derivative>(at, axial, axial_end, sum);
-      std::memcpy(result, sum, sizeof(sum));
+      const Group *oblique, *oblique_end, *axial, *axial_end;
+    };
+
+    /// @param result  shape (dim, tile)
+    template <int dim, int derivative, class Vector, class Group>
+    [[gnu::always_inline]] inline void sum_tile(Place at, const Groups<Group> &groups,
+                                                double *result)
+    {
+      constexpr int part = n_registers * width_of<Vector>;
+      for (int first = 0; first < tile; first += part)
+      {
+        Vector sum[dim][n_registers] = {};
+        if constexpr (dim == 2)
+          add_groups<dim, false, derivative>(at, groups.oblique, groups.oblique_end, sum);
+        add_groups<dim, true, derivative>(at, groups.axial, groups.axial_end, sum);
+        for (int a = 0; a < dim; ++a)
+          std::memcpy(result + a * tile + first, sum[a], sizeof(sum[a]));
+        at.u += part;
+        at.v += part;
+        if (at.omega != nullptr)
+          at.omega += part;
+      }
+    }
+
+    template <int dim, int derivative, class Group>
+    PLUMBLINE_VECTOR_CLONES void sum_by_lanes(const Place &at, const Groups<Group> &groups,
+                                              double *result)
+    {
+      sum_tile<dim, derivative, Lane>(at, groups, result);
+    }
+
+    template <int dim, int derivative, class Group>
+    PLUMBLINE_WIDE_TARGET void sum_by_wide(const Place &at, const Groups<Group> &groups,
+                                           double *result)
+    {
+      sum_tile<dim, derivative, Wide>(at, groups, result);
     }
 
     void check_omega(const std::vector<double> &omega, std::size_t n_nodes)
@@ -293,6 +324,10 @@ namespace plumbline::meshfree
                                : quantity == Quantity::tangent ? 1
                                                                : -1;
     constexpr int n_results = quantity == Quantity::energy ? 1 : dim;
+    const auto sum = algebra::has_wide_registers() ? sum_by_wide<dim, derivative, Group>
+                                                   : sum_by_lanes<dim, derivative, Group>;
+    const Groups<Group> groups{oblique_.data(), oblique_.data() + oblique_.size(), axial_.data(),
+                               axial_.data() + axial_.size()};
     double sums[dim * tile];
     for (int j = from; j < to; ++j)
       for (int i = 0; i < n_[0]; i += tile)
@@ -301,9 +336,7 @@ namespace plumbline::meshfree
         const double *const u = padded_.data() + node, *const omega = omega_.empty()
                                                                           ? nullptr
                                                                           : omega_.data() + node;
-        sum_tile<dim, derivative>({u, u + dim * block_size_, omega, block_size_}, oblique_.data(),
-                                  oblique_.data() + oblique_.size(), axial_.data(),
-                                  axial_.data() + axial_.size(), sums);
+        sum({u, u + dim * block_size_, omega, block_size_}, groups, sums);
         for (int a = 0; a < n_results; ++a)
           for (int l = 0; l < std::min(tile, n_[0] - i); ++l)
             result[(static_cast<std::size_t>(a) * n_[1] + j) * n_[0] + i + l] =

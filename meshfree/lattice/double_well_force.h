@@ -20,7 +20,7 @@ namespace plumbline::meshfree
   /// last bit.
   /// Accuracy: 1e-14 of Σ |bond forces|, the exponential's included.
   /// Cost: 1.3e9 to 2e9 bonds (to one neighbour of one node) a second and core where registers
-  /// hold eight numbers; a padded copy of the vectors.
+  /// hold eight numbers, .25e9 where they hold four; a padded copy of the vectors.
   /// Not for: calling one object from several threads at a time.
   template <int dim>
   class DoubleWellForce

@@ -1,4 +1,5 @@
 #include "meshfree/discretisations.h"
+#include "meshfree/scattered/double_well_motion.h"
 #include "meshfree/scattered/field.h"
 #include "meshfree/scattered/state_based_operator.h"
 #include "method/lattice_discretisation.h"
@@ -164,13 +165,38 @@ namespace plumbline::meshfree
       method::Diagnostics diagnostics_;
     };
 
+    Families families_of(const Rule &rule, const scene::Problem &problem)
+    {
+      return {rule.recipe(problem.kernel), problem.kernel, *problem.cells,
+              problem.settings.geometry.backend};
+    }
+
+    /// Double wells; rows are those of their small strains.
+    class WellsOnNodes : public RuleOnNodes
+    {
+    public:
+      WellsOnNodes(const Rule &rule, const scene::Problem &problem, const base::Team &team,
+                   ScatteredOperator matrix)
+          : RuleOnNodes(problem, team, std::move(matrix)), rule_(rule), problem_(problem)
+      {
+      }
+
+      std::unique_ptr<method::EquationOfMotion> motion(bool) const override
+      {
+        return move_double_well(problem_, families_of(rule_, problem_));
+      }
+
+    private:
+      Rule rule_;
+      scene::Problem problem_; ///< shares mesh and cells
+    };
+
     /// A kept dilatation's system is on the first rank alone.
     ScatteredOperator make_operator(const Rule &rule, const scene::Problem &problem,
                                     const base::Team &team,
                                     std::pair<std::size_t, std::size_t> share)
     {
-      const Families families(rule.recipe(problem.kernel), problem.kernel, *problem.cells,
-                              problem.settings.geometry.backend);
+      const Families families = families_of(rule, problem);
       if (!problem.dilatation)
         return scattered_operator(families, problem, share);
       const auto make = [&](std::size_t node, Family &family) { families.make(node, family); };
@@ -198,9 +224,13 @@ namespace plumbline::meshfree
   discretise_on_scattered_nodes(const Rule &rule, const scene::Problem &problem,
                                 const base::Team &team)
   {
-    return discretise_on_scattered_nodes([&](std::pair<std::size_t, std::size_t> share)
-                                         { return make_operator(rule, problem, team, share); },
-                                         problem, team);
+    const auto make = [&](std::pair<std::size_t, std::size_t> share)
+    { return make_operator(rule, problem, team, share); };
+    if (!problem.double_well)
+      return discretise_on_scattered_nodes(make, problem, team);
+    ScatteredOperator matrix;
+    team.together([&] { matrix = make(team.share(problem.cells->n_free)); });
+    return std::make_unique<WellsOnNodes>(rule, problem, team, std::move(matrix));
   }
 
   double expected_bytes(const method::ProblemSize &size)

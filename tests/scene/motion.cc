@@ -92,9 +92,17 @@ TEST(Motion, refuses_by_key_value_and_remedy)
   expect_refused({{"Material/boundary function", "smoothstep"}}, "there is no boundary");
   expect_refused({{"Domain/boxes", "0, 0 : 2, 1"}}, "needs a square");
   expect_refused({{"Domain/boundary", "constrained"}}, "needs Domain/boundary = periodic");
-  expect_refused(
-      {{"Domain/mesh", "squares"}},
-      "double well cannot do this scene: Domain/mesh = squares; write Domain/mesh = lattice");
+  expect_refused({{"Domain/mesh", "squares"}},
+                 "Domain/boundary = periodic needs Domain/mesh = lattice: other nodes have no "
+                 "neighbours across the sides");
+  expect_refused({{"Domain/boundary", "constrained"},
+                  {"Domain/mesh", "hyper_cube"},
+                  {"Domain/arguments", "0 : 1"},
+                  {"Domain/inside", "1"},
+                  {"Reference/method", "none"},
+                  {"Study/decisive error", "nodal L2 | exact"},
+                  {"Material/boundary function", "smoothstep"}},
+                 "which Domain/mesh = hyper_cube need not have; write one, or");
   expect_refused({{"Study/norms", "averages L2"}}, "compared at nodes");
   expect_refused({{"Reference/method", "Q2"}}, "motions take torus");
   expect_refused({{"Domain/boundary", "periodic"}}, "take double well, or write constrained",

@@ -104,22 +104,26 @@ namespace
 namespace
 {
   /// How far a method moves nodes of a lattice elsewhere on squares than on the lattice.
-  void expect_alike(const std::string &model, const std::string &method, const std::string &mass)
+  void expect_alike(const std::string &model, const std::string &method, const std::string &mass,
+                    const Settings &more = {})
   {
     // loads of Galerkin methods on meshes are quadrature, and masses are factored
     const double tolerance = method == "Q1" || method == "DGQ1" ? 2e-11 : 1e-12;
     Places ends[2];
     for (const bool is_mesh : {false, true})
-      ends[is_mesh ? 1 : 0] =
-          end_of(scene_of(model, {{"Methods/names", method},
-                                  {"Domain/mesh", is_mesh ? "squares" : "lattice"},
-                                  {"Problem/solution",
-                                   model.empty() ? "sin(2*x + y - 3*t)" : "x*y*sin(t), x*cos(t)"},
-                                  {"Study/m", "2.5"},
-                                  {"Time/mass", mass},
-                                  {"Time/density", "2"},
-                                  {"Time/damping", "0.3"},
-                                  {"Reference/method", "none"}}));
+    {
+      Settings settings = {
+          {"Methods/names", method},
+          {"Domain/mesh", is_mesh ? "squares" : "lattice"},
+          {"Problem/solution", model.empty() ? "sin(2*x + y - 3*t)" : "x*y*sin(t), x*cos(t)"},
+          {"Study/m", "2.5"},
+          {"Time/mass", mass},
+          {"Time/density", "2"},
+          {"Time/damping", "0.3"},
+          {"Reference/method", "none"}};
+      settings.insert(settings.end(), more.begin(), more.end());
+      ends[is_mesh ? 1 : 0] = end_of(scene_of(model, settings));
+    }
     ASSERT_EQ(ends[0].size(), ends[1].size()) << method;
     double difference = 0, size = 0;
     for (std::size_t i = 0; i < ends[0].size(); ++i)
@@ -143,6 +147,97 @@ TEST(MovingNodes, of_a_lattice_move_as_the_lattice_does)
   for (const std::string mass : {"consistent", "lumped"})
     expect_alike("", "Q1", mass);
   expect_alike("", "DGQ1", "consistent");
+}
+
+namespace
+{
+  const Settings wells_in_a_collar = {{"Domain/boundary", "constrained"},
+                                      {"Time/initial displacement", ""}};
+
+  /// Double wells at rest in a collar, on moved nodes.
+  Settings moved_wells(const std::string &method, const Settings &more)
+  {
+    Settings settings = wells_in_a_collar;
+    settings.insert(settings.end(), {{"Methods/names", method},
+                                     {"Methods/perturbation", "0.3"},
+                                     {"Domain/mesh", "squares"},
+                                     {"Reference/method", "none"},
+                                     {"Study/m", "2.5"}});
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+  }
+} // namespace
+
+TEST(MovingNodes, of_double_wells_move_as_those_of_the_lattice_do)
+{
+  for (const std::string method : {"FA", "IPA-AC", "IPA-AC-R2"})
+    expect_alike("double-well", method, "consistent", wells_in_a_collar);
+  Settings fading = wells_in_a_collar;
+  fading.insert(fading.end(),
+                {{"Material/boundary function", "smoothstep"}, {"Problem/load", "sin(t)*y, 0"}});
+  expect_alike("double-well", "PA-AC", "consistent", fading);
+}
+
+TEST(MovingNodes, of_double_wells_converge_where_moments_are_exact)
+{
+  const auto results = run(scene_of(
+      "double-well", moved_wells("FA, IPA-AC-R2", {{"Problem/solution",
+                                                    "0.2*sin(2*x + y - 2*t), 0.1*cos(x - 2*y + t)"},
+                                                   {"Time/critical fractions", "0.25"}})));
+  EXPECT_NEAR(last_rate(results, "IPA-AC-R2"), 2, .4);
+  EXPECT_LT(last_error(results, "IPA-AC-R2"), .3 * last_error(results, "FA"));
+  // weights of FA are the same from both ends: its books balance, to the rule of work over steps
+  const MotionRun &finest = results.runs[results.runs.size() - 2];
+  EXPECT_EQ(finest.method, "FA");
+  EXPECT_LT(finest.imbalance, 1e-3);
+}
+
+TEST(MovingNodes, of_double_wells_have_the_slope_of_their_energy_for_a_force)
+{
+  // where a bond's two weights differ, its energy is that of their mean, as the tangent is
+  for (const std::string method : {"FA", "PA-AC"})
+  {
+    const scene::Scene scene = scene_of(
+        "double-well", moved_wells(method, {{"Problem/solution", "0.3*sin(4*x)*y, 0.2*x*y*(1 + t)"},
+                                            {"Study/h", "0.2"}}));
+    ProblemsInTime::Loads loads;
+    ProblemsInTime problems(scene, 0, scene.study.series[0].levels[0], loads);
+    const auto discretisation = methods_of(scene)[0]->discretise(problems.at(0));
+    const auto equation = discretisation->motion(false);
+    EXPECT_EQ(equation->is_symmetric(), method == "FA");
+    std::vector<double> g = equation->drive(problems.at(0));
+    std::fill(g.begin(), g.begin() + static_cast<std::ptrdiff_t>(equation->size()), 0.);
+    const std::vector<double> u = equation->state(*problems.at(0).solution);
+    std::vector<double> v(u.size()), w(u.size()), force, along_v, along_w;
+    for (std::size_t i = 0; i < u.size(); ++i)
+    {
+      v[i] = std::sin(static_cast<double>(3 * i));
+      w[i] = std::cos(static_cast<double>(5 * i));
+    }
+    const double step = 2e-6;
+    const auto moved = [&](double by)
+    {
+      std::vector<double> there = u;
+      analysis::add(there, by, v);
+      return there;
+    };
+    equation->acceleration(u, g, force);
+    equation->tangent(u, g, v, along_v);
+    equation->tangent(u, g, w, along_w);
+    const double scale = analysis::norm(v) * analysis::norm(along_v);
+    EXPECT_NEAR(equation->product(w, along_v), equation->product(v, along_w), 1e-12 * scale);
+    const double slope =
+        (equation->energy(moved(step), g) - equation->energy(moved(-step), g)) / (2 * step);
+    const double difference = std::abs(slope + equation->product(force, v)) / std::abs(slope);
+    EXPECT_EQ(difference < 1e-7, method == "FA") << difference;
+    std::vector<double> after, before;
+    equation->acceleration(moved(step), g, after);
+    equation->acceleration(moved(-step), g, before);
+    analysis::add(after, -1, before);
+    // v·A v is that of A's symmetric part
+    EXPECT_NEAR(equation->product(v, after) / (2 * step), equation->product(v, along_v),
+                1e-8 * scale);
+  }
 }
 
 TEST(MovingNodes, hold_manufactured_fields_that_their_rule_maps_exactly)

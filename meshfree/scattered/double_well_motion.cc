@@ -1,0 +1,324 @@
+#include "meshfree/scattered/double_well_motion.h"
+
+#include "meshfree/lattice/double_well_bonds.h"
+#include "meshfree/lattice/power_of_two.h"
+#include "method/nodal_motion.h"
+
+#include <deal.II/base/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    using State = method::EquationOfMotion::State;
+    using Pair = std::array<double, 2>;
+
+    constexpr double ln2 = .6931471805599453; // q² counts in powers of two
+
+    /// A bond of a free node, its force times the node's cell, ω in it.
+    struct CellBond
+    {
+      unsigned int neighbour;
+      Pair way; ///< so that 2^(-q²), q = way·(u_j - u_i), is the bond's exponential
+      double strength;
+    };
+
+    /// 2^(-q²), and what is left of 1.
+    /// @param n  values, a multiple of `lanes`
+    PLUMBLINE_VECTOR_CLONES void decay_of(const double *q, std::size_t n, double *decay,
+                                          double *loss)
+    {
+      for (std::size_t k = 0; k < n; k += algebra::lanes)
+      {
+        const Lane value = algebra::load<Lane>(q + k);
+        const auto power = power_of_two<Lane>(-(value * value));
+        const Lane kept = power.scale + power.scale * power.tail,
+                   lost = (1 - power.scale) - power.scale * power.tail;
+        std::memcpy(decay + k, &kept, sizeof(kept));
+        std::memcpy(loss + k, &lost, sizeof(lost));
+      }
+    }
+
+    /// What the bonds of one node see of a state.
+    struct Row
+    {
+      std::vector<double> q, decay, loss;
+    };
+
+    /// What drives states is √V b at the free nodes and behind it u at the held ones, shape
+    /// (2, n_held).
+    class ScatteredWells : public method::NodalMotion<>
+    {
+    public:
+      ScatteredWells(const scene::Problem &problem, const Families &families)
+          : cells_(problem.cells), start_{0}
+      {
+        const std::size_t n_free = cells_->n_free;
+        nodes_.assign(cells_->nodes.begin(),
+                      cells_->nodes.begin() + static_cast<std::ptrdiff_t>(n_free));
+        Family family;
+        for (std::size_t i = 0; i < n_free; ++i)
+        {
+          roots_.push_back(std::sqrt(cells_->area[i]));
+          families.make(i, family);
+          for (std::size_t k = 0; k < family.bonds.size(); ++k)
+            add_bond(problem, i, family.neighbours[k], family.bonds[k]);
+          start_.push_back(bonds_.size());
+        }
+        is_symmetric_ = find_symmetry();
+        all_.resize(2 * cells_->size());
+      }
+
+      std::vector<double> drive(const scene::Problem &instant) const override
+      {
+        std::vector<double> g = state(instant.load);
+        for (unsigned int c = 0; c < 2; ++c)
+          for (std::size_t i = nodes_.size(); i < cells_->size(); ++i)
+            g.push_back(instant.constraint.value(cells_->nodes[i], c));
+        return g;
+      }
+
+      std::vector<double> inertia(const scene::Problem &instant) const override
+      {
+        std::vector<double> g = state(*instant.solution);
+        g.resize(2 * cells_->size());
+        return g;
+      }
+
+      State state(const scene::Field &field) const override
+      {
+        State x = NodalMotion::state(field);
+        for (std::size_t i = 0; i < x.size(); ++i)
+          x[i] *= root(i);
+        return x;
+      }
+
+      std::vector<double> nodal(const State &x) const override
+      {
+        State u = x;
+        for (std::size_t i = 0; i < u.size(); ++i)
+          u[i] /= root(i);
+        return NodalMotion::nodal(u);
+      }
+
+      void acceleration(const State &x, const std::vector<double> &g, State &a) const override
+      {
+        spread(x, g);
+        a.assign(g.begin(), g.begin() + static_cast<std::ptrdiff_t>(size()));
+        over_rows(
+            [&](std::size_t i, const Row &row)
+            {
+              Pair sum{};
+              for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
+                add(sum, bonds_[k], pull(row, k - start_[i], bonds_[k]));
+              for (unsigned int c = 0; c < 2; ++c)
+                a[c * nodes_.size() + i] += sum[c] / roots_[i];
+            });
+      }
+
+      /// With B_ij = ∂(cell times force)/∂u_j the symmetric part of u -> Σ_j B_ij (u_j - u_i).
+      void tangent(const State &x, const std::vector<double> &g, const State &y,
+                   State &out) const override
+      {
+        spread(x, g);
+        const std::size_t n = nodes_.size();
+        out.assign(size(), 0.);
+        Row row;
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          see(i, row);
+          for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
+          {
+            const CellBond &bond = bonds_[k];
+            const double q = row.q[k - start_[i]], decay = row.decay[k - start_[i]];
+            const double stiffness = bond.strength * decay * (1 - 2 * ln2 * q * q);
+            const std::size_t j = bond.neighbour;
+            const double here = stretch(bond, y, i) / roots_[i],
+                         there = j < n ? stretch(bond, y, j) / roots_[j] : 0;
+            for (unsigned int c = 0; c < 2; ++c)
+            {
+              out[c * n + i] += stiffness * bond.way[c] * (.5 * there - here) / roots_[i];
+              if (j < n)
+                out[c * n + j] += .5 * stiffness * bond.way[c] * here / roots_[j];
+            }
+          }
+        }
+      }
+      bool is_symmetric() const override { return is_symmetric_; }
+
+      double product(const State &x, const State &y) const override
+      {
+        return std::inner_product(x.begin(), x.end(), y.begin(), 0.);
+      }
+
+      double energy(const State &x, const std::vector<double> &g) const override
+      {
+        spread(x, g);
+        std::vector<double> of_node(nodes_.size());
+        over_rows(
+            [&](std::size_t i, const Row &row)
+            {
+              for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
+              {
+                // a bond between free nodes comes from both ends, one to a held node once
+                const double ends = bonds_[k].neighbour < nodes_.size() ? 1 : 2;
+                of_node[i] += ends * bonds_[k].strength / (4 * ln2) * row.loss[k - start_[i]];
+              }
+            });
+        return std::accumulate(of_node.begin(), of_node.end(), 0.);
+      }
+
+      double power(const State &x, const State &v, const std::vector<double> &g,
+                   const std::vector<double> &rate) const override
+      {
+        const std::size_t n = nodes_.size(), n_held = cells_->size() - n;
+        double sum = std::inner_product(v.begin(), v.end(), g.begin(), 0.);
+        spread(x, g);
+        Row row;
+        for (std::size_t i = 0; n_held > 0 && i < n; ++i)
+        {
+          see(i, row);
+          for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
+            if (bonds_[k].neighbour >= n)
+            {
+              const std::size_t held = size() + bonds_[k].neighbour - n;
+              sum += pull(row, k - start_[i], bonds_[k]) *
+                     (bonds_[k].way[0] * rate[held] + bonds_[k].way[1] * rate[held + n_held]);
+            }
+        }
+        return sum;
+      }
+
+      std::map<std::string, double> facts() const override
+      {
+        return {{"bonds of one evaluation", static_cast<double>(bonds_.size())}};
+      }
+
+    private:
+      double root(std::size_t i) const { return roots_[i % roots_.size()]; }
+
+      void add_bond(const scene::Problem &problem, std::size_t i, unsigned int j, const Bond &bond)
+      {
+        const WellBond well = well_bond(*problem.double_well, bond.weight, bond.kernel_point);
+        double strength = ln2 * cells_->area[i] * well.strength;
+        if (problem.boundary_function)
+          strength *= problem.boundary_function(cells_->nodes[i]) *
+                      problem.boundary_function(cells_->nodes[j]);
+        if (strength != 0)
+          bonds_.push_back(
+              {j, {well.way[0] / std::sqrt(ln2), well.way[1] / std::sqrt(ln2)}, strength});
+      }
+
+      /// Whether bonds between free nodes are the same from both ends, to rounding.
+      bool find_symmetry() const
+      {
+        constexpr double rounding = 1e-12; // of the strongest bond
+        const double strongest =
+            std::accumulate(bonds_.begin(), bonds_.end(), 0.,
+                            [](double largest, const CellBond &bond)
+                            { return std::max(largest, std::abs(bond.strength)); });
+        for (std::size_t i = 0; i < nodes_.size(); ++i)
+          for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
+          {
+            const CellBond &bond = bonds_[k];
+            if (bond.neighbour >= nodes_.size())
+              continue;
+            const auto end =
+                bonds_.begin() + static_cast<std::ptrdiff_t>(start_[bond.neighbour + 1]);
+            const auto back =
+                std::find_if(bonds_.begin() + static_cast<std::ptrdiff_t>(start_[bond.neighbour]),
+                             end, [i](const CellBond &other) { return other.neighbour == i; });
+            if (back == end || std::abs(back->strength - bond.strength) > rounding * strongest ||
+                std::hypot(back->way[0] + bond.way[0], back->way[1] + bond.way[1]) >
+                    rounding * std::hypot(bond.way[0], bond.way[1]))
+              return false;
+          }
+        return true;
+      }
+
+      /// u at all nodes, node by node.
+      void spread(const State &x, const std::vector<double> &g) const
+      {
+        const std::size_t n = nodes_.size(), n_held = cells_->size() - n;
+        for (unsigned int c = 0; c < 2; ++c)
+        {
+          for (std::size_t i = 0; i < n; ++i)
+            all_[2 * i + c] = x[c * n + i] / roots_[i];
+          for (std::size_t i = 0; i < n_held; ++i)
+            all_[2 * (n + i) + c] = g[2 * n + c * n_held + i];
+        }
+      }
+
+      void see(std::size_t i, Row &row) const
+      {
+        const std::size_t n = start_[i + 1] - start_[i],
+                          padded = (n + algebra::lanes - 1) / algebra::lanes * algebra::lanes;
+        row.q.assign(padded, 0.);
+        row.decay.resize(padded);
+        row.loss.resize(padded);
+        for (std::size_t k = 0; k < n; ++k)
+        {
+          const CellBond &bond = bonds_[start_[i] + k];
+          const double *const there = &all_[2 * static_cast<std::size_t>(bond.neighbour)];
+          row.q[k] =
+              bond.way[0] * (there[0] - all_[2 * i]) + bond.way[1] * (there[1] - all_[2 * i + 1]);
+        }
+        decay_of(row.q.data(), padded, row.decay.data(), row.loss.data());
+      }
+
+      /// @param visit  (node, row), of several nodes at a time
+      template <typename Visit>
+      void over_rows(const Visit &visit) const
+      {
+        constexpr unsigned int grain = 256; // nodes, worth a thread's while
+        dealii::parallel::apply_to_subranges(
+            static_cast<std::size_t>(0), nodes_.size(),
+            [&](std::size_t from, std::size_t to)
+            {
+              Row row;
+              for (std::size_t i = from; i < to; ++i)
+              {
+                see(i, row);
+                visit(i, row);
+              }
+            },
+            grain);
+      }
+
+      /// The force along a bond's way.
+      static double pull(const Row &row, std::size_t k, const CellBond &bond)
+      {
+        return bond.strength * row.q[k] * row.decay[k];
+      }
+
+      static void add(Pair &sum, const CellBond &bond, double pull)
+      {
+        for (unsigned int c = 0; c < 2; ++c)
+          sum[c] += pull * bond.way[c];
+      }
+
+      double stretch(const CellBond &bond, const State &y, std::size_t i) const
+      {
+        return bond.way[0] * y[i] + bond.way[1] * y[nodes_.size() + i];
+      }
+
+      std::shared_ptr<const geometry::NodeCells> cells_;
+      std::vector<double> roots_;      ///< of the free nodes' cells
+      std::vector<std::size_t> start_; ///< of each free node's bonds
+      std::vector<CellBond> bonds_;
+      bool is_symmetric_ = false;
+      mutable std::vector<double> all_; ///< u, shape (n_nodes, 2)
+    };
+  } // namespace
+
+  std::unique_ptr<method::EquationOfMotion> move_double_well(const scene::Problem &problem,
+                                                             const Families &families)
+  {
+    return std::make_unique<ScatteredWells>(problem, families);
+  }
+} // namespace plumbline::meshfree
