@@ -7,6 +7,7 @@
 #include "crack.h"
 #include "dispersion.h"
 #include "grow.h"
+#include "list.h"
 #include "requirements.h"
 #include "run.h"
 #include "sample.h"
@@ -193,7 +194,9 @@ int plumbline::app::command(int argc, char **argv)
 
   if (random.is_worker)
     n_threads = random.n_threads;
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0); // without mpirun: no daemon beside it
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0); // without mpirun: no daemon beside it,
+  if (getenv("OMPI_COMM_WORLD_SIZE") == nullptr) // nor a folder, which one may remove as another
+    setenv("OMPI_MCA_orte_create_session_dirs", "false", 0); // begins
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(
       argc, argv, n_threads == 0 ? dealii::numbers::invalid_unsigned_int : n_threads);
   // whatever one rank alone fails at, all of them end with it

@@ -3,7 +3,6 @@
 #include "base/choice.h"
 #include "base/error.h"
 #include "base/team.h"
-#include "base/text_file.h"
 #include "dynamics.h"
 #include "methods.h"
 #include "report/journal.h"
@@ -11,7 +10,6 @@
 #include "run_parts.h"
 #include "study/conclusions.h"
 #include "study/preflight.h"
-#include "study/refusal.h"
 #include "study/sampling.h"
 #include "study/sweep.h"
 
@@ -22,30 +20,6 @@
 #include <functional>
 #include <iomanip>
 #include <iostream>
-#include <set>
-
-namespace plumbline::app
-{
-  namespace
-  {
-    /// What 'plumbline list' lists.
-    enum class Listed
-    {
-      methods,
-      models,
-      analyses,
-      kernels,
-      scenes
-    };
-  } // namespace
-} // namespace plumbline::app
-
-namespace plumbline::base
-{
-  template <>
-  inline constexpr auto words<app::Listed> =
-      std::array{"methods", "models", "analyses", "kernels", "scenes"};
-} // namespace plumbline::base
 
 namespace plumbline::app
 {
@@ -82,27 +56,6 @@ namespace plumbline::app
         // not ours, or of another version: it is replaced
       }
       return {};
-    }
-
-    /// Beside an installed command, else those of the source tree.
-    fs::path scenes_folder()
-    {
-      const fs::path installed =
-          fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/plumbline/scenes";
-      return fs::is_directory(installed) ? installed : fs::path(PLUMBLINE_SCENES);
-    }
-
-    /// Of a scene, or why it is refused: some are there to be.
-    std::string purpose(const fs::path &file)
-    {
-      try
-      {
-        return scene::read_scene(file.string()).purpose;
-      }
-      catch (const InputError &error)
-      {
-        return std::string("refused: ") + error.what();
-      }
     }
 
     std::string file_name(const study::Run &run)
@@ -187,25 +140,112 @@ namespace plumbline::app
                                      [](const study::Expectation &e) { return e.holds; });
       return check && !holds ? 1 : 0;
     }
+
+    scene::Scene read_scene(const RunOptions &options)
+    {
+      auto overrides = options.overrides;
+      if (!options.methods.empty())
+        overrides.push_back({"Methods/names", options.methods});
+      if (!options.model.empty())
+        overrides.push_back({"Solver/model", options.model});
+      scene::Scene scene = scene::read_scene(options.scene_file, overrides);
+      if (scene.fracture.is_there())
+        throw InputError("scene '" + scene.name +
+                         "': Fracture/toughness is for 'plumbline grow', which breaks bonds; write "
+                         "that, or clear it");
+      return scene;
+    }
+
+    /// What the sweep goes on from: what is in the folder, with where the numbers come from.
+    study::Results begin_results(const fs::path &folder, const scene::Scene &scene,
+                                 const method::Methods &methods, const base::Team &team)
+    {
+      study::Results results = earlier_results(folder, scene);
+      // all have read before the first one writes, and go on from the same
+      const auto n_found = static_cast<double>(results.runs.size());
+      if (team.largest(n_found) != -team.largest(-n_found))
+        results = {};
+      results.provenance = provenance();
+      if (const auto spectrum = study::field_spectrum(scene.random))
+        results.provenance["random field"] = words_of(*spectrum);
+      if (team.n_ranks() > 1 && repeats_work(scene, methods))
+        results.provenance["work of ranks"] =
+            "repeated by each: lattices are not shared among ranks";
+      return results;
+    }
+
+    /// @param earlier  as begin_results() gives them
+    void tell_beginning(const study::Results &earlier, const fs::path &folder,
+                        const base::Team &team, bool is_quiet)
+    {
+      if (!earlier.runs.empty() && !is_quiet)
+        std::cerr << "continuing: " << earlier.runs.size() << " solves are in '" << folder.string()
+                  << "' already\n";
+      if (team.rank() == 0 && earlier.provenance.count("work of ranks") > 0)
+        std::cerr << "note: each of the " << team.n_ranks()
+                  << " ranks repeats all of the work, since lattices are not shared among them; "
+                     "one rank is as fast, and Domain/mesh = squares is shared\n";
+    }
+
+    /// @param journal, progress  outlive it
+    study::SweepControl control_of(const RunOptions &options, const scene::Scene &scene,
+                                   const fs::path &folder, const base::Team &team,
+                                   report::Journal &journal, ProgressLine &progress)
+    {
+      study::SweepControl control;
+      control.n_levels = options.n_levels;
+      control.budget = options.budget;
+      control.on_progress = [&progress](const std::string &what, double f)
+      { progress.show(what, f); };
+      // the first rank writes; where it cannot, all end
+      const auto write = [team](const std::function<void()> &action)
+      {
+        team.together(
+            [&]
+            {
+              if (team.rank() == 0)
+                action();
+            });
+      };
+      control.on_result = [write, &journal](const study::Results &results)
+      { write([&] { journal.append(results); }); };
+      control.should_stop = [team] { return team.any(is_interrupted()); };
+      if (scene.output.fields)
+        control.on_finest =
+            [write, folder](const analysis::Solution &solution, const study::Run &run)
+        {
+          write(
+              [&]
+              {
+                fs::create_directories(folder / "fields");
+                solution.write_vtu((folder / "fields" / file_name(run)).string());
+              });
+        };
+      return control;
+    }
+
+    /// What is wanted on standard output; what went wrong on standard error.
+    void tell_end(const RunOptions &options, const study::Results &results, const fs::path &folder)
+    {
+      if (options.json)
+        std::cout << std::ifstream(folder / "results.json").rdbuf();
+      else if (!options.quiet)
+        print_summary(results, folder);
+      if (!results.is_complete)
+        std::cerr << "interrupted: what is finished is in '" << folder.string()
+                  << "'; the same command continues\n";
+      for (const study::Run &run : results.runs)
+        if (!run.failure.empty())
+          std::cerr << "no solution: " << run.method << ", " << run.problem << ", " << run.series
+                    << ", h = " << run.h << ": " << run.failure << '\n';
+    }
   } // namespace
 
   int run(const RunOptions &options)
   {
     if (!(options.budget >= 0))
       throw InputError("--budget is negative; give CPU seconds of a solve, or leave it out");
-    // every rank runs the scene, and they share the work on meshes; the first one talks and writes
-    const base::Team team = base::Team::all();
-    const bool is_first = team.rank() == 0, is_quiet = options.quiet || !is_first;
-    auto overrides = options.overrides;
-    if (!options.methods.empty())
-      overrides.push_back({"Methods/names", options.methods});
-    if (!options.model.empty())
-      overrides.push_back({"Solver/model", options.model});
-    const scene::Scene scene = scene::read_scene(options.scene_file, overrides);
-    if (scene.fracture.is_there())
-      throw InputError("scene '" + scene.name +
-                       "': Fracture/toughness is for 'plumbline grow', which breaks bonds; write "
-                       "that, or clear it");
+    const scene::Scene scene = read_scene(options);
     if (scene.time.is_dynamic())
     {
       check_analysis(scene, scene::Analysis::motion);
@@ -216,71 +256,31 @@ namespace plumbline::app
     study::check_memory(scene, methods, available, options.n_levels);
     study::check_data(scene);
 
+    // every rank runs the scene, and they share the work on meshes; the first one talks and writes
+    const base::Team team = base::Team::all();
+    const bool is_first = team.rank() == 0, is_quiet = options.quiet || !is_first;
     const fs::path folder =
         options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
     prepare_folder(folder);
-    study::Results earlier = earlier_results(folder, scene);
-    // all have read before the first one writes, and go on from the same
-    const auto n_found = static_cast<double>(earlier.runs.size());
-    if (team.largest(n_found) != -team.largest(-n_found))
-      earlier = {};
-    if (!earlier.runs.empty() && !is_quiet)
-      std::cerr << "continuing: " << earlier.runs.size() << " solves are in '" << folder.string()
-                << "' already\n";
-    earlier.provenance = provenance();
-    if (const auto spectrum = study::field_spectrum(scene.random))
-      earlier.provenance["random field"] = words_of(*spectrum);
-    if (team.n_ranks() > 1 && repeats_work(scene, methods))
-    {
-      earlier.provenance["work of ranks"] = "repeated by each: lattices are not shared among ranks";
-      if (is_first)
-        std::cerr << "note: each of the " << team.n_ranks()
-                  << " ranks repeats all of the work, since lattices are not shared among them; "
-                     "one rank is as fast, and Domain/mesh = squares is shared\n";
-    }
+    const study::Results earlier = begin_results(folder, scene, methods, team);
+    tell_beginning(earlier, folder, team, is_quiet);
 
     watch_interrupts();
     report::Journal journal(folder);
     study::Results results;
+    try
     {
       ProgressLine progress(!is_quiet);
-      study::SweepControl control;
-      control.n_levels = options.n_levels;
-      control.budget = options.budget;
-      control.on_progress = [&](const std::string &what, double f) { progress.show(what, f); };
-      // the first rank writes; where it cannot, all end
-      const auto write = [&](const std::function<void()> &action)
-      {
-        team.together(
-            [&]
-            {
-              if (is_first)
-                action();
-            });
-      };
-      control.on_result = [&](const study::Results &r) { write([&] { journal.append(r); }); };
-      control.should_stop = [&] { return team.any(is_interrupted()); };
-      if (scene.output.fields)
-        control.on_finest = [&](const analysis::Solution &solution, const study::Run &run)
-        {
-          write(
-              [&]
-              {
-                fs::create_directories(folder / "fields");
-                solution.write_vtu((folder / "fields" / file_name(run)).string());
-              });
-        };
-      try
-      {
-        results = study::run_sweep(scene, methods, available, control, earlier);
-      }
-      catch (...)
-      {
-        std::error_code not_empty; // results that are there stay
-        if (is_first)
-          fs::remove(folder, not_empty);
-        throw;
-      }
+      results =
+          study::run_sweep(scene, methods, available,
+                           control_of(options, scene, folder, team, journal, progress), earlier);
+    }
+    catch (...)
+    {
+      std::error_code not_empty; // results that are there stay
+      if (is_first)
+        fs::remove(folder, not_empty);
+      throw;
     }
     team.together(
         [&]
@@ -290,20 +290,8 @@ namespace plumbline::app
           report::write_report(results, folder);
           journal.remove();
         });
-    if (!is_first)
-      return exit_code(results, options.check);
-
-    if (options.json)
-      std::cout << std::ifstream(folder / "results.json").rdbuf();
-    else if (!options.quiet)
-      print_summary(results, folder);
-    if (!results.is_complete)
-      std::cerr << "interrupted: what is finished is in '" << folder.string()
-                << "'; the same command continues\n";
-    for (const study::Run &run : results.runs)
-      if (!run.failure.empty())
-        std::cerr << "no solution: " << run.method << ", " << run.problem << ", " << run.series
-                  << ", h = " << run.h << ": " << run.failure << '\n';
+    if (is_first)
+      tell_end(options, results, folder);
     return exit_code(results, options.check);
   }
 
@@ -312,58 +300,5 @@ namespace plumbline::app
     report::write_report(report::read_results(folder), folder);
     std::cout << "report: " << (fs::path(folder) / "report.html").string() << '\n';
     return 0;
-  }
-
-  namespace
-  {
-    void list_methods()
-    {
-      for (const auto &method : all_methods())
-        std::cout << std::left << std::setw(11) << method->name() << std::setw(11)
-                  << base::word(method->side()) << method->help() << '\n';
-    }
-
-    void list_kernels()
-    {
-      for (const physics::KernelType &type : physics::kernel_types())
-        std::cout << std::left << std::setw(24) << type.name << type.formula << "   ("
-                  << type.source << ")\n";
-    }
-
-    void list_scenes()
-    {
-      const fs::path folder = scenes_folder();
-      if (!fs::is_directory(folder))
-        throw InputError("the scenes folder '" + folder.string() + "' is not there");
-      std::set<fs::path> files;
-      for (const auto &entry : fs::recursive_directory_iterator(folder))
-        if (base::has_ending(entry.path().string(), ".prm"))
-          files.insert(entry.path());
-      for (const fs::path &file : files)
-        std::cout << file.string() << "\n    " << purpose(file) << '\n';
-    }
-  } // namespace
-
-  void list(const std::string &subject, bool as_matrix)
-  {
-    const auto listed = base::from_word<Listed>(subject);
-    if (as_matrix && listed != Listed::methods)
-      throw InputError("list --matrix is of methods, not of " + subject + "; leave it out");
-    if (as_matrix)
-      std::cout << study::capability_table(all_methods());
-    else if (listed == Listed::methods)
-      list_methods();
-    else if (listed == Listed::models)
-      std::cout << scene::capability_table(subject, scene::models());
-    else if (listed == Listed::analyses)
-      std::cout << scene::capability_table(subject, scene::analyses());
-    else if (listed == Listed::kernels)
-      list_kernels();
-    else if (listed == Listed::scenes)
-      list_scenes();
-    else
-      throw InputError("list: '" + subject +
-                       "' is not known; choose methods, models, analyses, kernels or "
-                       "scenes");
   }
 } // namespace plumbline::app

@@ -26,8 +26,4 @@ namespace plumbline::app
 
   /// Rebuild tables, charts and page of a folder from its results.
   int rebuild_report(const std::string &folder);
-
-  /// Names and help of methods, kernels or scenes; what models and analyses can do.
-  /// @throws InputError  another subject
-  void list(const std::string &subject, bool as_matrix);
 } // namespace plumbline::app

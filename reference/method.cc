@@ -49,7 +49,7 @@ namespace plumbline::reference
           can.insert(Capability::triangles);
         else
           can.insert({Capability::lattice, Capability::quadrilaterals});
-        if (n_vertices_ == 4 && is_continuous_ && degree_ == 1)
+        if (n_vertices_ == 4 && is_continuous_)
           can.insert({Capability::double_well, Capability::periodic});
         return can;
       }

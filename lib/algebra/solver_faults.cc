@@ -39,6 +39,21 @@ namespace plumbline::algebra
     return what + " (MUMPS' error " + std::to_string(code) + ", " + std::to_string(detail) + ")";
   }
 
+  std::string iteration_fault(unsigned int n_iterations, unsigned int most_iterations,
+                              double residual, double tolerance)
+  {
+    std::ostringstream message;
+    const bool is_broken = n_iterations < most_iterations;
+    message << (is_broken ? "breaks down after " : "stops after ") << n_iterations
+            << " iterations, of " << most_iterations
+            << " allowed (Solver/max iterations), at the relative residual " << residual
+            << ", wanted " << tolerance
+            << " (Solver/tolerance); allow more, or write Solver/linear solver = direct; where "
+               "they do not get on the system is singular: tie all nodes to the boundary data, "
+               "raise the horizon or refine";
+    return message.str();
+  }
+
   std::string library_fault(const std::string &text)
   {
     std::istringstream lines(text);

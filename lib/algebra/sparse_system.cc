@@ -223,16 +223,8 @@ namespace plumbline::algebra
       }
       catch (const dealii::SolverControl::NoConvergence &)
       {
-        std::ostringstream message;
-        const bool is_broken = control.last_step() < options.max_iterations;
-        message << (is_broken ? "breaks down after " : "stops after ") << control.last_step()
-                << " iterations, of " << options.max_iterations
-                << " allowed (Solver/max iterations), at the relative residual "
-                << control.last_value() / scale << ", wanted " << options.tolerance
-                << " (Solver/tolerance); allow more, or write Solver/linear solver = direct; where "
-                   "they do not get on the system is singular: tie all nodes to the boundary data, "
-                   "raise the horizon or refine";
-        throw NumericalError(message.str());
+        throw NumericalError(iteration_fault(control.last_step(), options.max_iterations,
+                                             control.last_value() / scale, options.tolerance));
       }
       return control.last_step();
     }
@@ -302,6 +294,67 @@ namespace plumbline::algebra
               << asymmetry << " max |A_ij|; write automatic, gmres or bicgstab";
       throw InputError(message.str());
     }
+
+    /// A row of either whose sum is no finite number holds a value that is none.
+    void check_values(const Rows &rows, const std::vector<double> &right_hand_side,
+                      const SparseOptions &options, const Team &team)
+    {
+      int bad = none;
+      for (std::size_t i = 0; i < right_hand_side.size(); ++i)
+      {
+        double sum = right_hand_side[i];
+        for (std::size_t e = rows.start[i]; e < rows.start[i + 1]; ++e)
+          sum += rows.value[e];
+        if (!std::isfinite(sum))
+          bad = std::min<int>(bad, i);
+      }
+      reject(bad,
+             "holds a value, in the matrix or the right-hand side, that is not a finite number; "
+             "look at the kernel and the load there",
+             options, team);
+    }
+
+    /// Choose what was left to the program.
+    /// @return  what the solver is called
+    std::string settle(SparseOptions &options, std::size_t n, std::uint64_t n_nonzeros)
+    {
+      if (options.solver == SparseSolver::automatic)
+        options.solver = choose(n, n_nonzeros, options);
+      if (options.iteration == Iteration::automatic)
+        options.iteration = options.is_symmetric ? Iteration::cg : Iteration::gmres;
+      const std::string solver = base::word(options.solver);
+      return options.solver == SparseSolver::direct
+                 ? solver
+                 : base::word(options.iteration) + " + " + solver;
+    }
+
+    /// What x leaves of b, relative.
+    /// @param who  opens messages
+    /// @throws NumericalError  more than the solver was to leave
+    double check_residual(const SharedRows &matrix, const Vector &x, const Vector &b,
+                          const SparseOptions &options, const std::string &who, const Team &team)
+    {
+      Vector residual(b);
+      // A x cannot be computed more accurately than this
+      const double norm = b.l2_norm(), scale = norm > 0 ? norm : 1;
+      const double round_off =
+          10 * eps * team.largest(largest_row_sum(matrix.own())) * x.l2_norm() / scale;
+      const double allowed = options.solver == SparseSolver::direct
+                                 ? largest_residual
+                                 : 10 * options.tolerance + std::min(round_off, largest_residual);
+      matrix.vmult(residual, x);
+      residual -= b;
+      const double relative = residual.l2_norm() / scale;
+      if (!(relative <= allowed))
+      {
+        std::ostringstream message;
+        message << who << " leaves the relative residual " << relative << ", allowed " << allowed
+                << "; the system is singular or nearly so: tie all nodes to the boundary data, "
+                   "raise the horizon or refine";
+        throw NumericalError(message.str());
+      }
+      return relative;
+    }
   } // namespace
 
   SparseSolution solve_sparse(const Rows &rows, const std::vector<double> &right_hand_side,
@@ -312,27 +365,13 @@ namespace plumbline::algebra
     Assert(rows.n_rows() == n && fits(options, n), dealii::ExcInternalError());
     if (n == 0)
       return {};
-
-    int bad = none;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      double sum = right_hand_side[i];
-      for (std::size_t e = rows.start[i]; e < rows.start[i + 1]; ++e)
-        sum += rows.value[e];
-      if (!std::isfinite(sum))
-        bad = std::min<int>(bad, i);
-    }
-    reject(bad,
-           "holds a value, in the matrix or the right-hand side, that is not a finite number; look "
-           "at the kernel and the load there",
-           options, team);
-
+    check_values(rows, right_hand_side, options, team);
     const Shares shares(n, options.n_first > 0 ? 1 : options.n_components, team);
     const SharedRows matrix(rows, shares);
     check_rows(matrix, options);
     if (options.iteration == Iteration::cg)
       check_symmetry(matrix);
-    Vector b(shares.own(), team.communicator), x(b), residual(b);
+    Vector b(shares.own(), team.communicator), x(b);
     MPI_Reduce_scatter(right_hand_side.data(), b.begin(), shares.size.data(), MPI_DOUBLE, MPI_SUM,
                        team.communicator);
 
@@ -343,36 +382,12 @@ namespace plumbline::algebra
                      dealii::MemoryConsumption::memory_consumption(own.value);
     solution.n_nonzeros = dealii::Utilities::MPI::sum(static_cast<std::uint64_t>(own.value.size()),
                                                       team.communicator);
-    if (options.solver == SparseSolver::automatic)
-      options.solver = choose(n, solution.n_nonzeros, options);
-    if (options.iteration == Iteration::automatic)
-      options.iteration = options.is_symmetric ? Iteration::cg : Iteration::gmres;
-    solution.solver = base::word(options.solver);
-    if (options.solver != SparseSolver::direct)
-      solution.solver = base::word(options.iteration) + " + " + solution.solver;
+    solution.solver = settle(options, n, solution.n_nonzeros);
     const std::string who = "the sparse solver '" + solution.solver +
                             "' (Solver/linear solver, Solver/iteration) of " + std::to_string(n) +
                             " unknowns";
     together(who, team, [&] { solve_by(matrix, x, b, options, solution); });
-
-    // A x cannot be computed more accurately than this
-    const double norm = b.l2_norm(), scale = norm > 0 ? norm : 1;
-    const double round_off = 10 * eps * team.largest(largest_row_sum(own)) * x.l2_norm() / scale;
-    const double allowed = options.solver == SparseSolver::direct
-                               ? largest_residual
-                               : 10 * options.tolerance + std::min(round_off, largest_residual);
-    matrix.vmult(residual, x);
-    residual -= b;
-    solution.relative_residual = residual.l2_norm() / scale;
-    if (!(solution.relative_residual <= allowed))
-    {
-      std::ostringstream message;
-      message << who << " leaves the relative residual " << solution.relative_residual
-              << ", allowed " << allowed
-              << "; the system is singular or nearly so: tie all nodes to the boundary data, raise "
-                 "the horizon or refine";
-      throw NumericalError(message.str());
-    }
+    solution.relative_residual = check_residual(matrix, x, b, options, who, team);
     solution.values.resize(n);
     MPI_Allgatherv(x.begin(), static_cast<int>(shares.own_size), MPI_DOUBLE, solution.values.data(),
                    shares.size.data(), shares.first.data(), MPI_DOUBLE, team.communicator);

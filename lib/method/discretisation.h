@@ -84,6 +84,14 @@ namespace plumbline::method
       return nullptr;
     }
 
+    /// The same with forces by finer quadrature, to see what quadrature does; nothing where they
+    /// are exact, or as exact as motion() makes them.
+    virtual std::unique_ptr<EquationOfMotion> finer_motion(bool is_lumped) const
+    {
+      (void)is_lumped;
+      return nullptr;
+    }
+
     /// What moves on a torus about a uniform gradient G of displacements: a state is u = G x and
     /// what is periodic. Nothing where that is not there.
     virtual std::unique_ptr<EquationOfMotion>

@@ -20,12 +20,15 @@ namespace plumbline::physics
     }
 
     /// (1/ω_dim) ∫ over the unit ball of J(t) p e^(-q) (1 - 2q) g(t, e) e⊗e, q = β ε t (e·E e)².
-    /// @param n  Gauss points in the radius; in 2D 4n angles
+    /// @param n  Gauss points in the radius, in parts of at most 64, whose rule is cheap to find;
+    /// in 2D 4n angles
     template <typename Integrand>
     SymmetricMatrix integrate(const DoubleWell &law, const SymmetricMatrix &strain, unsigned int n,
                               const Integrand &g)
     {
-      const dealii::QGauss<1> gauss(n);
+      constexpr unsigned int most = 64;
+      const unsigned int n_parts = (n + most - 1) / most;
+      const dealii::QIterated<1> gauss(dealii::QGauss<1>((n + n_parts - 1) / n_parts), n_parts);
       const unsigned int n_angles = law.dim() == 1 ? 2 : 4 * n;
       SymmetricMatrix sum;
       for (unsigned int k = 0; k < n_angles; ++k)
@@ -35,7 +38,7 @@ namespace plumbline::physics
                                            : Direction{std::cos(angle), std::sin(angle)};
         const double s = of(strain, e);
         double radial = 0;
-        for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int i = 0; i < gauss.size(); ++i)
         {
           const double t = gauss.point(i)[0], r = law.horizon() * t, q = law.beta() * r * s * s;
           radial += gauss.weight(i) * (law.dim() == 1 ? 1 : t) * law.influence(r) *

@@ -27,6 +27,8 @@ namespace plumbline::report
           {"rates", "Errors and rates over levels", motion_rates_words, motion_rates_table(results),
            true},
           {"orders", "Orders in time", orders_words, orders_table(results), true},
+          {"estimates", "What Galerkin motions say of their own errors", motion_estimates_words,
+           motion_estimates_table(results), true},
           {"best", "The best pairs of h and time step", best_pairs_words, best_pairs_table(results),
            true},
           {"failures", "Motions that did not come to their end", "", failed_motions_table(results),
@@ -113,7 +115,7 @@ namespace plumbline::report
       {
         Table table = part.table; // reasons are long
         for (std::size_t c = table.columns.size(); c-- > 0;)
-          if (table.columns[c].head == "why")
+          if (table.columns[c].head == reasons_head)
           {
             table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(c));
             for (auto &row : table.rows)

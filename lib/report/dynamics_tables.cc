@@ -1,6 +1,7 @@
 #include "report/dynamics_tables.h"
 
 #include "report/text_table.h"
+#include "study/reference_estimate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,12 @@ namespace plumbline::report
       "tangents among them. energy: what the balance of stored, dissipated and supplied energy is "
       "off by, over the largest of them. CPU: what the steps took, and what was prepared once for "
       "all schemes and steps (bonds, mass, loads in time).";
+
+  const char *const motion_estimates_words =
+      "How far Galerkin motions may be off at the final time, of u, L2 over nodes, by the method's "
+      "own means. space: change to degree p + 1 at the nodes that both have; quadrature: change to "
+      "forces with a Gauss point more a side; both exact in time. time: from the same equation "
+      "exact in time. digits: that their sum leaves certain of how far u varies.";
 
   const char *const best_pairs_words =
       "Of all runs, preparation and steps together: no other is as accurate and cheaper. Runs that "
@@ -87,7 +94,7 @@ namespace plumbline::report
     Table table;
     table.columns = {"method",  "case",        "series",     "scheme", "step",
                      "of",      "first error", "last error", "rate",   {"fitted", {"fitted", "±"}},
-                     "verdict", "why"};
+                     "verdict", reasons_head};
     for (const MotionTrend &t : results.trends)
     {
       std::vector<Cell> row;
@@ -136,11 +143,11 @@ namespace plumbline::report
   Table motions_table(const DynamicResults &results)
   {
     Table table;
-    table.columns = {"method",           "case",          "series", "h",
-                     "horizon",          "scheme",        "dt",     "critical",
-                     "dt over critical", "steps",         "forces", "error",
-                     "velocity error",   "error in time", "energy", "steps' CPU [s]",
-                     "setup CPU [s]"};
+    table.columns = {"method",           "case",          "series",       "h",
+                     "horizon",          "scheme",        "dt",           "critical",
+                     "dt over critical", "steps",         "forces",       "error",
+                     "velocity error",   "error in time", "own estimate", "energy",
+                     "steps' CPU [s]",   "setup CPU [s]"};
     for (const MotionRun &run : results.runs)
     {
       if (!run.failure.empty())
@@ -165,6 +172,7 @@ namespace plumbline::report
           error(results.decisive_error),
           error("velocity " + results.decisive_error),
           error("nodal L2 | time"),
+          run.estimate ? error_cell(run.estimate->sum()) : empty_cell(),
           error_cell(run.imbalance),
           number_cell(run.cost.solve_seconds),
           number_cell(run.cost.setup_seconds)};
@@ -172,6 +180,35 @@ namespace plumbline::report
       table.rows.push_back(row);
     }
     return without_sameness(table, {"case", "series", "horizon"});
+  }
+
+  Table motion_estimates_table(const DynamicResults &results)
+  {
+    Table table;
+    table.columns = {"method", "case",       "series", "h",   "horizon", "scheme",     "dt",
+                     "space",  "quadrature", "time",   "sum", "error",   "digits of u"};
+    for (const MotionRun &run : results.runs)
+    {
+      if (!run.estimate || !run.failure.empty())
+        continue;
+      const double error = decisive_error(results, run);
+      std::vector<Cell> row;
+      add_names(row, run.method, run.problem, run.series);
+      const std::vector<Cell> rest = {
+          number_cell(run.h),
+          number_cell(run.horizon),
+          text_cell(run.scheme),
+          number_cell(run.step),
+          error_cell(run.estimate->space),
+          error_cell(run.estimate->quadrature),
+          error_cell(run.estimate->time),
+          error_cell(run.estimate->sum()),
+          known(std::isfinite(error), error_cell(error)),
+          count_cell(study::certified_digits(run.estimate->sum(), run.size))};
+      row.insert(row.end(), rest.begin(), rest.end());
+      table.rows.push_back(row);
+    }
+    return without_sameness(table, {"case", "series", "horizon", "scheme"});
   }
 
   namespace

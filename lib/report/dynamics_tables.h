@@ -5,6 +5,9 @@
 
 namespace plumbline::report
 {
+  /// Head of the column of reasons, which are long.
+  constexpr const char *const reasons_head = "why";
+
   /// Over levels: of u and of its rate, one row each for method, case, series and scheme.
   Table motion_rates_table(const study::DynamicResults &results);
   extern const char *const motion_rates_words;
@@ -16,6 +19,10 @@ namespace plumbline::report
   /// One row for each run that came to the end.
   Table motions_table(const study::DynamicResults &results);
   extern const char *const motions_words;
+
+  /// Own estimates of Galerkin motions, one row a run that has one.
+  Table motion_estimates_table(const study::DynamicResults &results);
+  extern const char *const motion_estimates_words;
 
   /// The cheapest pair of h and Δt for each accuracy that was reached.
   Table best_pairs_table(const study::DynamicResults &results);

@@ -81,6 +81,10 @@ namespace plumbline::report
                  {"facts", run.facts}};
     for (const auto &[name, error] : run.errors)
       json["errors"][name] = known_number(error);
+    if (run.estimate)
+      json["estimate"] = {{"space", run.estimate->space},
+                          {"quadrature", run.estimate->quadrature},
+                          {"time", run.estimate->time}};
     json["history"] = energies_json(run);
     return json;
   }
@@ -117,6 +121,11 @@ namespace plumbline::report
     for (const auto &[name, error] : json.at("errors").items())
       run.errors[name] = number(error);
     run.imbalance = number(json.at("energy_imbalance"));
+    if (json.contains("estimate"))
+    {
+      const Json &of = json.at("estimate");
+      run.estimate = {of.at("space"), of.at("quadrature"), of.at("time")};
+    }
     for (const auto &[name, fact] : json.at("facts").items())
       run.facts[name] = number(fact);
     read_history(json.at("history"), run);

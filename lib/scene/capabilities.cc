@@ -85,9 +85,10 @@ namespace plumbline::scene
       case C::dynamic:
         return {"the scene moves (Time/final time > 0)", "write 0"};
       case C::double_well:
-        return {model + ", whose force is not linear (of Galerkin methods Q1 alone can: jumps of u "
-                        "make e^(-beta du^2/r) a layer at r = 0 that no fixed quadrature resolves, "
-                        "and cracks strains of 1/h)",
+        return {model +
+                    ", whose force is not linear (of Galerkin methods Q1, Q2, Q3 can: jumps of u "
+                    "make e^(-beta du^2/r) a layer at r = 0 that no fixed quadrature resolves, "
+                    "and cracks strains of 1/h)",
                 "write bond-based"};
       case C::double_well_collar:
         return {"u is given in a collar around double wells, but nonlinear Galerkin forces are "

@@ -12,6 +12,15 @@ namespace plumbline::study
   using method::Method;
   using method::Methods;
 
+  /// What a Galerkin motion may be wrong by at the final time, of u, L2 over its nodes.
+  struct MotionEstimate
+  {
+    double space = 0;      ///< change to degree p + 1
+    double quadrature = 0; ///< change to finer quadrature of forces; 0: they are exact
+    double time = 0;       ///< from the same equation, exact in time
+    double sum() const { return space + quadrature + time; }
+  };
+
   /// One method, scheme and step on one case at one level.
   struct MotionRun
   {
@@ -31,10 +40,11 @@ namespace plumbline::study
     /// "nodal L2 | time" against the same lattice's motion exact in time, at the finest level.
     std::map<std::string, double> errors;
     std::vector<analysis::Energies> energies; ///< over time, the start first
-    std::vector<double> history;         ///< the decisive error at the same times; empty: not known
-    double imbalance = 0;                ///< of energies, see analysis::EnergyLog
-    std::map<std::string, double> facts; ///< what a method says of itself
-    std::string failure;                 ///< empty, or what became of it
+    std::vector<double> history; ///< the decisive error at the same times; empty: not known
+    double imbalance = 0;        ///< of energies, see analysis::EnergyLog
+    std::optional<MotionEstimate> estimate; ///< of Galerkin methods, where the scene wants it
+    std::map<std::string, double> facts;    ///< what a method says of itself
+    std::string failure;                    ///< empty, or what became of it
   };
 
   /// An error over h, horizon or Δt, with the scheme.

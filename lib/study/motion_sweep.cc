@@ -1,8 +1,8 @@
-#include "analysis/statics.h"
 #include "base/error.h"
 #include "base/number_text.h"
 #include "study/dynamics.h"
 #include "study/motion_data.h"
+#include "study/motion_estimate.h"
 #include "study/motion_norms.h"
 #include "study/motion_steps.h"
 #include "study/torus_reference.h"
@@ -136,7 +136,7 @@ namespace plumbline::study
           const scene::Problem &first = problems.at(0);
           area_ = area_of(first);
           const auto discretisation = method.discretise(first, base::Team::alone());
-          settle(*discretisation, first);
+          settle_quadrature(scene_, *discretisation, first);
           const auto equation = discretisation->motion(scene_.time.is_lumped);
           if (!equation)
             throw NumericalError("its motion is not there");
@@ -146,29 +146,8 @@ namespace plumbline::study
           run.facts = equation->facts();
           run.cost.setup_seconds = timer.seconds() - (problems.seconds() - shared);
           const auto torus = torus_of(run, problems);
-          const auto rules = step_rules(scene_.time);
-          const auto in_time = exact_in_time(*equation, transient, data, rules.size());
-          std::size_t n_done = 0;
-          for (const std::string &name : scene_.time.schemes)
-            for (const StepRule &rule : rules)
-            {
-              if (control_.should_stop && control_.should_stop())
-                return false;
-              const Scheme &scheme = analysis::scheme(name);
-              run.scheme = name;
-              run.steps = rule.text();
-              if (const MotionRun *one = motions[n_done++])
-              {
-                finish(*one);
-                continue;
-              }
-              run.critical_step = transient.critical_step(scheme);
-              run.step = step_of(rule, transient, scheme);
-              progress(run);
-              const bool is_shown =
-                  is_finest_ && name == scene_.time.schemes.front() && &rule == &rules.back();
-              finish(move(run, scheme, *equation, transient, data, torus, in_time, is_shown));
-            }
+          const auto in_time = estimate(method, *discretisation, *equation, problems, run);
+          return run_schemes(*equation, transient, data, torus, in_time, motions, run);
         }
         catch (const Interrupted &)
         {
@@ -182,16 +161,54 @@ namespace plumbline::study
         return true;
       }
 
-      /// Quadrature as fine as statics under a load of 1 needs it, whatever moves later. A body
-      /// that floats has no statics.
-      void settle(method::Discretisation &discretisation, const scene::Problem &first) const
+      /// The state at the final time of the same equation, exact in time, where orders or the own
+      /// estimate want it; the latter's part of space.
+      std::optional<State> estimate(const Method &method,
+                                    const method::Discretisation &discretisation,
+                                    const method::EquationOfMotion &equation,
+                                    ProblemsInTime &problems, MotionRun &run) const
       {
-        if (scene_.domain.is_floating)
-          return;
-        scene::Problem pulled = first;
-        pulled.load = {[](const dealii::Point<2> &, unsigned int) { return 1.; }, {}};
-        pulled.constraint = {[](const dealii::Point<2> &, unsigned int) { return 0.; }, {}};
-        analysis::settle_quadrature(discretisation, pulled);
+        const bool is_estimated = wants_estimate(scene_, method);
+        if (!is_estimated && !has_orders())
+          return {};
+        const State end = move_exactly(scene_, equation, problems);
+        if (is_estimated)
+          run.estimate =
+              estimate_in_space(scene_, method, discretisation, equation, end, area_, problems);
+        return end;
+      }
+
+      bool has_orders() const { return is_finest_ && step_rules(scene_.time).size() > 1; }
+
+      /// @return whether to go on
+      bool run_schemes(const method::EquationOfMotion &equation, const Transient &transient,
+                       const MotionData &data, const Torus *torus,
+                       const std::optional<State> &in_time,
+                       const std::vector<const MotionRun *> &known, MotionRun run)
+      {
+        const auto rules = step_rules(scene_.time);
+        std::size_t n_done = 0;
+        for (const std::string &name : scene_.time.schemes)
+          for (const StepRule &rule : rules)
+          {
+            if (control_.should_stop && control_.should_stop())
+              return false;
+            const Scheme &scheme = analysis::scheme(name);
+            run.scheme = name;
+            run.steps = rule.text();
+            if (const MotionRun *one = known[n_done++])
+            {
+              finish(*one);
+              continue;
+            }
+            run.critical_step = transient.critical_step(scheme);
+            run.step = step_of(rule, transient, scheme);
+            progress(run);
+            const bool is_shown =
+                is_finest_ && name == scene_.time.schemes.front() && &rule == &rules.back();
+            finish(move(run, scheme, equation, transient, data, torus, in_time, is_shown));
+          }
+        return true;
       }
 
       void progress(const MotionRun &run) const
@@ -200,19 +217,6 @@ namespace plumbline::study
           control_.on_progress(run.method + ", " + run.series + ", h = " + base::to_text(run.h, 4) +
                                    ", " + run.scheme + ", " + run.steps,
                                static_cast<double>(results_.runs.size()) / n_all_);
-      }
-
-      /// The state at the final time of the same equation, exact in time; empty: not needed.
-      std::optional<State> exact_in_time(const method::EquationOfMotion &,
-                                         const Transient &transient, const MotionData &data,
-                                         std::size_t n_rules) const
-      {
-        if (!is_finest_ || n_rules < 2)
-          return {};
-        State state = data.start;
-        analysis::integrate(transient.motion(), analysis::scheme("Runge-Kutta"),
-                            {scene_.time.final_time / 4}, scene_.time.final_time, state);
-        return state;
       }
 
       MotionRun move(MotionRun run, const Scheme &scheme, const method::EquationOfMotion &equation,
@@ -309,9 +313,14 @@ namespace plumbline::study
           }
           against(scene::Target::reference, torus_u_, torus_v_);
         }
-        if (in_time)
-          run.errors["nodal L2 | time"] =
-              error_of(equation, difference(u, equation.nodal(in_time->u)), scene::Norm::nodal_l2);
+        if (!in_time)
+          return;
+        const double of_time =
+            error_of(equation, difference(u, equation.nodal(in_time->u)), scene::Norm::nodal_l2);
+        if (run.estimate)
+          run.estimate->time = of_time;
+        if (has_orders())
+          run.errors["nodal L2 | time"] = of_time;
       }
 
       /// What an earlier run says of its torus.

@@ -133,6 +133,78 @@ namespace plumbline::study
         errors[i] /= 1 - std::pow(trend.finest / trend.x[i], p);
       return errors;
     }
+
+    std::string needed_levels(std::size_t n)
+    {
+      return std::to_string(n) + " of the " + std::to_string(levels_for_verdict) +
+             " levels that a verdict needs";
+    }
+
+    /// Of errors whose last one is no larger than round-off.
+    void judge_round_off(Trend &trend, double largest)
+    {
+      if (!(trend.round_off <= blurred * trend.size))
+      {
+        trend.reason = "round-off, up to " + base::to_text(trend.round_off, 3) +
+                       ", hides the errors of a solution that "
+                       "varies by " +
+                       base::to_text(trend.size, 3) +
+                       " only: subtract a constant from the data, which the operator does not see, "
+                       "or lower Solver/tolerance";
+        return;
+      }
+      trend.outcome = Outcome::converges;
+      trend.reason = (largest <= trend.round_off ? "exact to round-off, largest error "
+                                                 : "reaches round-off, from ") +
+                     base::to_text(largest, 3);
+    }
+
+    /// By plateau and rate of errors above round-off.
+    /// @pre  levels_for_verdict of them
+    void judge_errors(Trend &trend, const std::vector<double> &x, const std::vector<double> &e)
+    {
+      const PlateauFit fit = fit_plateau(x, e);
+      const Slope slope = fit_slope({x.end() - 3, x.end()}, {e.end() - 3, e.end()});
+      const double last = e.back(), smallest = *std::min_element(e.begin(), e.end());
+      trend.plateau = fit.a;
+      trend.plateau_uncertainty = fit.a_uncertainty;
+      trend.rate = slope.value;
+      trend.rate_uncertainty = slope.uncertainty;
+
+      // a plateau is nil if it is small beside the last error, or not so small but not significant
+      // either
+      const bool is_significant = fit.a > 3 * fit.a_uncertainty;
+      const bool is_nil =
+          std::abs(fit.a) < .1 * last || (!is_significant && std::abs(fit.a) < .3 * last);
+      const bool is_certain = fit.a > 10 * fit.a_uncertainty;
+      // coarse levels that lie above their power law look like a plateau of the others
+      const bool is_flattening = e.back() / e[e.size() - 2] > x.back() / x[x.size() - 2];
+      const std::string numbers =
+          "plateau " + base::to_text(fit.a, 3) + " ± " + base::to_text(fit.a_uncertainty, 3) +
+          ", last error " + base::to_text(last, 3) + ", rate " + base::to_text(slope.value, 3) +
+          " ± " + base::to_text(slope.uncertainty, 3);
+      if (last > 2 * smallest)
+      {
+        trend.outcome = Outcome::stalls;
+        trend.reason = "the error grows again, from " + base::to_text(smallest, 3) + " to " +
+                       base::to_text(last, 3);
+      }
+      else if (is_nil && slope.value - 2 * slope.uncertainty >= .75)
+      {
+        trend.outcome = Outcome::converges;
+        trend.reason = "no plateau: " + numbers;
+      }
+      else if (fit.a >= .1 * last &&
+               (is_certain || (is_significant && is_flattening && fit.a >= .3 * last)))
+      {
+        trend.outcome = Outcome::stalls;
+        trend.reason = "significant plateau: " + numbers;
+      }
+      else
+        trend.reason = (is_nil ? "no plateau, but a rate that is not surely 3/4: "
+                               : "neither nil nor significant, run a finer level: ") +
+                       numbers;
+    }
   } // namespace
 
   void judge(Trend &trend)
@@ -145,33 +217,15 @@ namespace plumbline::study
     trend.outcome = Outcome::undecided;
     if (trend.x.size() < levels_for_verdict)
     {
-      trend.reason = std::to_string(trend.x.size()) + " of the " +
-                     std::to_string(levels_for_verdict) + " levels that a verdict needs" +
+      trend.reason = needed_levels(trend.x.size()) +
                      (trend.finest > 0 ? " besides the finest" : "") +
                      ": run more (Study/h, --levels)";
       return;
     }
 
     const double floor = trend.round_off;
-    const double largest = *std::max_element(values.begin(), values.end());
-    if (values.back() <= floor && !(floor <= blurred * trend.size))
-    {
-      trend.reason = "round-off, up to " + base::to_text(floor, 3) +
-                     ", hides the errors of a solution that "
-                     "varies by " +
-                     base::to_text(trend.size, 3) +
-                     " only: subtract a constant from the data, which the operator does not see, "
-                     "or lower Solver/tolerance";
-      return;
-    }
     if (values.back() <= floor)
-    {
-      trend.outcome = Outcome::converges;
-      trend.reason =
-          (largest <= floor ? "exact to round-off, largest error " : "reaches round-off, from ") +
-          base::to_text(largest, 3);
-      return;
-    }
+      return judge_round_off(trend, *std::max_element(values.begin(), values.end()));
     std::vector<double> x, e; // a level that is exact by chance does not count
     for (std::size_t i = 0; i < trend.x.size(); ++i)
       if (values[i] > floor)
@@ -181,52 +235,10 @@ namespace plumbline::study
       }
     if (x.size() < levels_for_verdict)
     {
-      trend.reason = std::to_string(x.size()) + " of the " + std::to_string(levels_for_verdict) +
-                     " levels that a verdict needs are above round-off, " + base::to_text(floor, 3);
+      trend.reason = needed_levels(x.size()) + " are above round-off, " + base::to_text(floor, 3);
       return;
     }
-
-    const PlateauFit fit = fit_plateau(x, e);
-    const Slope slope = fit_slope({x.end() - 3, x.end()}, {e.end() - 3, e.end()});
-    const double last = e.back(), smallest = *std::min_element(e.begin(), e.end());
-    trend.plateau = fit.a;
-    trend.plateau_uncertainty = fit.a_uncertainty;
-    trend.rate = slope.value;
-    trend.rate_uncertainty = slope.uncertainty;
-
-    // a plateau is nil if it is small beside the last error, or not so small but not significant
-    // either
-    const bool is_significant = fit.a > 3 * fit.a_uncertainty;
-    const bool is_nil =
-        std::abs(fit.a) < .1 * last || (!is_significant && std::abs(fit.a) < .3 * last);
-    const bool is_certain = fit.a > 10 * fit.a_uncertainty;
-    // coarse levels that lie above their power law look like a plateau of the others
-    const bool is_flattening = e.back() / e[e.size() - 2] > x.back() / x[x.size() - 2];
-    const std::string numbers = "plateau " + base::to_text(fit.a, 3) + " ± " +
-                                base::to_text(fit.a_uncertainty, 3) + ", last error " +
-                                base::to_text(last, 3) + ", rate " + base::to_text(slope.value, 3) +
-                                " ± " + base::to_text(slope.uncertainty, 3);
-    if (last > 2 * smallest)
-    {
-      trend.outcome = Outcome::stalls;
-      trend.reason = "the error grows again, from " + base::to_text(smallest, 3) + " to " +
-                     base::to_text(last, 3);
-    }
-    else if (is_nil && slope.value - 2 * slope.uncertainty >= .75)
-    {
-      trend.outcome = Outcome::converges;
-      trend.reason = "no plateau: " + numbers;
-    }
-    else if (fit.a >= .1 * last &&
-             (is_certain || (is_significant && is_flattening && fit.a >= .3 * last)))
-    {
-      trend.outcome = Outcome::stalls;
-      trend.reason = "significant plateau: " + numbers;
-    }
-    else
-      trend.reason = (is_nil ? "no plateau, but a rate that is not surely 3/4: "
-                             : "neither nil nor significant, run a finer level: ") +
-                     numbers;
+    judge_errors(trend, x, e);
   }
 
   bool is_against(const std::string &error, scene::Target target)
@@ -241,7 +253,9 @@ namespace plumbline::study
     if (trend.outcome == Outcome::failed)
       return base::word(Outcome::failed);
     if (regime == scene::Regime::horizon)
-      return "rate " + base::to_text(trend.rate, 4);
+      return trend.rate == 0 && trend.rate_uncertainty == 0 // too few horizons to fit one
+                 ? base::word(Outcome::undecided)
+                 : "rate " + base::to_text(trend.rate, 4);
     if (trend.finest > 0 && trend.outcome == Outcome::field_only)
       return "self-convergent to a wrong limit";
     const std::string name = trend.finest > 0                 ? "self-convergent"

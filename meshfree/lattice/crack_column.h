@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshfree/lattice/double_well_bonds.h"
+#include "meshfree/rules/double_well_bonds.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "meshfree/lattice/double_well_force.h"
 
+#include "algebra/power_of_two.h"
 #include "base/error.h"
-#include "meshfree/lattice/power_of_two.h"
 
 #include <deal.II/base/parallel.h>
 
@@ -14,6 +14,11 @@ namespace plumbline::meshfree
 {
   namespace
   {
+    using algebra::Lane;
+    using algebra::power_of_two;
+    using algebra::Wide;
+    using algebra::width_of;
+
     constexpr int n_registers = 2, tile = algebra::wide * n_registers; // nodes of a row at a time
     constexpr int n_images = 4;
 

@@ -1,7 +1,7 @@
 #include "meshfree/scattered/double_well_motion.h"
 
-#include "meshfree/lattice/double_well_bonds.h"
-#include "meshfree/lattice/power_of_two.h"
+#include "algebra/power_of_two.h"
+#include "meshfree/rules/double_well_bonds.h"
 #include "method/nodal_motion.h"
 
 #include <deal.II/base/parallel.h>
@@ -15,6 +15,7 @@ namespace plumbline::meshfree
 {
   namespace
   {
+    using algebra::Lane;
     using State = method::EquationOfMotion::State;
     using Pair = std::array<double, 2>;
 
@@ -36,7 +37,7 @@ namespace plumbline::meshfree
       for (std::size_t k = 0; k < n; k += algebra::lanes)
       {
         const Lane value = algebra::load<Lane>(q + k);
-        const auto power = power_of_two<Lane>(-(value * value));
+        const auto power = algebra::power_of_two<Lane>(-(value * value));
         const Lane kept = power.scale + power.scale * power.tail,
                    lost = (1 - power.scale) - power.scale * power.tail;
         std::memcpy(decay + k, &kept, sizeof(kept));

@@ -143,10 +143,7 @@ namespace plumbline::reference
             n_geometry_checks_(problem.settings.geometry.n_checks),
             seed_(problem.settings.geometry.seed),
             cells_(method::comparison_nodes(problem, problem.n_components)),
-            move_well_(problem.double_well && problem.is_periodic
-                           ? MoveWell([&problem](bool is_lumped, double largest)
-                                      { return move_q1_on_torus(problem, is_lumped, largest); })
-                           : MoveWell())
+            wells_(problem.double_well && problem.is_periodic ? &problem : nullptr)
       {
         if (shapes.degree() == 0)
           limit_ = method::prove_by_moments(problem, stencil(), problem.h * problem.h);
@@ -163,12 +160,13 @@ namespace plumbline::reference
 
       std::unique_ptr<method::EquationOfMotion> motion(bool is_lumped) const override
       {
-        if (!move_well_)
-          return LatticeDiscretisation::motion(is_lumped);
-        algebra::WaveOperator small = *waves();
-        if (is_lumped)
-          small.mass = algebra::lump(small.mass, nodes().n_families());
-        return move_well_(is_lumped, algebra::Symbol(small).range().largest);
+        return wells_ != nullptr ? move_wells(is_lumped, 0)
+                                 : LatticeDiscretisation::motion(is_lumped);
+      }
+
+      std::unique_ptr<method::EquationOfMotion> finer_motion(bool is_lumped) const override
+      {
+        return wells_ != nullptr ? move_wells(is_lumped, 1) : nullptr;
       }
 
       method::Diagnostics diagnostics() const override
@@ -184,6 +182,16 @@ namespace plumbline::reference
       }
 
     private:
+      std::unique_ptr<method::EquationOfMotion> move_wells(bool is_lumped,
+                                                           unsigned int n_more) const
+      {
+        algebra::WaveOperator small = *waves();
+        if (is_lumped)
+          small.mass = algebra::lump(small.mass, nodes().n_families());
+        return move_galerkin_on_torus(*wells_, shapes_, is_lumped,
+                                      algebra::Symbol(small).range().largest, n_more);
+      }
+
       Vector load(const scene::Problem &problem) const override
       {
         return load_vector(problem, shapes_, nodes());
@@ -220,11 +228,8 @@ namespace plumbline::reference
       AxisShapes shapes_;
       double horizon_;
       unsigned int n_geometry_checks_, seed_;
-      NodeSet cells_; ///< to compare over
-      using MoveWell =
-          std::function<std::unique_ptr<method::EquationOfMotion>(bool is_lumped, double largest)>;
-      /// Of double wells on a torus; the stencil is that of small strains.
-      MoveWell move_well_;
+      NodeSet cells_;               ///< to compare over
+      const scene::Problem *wells_; ///< double wells on a torus; the stencil is of small strains
       method::LimitProof limit_;
     };
   } // namespace

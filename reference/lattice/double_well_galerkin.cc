@@ -5,6 +5,8 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -15,16 +17,25 @@ namespace plumbline::reference
   {
     using Pair = std::array<double, 2>;
 
-    /// A point of a cell's axis, with where it goes by z: hat functions at both ends.
+    /// A point of a cell's axis, with where it goes by z: the shape functions of both cells there.
     struct AxisPoint
     {
       double weight;
-      Pair here, there; ///< of the nodes 0, 1 and cell, cell + 1
-      int cell;
+      std::vector<double> here, there;
+      int cell; ///< that x + z lies in, from that of x
     };
 
+    std::vector<double> values_at(const AxisShapes &shapes, double x)
+    {
+      std::vector<double> values;
+      for (unsigned int a = 0; a < shapes.n_local(); ++a)
+        values.push_back(shapes.value(a, x));
+      return values;
+    }
+
     /// Gauss points on both sides of where x + z passes to the next cell.
-    std::vector<AxisPoint> axis_points(double z, double h, unsigned int n_points)
+    std::vector<AxisPoint> axis_points(const AxisShapes &shapes, double z, double h,
+                                       unsigned int n_points)
     {
       const int cell = static_cast<int>(std::floor(z / h));
       const double fraction = z / h - cell;
@@ -37,8 +48,8 @@ namespace plumbline::reference
         {
           const double x = from + length * gauss.point(q)[0];
           const double y = x + fraction - (is_next ? 1 : 0);
-          points.push_back(
-              {h * length * gauss.weight(q), {1 - x, x}, {1 - y, y}, cell + (is_next ? 1 : 0)});
+          points.push_back({h * length * gauss.weight(q), values_at(shapes, x),
+                            values_at(shapes, y), cell + (is_next ? 1 : 0)});
         }
       }
       return points;
@@ -49,26 +60,31 @@ namespace plumbline::reference
       return ((i % n) + n) % n;
     }
 
-    /// Of a power of (h/6) (1, 4, 1), whose symbol is h (2 + cos t)/3: its Fourier coefficients,
-    /// which fall like (2 - √3)^k, by the rule of rectangles.
-    std::vector<double> mass_root_weights(double h, double power)
+    /// ∫ φ_i φ_j of the periodic functions along an axis of n cells.
+    Eigen::MatrixXd axis_mass(const AxisShapes &shapes, double h, int n)
     {
-      constexpr int reach = 30, n = 4 * reach;
-      std::vector<double> weights(reach + 1);
-      for (int q = 0; q < n; ++q)
+      const auto degree = static_cast<int>(shapes.degree());
+      const dealii::QGauss<1> gauss(shapes.degree() + 1);
+      Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n * degree, n * degree);
+      for (unsigned int q = 0; q < gauss.size(); ++q)
       {
-        const double t = 2 * M_PI * q / n, symbol = std::pow(h * (2 + std::cos(t)) / 3, power);
-        for (int k = 0; k <= reach; ++k)
-          weights[k] += symbol * std::cos(k * t) / n;
+        const auto values = values_at(shapes, gauss.point(q)[0]);
+        for (int cell = 0; cell < n; ++cell)
+          for (int a = 0; a <= degree; ++a)
+            for (int b = 0; b <= degree; ++b)
+              mass((cell * degree + a) % (n * degree), (cell * degree + b) % (n * degree)) +=
+                  h * gauss.weight(q) * values[a] * values[b];
       }
-      return weights;
+      return mass;
     }
   } // namespace
 
   template <int dim>
   DoubleWellGalerkin<dim>::DoubleWellGalerkin(const physics::DoubleWell &law, double h,
-                                              std::array<int, 2> n, unsigned int n_points)
-      : law_(law), h_(h), n_(n), reach_(0), width_(0)
+                                              std::array<int, 2> n, unsigned int n_points,
+                                              unsigned int degree, bool is_lumped)
+      : law_(law), h_(h), n_(n), shapes_(true, degree), degree_(static_cast<int>(degree)),
+        reach_(0), width_(0)
   {
     if (!(h > 0) || n[0] < 2 || n[1] < (dim == 1 ? 1 : 2) || n_points == 0)
       throw InputError("Galerkin: " + std::to_string(n[0]) + " x " + std::to_string(n[1]) +
@@ -77,8 +93,22 @@ namespace plumbline::reference
                        " points; give at least 2 cells a side, a positive size and 1 point");
     const double horizon = law.horizon();
     const int m = static_cast<int>(std::ceil(horizon / h * (1 - 1e-14)));
-    reach_ = m + 1;
-    width_ = n[0] + 2 * reach_;
+    reach_ = (m + 1) * degree_;
+    width_ = n_along()[0] + 2 * reach_;
+    for (int axis = 0; axis < dim; ++axis)
+    {
+      Eigen::MatrixXd mass = axis_mass(shapes_, h, n[axis]);
+      if (is_lumped)
+        mass = Eigen::MatrixXd((mass.diagonal() * (n[axis] * h / mass.trace())).asDiagonal());
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(mass);
+      const auto &vectors = solver.eigenvectors();
+      for (const double power : {1., -1., .5, -.5})
+      {
+        const Eigen::VectorXd values = solver.eigenvalues().array().pow(power).matrix();
+        const Eigen::MatrixXd matrix = vectors * values.asDiagonal() * vectors.transpose();
+        mass_[axis][power] = {matrix.data(), matrix.data() + matrix.size()};
+      }
+    }
     if constexpr (dim == 1)
     {
       const dealii::QGauss<1> gauss(n_points);
@@ -109,23 +139,23 @@ namespace plumbline::reference
     way.r = std::hypot(z[0], z[1]);
     way.e = {z[0] / way.r, z[1] / way.r};
     way.weight = weight * law.influence(way.r) * law.force_factor();
-    const auto along_x = axis_points(z[0], h_, n_points);
-    const auto along_y =
-        dim == 1 ? std::vector<AxisPoint>{{1, {1, 0}, {1, 0}, 0}} : axis_points(z[1], h_, n_points);
+    const auto along_x = axis_points(shapes_, z[0], h_, n_points);
+    const auto along_y = dim == 1 ? std::vector<AxisPoint>{{1, {1}, {1}, 0}}
+                                  : axis_points(shapes_, z[1], h_, n_points);
+    const auto row = static_cast<std::ptrdiff_t>(width_);
     for (const AxisPoint &y : along_y)
       for (const AxisPoint &x : along_x)
       {
-        Sample sample;
-        sample.weight = x.weight * y.weight;
-        for (int corner = 0; corner < n_corners; ++corner)
-        {
-          const int i = corner % 2, j = corner / 2;
-          sample.coefficient[corner] = x.there[i] * y.there[j];
-          sample.shift[corner] = (y.cell + j) * static_cast<std::ptrdiff_t>(width_) + x.cell + i;
-          sample.coefficient[n_corners + corner] = -x.here[i] * y.here[j];
-          sample.shift[n_corners + corner] = j * static_cast<std::ptrdiff_t>(width_) + i;
-        }
-        way.samples.push_back(sample);
+        Sample sample{x.weight * y.weight, {}};
+        for (std::size_t j = 0; j < y.here.size(); ++j)
+          for (std::size_t i = 0; i < x.here.size(); ++i)
+          {
+            const auto node = static_cast<std::ptrdiff_t>(j) * row + static_cast<std::ptrdiff_t>(i);
+            sample.terms.push_back(
+                {x.there[i] * y.there[j], degree_ * (y.cell * row + x.cell) + node});
+            sample.terms.push_back({-x.here[i] * y.here[j], node});
+          }
+        way.samples.push_back(std::move(sample));
       }
     n_evaluations_ += way.samples.size();
     ways_.push_back(std::move(way));
@@ -138,17 +168,17 @@ namespace plumbline::reference
   {
     const int margin = dim == 1 ? 0 : reach_;
     std::array<std::vector<double>, n_fields> padded, strains;
-    padded.fill(std::vector<double>(width_ * (n_[1] + 2 * margin)));
+    const auto [n_x, n_y] = n_along();
+    padded.fill(std::vector<double>(width_ * (n_y + 2 * margin)));
     strains.fill(std::vector<double>(n_[0]));
     for (const Way &way : ways_)
     {
       for (std::size_t f = 0; f < n_fields; ++f)
-        for (int j = -margin; j < n_[1] + margin; ++j)
-          for (int i = -reach_; i < n_[0] + reach_; ++i)
+        for (int j = -margin; j < n_y + margin; ++j)
+          for (int i = -reach_; i < n_x + reach_; ++i)
           {
             const std::vector<double> &u = *fields[f];
-            const std::size_t node =
-                static_cast<std::size_t>(wrap(j, n_[1])) * n_[0] + wrap(i, n_[0]);
+            const std::size_t node = static_cast<std::size_t>(wrap(j, n_y)) * n_x + wrap(i, n_x);
             double value = way.e[0] * u[node];
             if constexpr (dim == 2)
               value += way.e[1] * u[n_nodes() + node];
@@ -157,16 +187,16 @@ namespace plumbline::reference
       for (const Sample &sample : way.samples)
         for (int j = 0; j < n_[1]; ++j)
         {
-          const std::size_t row = (j + margin) * width_ + reach_;
+          const std::size_t row = (j * degree_ + margin) * width_ + reach_;
           for (std::size_t f = 0; f < n_fields; ++f)
           {
             std::vector<double> &strain = strains[f];
             std::fill(strain.begin(), strain.end(), 0.);
-            for (int s = 0; s < 2 * n_corners; ++s)
+            for (const Term &term : sample.terms)
             {
-              const double *const from = padded[f].data() + row + sample.shift[s];
+              const double *const from = padded[f].data() + row + term.shift;
               for (int i = 0; i < n_[0]; ++i)
-                strain[i] += sample.coefficient[s] * from[i];
+                strain[i] += term.coefficient * from[i * degree_];
             }
           }
           visit(way, sample, row, strains);
@@ -181,7 +211,8 @@ namespace plumbline::reference
                                      std::vector<double> &r) const
   {
     const int margin = dim == 1 ? 0 : reach_;
-    const std::size_t block = width_ * (n_[1] + 2 * margin);
+    const auto [n_x, n_y] = n_along();
+    const std::size_t block = width_ * (n_y + 2 * margin);
     std::vector<double> padded(dim * block);
     over_ways<n_fields>(fields,
                         [&](const Way &way, const Sample &sample, std::size_t row,
@@ -192,19 +223,19 @@ namespace plumbline::reference
                           for (int i = 0; i < n_[0]; ++i)
                             pulls[i] = factor * pull(way.r, strains, i);
                           for (int a = 0; a < dim; ++a)
-                            for (int s = 0; s < 2 * n_corners; ++s)
+                            for (const Term &term : sample.terms)
                             {
-                              double *const to = padded.data() + a * block + row + sample.shift[s];
-                              const double weight = way.e[a] * sample.coefficient[s];
+                              double *const to = padded.data() + a * block + row + term.shift;
+                              const double weight = way.e[a] * term.coefficient;
                               for (int i = 0; i < n_[0]; ++i)
-                                to[i] -= weight * pulls[i];
+                                to[i * degree_] -= weight * pulls[i];
                             }
                         });
     r.assign(size(), 0.);
     for (int a = 0; a < dim; ++a)
-      for (int j = -margin; j < n_[1] + margin; ++j)
-        for (int i = -reach_; i < n_[0] + reach_; ++i)
-          r[(static_cast<std::size_t>(a) * n_[1] + wrap(j, n_[1])) * n_[0] + wrap(i, n_[0])] +=
+      for (int j = -margin; j < n_y + margin; ++j)
+        for (int i = -reach_; i < n_x + reach_; ++i)
+          r[(static_cast<std::size_t>(a) * n_y + wrap(j, n_y)) * n_x + wrap(i, n_x)] +=
               padded[a * block + (j + margin) * width_ + reach_ + i];
   }
 
@@ -248,59 +279,30 @@ namespace plumbline::reference
     return .5 * sum;
   }
 
-  /// x_i = Σ_k weights[|k|] x_{i+k} along each axis
   template <int dim>
-  void DoubleWellGalerkin<dim>::convolve(const std::vector<double> &weights,
-                                         std::vector<double> &x) const
+  void DoubleWellGalerkin<dim>::apply_along(int axis, double power, std::vector<double> &x) const
   {
-    const int reach = static_cast<int>(weights.size()) - 1;
-    for (int axis = 0; axis < dim; ++axis)
+    const Eigen::Index n = n_along()[axis];
+    const Eigen::Map<const Eigen::MatrixXd> matrix(mass_[axis].at(power).data(), n, n);
+    const Eigen::Index n_x = n_along()[0], n_rows = static_cast<Eigen::Index>(x.size()) / n_x;
+    if (axis == 0)
     {
-      const int n = n_[axis], stride = axis == 0 ? 1 : n_[0];
-      std::vector<double> line(n);
-      for (std::size_t first = 0; first < x.size(); ++first)
-        if (first / stride % n == 0)
-        {
-          for (int i = 0; i < n; ++i)
-            line[i] = x[first + static_cast<std::size_t>(i) * stride];
-          for (int i = 0; i < n; ++i)
-          {
-            double sum = weights[0] * line[i];
-            for (int k = 1; k <= reach; ++k)
-              sum += weights[k] * (line[wrap(i - k, n)] + line[wrap(i + k, n)]);
-            x[first + static_cast<std::size_t>(i) * stride] = sum;
-          }
-        }
+      Eigen::Map<Eigen::MatrixXd> rows(x.data(), n_x, n_rows); // one a column
+      rows = (matrix * rows).eval();
+      return;
+    }
+    for (Eigen::Index first = 0; first < n_rows; first += n)
+    {
+      Eigen::Map<Eigen::MatrixXd> block(x.data() + first * n_x, n_x, n);
+      block = (block * matrix).eval();
     }
   }
 
   template <int dim>
-  void DoubleWellGalerkin<dim>::apply_mass(std::vector<double> &x) const
+  void DoubleWellGalerkin<dim>::apply_mass(std::vector<double> &x, double power) const
   {
-    convolve({2 * h_ / 3, h_ / 6}, x);
-  }
-
-  template <int dim>
-  void DoubleWellGalerkin<dim>::apply_inverse_mass(std::vector<double> &x) const
-  {
-    // the inverse of (1, 4, 1)/6 is √3 (√3 - 2)^|k|, which falls below round-off at 28
-    constexpr int reach = 30;
-    std::vector<double> weights;
-    for (int k = 0; k <= reach; ++k)
-      weights.push_back(std::sqrt(3.) * std::pow(std::sqrt(3.) - 2, k) / h_);
-    convolve(weights, x);
-  }
-
-  template <int dim>
-  void DoubleWellGalerkin<dim>::apply_mass_root(std::vector<double> &x) const
-  {
-    convolve(mass_root_weights(h_, .5), x);
-  }
-
-  template <int dim>
-  void DoubleWellGalerkin<dim>::apply_inverse_mass_root(std::vector<double> &x) const
-  {
-    convolve(mass_root_weights(h_, -.5), x);
+    for (int axis = 0; axis < dim; ++axis)
+      apply_along(axis, power, x);
   }
 
   template <int dim>
@@ -308,7 +310,7 @@ namespace plumbline::reference
                                              std::vector<double> &a) const
   {
     residual(u, a);
-    apply_inverse_mass(a);
+    apply_mass(a, -1);
   }
 
   template class DoubleWellGalerkin<1>;

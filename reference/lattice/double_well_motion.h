@@ -1,14 +1,17 @@
 #pragma once
 
 #include "method/equation_of_motion.h"
+#include "reference/shapes.h"
 
 namespace plumbline::reference
 {
-  /// Double wells by Q1 on a torus, see DoubleWellGalerkin, with its mass matrix or lumped: states
-  /// are M^½ u of the nodal values u, shape (2, n[1], n[0]), in which tangents are symmetric. Loads
-  /// are tested by 3 × 3 Gauss points a cell.
+  /// Double wells by continuous elements on a torus, see DoubleWellGalerkin, with its mass matrix
+  /// or lumped: states are M^½ u of the nodal values u, in which tangents are symmetric. Loads are
+  /// tested by degree + 2 Gauss points a side of a cell.
+  /// @param n_more  Gauss points of forces beyond those that are enough, to see that they are
   /// @param largest_eigenvalue  of the stencil of small strains and the same mass, for steps
-  /// @pre problem.is_periodic, problem.double_well, problem.lattice
+  /// @pre shapes are continuous, problem.is_periodic, problem.double_well, problem.lattice
   std::unique_ptr<method::EquationOfMotion>
-  move_q1_on_torus(const scene::Problem &problem, bool is_lumped, double largest_eigenvalue);
+  move_galerkin_on_torus(const scene::Problem &problem, const AxisShapes &shapes, bool is_lumped,
+                         double largest_eigenvalue, unsigned int n_more = 0);
 } // namespace plumbline::reference

@@ -89,7 +89,7 @@ TEST(CrackCommand, goes_on_after_it_was_killed_to_the_same_bits)
 
 TEST(CrackCommand, refuses_what_is_no_notched_strip)
 {
-  const std::string strip = "crack " + scene("speed") + " --quiet ";
+  const std::string strip = "crack " + scene("speed") + " --quiet --levels 2 ";
   const auto set = [&](const std::string &setting) { return strip + "--set '" + setting + "'"; };
   expect_refused("crack " + std::string(PLUMBLINE_SCENES) + "/waves/diffusion.prm",
                  "Crack/notch = 0, so there is no crack");

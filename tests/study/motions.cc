@@ -139,7 +139,7 @@ TEST(Motions, schemes_show_their_orders_in_time)
                                   {"Time/initial displacement", "0.2*sin(2*pi*x), 0.1*cos(2*pi*y)"},
                                   {"Time/schemes", names},
                                   {"Time/show blow-up", "true"},
-                                  {"Time/steps", "0.05, 0.025, 0.0125, 0.00625"}}));
+                                  {"Time/steps", "0.025, 0.0125, 0.00625, 0.003125"}}));
   ASSERT_EQ(results.orders.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i)
   {
@@ -183,6 +183,70 @@ TEST(Motions, of_double_wells_tend_to_the_torus_without_a_mesh)
     EXPECT_LT(motion.imbalance, 1e-3) << motion.method; // symplectic
 }
 
+TEST(Motions, of_galerkin_know_their_own_errors)
+{
+  const auto results = run(torus({{"Methods/names", "Q1, IPA-AC-R2"},
+                                  {"Study/h", "0.1"},
+                                  {"Reference/estimate", "every"},
+                                  {"Time/final time", "0.1"},
+                                  {"Time/steps", "0.05"}}));
+  for (const MotionRun &motion : results.runs)
+  {
+    ASSERT_EQ(motion.estimate.has_value(), motion.side == Side::reference) << motion.method;
+    if (!motion.estimate)
+      continue;
+    const double error = motion.errors.at("nodal L2 | reference");
+    EXPECT_GT(motion.estimate->sum(), .95 * error) << motion.method << ' ' << motion.h;
+    EXPECT_LT(motion.estimate->sum(), 3 * error) << motion.method << ' ' << motion.h;
+    EXPECT_LT(motion.estimate->quadrature, .1 * motion.estimate->space) << motion.method;
+    EXPECT_GT(motion.estimate->quadrature, 0) << motion.method;
+  }
+  // linear motions, whose forces are exact
+  const Settings settings = {{"Methods/names", "Q1, Q2, Q3, DGQ1"},
+                             {"Study/h", "0.1"},
+                             {"Study/m", "2"},
+                             {"Time/final time", "0.2"},
+                             {"Time/steps", "0.01"},
+                             {"Reference/estimate", "every"}};
+  const auto linear = run(wave("scalar", "sin(2*x + y - 3*t)", settings));
+  ASSERT_EQ(linear.runs.size(), 4u);
+  for (const MotionRun &motion : linear.runs)
+  {
+    ASSERT_EQ(motion.estimate.has_value(), motion.method != "DGQ1") << motion.method;
+    if (!motion.estimate)
+      continue;
+    const double error = motion.errors.at("nodal L2 | exact");
+    EXPECT_GT(motion.estimate->sum(), error) << motion.method;
+    EXPECT_LT(motion.estimate->sum(), 2 * error) << motion.method;
+    EXPECT_EQ(motion.estimate->quadrature, 0);
+    EXPECT_GT(motion.estimate->time, 1e-5); // Δt² is what is left of Q3's error
+  }
+}
+
+TEST(Motions, of_galerkin_are_estimated_where_nothing_else_is_known)
+{
+  const Settings nothing_known = {{"Methods/names", "Q1, FA"},
+                                  {"Problem/solution", ""},
+                                  {"Problem/load", "0, 0"},
+                                  {"Problem/constraint", "0, 0"},
+                                  {"Problem/local solution", "none"},
+                                  {"Time/initial displacement", "sin(pi*x)*sin(pi*y), 0"},
+                                  {"Time/final time", "0.1"},
+                                  {"Time/steps", "0.02"},
+                                  {"Study/h", "0.1"},
+                                  {"Study/m", "2"},
+                                  {"Study/norms", "nodal L2"},
+                                  {"Study/decisive error", "nodal L2 | exact"},
+                                  {"Reference/method", "none"}};
+  for (const std::string estimate : {"automatic", "none"})
+  {
+    Settings settings = nothing_known;
+    settings.push_back({"Reference/estimate", estimate});
+    for (const MotionRun &motion : run(scene_of("tensor", {}, settings)).runs)
+      EXPECT_EQ(motion.estimate.has_value(), estimate == "automatic" && motion.method == "Q1");
+  }
+}
+
 TEST(Motions, of_double_wells_are_driven_by_a_manufactured_force_on_both_sides)
 {
   const std::string solution = "0.1*sin(2*pi*x)*cos(2*t), 0.1*sin(2*pi*y)*sin(t)";
@@ -204,6 +268,33 @@ TEST(Motions, of_double_wells_are_driven_by_a_manufactured_force_on_both_sides)
   for (const MotionRun &motion : results.runs) // the torus itself is driven to the exact solution
     EXPECT_NEAR(motion.errors.at("nodal L2 | reference"), motion.errors.at("nodal L2 | exact"),
                 1e-10);
+}
+
+TEST(Motions, vary_the_horizon_at_a_fixed_mesh_and_both_at_once)
+{
+  const Settings settings = {
+      {"Methods/names", "PA-AC, IPA-AC-R2"}, {"Time/final time", "0.2"}, {"Time/steps", "0.02"}};
+  Settings horizons = settings, pairs = settings;
+  horizons.insert(
+      horizons.end(),
+      {{"Study/regime", "horizon"}, {"Study/h", "0.05"}, {"Study/horizon", "0.4, 0.3, 0.2, 0.1"}});
+  pairs.insert(
+      pairs.end(),
+      {{"Study/regime", "delta-m"}, {"Study/h", "0.1, 0.05, 0.025"}, {"Study/m", "2, 3, 4"}});
+  const auto over_horizons = run(torus(horizons));
+  // fewer bonds are less exact
+  const auto one_point = errors(over_horizons, "PA-AC"),
+             recalibrated = errors(over_horizons, "IPA-AC-R2");
+  ASSERT_EQ(one_point.size(), 4u);
+  EXPECT_GT(one_point.back(), 5 * one_point.front());
+  EXPECT_LT(recalibrated.back(), .3 * one_point.back());
+  for (const MotionTrend &trend : over_horizons.trends)
+    EXPECT_EQ(trend.axis, Axis::horizon);
+  horizons.push_back({"Study/horizon", "0.4, 0.2"}); // no rate without four
+  for (const MotionTrend &trend : run(torus(horizons)).trends)
+    EXPECT_EQ(trend.verdict, "undecided");
+  const auto both = errors(run(torus(pairs)), "IPA-AC-R2");
+  EXPECT_LT(both.back(), .3 * both.front());
 }
 
 TEST(Motions, of_double_wells_take_data_in_a_collar)

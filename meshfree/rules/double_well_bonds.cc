@@ -1,4 +1,4 @@
-#include "meshfree/lattice/double_well_bonds.h"
+#include "meshfree/rules/double_well_bonds.h"
 
 #include "base/error.h"
 

@@ -2,11 +2,8 @@
 
 #include "algebra/lane.h"
 
-namespace plumbline::meshfree
+namespace plumbline::algebra
 {
-  using algebra::Lane;
-  using algebra::Wide;
-
   template <class Vector>
   constexpr int width_of = sizeof(Vector) / sizeof(double);
 
@@ -41,4 +38,4 @@ namespace plumbline::meshfree
       sum = sum * f + coefficients[i];
     return {(Vector)((Bits)shifted << mantissa_bits), sum * f};
   }
-} // namespace plumbline::meshfree
+} // namespace plumbline::algebra

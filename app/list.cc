@@ -1,0 +1,118 @@
+#include "list.h"
+
+#include "base/choice.h"
+#include "base/error.h"
+#include "base/text_file.h"
+#include "methods.h"
+#include "physics/kernel.h"
+#include "scene/capabilities.h"
+#include "scene/scene.h"
+#include "study/refusal.h"
+
+#include <array>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <set>
+
+namespace plumbline::app
+{
+  namespace
+  {
+    /// What 'plumbline list' lists.
+    enum class Listed
+    {
+      methods,
+      models,
+      analyses,
+      kernels,
+      scenes
+    };
+  } // namespace
+} // namespace plumbline::app
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<app::Listed> =
+      std::array{"methods", "models", "analyses", "kernels", "scenes"};
+} // namespace plumbline::base
+
+namespace plumbline::app
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    /// Beside an installed command, else those of the source tree.
+    fs::path scenes_folder()
+    {
+      const fs::path installed =
+          fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/plumbline/scenes";
+      return fs::is_directory(installed) ? installed : fs::path(PLUMBLINE_SCENES);
+    }
+
+    /// Of a scene, or why it is refused: some are there to be.
+    std::string purpose(const fs::path &file)
+    {
+      try
+      {
+        return scene::read_scene(file.string()).purpose;
+      }
+      catch (const InputError &error)
+      {
+        return std::string("refused: ") + error.what();
+      }
+    }
+
+    void list_methods()
+    {
+      for (const auto &method : all_methods())
+        std::cout << std::left << std::setw(11) << method->name() << std::setw(11)
+                  << base::word(method->side()) << method->help() << '\n';
+    }
+
+    void list_kernels()
+    {
+      for (const physics::KernelType &type : physics::kernel_types())
+        std::cout << std::left << std::setw(24) << type.name << type.formula << "   ("
+                  << type.source << ")\n";
+    }
+
+    void list_scenes()
+    {
+      const fs::path folder = scenes_folder();
+      if (!fs::is_directory(folder))
+        throw InputError("the scenes folder '" + folder.string() + "' is not there");
+      std::set<fs::path> files;
+      for (const auto &entry : fs::recursive_directory_iterator(folder))
+        if (base::has_ending(entry.path().string(), ".prm"))
+          files.insert(entry.path());
+      for (const fs::path &file : files)
+        std::cout << file.string() << "\n    " << purpose(file) << '\n';
+    }
+  } // namespace
+
+  void list(const std::string &subject, bool as_matrix)
+  {
+    const auto listed = base::from_word<Listed>(subject);
+    if (as_matrix && listed != Listed::methods)
+      throw InputError("list --matrix is of methods, not of " + subject + "; leave it out");
+    if (as_matrix)
+      std::cout << study::capability_table(all_methods());
+    else if (listed == Listed::methods)
+      list_methods();
+    else if (listed == Listed::models)
+      std::cout << scene::capability_table(subject, scene::models());
+    else if (listed == Listed::analyses)
+      std::cout << scene::capability_table(subject, scene::analyses());
+    else if (listed == Listed::kernels)
+      list_kernels();
+    else if (listed == Listed::scenes)
+      list_scenes();
+    else
+      throw InputError("list: '" + subject +
+                       "' is not known; choose methods, models, analyses, kernels or "
+                       "scenes");
+  }
+} // namespace plumbline::app
