@@ -227,13 +227,27 @@ namespace plumbline::app
               grow_sample};
     }
 
-    /// Without its files when it is there.
+    /// Without its files when it is there. What it goes on from may be of no use to it: it then
+    /// begins anew, as a sample does whose record is not whole, for what fails is not tried again,
+    /// whatever becomes of its checkpoint.
     SampleTaker clean(SampleTaker taker)
     {
       return {taker.check, [take = taker.take](const scene::Scene &sample, const fs::path &own)
               {
-                std::vector<SampleCase> cases = take(sample, own);
+                const bool is_resumed = fs::exists(own / "checkpoint.h5");
                 std::error_code not_there;
+                std::vector<SampleCase> cases;
+                try
+                {
+                  cases = take(sample, own);
+                }
+                catch (const InputError &)
+                {
+                  if (!is_resumed)
+                    throw;
+                  fs::remove_all(own, not_there);
+                  cases = take(sample, own);
+                }
                 fs::remove_all(own, not_there);
                 return cases;
               }};

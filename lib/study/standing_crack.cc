@@ -6,9 +6,11 @@
 #include "physics/state_based.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 namespace plumbline::study
 {
@@ -16,9 +18,63 @@ namespace plumbline::study
   {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-    bool is_of_growth(const std::string &quantity)
+    /// In which strips a quantity is known.
+    enum class Known
     {
-      return quantity.find("growth ") == 0;
+      in_all,
+      between_grips,
+      in_field_of_K,
+      of_growth ///< between grips, with Strip/growth
+    };
+
+    struct Quantity
+    {
+      std::string_view name;
+      Known known;
+      double (*of)(const StripRow &);
+    };
+
+    /// In the order of tables.
+    constexpr std::array quantities = {
+        Quantity{"W1", Known::between_grips, [](const StripRow &row) { return row.state.intact; }},
+        Quantity{"tip energy", Known::between_grips,
+                 [](const StripRow &row) { return row.state.tip_energy(row.strip); }},
+        Quantity{"G", Known::in_field_of_K,
+                 [](const StripRow &row) { return row.release / row.state.intact; }},
+        Quantity{"opening", Known::in_all,
+                 [](const StripRow &row) { return row.state.opening.back(); }},
+        Quantity{"growth peak", Known::of_growth,
+                 [](const StripRow &row) { return row.growth->peak; }},
+        Quantity{"growth mean", Known::of_growth,
+                 [](const StripRow &row) { return row.growth->mean; }},
+        Quantity{"growth released", Known::of_growth,
+                 [](const StripRow &row) { return row.growth->released; }},
+        Quantity{"growth bonds", Known::of_growth,
+                 [](const StripRow &row) { return row.growth->bonds; }}};
+
+    bool is_known(const Quantity &quantity, const scene::StripSection &strip)
+    {
+      const bool is_field = strip.edges == scene::StripEdges::K_field;
+      switch (quantity.known)
+      {
+      case Known::between_grips:
+        return !is_field;
+      case Known::in_field_of_K:
+        return is_field;
+      case Known::of_growth:
+        return !is_field && strip.n_growth > 0;
+      default:
+        return true;
+      }
+    }
+
+    /// Null where there is none of that name.
+    const Quantity *find_quantity(const std::string &name)
+    {
+      const auto *const found =
+          std::find_if(quantities.begin(), quantities.end(),
+                       [&](const Quantity &quantity) { return quantity.name == name; });
+      return found == quantities.end() ? nullptr : found;
     }
 
     int cells(double length, double h)
@@ -65,30 +121,68 @@ namespace plumbline::study
       }
       return find_limit(h, q);
     }
+
+    /// Of rows that failed, or whose strip ends too near to the tip.
+    std::vector<std::string> imbalances(const std::vector<StripRow> &rows)
+    {
+      constexpr double worst_imbalance = 1e-2;
+      std::vector<std::string> faults;
+      for (const StripRow &row : rows)
+        if (!row.failure.empty())
+          faults.push_back(row.method + ", h = " + base::to_text(row.h, 4) + ": " + row.failure);
+        else if (!row.strip.K_tip && !(std::abs(row.imbalance()) <= worst_imbalance))
+          faults.push_back(row.method + ", h = " + base::to_text(row.h, 4) + ": G is " +
+                           base::to_text(row.release / row.state.intact, 6) +
+                           " W1, so that the strip's ends are too near; raise Strip/length, "
+                           "and set Strip/crack to its middle");
+      return faults;
+    }
+
+    bool is_rate(const scene::Expected &one)
+    {
+      const std::string end = " rate";
+      return one.problem.size() > end.size() &&
+             one.problem.compare(one.problem.size() - end.size(), end.size(), end) == 0;
+    }
+
+    /// Of a quantity at each level, or of its limit or rate in each series.
+    std::vector<double> values_of(const StripResults &results, const scene::Expected &one)
+    {
+      const auto is_meant = [&](const auto &found)
+      { return found.method == one.method && (one.series.empty() || found.series == one.series); };
+      std::vector<double> values;
+      for (const StripLimit &limit : results.limits)
+        if (is_meant(limit))
+        {
+          if (one.problem == limit.quantity + " limit")
+            values.push_back(limit.limit);
+          else if (one.problem == limit.quantity + " rate")
+            values.push_back(limit.rate);
+        }
+      const std::vector<std::string> names = strip_quantities(results.strip);
+      for (const StripRow &row : results.rows)
+        if (is_meant(row) && row.failure.empty() &&
+            std::find(names.begin(), names.end(), one.problem) != names.end())
+          values.push_back(row.quantity(one.problem));
+      return values;
+    }
   } // namespace
 
   std::vector<std::string> strip_quantities(const scene::StripSection &strip)
   {
-    if (strip.edges == scene::StripEdges::K_field)
-      return {"G", "opening"};
-    if (strip.n_growth == 0)
-      return {"W1", "tip energy", "opening"};
-    return {"W1",          "tip energy",      "opening",     "growth peak",
-            "growth mean", "growth released", "growth bonds"};
+    std::vector<std::string> names;
+    for (const Quantity &quantity : quantities)
+      if (is_known(quantity, strip))
+        names.emplace_back(quantity.name);
+    return names;
   }
 
   double StripRow::quantity(const std::string &name) const
   {
-    if (is_of_growth(name) && !growth)
+    const Quantity *const found = find_quantity(name);
+    if (found == nullptr || (found->known == Known::of_growth && !growth))
       return unknown;
-    return name == "growth peak"       ? growth->peak
-           : name == "growth mean"     ? growth->mean
-           : name == "growth released" ? growth->released
-           : name == "growth bonds"    ? growth->bonds
-           : name == "W1"              ? state.intact
-           : name == "G"               ? release / state.intact
-           : name == "tip energy"      ? state.tip_energy(strip)
-                                       : state.opening.back();
+    return found->of(*this);
   }
 
   StripRow stand_crack(const method::Method &method, const scene::Scene &scene,
@@ -138,7 +232,8 @@ namespace plumbline::study
       {
         if (levels.size() < 3)
           break;
-        if (is_of_growth(quantity)) // of what lattices trap, which has no power of h
+        // what lattices trap has no power of h
+        if (find_quantity(quantity)->known == Known::of_growth)
           continue;
         const std::size_t last = levels.size() - 1;
         const auto limit = find_limit(levels, last, quantity);
@@ -183,41 +278,24 @@ namespace plumbline::study
   std::vector<std::string> strip_faults(const StripResults &results,
                                         const scene::ExpectedSection &expected)
   {
-    constexpr double worst_imbalance = 1e-2;
-    const std::string of_limit = " limit";
-    const std::vector<std::string> quantities = strip_quantities(results.strip);
-    std::vector<std::string> faults;
-    for (const StripRow &row : results.rows)
-      if (!row.failure.empty())
-        faults.push_back(row.method + ", h = " + base::to_text(row.h, 4) + ": " + row.failure);
-      else if (!row.strip.K_tip && !(std::abs(row.imbalance()) <= worst_imbalance))
-        faults.push_back(row.method + ", h = " + base::to_text(row.h, 4) + ": G is " +
-                         base::to_text(row.release / row.state.intact, 6) +
-                         " W1, so that the strip's ends are too near; raise Strip/length, "
-                         "and set Strip/crack to its middle");
+    std::vector<std::string> faults = imbalances(results.rows);
     for (const scene::Expected &one : expected.all)
     {
       if (one.kind != scene::ExpectedKind::strip)
         continue;
-      const auto is_meant = [&](const auto &found)
-      { return found.method == one.method && (one.series.empty() || found.series == one.series); };
-      std::vector<double> values;
-      for (const StripLimit &limit : results.limits)
-        if (is_meant(limit) && limit.quantity + of_limit == one.problem)
-          values.push_back(limit.limit);
-      for (const StripRow &row : results.rows)
-        if (is_meant(row) && row.failure.empty() &&
-            std::count(quantities.begin(), quantities.end(), one.problem) > 0)
-          values.push_back(row.quantity(one.problem));
+      const std::vector<double> values = values_of(results, one);
       const std::string line = "Expected/strip = '" + one.text + "', but ";
       // of the first levels alone, if there are no more
       if (values.empty() || values.size() > one.values.size())
         faults.push_back(line + "there are " + std::to_string(values.size()) + " such values");
       for (std::size_t i = 0; i < std::min(values.size(), one.values.size()); ++i)
-        if (!(std::abs(values[i] - one.values[i]) <=
-              expected.error_tolerance * std::abs(one.values[i])))
+      {
+        const double tolerance = is_rate(one) ? expected.rate_tolerance
+                                              : expected.error_tolerance * std::abs(one.values[i]);
+        if (!(std::abs(values[i] - one.values[i]) <= tolerance))
           faults.push_back(line + "number " + std::to_string(i + 1) + " is " +
                            base::to_text(values[i], 8));
+      }
     }
     return faults;
   }

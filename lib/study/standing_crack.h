@@ -71,7 +71,8 @@ namespace plumbline::study
   };
   std::vector<StripAgreement> strip_agreements(const std::vector<StripLimit> &limits);
 
-  /// What does not hold of Expected/strip; an imbalance above 1e-2, a strip too short, too.
+  /// What does not hold of Expected/strip; an imbalance above 1e-2, a strip too short, too. Rates
+  /// are those of the limits, through the three finest levels, to Expected/rate tolerance.
   std::vector<std::string> strip_faults(const StripResults &results,
                                         const scene::ExpectedSection &expected);
 } // namespace plumbline::study

@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "meshfree/scattered/damage.h"
 
+#include <deal.II/base/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -133,7 +135,8 @@ namespace plumbline::meshfree
           {
             std::ostringstream message;
             message << "Fracture/toughness = " << toughness.back() << " at (" << x
-                    << ") must be positive: it is the energy that a crack takes for its area";
+                    << ") must be positive: it is the energy that a crack takes for its area; "
+                    << "give each phase its own";
             throw InputError(message.str());
           }
         }
@@ -265,14 +268,17 @@ namespace plumbline::meshfree
   }
 
   double lattice_toughness(const Recipe &recipe, const Kernel<2> &influence, double h,
-                           Backend backend)
+                           Backend backend, std::array<int, 2> along)
   {
-    // for λ = μ = 1 and s0² = 1/(8β); of each kind of bond ξ_y/h cross the line in a length h
+    const double steps = std::hypot(along[0], along[1]);
+    Assert(steps > 0, dealii::ExcMessage("a line without a direction"));
+    // for λ = μ = 1 and s0² = 1/(8β); of each kind of bond |k x along| cross the line in h |along|
     double sum = 0;
     for (const Half &half : half_family(recipe, influence, h, backend))
     {
-      const double stretch = (half.way * half.xi) * (half.way * half.xi) / (8 * beta(influence));
-      sum += .5 * h * h * 8 * half.weight * stretch * half.xi[1] / (h * h);
+      const double stretch = (half.way * half.xi) * (half.way * half.xi) / (8 * beta(influence)),
+                   n_across = std::abs(half.k[0] * along[1] - half.k[1] * along[0]) / (h * steps);
+      sum += .5 * h * h * 8 * half.weight * stretch * n_across;
     }
     return sum;
   }

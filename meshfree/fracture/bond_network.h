@@ -4,6 +4,7 @@
 #include "meshfree/rules/recipe.h"
 #include "physics/state_based.h"
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -81,8 +82,9 @@ namespace plumbline::meshfree
   BondNetwork make_bond_network(const BreakingSolid &solid, const Recipe &recipe,
                                 const Kernel<2> &influence, double h, Backend backend);
 
-  /// Energy of all bonds across an endless line along an axis, each at its limit s0 of G = 1, on a
-  /// homogeneous lattice with λ = μ, per length.
+  /// Energy of all bonds across an endless straight line that meets no node, each at its limit s0
+  /// of G = 1, on a homogeneous lattice with λ = μ, per length: what a crack along it breaks.
+  /// @param along  the line's direction in steps of the lattice, not (0, 0)
   double lattice_toughness(const Recipe &recipe, const Kernel<2> &influence, double h,
-                           Backend backend);
+                           Backend backend, std::array<int, 2> along = {1, 0});
 } // namespace plumbline::meshfree

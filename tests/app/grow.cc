@@ -219,6 +219,8 @@ TEST(GrowCommand, refuses_what_cannot_grow)
   expect_refused("crack " + plate(), "Crack/notch = 0");
   expect_refused(set("Fracture/toughness=-1"), "Fracture/toughness = -1 must be positive");
   expect_refused(set("Fracture/toughness=x - 1"), "Fracture/toughness = -0.9875 at (0.0125");
+  expect_refused(set("Fracture/toughness=x < 0.6 ? 1 : 0"), "give each phase its own");
+  expect_refused(set("Material/E=x < 0.6 ? 1 : 0"), "Young's modulus E = 0");
   expect_refused(set("Fracture/toughness=x, y"), "one component");
   expect_refused(set("Domain/cracks="), "a notch that the crack grows from");
   expect_refused(set("Domain/cracks=-1, 0 : -0.5, 0"), "the notch lies outside of the body");

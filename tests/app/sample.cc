@@ -1,6 +1,7 @@
 // `plumbline sample`: a random scene at many samples, in processes side by side, what it goes on
 // from, and what it refuses.
 
+#include "analysis/checkpoint.h"
 #include "command.h"
 
 #include <nlohmann/json.hpp>
@@ -169,6 +170,52 @@ TEST(SampleCommand, goes_on_after_it_was_killed_to_the_same_bits)
   EXPECT_EQ(results(whole), results(killed));
   fs::remove_all(whole);
   fs::remove_all(killed);
+}
+
+TEST(SampleCommand, lets_a_growth_that_was_killed_go_on_from_its_checkpoint_to_the_same_bits)
+{
+  const fs::path whole = temporary("sample_whole"), killed = temporary("sample_killed"),
+                 told = temporary("sample_told"), spoilt = temporary("sample_spoilt"),
+                 checkpoint = "samples/sample_1/checkpoint.h5";
+  const std::string command = "sample " + std::string(PLUMBLINE_SCENES) +
+                              "/glass_ceramics/half_plate.prm --quiet --set Sampling/counts=2 "
+                              "--set 'Fracture/largest load=0.2' --set 'Fracture/checkpoint "
+                              "interval=7' -o ";
+  ASSERT_EQ(run(command + whole.string()).exit_code, 0);
+  ASSERT_TRUE(kill_at(command + killed.string(), killed / checkpoint))
+      << "the run had ended before it was killed";
+  ASSERT_TRUE(fs::exists(killed / checkpoint));
+  EXPECT_FALSE(fs::exists(killed / "sample.json"));
+  EXPECT_FALSE(fs::exists(killed / "samples/000001.json"));
+  for (const fs::path &copy : {told, spoilt})
+    fs::copy(killed, copy, fs::copy_options::recursive);
+  const auto kept = fs::last_write_time(killed / "samples/000000.json");
+  const Outcome resumed = run(command + killed.string());
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(fs::last_write_time(killed / "samples/000000.json"), kept);
+  EXPECT_FALSE(fs::exists(killed / "samples/sample_1")); // no more needed
+  EXPECT_EQ(results(killed), results(whole));
+
+  // it does go on from there: what a checkpoint tells of an event is in the end what was
+  constexpr std::size_t reaction_before = 2;
+  auto events = *plumbline::analysis::read_checkpoint((told / checkpoint).string());
+  EXPECT_GT(events.records.size(), 7 * reaction_before);
+  events.records[reaction_before] = 1000;
+  write_checkpoint((told / checkpoint).string(), events);
+  const Outcome retold = run(command + told.string());
+  ASSERT_EQ(retold.exit_code, 0) << retold.err;
+  const auto peak = [](const fs::path &folder)
+  { return results(folder)["cases"][0]["sets"][0]["quantities"]["peak reaction"]["largest"]; };
+  EXPECT_LT(peak(whole), 100);
+  EXPECT_EQ(peak(told), 1000);
+
+  // one that is not whole is of no use: the sample begins anew
+  std::ofstream(spoilt / checkpoint) << "no events";
+  const Outcome anew = run(command + spoilt.string());
+  ASSERT_EQ(anew.exit_code, 0) << anew.err;
+  EXPECT_EQ(results(spoilt), results(whole));
+  for (const fs::path &folder : {whole, killed, told, spoilt})
+    fs::remove_all(folder);
 }
 
 TEST(SampleCommand, touches_no_files_that_are_not_its_own)

@@ -270,6 +270,22 @@ TEST(Fracture, toughness_of_lattices_tends_to_that_of_the_law)
   }
 }
 
+TEST(Fracture, toughness_of_a_lattice_depends_on_the_direction_of_a_cut)
+{
+  const auto K = influence(3 * h);
+  const auto recipe = meshfree::optimisation_based(physics::deviatoric_kernel(K, 1));
+  const auto along = [&](int p, int q) {
+    return lattice_toughness(recipe, K, h, geometry::Backend::fast, {p, q});
+  };
+  EXPECT_NEAR(along(3, 1), .9551, 5e-5); // 18.4 degrees
+  EXPECT_NEAR(along(2, 1), .9411, 5e-5); // 26.6
+  EXPECT_NEAR(along(1, 1), .9130, 5e-5); // 45
+  // a line is that of any of its steps and of its mirror images
+  EXPECT_NEAR(along(4, -2), along(2, 1), 1e-14);
+  EXPECT_NEAR(along(-1, 2), along(2, 1), 1e-14);
+  EXPECT_NEAR(along(0, 1), lattice_toughness(recipe, K, h, geometry::Backend::fast), 1e-14);
+}
+
 TEST(Fracture, finite_stretches_reach_their_limits_at_critical_loads)
 {
   const BondNetwork net = network(plate(20, 16, 5 * h, .25));

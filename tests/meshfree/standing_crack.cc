@@ -54,6 +54,26 @@ TEST(StandingCrack, has_the_energies_of_an_independent_program)
   }
 }
 
+// Of the local strip's, by three bonds to a horizon of 1/8, 1/16 and 1/32 of the height: what is
+// missing is a number of horizons, for each grip.
+TEST(StandingCrack, is_in_a_strip_that_stiffens_to_the_local_one)
+{
+  constexpr int m = 3;
+  double missing = 0;
+  for (const auto &[height, known] : {std::pair(8, .93956), {16, .96884}, {32, .98417}})
+  {
+    const int n = height * m; // W1 is that of any length
+    const double W1 =
+        solve({n, 4 * m, 2 * m, horizon / m}, meshfree::optimisation_based).intact * height / 48;
+    EXPECT_NEAR(W1, known, 1e-5) << height;
+    if (missing > 0)
+    {
+      EXPECT_NEAR(missing / (1 - W1), 2, .08) << height;
+    }
+    missing = 1 - W1;
+  }
+}
+
 TEST(StandingCrack, gets_the_energy_of_the_intact_strip_for_its_advance)
 {
   method::RiceStrip strip = make_strip(3, 6);

@@ -130,6 +130,9 @@ TEST(SamplePoints, SmolyakOfTwentyVariablesHasAHeavyCentre)
     EXPECT_NEAR(mean(rule, [](const auto &x) { return x[3] * x[3] * x[7] * x[7]; }), 0, 1e-13);
   }
   EXPECT_NEAR(smolyak_points(normal, 1, Growth::linear).noise(), std::sqrt(361 + 40 * .25), 1e-12);
+  // centre -17/3, forty of 1/6
+  EXPECT_NEAR(smolyak_points(normal, 1, Growth::odd).noise(), std::sqrt(299.) / 3, 1e-12);
+  EXPECT_NEAR(smolyak_points(normal, 1, Growth::odd).noise(), 5.8, .05); // to two digits
   EXPECT_EQ(smolyak_points(normal, 2, Growth::linear).points.size(), 841);
   EXPECT_EQ(smolyak_points(normal, 2, Growth::odd).points.size(), 881);
   EXPECT_EQ(smolyak_points(normal, 2, Growth::doubling).points.size(), 921);

@@ -53,6 +53,8 @@ namespace plumbline::toughness
     // √((1 - f) G1 + f G2) √(((1 - f) E1 + f E2) / (1 - nu²)), GPa um^(1/2)
     EXPECT_NEAR(found.mean_field(.2), std::sqrt(22.542e-3 * 90.6 / .9375), 1e-12);
     EXPECT_NEAR(found.mean_field(.2), 1.476, 5e-4);
+    EXPECT_NEAR(found.mean_field(.4), 2.038, 5e-4);
+    EXPECT_NEAR(found.mean_field(.6), 2.548, 5e-4);
     EXPECT_NEAR(found.mean_field(.8), 3.032, 5e-4);
   }
 

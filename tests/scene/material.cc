@@ -135,6 +135,15 @@ TEST(Material, FieldsAreCheckedEverywhere)
         (void)make_problem(solid(with("Material/nu", "-x/10")), 0, {.1, .3});
       },
       "harmonic means need it positive");
+  // a phase without its constant
+  for (const char *const part :
+       {"Material/E and nu at (-0.", "Young's modulus E = 0, but it must be positive",
+        "give constants that are right at every point, for each phase its own"})
+    expect_error(
+        [&] {
+          (void)make_problem(solid(with("Material/E", "x > 0.5 ? 87 : 0")), 0, {.1, .3});
+        },
+        part);
 }
 
 TEST(Material, ModelsAndKernelsFit)

@@ -131,6 +131,39 @@ TEST(StripFaults, are_what_is_not_as_expected)
   EXPECT_EQ(expect("W1", {1, 1, 1}), 1u);
 }
 
+TEST(StripFaults, are_rates_that_are_not_as_expected)
+{
+  std::vector<double> q;
+  for (const double h : sizes)
+    q.push_back(curve(h));
+  study::StripResults results;
+  results.rows = rows("A", sizes, q);
+  results.limits = strip_limits({}, results.rows);
+  scene::ExpectedSection expected;
+  expected.error_tolerance = 1e-6; // which is not that of rates
+  expected.rate_tolerance = .04;
+  const auto faults = [&](const std::string &quantity, const std::vector<double> &values)
+  {
+    scene::Expected one;
+    one.kind = scene::ExpectedKind::strip;
+    one.method = "A";
+    one.problem = quantity;
+    one.values = values;
+    expected.all = {one};
+    return study::strip_faults(results, expected);
+  };
+  EXPECT_EQ(faults("tip energy rate", {1.5}).size(), 0u);
+  EXPECT_EQ(faults("tip energy rate", {1.53}).size(), 0u);
+  EXPECT_EQ(faults("tip energy rate", {1.47}).size(), 0u);
+  EXPECT_EQ(faults("tip energy rate", {1.55}).size(), 1u); // a relative .04 would hold
+  EXPECT_EQ(faults("tip energy rate", {1.45}).size(), 1u);
+  const auto wrong = faults("tip energy rate", {2.2});
+  ASSERT_EQ(wrong.size(), 1u);
+  EXPECT_NE(wrong.front().find("number 1 is 1.5"), std::string::npos) << wrong.front();
+  EXPECT_EQ(faults("W1 rate", {1.5}).size(), 1u); // it does not move
+  EXPECT_EQ(faults("rate", {1.5}).size(), 1u);
+}
+
 TEST(StripFaults, are_of_growth_where_a_rule_has_grown)
 {
   study::StripResults results;
@@ -138,9 +171,8 @@ TEST(StripFaults, are_of_growth_where_a_rule_has_grown)
   results.rows = rows("A", {.5, .25, .125}, {.7, .6, .55});
   for (const StripRow &row : results.rows)
     EXPECT_TRUE(std::isnan(row.quantity("growth peak")));
-  double peak = 2;
-  for (StripRow &row : results.rows)
-    row.growth = study::StripGrowth{peak /= 1.1, 1.1, 1.05, .9};
+  for (StripRow &row : results.rows) // as a power of h, all the same
+    row.growth = study::StripGrowth{1.2 + row.h, 1.1 + row.h, 1.05 + row.h, .9 - row.h};
   results.limits = strip_limits(results.strip, results.rows);
   for (const StripLimit &limit : results.limits) // what lattices trap has none
     EXPECT_EQ(limit.quantity.find("growth"), std::string::npos);
@@ -156,11 +188,31 @@ TEST(StripFaults, are_of_growth_where_a_rule_has_grown)
     expected.all = {one};
     return study::strip_faults(results, expected).size();
   };
-  EXPECT_EQ(expect("growth peak", {2 / 1.1, 2 / 1.21, 2 / 1.331}), 0u);
-  EXPECT_EQ(expect("growth peak", {2 / 1.1, 2 / 1.21, 1.4}), 1u);
-  EXPECT_EQ(expect("growth mean", {1.1, 1.1, 1.1}), 0u);
-  EXPECT_EQ(expect("growth released", {1.05, 1.05, 1.05}), 0u);
-  EXPECT_EQ(expect("growth bonds", {.9, .9, .9}), 0u);
+  EXPECT_EQ(expect("growth peak", {1.7, 1.45, 1.325}), 0u);
+  EXPECT_EQ(expect("growth peak", {1.7, 1.45, 1.4}), 1u);
+  EXPECT_EQ(expect("growth mean", {1.6, 1.35, 1.225}), 0u);
+  EXPECT_EQ(expect("growth released", {1.55, 1.3, 1.175}), 0u);
+  EXPECT_EQ(expect("growth bonds", {.4, .65, .775}), 0u);
   results.strip.n_growth = 0;
-  EXPECT_EQ(expect("growth mean", {1.1, 1.1, 1.1}), 1u);
+  EXPECT_EQ(expect("growth mean", {1.6, 1.35, 1.225}), 1u);
+}
+
+TEST(StripQuantities, are_those_of_edges_and_growth)
+{
+  using Names = std::vector<std::string>;
+  scene::StripSection strip;
+  EXPECT_EQ(study::strip_quantities(strip), Names({"W1", "tip energy", "opening"}));
+  strip.n_growth = 4;
+  EXPECT_EQ(study::strip_quantities(strip),
+            Names({"W1", "tip energy", "opening", "growth peak", "growth mean", "growth released",
+                   "growth bonds"}));
+  strip.n_growth = 0;
+  strip.edges = scene::StripEdges::K_field;
+  EXPECT_EQ(study::strip_quantities(strip), Names({"G", "opening"}));
+  const StripRow row = rows("A", {.5}, {.7}).front(); // W1 = G = 1, open by 1 at the tip
+  EXPECT_NEAR(row.quantity("tip energy"), .7, 1e-12);
+  EXPECT_EQ(row.quantity("W1"), 1);
+  EXPECT_EQ(row.quantity("G"), 1);
+  EXPECT_EQ(row.quantity("opening"), 1);
+  EXPECT_TRUE(std::isnan(row.quantity("openings")));
 }

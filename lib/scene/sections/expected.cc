@@ -121,7 +121,8 @@ namespace plumbline::scene
     keys.add("error tolerance", error_tolerance, positive(), "Relative, of Expected/errors.");
     add(ExpectedKind::rates,
         "'method[, case][, series]: p', the observed rate between the two finest levels.");
-    keys.add("rate tolerance", rate_tolerance, positive(), "Absolute, of Expected/rates.");
+    keys.add("rate tolerance", rate_tolerance, positive(),
+             "Absolute, of Expected/rates and of rates in Expected/strip.");
     add(ExpectedKind::bounds,
         "'method[, case][, series]: e', the decisive error stays below e at every level.");
     add(ExpectedKind::monotone, "'method[, case][, series]: yes' or 'no', whether the decisive "
@@ -152,8 +153,9 @@ namespace plumbline::scene
     add(ExpectedKind::strip,
         "'method, quantity[, series]: q0 q1 ...' of 'plumbline strip' at each level, to "
         "Expected/error tolerance; quantities are W1, tip energy, opening, G (over what is "
-        "exact locally; of Strip/edges = K field), and their limits, "
-        "e.g. tip energy limit, which are one number.");
+        "exact locally; of Strip/edges = K field), and their limits and observed rates, "
+        "e.g. tip energy limit and tip energy rate, which are one number; rates to "
+        "Expected/rate tolerance.");
     add(ExpectedKind::growth,
         "'method: d': growth rates that 'plumbline stability' observes on strained double wells "
         "differ from the symbol's by no more than d of the largest.");

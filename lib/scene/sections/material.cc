@@ -73,6 +73,8 @@ namespace plumbline::scene
         if (!material.is_homogeneous)
           message << " at (" << x << ")";
         message << ": " << error.what();
+        if (!material.is_homogeneous)
+          message << "; give constants that are right at every point, for each phase its own";
         throw InputError(message.str());
       }
     };
