@@ -13,43 +13,55 @@ namespace plumbline::app
   using namespace meshfree;
   using Json = nlohmann::ordered_json;
 
-  std::string check_text(const Findings &found, const Requirements &required,
-                         const CheckOptions &options)
+  namespace
   {
-    const auto id = [&](std::size_t node) { return found.ids[node]; };
-    std::ostringstream out;
-    out << std::setprecision(4);
-    out << "nodes     " << options.nodes_file << ": " << found.cells->n_free << " free, "
-        << found.ids.size() - found.cells->n_free << " in the collar; volumes of the free ones off "
-        << "their cells' area by " << base::to_percent(found.volume_defect) << '\n'
-        << "bonds     " << options.bonds_file << ": " << found.weights.n_bonds << ", at most "
-        << found.weights.largest_family << " of a node";
-    if (found.given.n_ignored > 0)
-      out << "; " << found.given.n_ignored << " of collar nodes ignored";
-    out << "\nlevel     " << found.level.text() << ", nearest to the nodes' mean size "
-        << found.level.node_size << "\n\nmoments   degree  worst       median      worst at\n";
-    for (const MomentDefect &defect : found.moments.defects)
-      out << "          " << std::left << std::setw(8) << defect.degree << std::setw(12)
-          << defect.worst.value << std::setw(12) << defect.median << "node "
-          << id(defect.worst.node) << '\n';
-    out << "          reproduces polynomials up to degree " << found.moments.exact_degree << " (to "
-        << MomentCheck::tolerance << ")\n"
-        << "weights   " << found.weights.n_negative << " negative, " << found.weights.smallest_ratio
-        << " to " << found.weights.largest_ratio
-        << " of the neighbour's volume; their sum is off the ball without the node's own cell by "
-        << base::to_percent(found.weights.area.value) << " at worst, at node "
-        << id(found.weights.area.node) << '\n'
-        << "symmetry  w C of a pair differs from end to end by "
-        << base::to_percent(found.symmetry.asymmetry) << " of the largest";
-    if (found.symmetry.asymmetry > 0)
-      out << ", between nodes " << id(found.symmetry.nodes[0]) << " and "
-          << id(found.symmetry.nodes[1]);
-    out << "; " << found.symmetry.n_unpaired << " bonds without a partner\n"
-        << "matrix    " << found.matrix.n_positive
-        << " rows with positive off-diagonal entries (no M-matrix if any), " << found.matrix.n_weak
-        << " not diagonally dominant; symmetric part: " << found.matrix.n_negative_eigenvalues
-        << " negative eigenvalues, the smallest is " << found.matrix.smallest_eigenvalue << '\n';
-    for (const CaseCheck &one : found.cases)
+    void tell_nodes(std::ostream &out, const Findings &found, const CheckOptions &options)
+    {
+      out << "nodes     " << options.nodes_file << ": " << found.cells->n_free << " free, "
+          << found.ids.size() - found.cells->n_free
+          << " in the collar; volumes of the free ones off "
+          << "their cells' area by " << base::to_percent(found.volume_defect) << '\n'
+          << "bonds     " << options.bonds_file << ": " << found.weights.n_bonds << ", at most "
+          << found.weights.largest_family << " of a node";
+      if (found.given.n_ignored > 0)
+        out << "; " << found.given.n_ignored << " of collar nodes ignored";
+      out << "\nlevel     " << found.level.text() << ", nearest to the nodes' mean size "
+          << found.level.node_size << "\n\n";
+    }
+
+    void tell_moments(std::ostream &out, const Findings &found)
+    {
+      out << "moments   degree  worst       median      worst at\n";
+      for (const MomentDefect &defect : found.moments.defects)
+        out << "          " << std::left << std::setw(8) << defect.degree << std::setw(12)
+            << defect.worst.value << std::setw(12) << defect.median << "node "
+            << found.ids[defect.worst.node] << '\n';
+      out << "          reproduces polynomials up to degree " << found.moments.exact_degree
+          << " (to " << MomentCheck::tolerance << ")\n";
+    }
+
+    void tell_operator(std::ostream &out, const Findings &found)
+    {
+      const auto id = [&](std::size_t node) { return found.ids[node]; };
+      out << "weights   " << found.weights.n_negative << " negative, "
+          << found.weights.smallest_ratio << " to " << found.weights.largest_ratio
+          << " of the neighbour's volume; their sum is off the ball without the node's own cell by "
+          << base::to_percent(found.weights.area.value) << " at worst, at node "
+          << id(found.weights.area.node) << '\n'
+          << "symmetry  w C of a pair differs from end to end by "
+          << base::to_percent(found.symmetry.asymmetry) << " of the largest";
+      if (found.symmetry.asymmetry > 0)
+        out << ", between nodes " << id(found.symmetry.nodes[0]) << " and "
+            << id(found.symmetry.nodes[1]);
+      out << "; " << found.symmetry.n_unpaired << " bonds without a partner\n"
+          << "matrix    " << found.matrix.n_positive
+          << " rows with positive off-diagonal entries (no M-matrix if any), "
+          << found.matrix.n_weak
+          << " not diagonally dominant; symmetric part: " << found.matrix.n_negative_eigenvalues
+          << " negative eigenvalues, the smallest is " << found.matrix.smallest_eigenvalue << '\n';
+    }
+
+    void tell_solution(std::ostream &out, const CaseCheck &one)
     {
       out << "solution  " << one.name << '\n';
       if (!one.failure.empty())
@@ -60,6 +72,18 @@ namespace plumbline::app
         out << "          " << std::setw(26) << name << value << "  by the reference, "
             << one.reference << '\n';
     }
+  } // namespace
+
+  std::string check_text(const Findings &found, const Requirements &required,
+                         const CheckOptions &options)
+  {
+    std::ostringstream out;
+    out << std::setprecision(4);
+    tell_nodes(out, found, options);
+    tell_moments(out, found);
+    tell_operator(out, found);
+    for (const CaseCheck &one : found.cases)
+      tell_solution(out, one);
     out << '\n';
     for (const std::string &verdict : verdicts(found))
       out << verdict << '\n';
@@ -70,69 +94,101 @@ namespace plumbline::app
     return out.str();
   }
 
+  namespace
+  {
+    Json to_json(const Worst &worst, const Findings &found)
+    {
+      return {{"value", worst.value}, {"node", found.ids[worst.node]}};
+    }
+
+    void add_sizes(Json &json, const Findings &found)
+    {
+      json["n_free"] = found.cells->n_free;
+      json["n_collar"] = found.ids.size() - found.cells->n_free;
+      json["n_bonds"] = found.weights.n_bonds;
+      json["n_ignored_bonds"] = found.given.n_ignored;
+      json["largest_family"] = found.weights.largest_family;
+      json["series"] = found.level.series;
+      json["h"] = found.level.level.h;
+      json["horizon"] = found.level.level.horizon;
+      json["node_size"] = found.level.node_size;
+      json["volume_defect"] = found.volume_defect;
+    }
+
+    void add_moments(Json &json, const Findings &found)
+    {
+      for (const MomentDefect &defect : found.moments.defects)
+        json["moments"].push_back({{"degree", defect.degree},
+                                   {"worst", to_json(defect.worst, found)},
+                                   {"median", defect.median}});
+      json["exact_degree"] = found.moments.exact_degree;
+      json["second_moment"] = {{"mean_ratio", found.moments.mean_ratio},
+                               {"worst", to_json(found.moments.second, found)}};
+    }
+
+    /// What the weights are, and what may be wrong with them.
+    void add_causes(Json &json, const Findings &found)
+    {
+      json["rule"] = found.rule.empty() ? Json()
+                                        : Json{{"name", found.rule},
+                                               {"factor", found.rule_factor},
+                                               {"remark", found.rule_remark}};
+      json["causes"] = Json::array();
+      for (const Cause &cause : found.causes)
+        json["causes"].push_back({{"name", cause.name},
+                                  {"text", cause.text},
+                                  {"factor", cause.factor},
+                                  {"defect_before", cause.before},
+                                  {"defect_after", cause.after}});
+      json["outliers"] = Json::array();
+      for (const Outlier &o : found.outliers)
+        json["outliers"].push_back(
+            {{"node", found.ids[o.node]},
+             {"neighbour", o.neighbour == Outlier::none ? Json() : Json(found.ids[o.neighbour])},
+             {"line", o.bond == Outlier::none ? Json() : Json(found.given.lines[o.node][o.bond])},
+             {"found", o.found},
+             {"expected", o.expected},
+             {"text", text(o, found)}});
+    }
+
+    void add_operator(Json &json, const Findings &found)
+    {
+      json["weights"] = {{"n_negative", found.weights.n_negative},
+                         {"smallest_ratio", found.weights.smallest_ratio},
+                         {"largest_ratio", found.weights.largest_ratio},
+                         {"area_defect", to_json(found.weights.area, found)}};
+      json["symmetry"] = {
+          {"asymmetry", found.symmetry.asymmetry},
+          {"nodes", {found.ids[found.symmetry.nodes[0]], found.ids[found.symmetry.nodes[1]]}},
+          {"n_unpaired", found.symmetry.n_unpaired}};
+      json["matrix"] = {{"n_rows_with_positive_entries", found.matrix.n_positive},
+                        {"n_rows_not_dominant", found.matrix.n_weak},
+                        {"n_negative_eigenvalues", found.matrix.n_negative_eigenvalues},
+                        {"smallest_eigenvalue", found.matrix.smallest_eigenvalue}};
+    }
+
+    void add_solutions(Json &json, const Findings &found)
+    {
+      for (const CaseCheck &one : found.cases)
+        json["solutions"].push_back({{"case", one.name},
+                                     {"failure", one.failure},
+                                     {"errors", one.errors},
+                                     {"reference", one.reference},
+                                     {"reference_errors", one.reference_errors}});
+    }
+  } // namespace
+
   std::string check_json(const Findings &found, const Requirements &required,
                          const CheckOptions &options, int exit_code)
   {
-    const auto worst = [&](const Worst &value) {
-      return Json{{"value", value.value}, {"node", found.ids[value.node]}};
-    };
     Json json = {{"nodes", options.nodes_file},
                  {"bonds", options.bonds_file},
-                 {"scene", options.scene_file},
-                 {"n_free", found.cells->n_free},
-                 {"n_collar", found.ids.size() - found.cells->n_free},
-                 {"n_bonds", found.weights.n_bonds},
-                 {"n_ignored_bonds", found.given.n_ignored},
-                 {"largest_family", found.weights.largest_family},
-                 {"series", found.level.series},
-                 {"h", found.level.level.h},
-                 {"horizon", found.level.level.horizon},
-                 {"node_size", found.level.node_size},
-                 {"volume_defect", found.volume_defect}};
-    for (const MomentDefect &defect : found.moments.defects)
-      json["moments"].push_back(
-          {{"degree", defect.degree}, {"worst", worst(defect.worst)}, {"median", defect.median}});
-    json["exact_degree"] = found.moments.exact_degree;
-    json["second_moment"] = {{"mean_ratio", found.moments.mean_ratio},
-                             {"worst", worst(found.moments.second)}};
-    json["rule"] = found.rule.empty() ? Json()
-                                      : Json{{"name", found.rule},
-                                             {"factor", found.rule_factor},
-                                             {"remark", found.rule_remark}};
-    json["causes"] = Json::array();
-    for (const Cause &cause : found.causes)
-      json["causes"].push_back({{"name", cause.name},
-                                {"text", cause.text},
-                                {"factor", cause.factor},
-                                {"defect_before", cause.before},
-                                {"defect_after", cause.after}});
-    json["outliers"] = Json::array();
-    for (const Outlier &o : found.outliers)
-      json["outliers"].push_back(
-          {{"node", found.ids[o.node]},
-           {"neighbour", o.neighbour == Outlier::none ? Json() : Json(found.ids[o.neighbour])},
-           {"line", o.bond == Outlier::none ? Json() : Json(found.given.lines[o.node][o.bond])},
-           {"found", o.found},
-           {"expected", o.expected},
-           {"text", text(o, found)}});
-    json["weights"] = {{"n_negative", found.weights.n_negative},
-                       {"smallest_ratio", found.weights.smallest_ratio},
-                       {"largest_ratio", found.weights.largest_ratio},
-                       {"area_defect", worst(found.weights.area)}};
-    json["symmetry"] = {
-        {"asymmetry", found.symmetry.asymmetry},
-        {"nodes", {found.ids[found.symmetry.nodes[0]], found.ids[found.symmetry.nodes[1]]}},
-        {"n_unpaired", found.symmetry.n_unpaired}};
-    json["matrix"] = {{"n_rows_with_positive_entries", found.matrix.n_positive},
-                      {"n_rows_not_dominant", found.matrix.n_weak},
-                      {"n_negative_eigenvalues", found.matrix.n_negative_eigenvalues},
-                      {"smallest_eigenvalue", found.matrix.smallest_eigenvalue}};
-    for (const CaseCheck &one : found.cases)
-      json["solutions"].push_back({{"case", one.name},
-                                   {"failure", one.failure},
-                                   {"errors", one.errors},
-                                   {"reference", one.reference},
-                                   {"reference_errors", one.reference_errors}});
+                 {"scene", options.scene_file}};
+    add_sizes(json, found);
+    add_moments(json, found);
+    add_causes(json, found);
+    add_operator(json, found);
+    add_solutions(json, found);
     json["verdicts"] = verdicts(found);
     json["complaints"] = complaints(found, required);
     json["exit_code"] = exit_code;

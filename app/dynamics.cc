@@ -85,6 +85,49 @@ namespace plumbline::app
         return study::begin_results(scene, n_levels);
       return report::read_motions(folder, study::begin_results(scene, n_levels));
     }
+
+    /// Of each motion, those that are written.
+    using FrameTimes = std::map<std::string, std::vector<double>>;
+
+    /// @param journal, times, progress  outlive it
+    study::MotionControl control_of(const RunOptions &options, const fs::path &folder,
+                                    report::MotionJournal &journal, FrameTimes &times,
+                                    ProgressLine &progress)
+    {
+      study::MotionControl control;
+      control.n_levels = options.n_levels;
+      control.on_progress = [&progress](const std::string &what, double f)
+      { progress.show(what, f); };
+      control.on_result = [&journal](const study::DynamicResults &r) { journal.append(r); };
+      control.should_stop = is_interrupted;
+      control.make_torus = reference::move_on_torus;
+      control.on_frame = [folder, &times](const study::MotionRun &run, const study::Frame &frame)
+      {
+        const std::string name = report::slug(run.method + "_" + run.problem + "_" + run.series);
+        times[name].push_back(frame.t);
+        write_frame(folder / "frames", name, times[name], frame);
+      };
+      return control;
+    }
+
+    /// What is wanted on standard output; what went wrong on standard error.
+    void tell_end(const RunOptions &options, const study::DynamicResults &results,
+                  const fs::path &folder)
+    {
+      if (options.json)
+        std::cout << report::dynamics_json(results);
+      else if (!options.quiet)
+        std::cout << report::dynamics_text(results)
+                  << "\nreport: " << (folder / "dynamics.html").string() << '\n';
+      if (!results.is_complete)
+        std::cerr << "interrupted: what is finished is in '" << folder.string() << "'\n";
+      if (results.shows_blow_up)
+        return;
+      for (const study::MotionRun &run : results.runs)
+        if (!run.failure.empty())
+          std::cerr << "no motion: " << run.method << ", " << run.series << ", h = " << run.h
+                    << ", " << run.scheme << ": " << run.failure << '\n';
+    }
   } // namespace
 
   int run_motions(const RunOptions &options, const scene::Scene &scene)
@@ -106,51 +149,26 @@ namespace plumbline::app
     report::MotionJournal journal(folder);
     if (!earlier.runs.empty())
       journal.append(earlier); // so that a kill before the next motion loses none
-    std::map<std::string, std::vector<double>> frame_times; // of each motion
+    FrameTimes times;
     study::DynamicResults results;
+    try
     {
       ProgressLine progress(!options.quiet);
-      study::MotionControl control;
-      control.n_levels = options.n_levels;
-      control.on_progress = [&](const std::string &what, double f) { progress.show(what, f); };
-      control.on_result = [&](const study::DynamicResults &r) { journal.append(r); };
-      control.should_stop = is_interrupted;
-      control.make_torus = reference::move_on_torus;
-      control.on_frame = [&](const study::MotionRun &run, const study::Frame &frame)
-      {
-        const std::string name = report::slug(run.method + "_" + run.problem + "_" + run.series);
-        frame_times[name].push_back(frame.t);
-        write_frame(folder / "frames", name, frame_times[name], frame);
-      };
-      try
-      {
-        results = study::run_motions(scene, methods, control, earlier);
-      }
-      catch (...)
-      {
-        std::error_code not_empty; // motions that are there stay
-        fs::remove(folder, not_empty);
-        throw;
-      }
+      results = study::run_motions(scene, methods,
+                                   control_of(options, folder, journal, times, progress), earlier);
+    }
+    catch (...)
+    {
+      std::error_code not_empty; // motions that are there stay
+      fs::remove(folder, not_empty);
+      throw;
     }
     results.provenance = provenance();
     study::conclude(scene, results);
     report::write_dynamics(results, folder);
     if (results.is_complete)
       journal.remove();
-
-    if (options.json)
-      std::cout << report::dynamics_json(results);
-    else if (!options.quiet)
-      std::cout << report::dynamics_text(results)
-                << "\nreport: " << (folder / "dynamics.html").string() << '\n';
-    if (!results.is_complete)
-      std::cerr << "interrupted: what is finished is in '" << folder.string() << "'\n";
-    if (!results.shows_blow_up)
-      for (const study::MotionRun &run : results.runs)
-        if (!run.failure.empty())
-          std::cerr << "no motion: " << run.method << ", " << run.series << ", h = " << run.h
-                    << ", " << run.scheme << ": " << run.failure << '\n';
+    tell_end(options, results, folder);
     return exit_code(results, options.check);
   }
 } // namespace plumbline::app

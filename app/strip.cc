@@ -24,31 +24,16 @@ namespace plumbline::app
     method::Methods choose(const scene::Scene &scene)
     {
       const method::Methods available = all_methods();
-      method::Methods methods;
-      const auto add = [&](const std::shared_ptr<const method::Method> &method)
-      {
-        if (std::find(methods.begin(), methods.end(), method) == methods.end())
-          methods.push_back(method);
-      };
       const auto is_for_lattices = [](const method::Method &method)
       { return method.can().count(method::Capability::lattice) > 0; };
       for (const scene::Expected &expected : scene.expected.all)
         (void)study::find_method(available, expected.method, "Expected");
-      for (const std::string &name : scene.methods.names)
-      {
-        if (name == "all")
-        {
-          for (const auto &method : available)
-            if (method->is_in_all() && is_for_lattices(*method))
-              add(method);
-          continue;
-        }
-        add(study::find_method(available, name, "Methods/names"));
-        if (!is_for_lattices(*methods.back()))
-          throw InputError("Methods/names: " + name +
+      method::Methods methods = study::named_methods(scene, available, is_for_lattices);
+      for (const auto &method : methods)
+        if (!is_for_lattices(*method))
+          throw InputError("Methods/names: " + method->name() +
                            " is not for lattices, as strips are (Strip/length); take Galerkin "
                            "methods on quadrilaterals (Q1, DGQ1, ...) and meshfree rules");
-      }
       return methods;
     }
 

@@ -32,6 +32,44 @@ namespace plumbline::toughness
                     "a curve close to the line between the phases, for that reason.";
     }
 
+    /// "f = 0.2: K = 1.05 by counts, 1.79 by energy"
+    std::string title_of(const Crack &crack)
+    {
+      std::string title = "f = " + report::rounded(crack.fraction);
+      if (crack.by_bonds)
+        title += ": K = " + report::rounded(*crack.by_bonds) + " by counts";
+      if (crack.by_energy)
+        title += ", " + report::rounded(*crack.by_energy) + " by energy";
+      return title;
+    }
+
+    /// A crack in a microstructure of each fraction that has one.
+    std::string crack_section(const Study &study)
+    {
+      if (study.cracks.empty())
+        return "";
+      std::string pictures;
+      for (const Crack &crack : study.cracks)
+        pictures += page::figure(
+            crack.picture, crack.picture.parent_path().parent_path().filename().string() + "-",
+            title_of(crack),
+            "<b>" + report::escape_html(title_of(crack)) + "</b>, realisation " +
+                std::to_string(crack.realisation) +
+                " of the Monte Carlo samples. Report: <a href=\"" +
+                report::escape_html(
+                    fs::path(crack.picture.parent_path().parent_path().filename() / "grow.html")
+                        .string()) +
+                "\">grow.html</a>",
+            false);
+      return page::section(
+          "cracks", "Cracks in their microstructures",
+          page::paragraph(
+              "Of one sample at each fraction. Grey: G of the nodes, crystals dark. Sides "
+              "between next neighbours that have parted: of the crack orange, apart from "
+              "it blue; of the notch black.") +
+              "<div class=\"grid\">\n" + pictures + "</div>\n");
+    }
+
     std::string page_of(const Study &study, const fs::path &folder)
     {
       std::string pictures;
@@ -46,6 +84,7 @@ namespace plumbline::toughness
                              {}),
           page::section("picture", "K over the fraction",
                         "<div class=\"grid\">\n" + pictures + "</div>\n") +
+              crack_section(study) +
               page::section("numbers", "Numbers",
                             "<div class=\"wide\">" + to_html(study_table(study)) + "</div>\n") +
               page::section("meaning", "What they mean", page::paragraph(words(study))));

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <tuple>
 
 namespace plumbline::toughness
@@ -70,6 +71,45 @@ namespace plumbline::toughness
       entry.by_bonds = toughness_from(set.at("quantities"), "K by bonds");
       entry.by_energy = toughness_from(set.at("quantities"), "K by energy");
       return entry;
+    }
+
+    std::optional<double> number_from(const Json &json, const std::string &name)
+    {
+      const Json &number = json.at(name);
+      return number.is_null() ? std::nullopt : std::optional<double>(number.get<double>());
+    }
+
+    Crack crack_from(const Json &json, const scene::Scene &scene, const fs::path &folder)
+    {
+      Crack crack;
+      crack.fraction = scene.random.fraction;
+      crack.realisation = scene.random.realisation;
+      crack.by_bonds = number_from(json, "K_by_bonds");
+      crack.by_energy = number_from(json, "K_by_energy");
+      crack.picture = folder / "grow/microstructure.svg";
+      return crack;
+    }
+
+    /// What a command of plumbline has left of its scene.
+    /// @param take  what it says of it
+    void read_results(const fs::path &file, const std::string &command,
+                      const std::function<void(const Json &, const scene::Scene &)> &take)
+    {
+      constexpr std::size_t most_bytes = 1'000'000'000;
+      const std::string what = "'" + file.string() + "'", remedy = "remove it and take it again";
+      try
+      {
+        const Json json = base::parse_json(
+            base::read_text_file(file.string(), what, most_bytes, file.filename().string()), what,
+            remedy);
+        take(json, scene::parse_scene(json.at("scene").get<std::string>(),
+                                      json.at("scene_text").get<std::string>()));
+      }
+      catch (const Json::exception &error)
+      {
+        throw InputError(what + " is not what '" + command + "' writes of a growth (" +
+                         error.what() + "); " + remedy);
+      }
     }
 
     double plain_mean(double first, double second, double fraction)
@@ -153,31 +193,22 @@ namespace plumbline::toughness
 
   Study read_study(const fs::path &folder)
   {
-    constexpr std::size_t most_bytes = 1'000'000'000;
-    const std::string remedy = "remove it and take the samples again";
     Study study;
     for (const auto &part : fs::directory_iterator(folder))
     {
-      const fs::path file = part.path() / "sample.json";
-      if (!fs::exists(file))
-        continue;
-      const std::string what = "'" + file.string() + "'";
-      try
-      {
-        const Json json = base::parse_json(
-            base::read_text_file(file.string(), what, most_bytes, "sample.json"), what, remedy);
-        const scene::Scene scene = scene::parse_scene(json.at("scene").get<std::string>(),
-                                                      json.at("scene_text").get<std::string>());
-        if (study.entries.empty())
-          study.baselines = baselines(scene);
-        study.scene_name = scene.name;
-        study.entries.push_back(entry_from(json, scene));
-      }
-      catch (const Json::exception &error)
-      {
-        throw InputError(what + " is not what 'plumbline sample' writes of a growth (" +
-                         error.what() + "); " + remedy);
-      }
+      if (fs::exists(part.path() / "sample.json"))
+        read_results(part.path() / "sample.json", "plumbline sample",
+                     [&](const Json &json, const scene::Scene &scene)
+                     {
+                       if (study.entries.empty())
+                         study.baselines = baselines(scene);
+                       study.scene_name = scene.name;
+                       study.entries.push_back(entry_from(json, scene));
+                     });
+      if (fs::exists(part.path() / "grow.html"))
+        read_results(part.path() / "grow.json", "plumbline grow",
+                     [&](const Json &json, const scene::Scene &scene)
+                     { study.cracks.push_back(crack_from(json, scene, part.path())); });
     }
     if (study.entries.empty())
       throw InputError("'" + folder.string() +
@@ -185,6 +216,8 @@ namespace plumbline::toughness
     std::sort(study.entries.begin(), study.entries.end(),
               [](const Entry &a, const Entry &b)
               { return std::tie(a.rule, a.fraction) < std::tie(b.rule, b.fraction); });
+    std::sort(study.cracks.begin(), study.cracks.end(),
+              [](const Crack &a, const Crack &b) { return a.fraction < b.fraction; });
     return study;
   }
 

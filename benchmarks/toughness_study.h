@@ -49,15 +49,26 @@ namespace plumbline::toughness
   };
   Baselines baselines(const scene::Scene &scene);
 
+  /// A crack in one microstructure, as `plumbline grow` draws it.
+  struct Crack
+  {
+    double fraction = 0;
+    unsigned int realisation = 1;              ///< which sample's microstructure
+    std::optional<double> by_bonds, by_energy; ///< K [force/length^1.5]; none: nothing broke
+    fs::path picture;
+  };
+
   struct Study
   {
     std::string scene_name;
     Baselines baselines;
     std::vector<Entry> entries; ///< by rule, then fraction
+    std::vector<Crack> cracks;  ///< by fraction
   };
 
-  /// All folders FOLDER/*/ with a sample.json.
-  /// @throws InputError  there is none, or one that cannot be read
+  /// All folders FOLDER/*/ with a sample.json, or a grow.html that says that grow.json and its
+  /// picture are there.
+  /// @throws InputError  there are no samples, or a file that cannot be read
   Study read_study(const fs::path &folder);
 
   report::Table study_table(const Study &study);

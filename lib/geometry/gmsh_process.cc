@@ -175,9 +175,9 @@ namespace plumbline::geometry
       const std::string file = fs::path(error.substr(1, number - 1)).filename().string();
       place += source.find(file) == std::string::npos ? ", in '" + file + "'" : "";
       // gmsh counts the lines that have ended
-      const std::string line = error.substr(number + 8, colon - number - 8);
+      const int line = std::max(1, std::atoi(error.substr(number + 8, colon - number - 8).c_str()));
       error = error.substr(colon + 2);
-      return place + ", line " + (line == "0" ? "1" : line) +
+      return place + ", line " + std::to_string(line) +
              " is refused by gmsh: " + in_our_words(error) + " (gmsh says: " + error + ")";
     }
 

@@ -127,4 +127,25 @@ namespace plumbline::geometry
         }
     }
   }
+
+  bool is_at_shadow(const Point<2> &x, double reach, const std::vector<Cut> &cracks,
+                    ArrayView<const Point<2>> polygon)
+  {
+    for (const Cut &crack : cracks)
+      for (const Point<2> &end : crack)
+      {
+        const dealii::Tensor<1, 2> from = x - end;
+        const auto is_on_line = [&](const Point<2> &other)
+        {
+          const dealii::Tensor<1, 2> line = other - end;
+          return std::abs(line[0] * from[1] - line[1] * from[0]) <= reach * line.norm();
+        };
+        if (std::any_of(polygon.begin(), polygon.end(), is_on_line))
+          return true;
+        for (const Cut &another : cracks)
+          if (is_on_line(another[another[0] == end ? 1 : 0]))
+            return true;
+      }
+    return false;
+  }
 } // namespace plumbline::geometry

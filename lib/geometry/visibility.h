@@ -31,4 +31,9 @@ namespace plumbline::geometry
   /// Accuracy: as left_of.
   void find_visible(const Point<2> &from, ArrayView<const Point<2>> polygon,
                     const std::vector<Cut> &cracks, std::vector<Polygon> &seen);
+
+  /// Whether a point comes as near as `reach` to a line through the end of a crack and a vertex of
+  /// a polygon or another end: what is seen of the polygon changes its form there.
+  bool is_at_shadow(const Point<2> &x, double reach, const std::vector<Cut> &cracks,
+                    ArrayView<const Point<2>> polygon);
 } // namespace plumbline::geometry

@@ -22,6 +22,31 @@ namespace plumbline::physics
         sum = 1.L / k - x * sum;
       return sum;
     }
+
+    /// Integrals of the kernel over the squares of radii from q = 1 - ρ to 1, over ρ, that
+    /// derivatives of the potentials are made of.
+    struct RadialSums
+    {
+      long double f1 = 0, f2 = 0, v1 = 0, v2 = 0;
+    };
+
+    RadialSums radial_sums(const Kernel<2> &kernel, double square, double rho)
+    {
+      const dealii::Quadrature<1> &rule = gauss(n_points);
+      const double q = 1 - rho;
+      RadialSums sums;
+      for (unsigned int i = 0; i < n_points; ++i)
+      {
+        const long double tau = rule.point(i)[0], s = q + rho * tau;
+        const long double value =
+            rule.weight(i) * kernel.radial(std::sqrt(static_cast<double>(s) * square)) * tau;
+        sums.f1 += value * tau * reduced_log(rho * tau / q);
+        sums.f2 += value;
+        sums.v1 += value * tau * (2 * s + q) / s;
+        sums.v2 += value * s;
+      }
+      return sums;
+    }
   } // namespace
 
   template <unsigned int n_parts>
@@ -63,17 +88,7 @@ namespace plumbline::physics
     const auto all = [&](double rho)
     {
       const double q = 1 - rho;
-      long double f1 = 0, f2 = 0, v1 = 0, v2 = 0;
-      for (unsigned int i = 0; i < n_points; ++i)
-      {
-        const long double tau = rule.point(i)[0], s = q + rho * tau;
-        const long double value =
-            rule.weight(i) * kernel.radial(std::sqrt(static_cast<double>(s) * square_)) * tau;
-        f1 += value * tau * reduced_log(rho * tau / q);
-        f2 += value;
-        v1 += value * tau * (2 * s + q) / s;
-        v2 += value * s;
-      }
+      const auto [f1, f2, v1, v2] = radial_sums(kernel, square_, rho);
       const long double factor = 1 / (16.L * n_parts * q * q), squared = 1.L * q * q; // ½ of traces
       typename LocalPolynomials<n_functions>::Values result{};
       result[f] = potential.f_per_power(rho)[0];

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
@@ -81,6 +82,79 @@ namespace plumbline::report
         }
         return text + proof_mark(*trend) + "</td>";
       }
+
+      /// Cases with those of one problem side by side.
+      std::vector<Case> by_problem(const std::vector<Case> &all)
+      {
+        std::vector<Case> columns;
+        for (const Case &one : all)
+          if (std::none_of(columns.begin(), columns.end(),
+                           [&](const Case &c) { return c.problem == one.problem; }))
+            std::copy_if(all.begin(), all.end(), std::back_inserter(columns),
+                         [&](const Case &other) { return other.problem == one.problem; });
+        return columns;
+      }
+
+      /// Two rows: problems, and below each its series.
+      std::string verdict_head(const std::vector<Case> &columns)
+      {
+        std::string problems = "<tr><th></th>", series = "<tr><th>method</th>";
+        for (auto one = columns.begin(); one != columns.end();)
+        {
+          const auto next = std::find_if(
+              one, columns.end(), [&](const Case &other) { return other.problem != one->problem; });
+          problems += "<th class=\"problem\" colspan=\"" + std::to_string(next - one) + "\">" +
+                      escape_html(one->problem) + "</th>";
+          for (; one != next; ++one)
+            series += "<th>" + escape_html(one->series) + "</th>";
+        }
+        return "<thead>" + problems + "</tr>\n" + series + "</tr></thead>\n";
+      }
+
+      std::string verdict_matrix(const study::Results &results, const std::vector<Case> &columns)
+      {
+        std::vector<MethodName> names = methods(results);
+        const std::vector<MethodName> styles = names;
+        std::stable_partition(names.begin(), names.end(),
+                              [](const MethodName &m) { return !m.is_reference(); });
+        std::string text = "<div class=\"wide\"><table class=\"verdicts\">\n" +
+                           verdict_head(columns) + "<tbody>\n";
+        for (const MethodName &method : names)
+        {
+          text += "<tr><th class=\"method\" scope=\"row\">" +
+                  marker(style_of(styles, method.name)) + escape_html(method.name) + "</th>";
+          for (const Case &one : columns)
+            text += verdict_cell(decisive_trend(results, method.name, one));
+          text += "</tr>\n";
+        }
+        return text + "</tbody></table></div>\n";
+      }
+
+      /// What is behind the verdicts, and what has none.
+      std::string verdict_details(const study::Results &results)
+      {
+        std::string text =
+            folded("Fitted rates and plateaus, with the reason of each verdict",
+                   to_html(verdict_table(results)) +
+                       "<p class=\"soft\">Data: <code>tables/verdicts.csv</code></p>\n");
+        const Table others = other_errors_table(results);
+        if (!others.rows.empty())
+          text += folded("Other errors", to_html(others));
+        if (!results.left_out.empty())
+        {
+          std::string list;
+          for (const std::string &solve : results.left_out)
+            list += "<li>" + escape_html(solve) + "</li>";
+          text += folded("Left out by the budget (" + std::to_string(results.left_out.size()) +
+                             " solves)",
+                         "<ul>" + list + "</ul>\n");
+        }
+        const Table failures = failure_table(results);
+        if (!failures.rows.empty())
+          text += folded("Levels without a solution (" + std::to_string(failures.rows.size()) + ")",
+                         to_html(failures), true);
+        return text;
+      }
     } // namespace
 
     std::string section(const std::string &id, const std::string &head, const std::string &content)
@@ -145,72 +219,20 @@ namespace plumbline::report
     std::string verdicts(const study::Results &results)
     {
       const std::vector<Case> all = cases(results);
-      std::vector<MethodName> names = methods(results);
-      const std::vector<MethodName> styles = names;
-      std::stable_partition(names.begin(), names.end(),
-                            [](const MethodName &m) { return !m.is_reference(); });
       if (all.empty())
         return section("verdicts", "Verdicts", paragraph("No run has been finished yet."));
-
-      std::string problems = "<tr><th></th>", series = "<tr><th>method</th>";
-      std::vector<Case> columns; // those of one problem side by side
-      for (const Case &one : all)
-        if (std::none_of(columns.begin(), columns.end(),
-                         [&](const Case &c) { return c.problem == one.problem; }))
-        {
-          std::size_t n = 0;
-          for (const Case &other : all)
-            if (other.problem == one.problem)
-            {
-              columns.push_back(other);
-              series += "<th>" + escape_html(other.series) + "</th>";
-              ++n;
-            }
-          problems += "<th class=\"problem\" colspan=\"" + std::to_string(n) + "\">" +
-                      escape_html(one.problem) + "</th>";
-        }
-
-      std::string text = "<div class=\"wide\"><table class=\"verdicts\">\n<thead>" + problems +
-                         "</tr>\n" + series + "</tr></thead>\n<tbody>\n";
-      for (const MethodName &method : names)
-      {
-        text += "<tr><th class=\"method\" scope=\"row\">" + marker(style_of(styles, method.name)) +
-                escape_html(method.name) + "</th>";
-        for (const Case &one : columns)
-          text += verdict_cell(decisive_trend(results, method.name, one));
-        text += "</tr>\n";
-      }
-      text +=
-          "</tbody></table></div>\n<p class=\"soft\">In each cell: the verdict, the error at the "
+      const std::string legend =
+          "<p class=\"soft\">In each cell: the verdict, the error at the "
           "finest level, and the rate over the last two levels. ✓&nbsp;converges: no plateau, rate "
           "at least ¾. ✗&nbsp;stalls: a significant plateau, or a growing error; or for this field "
           "only: it converges, but second moments say that other fields tend to a wrong limit. "
           "?&nbsp;undecided: one finer level would help, or four levels are not there yet. "
           "–&nbsp;failed: no solution at some level. Proven: what theory says of every smooth "
-          "field "
-          "agrees with what is observed here (second moments of the weights; for Galerkin spaces "
-          "Tian "
-          "&amp; Du 2014, doi:10.1137/130942644).</p>\n";
-      text += folded("Fitted rates and plateaus, with the reason of each verdict",
-                     to_html(verdict_table(results)) +
-                         "<p class=\"soft\">Data: <code>tables/verdicts.csv</code></p>\n");
-      const Table others = other_errors_table(results);
-      if (!others.rows.empty())
-        text += folded("Other errors", to_html(others));
-      if (!results.left_out.empty())
-      {
-        std::string list;
-        for (const std::string &solve : results.left_out)
-          list += "<li>" + escape_html(solve) + "</li>";
-        text += folded("Left out by the budget (" + std::to_string(results.left_out.size()) +
-                           " solves)",
-                       "<ul>" + list + "</ul>\n");
-      }
-      const Table failures = failure_table(results);
-      if (!failures.rows.empty())
-        text += folded("Levels without a solution (" + std::to_string(failures.rows.size()) + ")",
-                       to_html(failures), true);
-      return section("verdicts", "Verdicts", text);
+          "field agrees with what is observed here (second moments of the weights; for Galerkin "
+          "spaces "
+          "Tian &amp; Du 2014, doi:10.1137/130942644).</p>\n";
+      return section("verdicts", "Verdicts",
+                     verdict_matrix(results, by_problem(all)) + legend + verdict_details(results));
     }
 
     std::string numbers(const study::Results &results)

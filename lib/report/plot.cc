@@ -1,23 +1,13 @@
 #include "report/plot.h"
 
-#include "base/error.h"
 #include "report/formats.h"
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <set>
 #include <sstream>
 #include <utility>
-
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-
-extern char **environ;
 
 namespace plumbline::report
 {
@@ -188,7 +178,16 @@ namespace plumbline::report
              " right offset -.8,0 font ',11' textcolor rgb '#555555'\n";
     }
 
-    std::string plot_commands(const Plot &plot)
+    /// What a plot shows: ranges of its axes, and its strip of errors of the size of rounding.
+    struct View
+    {
+      Range x, y;
+      std::vector<double> x_ticks;
+      bool has_strip = false;
+      Strip strip;
+    };
+
+    View view_of(const Plot &plot)
     {
       std::vector<double> xs, ys;
       for (const Line &line : plot.lines)
@@ -197,95 +196,139 @@ namespace plumbline::report
           xs.push_back(v.x);
           ys.push_back(v.y);
         }
-      std::vector<double> x_ticks = plot.x_ticks;
-      const Range x = x_range(xs, x_ticks, plot.is_x_log);
-      const bool has_strip = plot.shows_round_off && plot.is_y_log && span(ys).low < round_off &&
-                             span(ys).high >= round_off;
-      if (has_strip)
+      View view;
+      view.x_ticks = plot.x_ticks;
+      view.x = x_range(xs, view.x_ticks, plot.is_x_log);
+      view.has_strip = plot.shows_round_off && plot.is_y_log && span(ys).low < round_off &&
+                       span(ys).high >= round_off;
+      if (view.has_strip)
         ys.erase(std::remove_if(ys.begin(), ys.end(), [](double y) { return y < round_off; }),
                  ys.end());
-      const Range y = plot.is_y_log  ? log_range(ys)
-                      : plot.y_range ? *plot.y_range
-                                     : Range{0, 1.12 * std::max(1., span(ys).high)};
-      const Strip strip = has_strip ? make_strip(plot.lines, y) : Strip{{}, {y.low, y.low}};
+      view.y = plot.is_y_log  ? log_range(ys)
+               : plot.y_range ? *plot.y_range
+                              : Range{0, 1.12 * std::max(1., span(ys).high)};
+      view.strip =
+          view.has_strip ? make_strip(plot.lines, view.y) : Strip{{}, {view.y.low, view.y.low}};
+      return view;
+    }
 
+    std::string axes_commands(const Plot &plot, const View &view)
+    {
       std::ostringstream out;
-      out << "reset\n"
-          << frame(plot) << "set output " << quote_gnuplot(plot.file) << "\n"
-          << (plot.is_x_log ? "set logscale x\n" : "") << (plot.is_y_log ? "set logscale y\n" : "")
+      out << (plot.is_x_log ? "set logscale x\n" : "") << (plot.is_y_log ? "set logscale y\n" : "")
           << "set border 3 lc rgb '#555555'\nset tics textcolor rgb '#222222'\n"
           << "set grid xtics ytics lt 1 lc rgb '#e4e4e4' lw .8\n"
           << "set title " << quote_gnuplot(plot.title) << " noenhanced\n"
           << "set xlabel " << quote_gnuplot(plot.x_label) << " noenhanced\n"
           << "set ylabel " << quote_gnuplot(plot.y_label) << " noenhanced\n"
-          << "set xrange [" << exact(x.low) << ":" << exact(x.high) << "]\nset yrange ["
-          << exact(strip.range.low) << ":" << exact(y.high) << "]\n"
-          << axis('x', x, plot.is_x_log, x_ticks) << axis('y', y, plot.is_y_log, {});
+          << "set xrange [" << exact(view.x.low) << ":" << exact(view.x.high) << "]\nset yrange ["
+          << exact(view.strip.range.low) << ":" << exact(view.y.high) << "]\n"
+          << axis('x', view.x, plot.is_x_log, view.x_ticks) << axis('y', view.y, plot.is_y_log, {});
+      return out.str();
+    }
 
-      if (plot.has_slopes)
+    std::string slopes_commands(const Plot &plot, const View &view)
+    {
+      const std::vector<Line> lines =
+          view.has_strip ? parts_above(plot.lines, round_off) : plot.lines;
+      std::vector<SlopeTriangle> triangles;
+      std::string text;
+      for (const unsigned int slope : {2, 1})
+        if (const auto triangle = place_slope(slope, lines, view.x, view.y, triangles))
+        {
+          triangles.push_back(*triangle);
+          text += slope_commands(*triangle, static_cast<unsigned int>(triangles.size()));
+        }
+      return text;
+    }
+
+    /// Curves as commands, and the blocks of data that they name.
+    class Curves
+    {
+    public:
+      explicit Curves(const View &view) : view_(view) {}
+
+      void add_frontier(const Plot &plot)
       {
-        const std::vector<Line> lines = has_strip ? parts_above(plot.lines, round_off) : plot.lines;
-        std::vector<SlopeTriangle> triangles;
-        for (const unsigned int slope : {2, 1})
-          if (const auto triangle = place_slope(slope, lines, x, y, triangles))
-          {
-            triangles.push_back(*triangle);
-            out << slope_commands(*triangle, static_cast<unsigned int>(triangles.size()));
-          }
+        add(view_.has_strip ? view_.strip.cut(plot.frontier) : plot.frontier, false);
+        commands_ << "lines lc rgb '#dcdcdc' lw 9 title " << quote_gnuplot(plot.frontier_label);
       }
-      if (has_strip)
-        out << strip_commands(strip);
 
-      std::string separator = "plot ";
-      std::ostringstream data, commands;
-      unsigned int n = 0;
-      const auto block = [&](const std::vector<Vertex> &points, bool has_gap)
+      void add_bars(const Line &line)
       {
-        data << "$d" << ++n << " << EOD\n";
+        data_ << "$d" << ++n_ << " << EOD\n";
+        for (std::size_t i = 0; i < line.bars.size(); ++i)
+          if (line.bars[i] > 0)
+            data_ << two(line.points[i].x, line.points[i].y) << " " << exact(line.bars[i]) << "\n";
+        data_ << "EOD\n";
+        next() << " using 1:2:3 with yerrorbars lc rgb '" << line.style.colour
+               << "' lw 1.2 pt 0 notitle";
+      }
+
+      void add_line(const Line &line)
+      {
+        const Style &style = line.style;
+        // A method without a point keeps its line of the legend: gnuplot needs one value to draw
+        // it.
+        add(line.points.empty() ? std::vector<Vertex>{{view_.x.low / 10, view_.y.high * 10}}
+            : view_.has_strip   ? view_.strip.enter(line)
+                                : line.points,
+            view_.has_strip);
+        commands_ << "linespoints lc rgb '" << style.colour << "' lw " << line.width << " pt "
+                  << point_types[style.symbol][style.is_dashed ? 0 : 1] << " ps " << .85
+                  << (style.is_dashed ? " dt (6,4)" : "")
+                  << (line.symbol_interval > 1 ? " pi " + std::to_string(line.symbol_interval) : "")
+                  << (line.label.empty() ? " notitle" : " title " + quote_gnuplot(line.label));
+      }
+
+      std::string data() const { return data_.str(); }
+      std::string commands() const { return commands_.str() + "\n"; }
+
+    private:
+      /// Begin the curve of the last block.
+      std::ostream &next()
+      {
+        return commands_ << std::exchange(separator_, ", \\\n  ") << "$d" << n_;
+      }
+
+      void add(const std::vector<Vertex> &points, bool has_gap)
+      {
+        data_ << "$d" << ++n_ << " << EOD\n";
         for (std::size_t i = 0; i < points.size(); ++i)
         {
           // An empty line interrupts: the way into the strip has no slope.
-          if (has_gap && i > 0 && (points[i].y < y.low) != (points[i - 1].y < y.low))
-            data << "\n";
-          data << two(points[i].x, points[i].y) << "\n";
+          if (has_gap && i > 0 && (points[i].y < view_.y.low) != (points[i - 1].y < view_.y.low))
+            data_ << "\n";
+          data_ << two(points[i].x, points[i].y) << "\n";
         }
-        data << "EOD\n";
-        commands << std::exchange(separator, ", \\\n  ") << "$d" << n << " using 1:2 with ";
-      };
-      if (plot.frontier.size() > 1)
-      {
-        block(has_strip ? strip.cut(plot.frontier) : plot.frontier, false);
-        commands << "lines lc rgb '#dcdcdc' lw 9 title " << quote_gnuplot(plot.frontier_label);
+        data_ << "EOD\n";
+        next() << " using 1:2 with ";
       }
+
+      const View &view_;
+      std::ostringstream data_, commands_;
+      std::string separator_ = "plot ";
+      unsigned int n_ = 0;
+    };
+
+    std::string plot_commands(const Plot &plot)
+    {
+      const View view = view_of(plot);
+      Curves curves(view);
+      if (plot.frontier.size() > 1)
+        curves.add_frontier(plot);
       for (const Line &line : plot.lines)
       {
         if (line.points.empty() && line.label.empty())
           continue;
-        const Style &style = line.style;
         if (!line.bars.empty()) // below the symbols
-        {
-          data << "$d" << ++n << " << EOD\n";
-          for (std::size_t i = 0; i < line.bars.size(); ++i)
-            if (line.bars[i] > 0)
-              data << two(line.points[i].x, line.points[i].y) << " " << exact(line.bars[i]) << "\n";
-          data << "EOD\n";
-          commands << std::exchange(separator, ", \\\n  ") << "$d" << n
-                   << " using 1:2:3 with yerrorbars lc rgb '" << style.colour
-                   << "' lw 1.2 pt 0 notitle";
-        }
-        // A method without a point keeps its line of the legend: gnuplot needs one value to draw
-        // it.
-        block(line.points.empty() ? std::vector<Vertex>{{x.low / 10, y.high * 10}}
-              : has_strip         ? strip.enter(line)
-                                  : line.points,
-              has_strip);
-        commands << "linespoints lc rgb '" << style.colour << "' lw " << line.width << " pt "
-                 << point_types[style.symbol][style.is_dashed ? 0 : 1] << " ps " << .85
-                 << (style.is_dashed ? " dt (6,4)" : "")
-                 << (line.symbol_interval > 1 ? " pi " + std::to_string(line.symbol_interval) : "")
-                 << (line.label.empty() ? " notitle" : " title " + quote_gnuplot(line.label));
+          curves.add_bars(line);
+        curves.add_line(line);
       }
-      return data.str() + out.str() + commands.str() + "\n";
+      return curves.data() + "reset\n" + frame(plot) + "set output " + quote_gnuplot(plot.file) +
+             "\n" + axes_commands(plot, view) +
+             (plot.has_slopes ? slopes_commands(plot, view) : "") +
+             (view.has_strip ? strip_commands(view.strip) : "") + curves.commands();
     }
   } // namespace
 
@@ -331,54 +374,5 @@ namespace plumbline::report
     for (const Plot &plot : plots)
       script += "\n" + plot_commands(plot);
     return script + "unset output\n";
-  }
-
-  namespace
-  {
-    /// A full disk does not stop gnuplot.
-    void check_picture(const std::filesystem::path &file)
-    {
-      std::ifstream in(file, std::ios::binary);
-      const std::string svg((std::istreambuf_iterator<char>(in)), {});
-      if (svg.find("</svg>") != std::string::npos)
-        return;
-      std::error_code ignored;
-      std::filesystem::remove(file, ignored);
-      throw NumericalError(
-          "charts cannot be drawn, '" + file.string() +
-          "' is not whole; free some space, then 'plumbline report' on the folder");
-    }
-  } // namespace
-
-  void run_gnuplot(const std::filesystem::path &folder, const std::string &script,
-                   const std::vector<std::string> &pictures)
-  {
-    const std::filesystem::path log = folder / "gnuplot.log";
-    const std::string program = "gnuplot", log_name = log.string(), place = folder.string();
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, 2, log_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
-                                     0644);
-    posix_spawn_file_actions_addchdir_np(&actions, place.c_str());
-    std::array<char *, 3> arguments = {const_cast<char *>(program.c_str()),
-                                       const_cast<char *>(script.c_str()), nullptr};
-    pid_t child = 0;
-    const int error =
-        posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (error != 0)
-      throw NumericalError("charts cannot be drawn, gnuplot does not start (" +
-                           std::string(std::strerror(error)) +
-                           "); apt-get install gnuplot-nox, then 'plumbline report' on the folder");
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
-      ;
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-      throw NumericalError("charts cannot be drawn, gnuplot stopped on '" +
-                           (folder / script).string() + "' and says why in '" + log_name +
-                           "'; mend that, then 'plumbline report' on the folder");
-    for (const std::string &picture : pictures)
-      check_picture(folder / picture);
-    std::filesystem::remove(log);
   }
 } // namespace plumbline::report

@@ -175,6 +175,11 @@ namespace plumbline::scene
     }
   } // namespace
 
+  bool is_inverse_distance(const KernelSection &kernel)
+  {
+    return kernel.type == "1/r";
+  }
+
   void check_kernel_and_problem(const Scene &scene)
   {
     check_kernel(scene);

@@ -28,6 +28,9 @@ namespace plumbline::scene
   /// A strip with a notch, and nothing else that would move it.
   void check_crack(const Scene &scene);
 
+  /// The influence function that cracks are known for: c δ/r, by its name among kernels.
+  bool is_inverse_distance(const KernelSection &kernel);
+
   /// A body with a notch and grips whose bonds break in equilibrium.
   void check_fracture(const Scene &scene);
 

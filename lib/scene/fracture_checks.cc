@@ -26,7 +26,7 @@ namespace plumbline::scene
           "Crack/notch = 0 and Time/final time = 0: 'plumbline grow' follows equilibria");
     needs(scene.material.model == Model::lps,
           "Material/model = LPS (with nu = 1/4 in plane strain it is bond-based)");
-    needs(scene.kernel.type == "1/r",
+    needs(is_inverse_distance(scene.kernel),
           "Kernel/type = 1/r: the critical stretch is known for that influence function");
     needs(domain.mesh.is_lattice(), "Domain/mesh = lattice");
     needs(domain.is_free_body && !domain.is_floating && !domain.fixed.empty(),

@@ -21,7 +21,7 @@ namespace plumbline::scene
     needs(scene.material.model == Model::lps && !scene.has_dilatation() && scene.is_homogeneous(),
           "Material/model = LPS of constants with lambda = mu (nu = 1/4 in plane strain), whose "
           "bonds are all of it");
-    needs(scene.kernel.type == "1/r",
+    needs(is_inverse_distance(scene.kernel),
           "Kernel/type = 1/r: other influence functions are not tested with cracks");
     needs(scene.domain.mesh.is_lattice() && scene.domain.cracks.empty() &&
               scene.domain.outside.empty() && !scene.domain.is_free_body,

@@ -10,6 +10,9 @@ namespace plumbline::scene
   // From the text of a key to its value. Each throws InputError saying what is wrong and what is
   // allowed; Keys names the key.
 
+  /// Words in place of values: there is none; it is found; there is no need to list them.
+  constexpr const char *const none = "none", *const automatic = "auto", *const all = "all";
+
   std::string trim(const std::string &text);
   double to_number(const std::string &text);
   std::vector<double> to_numbers(const std::string &text);    ///< separated by blanks

@@ -51,70 +51,78 @@ namespace plumbline::study
               {expected.text, what, "no such method, case or series was run", false});
       }
     }
+
+    Expectation check_verdict(const scene::Expected &expected, const Trend &trend)
+    {
+      return {"", expected.verdict, trend.verdict, expected.verdict == trend.verdict};
+    }
+
+    /// A shortened sweep is checked as far as it goes.
+    Expectation check_errors(const scene::Expected &expected, const Trend &trend, double tolerance)
+    {
+      bool holds = !trend.values.empty() && trend.values.size() <= expected.values.size();
+      for (std::size_t i = 0; i < trend.values.size() && holds; ++i)
+        holds = std::abs(trend.values[i] / expected.values[i] - 1) <= tolerance;
+      return {"", join(expected.values), join(trend.values), holds};
+    }
+
+    Expectation check_rate(const scene::Expected &expected, const Trend &trend, double tolerance)
+    {
+      const double rate = trend.rates.empty() ? 0 : trend.rates.back();
+      return {"", join(expected.values) + " ± " + base::to_text(tolerance, 4),
+              base::to_text(rate, 4),
+              !trend.rates.empty() && expected.values.size() == 1 &&
+                  std::abs(rate - expected.values[0]) <= tolerance};
+    }
+
+    Expectation check_bound(const scene::Expected &expected, const Trend &trend)
+    {
+      const double largest =
+          trend.values.empty() ? 0 : *std::max_element(trend.values.begin(), trend.values.end());
+      return {"", "<= " + join(expected.values), base::to_text(largest, 4),
+              !trend.values.empty() && trend.outcome != Outcome::failed &&
+                  expected.values.size() == 1 && largest <= expected.values[0]};
+    }
+
+    Expectation check_fall(const scene::Expected &expected, const Trend &trend)
+    {
+      const bool falls = std::is_sorted(trend.values.rbegin(), trend.values.rend());
+      const std::string found = trend.values.size() < 2 ? "one level" : falls ? "yes" : "no";
+      return {"", expected.verdict, found, found == expected.verdict};
+    }
+
+    Expectation check_rises(const scene::Expected &expected, const Trend &trend)
+    {
+      double rises = 0;
+      for (std::size_t i = 1; i < trend.values.size(); ++i)
+        rises += std::max(0., trend.values[i] - trend.values[i - 1]);
+      if (!trend.values.empty())
+        rises /= trend.values.front();
+      const bool is_range = expected.values.size() == 2;
+      return {"", is_range ? join(expected.values) : "least and most", base::to_text(rises, 4),
+              is_range && trend.values.size() > 1 && expected.values[0] <= rises &&
+                  rises <= expected.values[1]};
+    }
   } // namespace
 
   void check_expectations(const scene::Scene &scene, Results &results)
   {
+    using Kind = scene::ExpectedKind;
+    const auto check = [&](Kind kind, const std::string &what, const Check &of_trend)
+    { check_all(scene, kind, results, what, of_trend); };
+    // as check_all() asks, with a tolerance of the scene
+    const auto within = [](double tolerance, auto of_trend)
+    {
+      return [=](const scene::Expected &expected, const Trend &trend)
+      { return of_trend(expected, trend, tolerance); };
+    };
     results.expectations.clear();
-    check_all(scene, scene::ExpectedKind::verdicts, results, "verdict",
-              [](const scene::Expected &expected, const Trend &trend) {
-                return Expectation{"", expected.verdict, trend.verdict,
-                                   expected.verdict == trend.verdict};
-              });
-    check_all(scene, scene::ExpectedKind::errors, results, "errors",
-              [&](const scene::Expected &expected, const Trend &trend)
-              {
-                // a shortened sweep is checked as far as it goes
-                bool holds = !trend.values.empty() && trend.values.size() <= expected.values.size();
-                for (std::size_t i = 0; i < trend.values.size() && holds; ++i)
-                  holds = std::abs(trend.values[i] / expected.values[i] - 1) <=
-                          scene.expected.error_tolerance;
-                return Expectation{"", join(expected.values), join(trend.values), holds};
-              });
-    check_all(scene, scene::ExpectedKind::rates, results, "rate of the last two levels",
-              [&](const scene::Expected &expected, const Trend &trend)
-              {
-                const double rate = trend.rates.empty() ? 0 : trend.rates.back();
-                return Expectation{
-                    "",
-                    join(expected.values) + " ± " + base::to_text(scene.expected.rate_tolerance, 4),
-                    base::to_text(rate, 4),
-                    !trend.rates.empty() && expected.values.size() == 1 &&
-                        std::abs(rate - expected.values[0]) <= scene.expected.rate_tolerance};
-              });
-    check_all(
-        scene, scene::ExpectedKind::bounds, results, "largest error",
-        [](const scene::Expected &expected, const Trend &trend)
-        {
-          const double largest = trend.values.empty()
-                                     ? 0
-                                     : *std::max_element(trend.values.begin(), trend.values.end());
-          return Expectation{"", "<= " + join(expected.values), base::to_text(largest, 4),
-                             !trend.values.empty() && trend.outcome != Outcome::failed &&
-                                 expected.values.size() == 1 && largest <= expected.values[0]};
-        });
-    check_all(
-        scene, scene::ExpectedKind::monotone, results, "error falls at every level",
-        [](const scene::Expected &expected, const Trend &trend)
-        {
-          const bool falls = std::is_sorted(trend.values.rbegin(), trend.values.rend());
-          const std::string found = trend.values.size() < 2 ? "one level" : falls ? "yes" : "no";
-          return Expectation{"", expected.verdict, found, found == expected.verdict};
-        });
-    check_all(scene, scene::ExpectedKind::jitter, results,
-              "rises of the error over its first value",
-              [](const scene::Expected &expected, const Trend &trend)
-              {
-                double rises = 0;
-                for (std::size_t i = 1; i < trend.values.size(); ++i)
-                  rises += std::max(0., trend.values[i] - trend.values[i - 1]);
-                if (!trend.values.empty())
-                  rises /= trend.values.front();
-                const bool is_range = expected.values.size() == 2;
-                return Expectation{"", is_range ? join(expected.values) : "least and most",
-                                   base::to_text(rises, 4),
-                                   is_range && trend.values.size() > 1 &&
-                                       expected.values[0] <= rises && rises <= expected.values[1]};
-              });
+    check(Kind::verdicts, "verdict", check_verdict);
+    check(Kind::errors, "errors", within(scene.expected.error_tolerance, check_errors));
+    check(Kind::rates, "rate of the last two levels",
+          within(scene.expected.rate_tolerance, check_rate));
+    check(Kind::bounds, "largest error", check_bound);
+    check(Kind::monotone, "error falls at every level", check_fall);
+    check(Kind::jitter, "rises of the error over its first value", check_rises);
   }
 } // namespace plumbline::study

@@ -166,44 +166,52 @@ namespace plumbline::study
     return {found.begin(), found.end()};
   }
 
-  double GrowthResults::length(const std::string &name) const
+  double GrowthResults::length(double of_toughness) const
   {
-    const std::vector<double> of = phases();
-    if (of.empty())
-      return std::numeric_limits<double>::quiet_NaN();
-    if (of.size() == 1 && name != "L1")
-      return 0;
-    const double wanted = name == "L1"   ? of.front()
-                          : name == "L2" ? of.back()
-                                         : .5 * (of.front() + of.back()); // as of broken_parts
     const auto part =
         std::find_if(parts.begin(), parts.end(),
-                     [wanted](const BrokenPart &one) { return one.toughness == wanted; });
+                     [=](const BrokenPart &one) { return one.toughness == of_toughness; });
     return part == parts.end() ? 0 : part->length;
   }
 
   double GrowthResults::quantity(const std::string &name) const
   {
-    if (name == "broken bonds")
-      return static_cast<double>(n_broken());
-    if (name == "events")
-      return static_cast<double>(growth.events.size());
-    if (name == "advance")
-      return advance();
-    if (name == "G by bonds")
-      return toughness_by_bonds();
-    if (name == "G by energy")
-      return toughness_by_energy();
-    if (name == "K by bonds")
-      return std::sqrt(toughness_by_bonds() * plane_modulus);
-    if (name == "K by energy")
-      return std::sqrt(toughness_by_energy() * plane_modulus);
-    if (name == "L1" || name == "L2" || name == "Li")
-      return length(name);
-    if (growth.events.empty())
-      return 0;
-    const Event &event = growth.events[peak()];
-    return name == "peak load" ? event.load : event.reaction_before;
+    using Results = GrowthResults;
+    static const auto unknown = std::numeric_limits<double>::quiet_NaN();
+    static const std::map<std::string, double (*)(const Results &)> of = {
+        {"broken bonds", [](const Results &r) { return static_cast<double>(r.n_broken()); }},
+        {"events", [](const Results &r) { return static_cast<double>(r.growth.events.size()); }},
+        {"peak load", [](const Results &r)
+         { return r.growth.events.empty() ? 0 : r.growth.events[r.peak()].load; }},
+        {"peak reaction", [](const Results &r)
+         { return r.growth.events.empty() ? 0 : r.growth.events[r.peak()].reaction_before; }},
+        {"advance", [](const Results &r) { return r.advance(); }},
+        {"G by bonds", [](const Results &r) { return r.toughness_by_bonds(); }},
+        {"K by bonds",
+         [](const Results &r) { return std::sqrt(r.toughness_by_bonds() * r.plane_modulus); }},
+        {"G by energy", [](const Results &r) { return r.toughness_by_energy(); }},
+        {"K by energy",
+         [](const Results &r) { return std::sqrt(r.toughness_by_energy() * r.plane_modulus); }},
+        {"L1",
+         [](const Results &r)
+         {
+           const std::vector<double> G = r.phases();
+           return G.empty() ? unknown : r.length(G.front());
+         }},
+        {"L2",
+         [](const Results &r)
+         {
+           const std::vector<double> G = r.phases();
+           return G.empty() ? unknown : G.size() == 1 ? 0 : r.length(G.back());
+         }},
+        {"Li", [](const Results &r)
+         {
+           const std::vector<double> G = r.phases();
+           return G.empty()       ? unknown
+                  : G.size() == 1 ? 0
+                                  : r.length(.5 * (G.front() + G.back())); // as of broken_parts
+         }}};
+    return of.at(name)(*this);
   }
 
   double bonds_across(const GrowthModel &model)

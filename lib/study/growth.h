@@ -137,7 +137,8 @@ namespace plumbline::study
     double quantity(const std::string &name) const;
 
   private:
-    double length(const std::string &name) const;
+    /// Of broken bonds of this toughness, as a straight crack has them [length].
+    double length(double of_toughness) const;
   };
 
   /// What does not hold of a scene's expectations, and of the audit: work = stored + in bonds +

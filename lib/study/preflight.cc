@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "scene/damage.h"
 #include "scene/mesh.h"
+#include "scene/values.h"
 #include "study/refusal.h"
 
 #include <algorithm>
@@ -24,6 +25,25 @@ namespace plumbline::study
     throw InputError(key + ": method '" + name + "' is not known; choose of " + names);
   }
 
+  Methods named_methods(const scene::Scene &scene, const Methods &available,
+                        const std::function<bool(const Method &)> &is_meant)
+  {
+    Methods named;
+    const auto add = [&](const std::shared_ptr<const Method> &method)
+    {
+      if (std::find(named.begin(), named.end(), method) == named.end())
+        named.push_back(method);
+    };
+    for (const std::string &name : scene.methods.names)
+      if (name != scene::all)
+        add(find_method(available, name, "Methods/names"));
+      else
+        for (const auto &method : available)
+          if (method->is_in_all() && is_meant(*method))
+            add(method);
+    return named;
+  }
+
   Methods choose_methods(const scene::Scene &scene, const Methods &available)
   {
     if (scene.strip.is_there())
@@ -32,28 +52,13 @@ namespace plumbline::study
                        "or 0");
     const scene::Problem problem =
         make_problem(scene, 0, scene.study.series.front().levels.front());
-    Methods chosen;
-    const auto add = [&](const std::shared_ptr<const Method> &method)
-    {
-      if (std::find(chosen.begin(), chosen.end(), method) == chosen.end())
-        chosen.push_back(method);
-    };
-    for (const std::string &name : scene.methods.names)
-    {
-      if (name == "all")
-      {
-        for (const auto &method : available)
-          if (method->is_in_all() && refusal(*method, scene, problem, available).empty())
-            add(method);
-      }
-      else
-      {
-        const auto method = find_method(available, name, "Methods/names");
-        add(method);
-        if (const std::string reason = refusal(*method, scene, problem, available); !reason.empty())
-          throw InputError("Methods/names: '" + name + "' cannot do this scene: " + reason);
-      }
-    }
+    const auto reason_against = [&](const Method &method)
+    { return refusal(method, scene, problem, available); };
+    Methods chosen = named_methods(
+        scene, available, [&](const Method &method) { return reason_against(method).empty(); });
+    for (const auto &method : chosen)
+      if (const std::string reason = reason_against(*method); !reason.empty())
+        throw InputError("Methods/names: '" + method->name() + "' cannot do this scene: " + reason);
     if (scene.reference.method && !scene.time.is_dynamic()) // a motion's is no method
     {
       const auto reference = find_method(available, *scene.reference.method, "Reference/method");

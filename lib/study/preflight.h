@@ -2,6 +2,8 @@
 
 #include "analysis/statics.h"
 
+#include <functional>
+
 // What is settled before anything is solved.
 namespace plumbline::study
 {
@@ -12,6 +14,12 @@ namespace plumbline::study
   /// @throws InputError  unknown name; the message names the known ones
   std::shared_ptr<const Method> find_method(const Methods &available, const std::string &name,
                                             const std::string &key);
+
+  /// The methods that a scene names, each once and in order.
+  /// @param is_meant  by "all", of those that are there to be taken so
+  /// @throws InputError  unknown name
+  Methods named_methods(const scene::Scene &scene, const Methods &available,
+                        const std::function<bool(const Method &)> &is_meant);
 
   /// The methods that a scene names, in order; "all" gives those that can do it.
   /// @throws InputError  unknown name, or a named method that cannot do the scene, with the reason

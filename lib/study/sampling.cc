@@ -14,6 +14,9 @@ namespace plumbline::study
 {
   namespace
   {
+    /// What Expected/sampling calls the share of a field's variance that its modes have.
+    constexpr const char *const kept_of_modes = "variance kept";
+
     /// √(Σ area f²) of a field.
     double l2(const SampleField &places, const std::function<double(std::size_t)> &value)
     {
@@ -320,28 +323,22 @@ namespace plumbline::study
     if (one.sets.empty())
       return {};
     const SetStatistics &set = one.sets.back();
-    if (name == "error of the mean")
-      return set.mean_error;
-    if (name == "error of the deviation")
-      return set.deviation_error;
-    if (name == "size of the mean")
-      return set.mean_size;
-    if (name == "size of the deviation")
-      return set.deviation_size;
-    if (name == "sum of sizes")
-      return set.sum_of_sizes;
-    if (name == "noise")
-      return set.noise;
-    if (name == "samples")
-      return static_cast<double>(set.n_samples);
+    std::map<std::string, std::optional<double>> known = {
+        {"error of the mean", set.mean_error},
+        {"error of the deviation", set.deviation_error},
+        {"size of the mean", set.mean_size},
+        {"size of the deviation", set.deviation_size},
+        {"sum of sizes", set.sum_of_sizes},
+        {"noise", set.noise},
+        {"samples", static_cast<double>(set.n_samples)}};
     for (const auto &[quantity, statistics] : set.quantities)
-      if (name == "mean of " + quantity)
-        return statistics.mean;
-      else if (name == "deviation of " + quantity)
-        return statistics.deviation();
-      else if (name == "variance of " + quantity)
-        return statistics.variance;
-    return {};
+    {
+      known["mean of " + quantity] = statistics.mean;
+      known["deviation of " + quantity] = statistics.deviation();
+      known["variance of " + quantity] = statistics.variance;
+    }
+    const auto found = known.find(name);
+    return found == known.end() ? std::nullopt : found->second;
   }
 
   std::vector<std::string> sampling_faults(const SamplingResults &results,
@@ -353,7 +350,7 @@ namespace plumbline::study
       if (one.kind != scene::ExpectedKind::sampling)
         continue;
       std::optional<double> found;
-      if (results.spectrum && one.problem == "variance kept")
+      if (results.spectrum && one.problem == kept_of_modes)
         found = results.spectrum->variance_kept();
       for (const CaseStatistics &known : results.cases) // coarse to fine: the finest is the last
         if (known.of.method == one.method)

@@ -166,58 +166,78 @@ namespace plumbline::meshfree
     return result;
   }
 
+  namespace
+  {
+    /// What stands in the file, by the row's first node.
+    std::vector<std::vector<Row>> read_rows(scene::Csv &csv, const GivenNodes &nodes,
+                                            const geometry::NodeCells &cells)
+    {
+      std::unordered_map<std::int64_t, unsigned int> node_of_id;
+      for (unsigned int k = 0; k < cells.size(); ++k)
+        node_of_id[nodes.id[cells.source[k]]] = k;
+      const auto node = [&](const std::string &name)
+      {
+        const std::int64_t id = csv.integer(name);
+        const auto found = node_of_id.find(id);
+        if (found == node_of_id.end())
+          csv.fail(name + " = " + std::to_string(id) + " is no node of '" + nodes.file +
+                   "'; take the bond out, or add the node");
+        return found->second;
+      };
+
+      std::vector<std::vector<Row>> rows(cells.size());
+      while (csv.next())
+      {
+        const unsigned int i = node("i"), j = node("j");
+        if (i == j)
+          csv.fail("a bond of node " + std::to_string(csv.integer("i")) +
+                   " with itself; take it out, it has no part in the operator");
+        const Point<2> xi(cells.nodes[j] - cells.nodes[i]);
+        Bond bond{xi, csv.number("weight"), xi, nodes.volume[cells.source[j]]};
+        if (csv.has("qx") && !(csv.is_empty("qx") && csv.is_empty("qy")))
+          bond.kernel_point = Point<2>(csv.number("qx"), csv.number("qy"));
+        if (bond.kernel_point.square() == 0)
+          csv.fail(
+              "the kernel point (qx, qy) is 0, the place of node i itself, where kernels may be "
+              "infinite; give a point of the neighbour's cell, relative to node i");
+        rows[i].push_back({j, bond, csv.line()});
+      }
+      return rows;
+    }
+
+    /// By neighbour.
+    /// @param id  of a cell's node
+    template <class Id>
+    void sort_bonds(std::vector<Row> &rows, std::size_t node, const scene::Csv &csv, const Id &id)
+    {
+      std::sort(rows.begin(), rows.end(),
+                [](const Row &a, const Row &b)
+                { return std::pair(a.neighbour, a.line) < std::pair(b.neighbour, b.line); });
+      const auto twin =
+          std::adjacent_find(rows.begin(), rows.end(),
+                             [](const Row &a, const Row &b) { return a.neighbour == b.neighbour; });
+      if (twin != rows.end())
+        csv.fail(twin[1].line, "the bond from node " + id(node) + " to node " +
+                                   id(twin->neighbour) + " is that of line " +
+                                   std::to_string(twin->line) +
+                                   " already; take one of them out, or add their weights");
+    }
+  } // namespace
+
   GivenFamilies read_given_families(const std::string &file, const GivenNodes &nodes,
                                     const geometry::NodeCells &cells)
   {
     scene::Csv csv(file, {"i", "j", "weight"});
     if (csv.has("qx") != csv.has("qy"))
       csv.fail("one of the columns qx and qy is missing; give both or none");
-    std::unordered_map<std::int64_t, unsigned int> node_of_id;
-    for (unsigned int k = 0; k < cells.size(); ++k)
-      node_of_id[nodes.id[cells.source[k]]] = k;
-    const auto node = [&](const std::string &name)
-    {
-      const std::int64_t id = csv.integer(name);
-      const auto found = node_of_id.find(id);
-      if (found == node_of_id.end())
-        csv.fail(name + " = " + std::to_string(id) + " is no node of '" + nodes.file +
-                 "'; take the bond out, or add the node");
-      return found->second;
-    };
-
-    std::vector<std::vector<Row>> rows(cells.size());
-    while (csv.next())
-    {
-      const unsigned int i = node("i"), j = node("j");
-      if (i == j)
-        csv.fail("a bond of node " + std::to_string(csv.integer("i")) +
-                 " with itself; take it out, it has no part in the operator");
-      const Point<2> xi(cells.nodes[j] - cells.nodes[i]);
-      Bond bond{xi, csv.number("weight"), xi, nodes.volume[cells.source[j]]};
-      if (csv.has("qx") && !(csv.is_empty("qx") && csv.is_empty("qy")))
-        bond.kernel_point = Point<2>(csv.number("qx"), csv.number("qy"));
-      if (bond.kernel_point.square() == 0)
-        csv.fail("the kernel point (qx, qy) is 0, the place of node i itself, where kernels may be "
-                 "infinite; give a point of the neighbour's cell, relative to node i");
-      rows[i].push_back({j, bond, csv.line()});
-    }
+    std::vector<std::vector<Row>> rows = read_rows(csv, nodes, cells);
+    const auto id = [&](std::size_t cell) { return std::to_string(nodes.id[cells.source[cell]]); };
 
     GivenFamilies result{std::vector<Family>(cells.n_free)};
     result.lines.resize(cells.n_free);
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
-      std::sort(rows[i].begin(), rows[i].end(),
-                [](const Row &a, const Row &b)
-                { return std::pair(a.neighbour, a.line) < std::pair(b.neighbour, b.line); });
-      const auto twin =
-          std::adjacent_find(rows[i].begin(), rows[i].end(),
-                             [](const Row &a, const Row &b) { return a.neighbour == b.neighbour; });
-      if (twin != rows[i].end())
-        csv.fail(twin[1].line, "the bond from node " + std::to_string(nodes.id[cells.source[i]]) +
-                                   " to node " +
-                                   std::to_string(nodes.id[cells.source[twin->neighbour]]) +
-                                   " is that of line " + std::to_string(twin->line) +
-                                   " already; take one of them out, or add their weights");
+      sort_bonds(rows[i], i, csv, id);
       if (i >= cells.n_free)
       {
         result.n_ignored += rows[i].size();
@@ -225,8 +245,7 @@ namespace plumbline::meshfree
       }
       if (rows[i].empty())
         throw InputError("'" + nodes.file + "', line " +
-                         std::to_string(nodes.line[cells.source[i]]) + ": node " +
-                         std::to_string(nodes.id[cells.source[i]]) +
+                         std::to_string(nodes.line[cells.source[i]]) + ": node " + id(i) +
                          " lies in the domain but has no bonds in '" + file +
                          "'; add them, or, where nodes on the boundary carry data, write "
                          "Methods/nodes = vertices");

@@ -5,6 +5,7 @@
 #include "meshfree/rules/families.h"
 #include "meshfree/rules/rules.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace plumbline::meshfree
@@ -90,7 +91,9 @@ namespace plumbline::meshfree
 
   bool Recognised::is_full_area() const
   {
-    return rule == "FA";
+    return std::any_of(rules().begin(), rules().end(),
+                       [this](const Rule &one)
+                       { return one.name == rule && one.recipe == full_area; });
   }
 
   std::optional<Recognised> recognise(const GivenBonds &given)

@@ -258,6 +258,34 @@ namespace plumbline::reference
       }
     }
 
+    std::vector<std::size_t> cells_inside(const geometry::Mesh &mesh)
+    {
+      std::vector<std::size_t> result;
+      for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+        if (mesh.cells[cell].is_inside)
+          result.push_back(cell);
+      return result;
+    }
+
+    /// Integrate once what is the same up to a translation, unless entries change from place to
+    /// place: each pair gets the number of its block.
+    /// @param all  cells of all ranks, whose pairs stand for each other
+    /// @return  none where nothing repeats
+    std::vector<PairBlocks> integrate_repeated(const MeshSpace &space, const MeshCells &cells,
+                                               double horizon, const PairIntegrator &integrator,
+                                               const std::vector<std::size_t> &all,
+                                               const base::Team &team,
+                                               std::vector<CellPairs> &pairs)
+    {
+      if (integrator.has_changing_coefficient() || cells.has_curves())
+        return {};
+      std::vector<CellPairs> of_all;
+      if (team.n_ranks() > 1)
+        of_all = find_pairs(space, cells, horizon, all);
+      const RepeatedPairs repeated(space.mesh(), of_all.empty() ? pairs : of_all, pairs);
+      return integrate_first(repeated.first(), integrator);
+    }
+
     bool is_linear_triangles(const MeshSpace &space)
     {
       return space.shapes().n_vertices() == 3 && space.is_continuous() &&
@@ -307,10 +335,7 @@ namespace plumbline::reference
       return {assemble_by_edges(space, kernel, team), true,
               "exact by pairs of sides of the triangles"};
     const KernelEntries profile(kernel);
-    std::vector<std::size_t> all_cells;
-    for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
-      if (space.mesh().cells[cell].is_inside)
-        all_cells.push_back(cell);
+    const std::vector<std::size_t> all_cells = cells_inside(space.mesh());
     const auto [first, last] = team.share(all_cells.size());
     std::vector<std::size_t> outer_cells(all_cells.begin() + static_cast<std::ptrdiff_t>(first),
                                          all_cells.begin() + static_cast<std::ptrdiff_t>(last));
@@ -325,15 +350,8 @@ namespace plumbline::reference
       throw InputError("Domain/sides = curved: entries would be " +
                        tell_way(space, kernel, scratch.integrator, options, false) +
                        "; write Domain/sides = straight, or change that");
-    std::vector<PairBlocks> first_blocks;
-    if (!scratch.integrator.has_changing_coefficient() && !cells.has_curves())
-    {
-      std::vector<CellPairs> of_all;
-      if (team.n_ranks() > 1)
-        of_all = find_pairs(space, cells, kernel.horizon(), all_cells);
-      const RepeatedPairs repeated(space.mesh(), of_all.empty() ? pairs : of_all, pairs);
-      first_blocks = integrate_first(repeated.first(), scratch.integrator);
-    }
+    const std::vector<PairBlocks> first_blocks = integrate_repeated(
+        space, cells, kernel.horizon(), scratch.integrator, all_cells, team, pairs);
     // an exception must not leave a thread: the first one is kept and thrown at the end
     std::exception_ptr failure;
     std::mutex mutex;

@@ -187,7 +187,7 @@ namespace plumbline::reference
     // a bilinear map stretches some parts more than others
     const double reach = 2 * part.size * cells_.radius(outer) * (map.is_affine() ? 1 : 1.5);
     const auto vertices = cells_[inner].vertices();
-    if (is_at_shadow(centre, reach, vertices))
+    if (geometry::is_at_shadow(centre, reach, between_, vertices))
       return Kink::at_circle;
     Kink kink = Kink::none;
     for (unsigned int v = 0; v < vertices.size(); ++v)
@@ -205,29 +205,6 @@ namespace plumbline::reference
         kink = Kink::at_side;
     }
     return kink;
-  }
-
-  /// Whether a point comes close to a line through the end of a crack and a vertex of E' or another
-  /// end: what is seen changes its form there.
-  bool PairQuadrature::is_at_shadow(const Point<2> &x, double reach,
-                                    geometry::ArrayView<const Point<2>> vertices) const
-  {
-    for (const geometry::Cut &cut : between_)
-      for (const Point<2> &end : cut)
-      {
-        const dealii::Tensor<1, 2> from = x - end;
-        const auto is_on_line = [&](const Point<2> &other)
-        {
-          const dealii::Tensor<1, 2> line = other - end;
-          return std::abs(line[0] * from[1] - line[1] * from[0]) <= reach * line.norm();
-        };
-        if (std::any_of(vertices.begin(), vertices.end(), is_on_line))
-          return true;
-        for (const geometry::Cut &another : between_)
-          if (is_on_line(another[another[0] == end ? 1 : 0]))
-            return true;
-      }
-    return false;
   }
 
   /// All of both cells, a constant kernel: products of integrals.

@@ -72,8 +72,6 @@ namespace plumbline::reference
       at_circle ///< or the circle to a vertex, or to touching a side, or a crack's end before one
     };
     Kink find_kink(const Part &part, std::size_t outer, std::size_t inner) const;
-    bool is_at_shadow(const Point<2> &x, double reach,
-                      geometry::ArrayView<const Point<2>> vertices) const;
     /// What is seen of a cell from x.
     struct Region
     {

@@ -55,11 +55,11 @@ namespace plumbline::scene
              "h^2; for Galerkin methods of degree 2 at most with exact entries, and for meshfree "
              "methods.");
     keys.add(
-        "collar", "auto", any_text(),
+        "collar", automatic, any_text(),
         [this](const std::string &text)
         {
           collar.reset();
-          if (text != "auto")
+          if (text != automatic)
             collar = to_number(text);
         },
         "Width of the interaction collar where the volume constraint gives u: auto, or a width of "
@@ -82,7 +82,7 @@ namespace plumbline::scene
         "fixed", "", any_text(),
         [this](const std::string &text)
         {
-          is_floating = text == "none";
+          is_floating = text == none;
           fixed = is_floating ? std::vector<geometry::Box>() : to_boxes(text);
         },
         "Boxes where u is given in a free body, written like boxes: of nodes whose cell shares "

@@ -38,9 +38,9 @@ namespace plumbline::scene
              "Of breaking = steps: by how much the load grows. The load is the factor of "
              "Problem/constraint, which says what the grips do at 1.");
     keys.add(
-        "largest load", "none", any_text(),
+        "largest load", none, any_text(),
         [this](const std::string &text) {
-          largest_load = text == "none" ? std::numeric_limits<double>::infinity() : to_number(text);
+          largest_load = text == none ? std::numeric_limits<double>::infinity() : to_number(text);
         },
         "Where growth ends, or none: it goes on.");
     keys.add("least reaction", least_reaction, between(0, 1),
