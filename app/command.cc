@@ -194,9 +194,11 @@ int plumbline::app::command(int argc, char **argv)
 
   if (random.is_worker)
     n_threads = random.n_threads;
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0); // without mpirun: no daemon beside it,
-  if (getenv("OMPI_COMM_WORLD_SIZE") == nullptr) // nor a folder, which one may remove as another
-    setenv("OMPI_MCA_orte_create_session_dirs", "false", 0); // begins
+  // without mpirun: no daemon beside it, nor a shared folder, which one that ends may remove as
+  // another begins
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  if (getenv("OMPI_COMM_WORLD_SIZE") == nullptr)
+    setenv("OMPI_MCA_orte_create_session_dirs", "false", 0);
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(
       argc, argv, n_threads == 0 ? dealii::numbers::invalid_unsigned_int : n_threads);
   // whatever one rank alone fails at, all of them end with it

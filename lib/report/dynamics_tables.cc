@@ -33,9 +33,10 @@ namespace plumbline::report
 
   const char *const motion_estimates_words =
       "How far Galerkin motions may be off at the final time, of u, L2 over nodes, by the method's "
-      "own means. space: change to degree p + 1 at the nodes that both have; quadrature: change to "
-      "forces with a Gauss point more a side; both exact in time. time: from the same equation "
-      "exact in time. digits: that their sum leaves certain of how far u varies.";
+      "own means: a bound in practice, no theorem. space: 3/2 of the larger of Richardson's "
+      "estimate from h/2 and 2 h and of the change to degree p + 1, at the nodes that both have; "
+      "quadrature: change to forces with a Gauss point more a side; both exact in time. time: from "
+      "the same equation exact in time. digits: that their sum leaves of how far u varies.";
 
   const char *const best_pairs_words =
       "Of all runs, preparation and steps together: no other is as accurate and cheaper. Runs that "
@@ -84,6 +85,17 @@ namespace plumbline::report
           row.erase(row.begin() + static_cast<std::ptrdiff_t>(c));
       }
       return without_empty_columns(table);
+    }
+
+    /// Which one it is: method, case, series, h, horizon, scheme and dt.
+    std::vector<Cell> cells_of(const MotionRun &run)
+    {
+      std::vector<Cell> row;
+      add_names(row, run.method, run.problem, run.series);
+      for (const Cell &cell : {number_cell(run.h), number_cell(run.horizon), text_cell(run.scheme),
+                               number_cell(run.step)})
+        row.push_back(cell);
+      return row;
     }
 
     const std::vector<std::string> names = {"case", "series", "scheme", "step"};
@@ -158,13 +170,8 @@ namespace plumbline::report
         return found == run.errors.end() ? empty_cell() : error_cell(found->second);
       };
       const bool has_critical = std::isfinite(run.critical_step) && run.critical_step > 0;
-      std::vector<Cell> row;
-      add_names(row, run.method, run.problem, run.series);
+      std::vector<Cell> row = cells_of(run);
       const std::vector<Cell> rest = {
-          number_cell(run.h),
-          number_cell(run.horizon),
-          text_cell(run.scheme),
-          number_cell(run.step),
           known(has_critical, number_cell(run.critical_step)),
           known(has_critical, number_cell(run.step / run.critical_step)),
           count_cell(run.counts.n_steps),
@@ -192,13 +199,8 @@ namespace plumbline::report
       if (!run.estimate || !run.failure.empty())
         continue;
       const double error = decisive_error(results, run);
-      std::vector<Cell> row;
-      add_names(row, run.method, run.problem, run.series);
+      std::vector<Cell> row = cells_of(run);
       const std::vector<Cell> rest = {
-          number_cell(run.h),
-          number_cell(run.horizon),
-          text_cell(run.scheme),
-          number_cell(run.step),
           error_cell(run.estimate->space),
           error_cell(run.estimate->quadrature),
           error_cell(run.estimate->time),

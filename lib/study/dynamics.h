@@ -15,7 +15,7 @@ namespace plumbline::study
   /// What a Galerkin motion may be wrong by at the final time, of u, L2 over its nodes.
   struct MotionEstimate
   {
-    double space = 0;      ///< change to degree p + 1
+    double space = 0;      ///< from h/2, 2 h and degree p + 1
     double quadrature = 0; ///< change to finer quadrature of forces; 0: they are exact
     double time = 0;       ///< from the same equation, exact in time
     double sum() const { return space + quadrature + time; }

@@ -24,6 +24,12 @@ namespace plumbline::study
 
     const scene::Problem &at(double t);
 
+    /// Those of another mesh size at the same horizon.
+    ProblemsInTime resized(double h) const
+    {
+      return {scene_, case_index_, {h, level_.horizon}, loads_};
+    }
+
     double seconds() const { return seconds_; } ///< CPU that making them took
 
   private:

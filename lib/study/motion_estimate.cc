@@ -1,8 +1,10 @@
 #include "study/motion_estimate.h"
 
 #include "analysis/statics.h"
+#include "base/error.h"
 #include "study/motion_norms.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -67,17 +69,69 @@ namespace plumbline::study
     analysis::settle_quadrature(discretisation, pulled);
   }
 
-  analysis::State move_exactly(const scene::Scene &scene, const method::EquationOfMotion &equation,
-                               ProblemsInTime &problems)
+  analysis::State move_exactly(const scene::Scene &scene, const analysis::Transient &transient,
+                               const analysis::State &start)
   {
-    const MotionData data = motion_data(scene, equation, problems);
-    const analysis::Transient transient(equation, data.drive, scene.time.density,
-                                        scene.time.damping);
-    analysis::State state = data.start;
+    analysis::State state = start;
     analysis::integrate(transient.motion(), analysis::scheme("Runge-Kutta"),
                         {scene.time.final_time / 4}, scene.time.final_time, state);
     return state;
   }
+
+  namespace
+  {
+    /// A motion to compare others with.
+    class Own
+    {
+    public:
+      Own(const scene::Scene &scene, const method::EquationOfMotion &equation,
+          const analysis::State &end, double area, double h)
+          : scene_(scene), equation_(equation), u_(equation.nodal(end.u)), area_(area), h_(h)
+      {
+      }
+
+      /// How far another one is off at the final time; 0: they share no nodes.
+      double change_to(const method::EquationOfMotion &other, ProblemsInTime &problems) const
+      {
+        const MotionData data = motion_data(scene_, other, problems);
+        const analysis::Transient transient(other, data.drive, scene_.time.density,
+                                            scene_.time.damping);
+        const std::vector<double> change = change_at_shared(
+            equation_, u_, other, other.nodal(move_exactly(scene_, transient, data.start).u), h_);
+        return change.empty() ? 0 : norm_of(change, equation_.n_components(), area_, false);
+      }
+
+      double change_to(const Method &method, ProblemsInTime &problems) const
+      {
+        const auto other = method.discretise(problems.at(0), base::Team::alone());
+        settle_quadrature(scene_, *other, problems.at(0));
+        return change_to(*other->motion(scene_.time.is_lumped), problems);
+      }
+
+    private:
+      const scene::Scene &scene_;
+      const method::EquationOfMotion &equation_;
+      std::vector<double> u_;
+      double area_, h_;
+    };
+
+    /// Largest part of an error that is left when h is halved, as far as 2 h tells.
+    double ratio(const Own &own, const Method &method, double change, ProblemsInTime &problems)
+    {
+      constexpr double slowest = .9; // errors ten times the change
+      const double best = std::exp2(-static_cast<double>(method.order()));
+      try
+      {
+        ProblemsInTime coarser = problems.resized(2 * problems.at(0).h);
+        if (const double before = own.change_to(method, coarser); before > 0)
+          return std::min(slowest, std::max(best, change / before));
+      }
+      catch (const InputError &) // 2 h does not fit the box, or the horizon
+      {
+      }
+      return std::max(best, .5);
+    }
+  } // namespace
 
   std::optional<MotionEstimate> estimate_in_space(const scene::Scene &scene, const Method &method,
                                                   const method::Discretisation &discretisation,
@@ -85,27 +139,23 @@ namespace plumbline::study
                                                   const analysis::State &end, double area,
                                                   ProblemsInTime &problems)
   {
+    constexpr double safety = 1.5;
     const auto higher = method.higher_degree();
     if (!higher)
       return {};
-    const std::vector<double> own = equation.nodal(end.u);
-    const auto change_to = [&](const method::EquationOfMotion &other)
-    {
-      return change_at_shared(equation, own, other,
-                              other.nodal(move_exactly(scene, other, problems).u),
-                              problems.at(0).h);
-    };
-    const auto norm = [&](const std::vector<double> &change)
-    { return norm_of(change, equation.n_components(), area, false); };
-    const auto finer_space = higher->discretise(problems.at(0), base::Team::alone());
-    settle_quadrature(scene, *finer_space, problems.at(0));
-    const std::vector<double> change = change_to(*finer_space->motion(scene.time.is_lumped));
-    if (change.empty())
+    const double h = problems.at(0).h;
+    const Own own(scene, equation, end, area, h);
+    const double degree = own.change_to(*higher, problems);
+    if (degree == 0)
+      return {};
+    ProblemsInTime finer = problems.resized(h / 2);
+    const double half = own.change_to(method, finer);
+    if (half == 0)
       return {};
     MotionEstimate estimate;
-    estimate.space = norm(change);
-    if (const auto finer = discretisation.finer_motion(scene.time.is_lumped))
-      estimate.quadrature = norm(change_to(*finer));
+    estimate.space = safety * std::max(degree, half / (1 - ratio(own, method, half, problems)));
+    if (const auto same = discretisation.finer_motion(scene.time.is_lumped))
+      estimate.quadrature = own.change_to(*same, problems);
     return estimate;
   }
 } // namespace plumbline::study

@@ -9,9 +9,9 @@ namespace plumbline::study
   /// Galerkin methods, where neither a reference nor a solution is known or all are asked for.
   bool wants_estimate(const scene::Scene &scene, const Method &method);
 
-  /// The state at the final time, exact in time.
-  analysis::State move_exactly(const scene::Scene &scene, const method::EquationOfMotion &equation,
-                               ProblemsInTime &problems);
+  /// The state at the final time, exact in time (Runge-Kutta of high order, to 1e-12).
+  analysis::State move_exactly(const scene::Scene &scene, const analysis::Transient &transient,
+                               const analysis::State &start);
 
   /// Refine quadrature as statics under a load of 1 needs it, whatever moves later. A body that
   /// floats has no statics.
@@ -19,9 +19,12 @@ namespace plumbline::study
                          const scene::Problem &first);
 
   /// What a Galerkin method's motion may be wrong by in space and by quadrature, at the final time,
-  /// L2 over nodes: the change to degree p + 1, at the nodes that both have, and to finer
-  /// quadrature, both exact in time. Nothing for discontinuous functions, whose nodes share places.
-  /// Cost: two motions more, one of them of degree p + 1.
+  /// L2 over nodes. Space: with the changes d to h/2 and d' from 2 h, at the nodes that both have,
+  /// Richardson's d / (1 - q), q the larger of 2^-(p+1) and d / d' (1/2 where 2 h does not fit), or
+  /// the change to degree p + 1 if that is larger; 3/2 of it. Quadrature: the change to finer one.
+  /// All exact in time. A bound in practice, no theorem; nothing for discontinuous functions, whose
+  /// nodes share places, and for meshes whose nodes move with h.
+  /// Cost: that of the motions at h/2 (16 times as many bonds), at degree p + 1 and at 2 h.
   /// @param end   of `equation`, by move_exactly
   /// @param area  of Ω
   std::optional<MotionEstimate> estimate_in_space(const scene::Scene &scene, const Method &method,

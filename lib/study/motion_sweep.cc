@@ -146,7 +146,8 @@ namespace plumbline::study
           run.facts = equation->facts();
           run.cost.setup_seconds = timer.seconds() - (problems.seconds() - shared);
           const auto torus = torus_of(run, problems);
-          const auto in_time = estimate(method, *discretisation, *equation, problems, run);
+          const auto in_time =
+              estimate(method, *discretisation, *equation, transient, data, problems, run);
           return run_schemes(*equation, transient, data, torus, in_time, motions, run);
         }
         catch (const Interrupted &)
@@ -166,12 +167,13 @@ namespace plumbline::study
       std::optional<State> estimate(const Method &method,
                                     const method::Discretisation &discretisation,
                                     const method::EquationOfMotion &equation,
+                                    const Transient &transient, const MotionData &data,
                                     ProblemsInTime &problems, MotionRun &run) const
       {
         const bool is_estimated = wants_estimate(scene_, method);
         if (!is_estimated && !has_orders())
           return {};
-        const State end = move_exactly(scene_, equation, problems);
+        const State end = move_exactly(scene_, transient, data.start);
         if (is_estimated)
           run.estimate =
               estimate_in_space(scene_, method, discretisation, equation, end, area_, problems);

@@ -1,5 +1,6 @@
 #include "study/torus_reference.h"
 
+#include "study/motion_estimate.h"
 #include "study/motion_norms.h"
 
 #include <utility>
@@ -31,9 +32,7 @@ namespace plumbline::study
       fine.equation = control.make_torus(scene, horizon, n);
       const MotionData data = motion_data(scene, *fine.equation, problems);
       const Transient transient(*fine.equation, data.drive, scene.time.density, scene.time.damping);
-      fine.state = data.start;
-      analysis::integrate(transient.motion(), analysis::scheme("Runge-Kutta"),
-                          {scene.time.final_time / 4}, scene.time.final_time, fine.state);
+      fine.state = move_exactly(scene, transient, data.start);
       estimate.n_points = n;
       if (!coarse.equation)
         continue;

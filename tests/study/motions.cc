@@ -188,16 +188,16 @@ TEST(Motions, of_galerkin_know_their_own_errors)
   const auto results = run(torus({{"Methods/names", "Q1, IPA-AC-R2"},
                                   {"Study/h", "0.1"},
                                   {"Reference/estimate", "every"},
-                                  {"Time/final time", "0.1"},
-                                  {"Time/steps", "0.05"}}));
+                                  {"Time/final time", "0.05"},
+                                  {"Time/steps", "0.025"}}));
   for (const MotionRun &motion : results.runs)
   {
     ASSERT_EQ(motion.estimate.has_value(), motion.side == Side::reference) << motion.method;
     if (!motion.estimate)
       continue;
     const double error = motion.errors.at("nodal L2 | reference");
-    EXPECT_GT(motion.estimate->sum(), .95 * error) << motion.method << ' ' << motion.h;
-    EXPECT_LT(motion.estimate->sum(), 3 * error) << motion.method << ' ' << motion.h;
+    EXPECT_GT(motion.estimate->sum(), error) << motion.method << ' ' << motion.h;
+    EXPECT_LT(motion.estimate->sum(), 5 * error) << motion.method << ' ' << motion.h;
     EXPECT_LT(motion.estimate->quadrature, .1 * motion.estimate->space) << motion.method;
     EXPECT_GT(motion.estimate->quadrature, 0) << motion.method;
   }

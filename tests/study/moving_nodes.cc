@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 using namespace plumbline;
 using namespace plumbline::study;
@@ -274,6 +275,38 @@ TEST(MovingNodes, converge_as_in_statics)
                                            {"Quadrature/tolerance", "1e-2"},
                                            {"Study/m", "2"}}));
   EXPECT_NEAR(last_rate(triangles, "P1"), 2, .4);
+}
+
+TEST(MovingNodes, of_galerkin_know_that_rough_motions_converge_slowly)
+{
+  // u jumps at the boundary, where continuous functions cannot: changes to h/2 and degree p + 1
+  // are far smaller than errors
+  const auto rough = [](const std::string &h)
+  {
+    return scene_of("tensor", {{"Methods/names", "Q1"},
+                               {"Problem/solution", ""},
+                               {"Problem/load", "0, 0"},
+                               {"Problem/constraint", "0, 0"},
+                               {"Problem/local solution", "none"},
+                               {"Time/initial displacement", "sin(pi*x)*sin(pi*y), 0"},
+                               {"Time/final time", "0.2"},
+                               {"Time/steps", "0.01"},
+                               {"Study/regime", "m"},
+                               {"Study/horizon", "0.2"},
+                               {"Study/h", h},
+                               {"Reference/method", "none"}});
+  };
+  const Places coarse = end_of(rough("0.1")), fine = end_of(rough("0.0125"));
+  std::map<std::array<double, 2>, std::vector<double>> at(fine.begin(), fine.end());
+  double sum = 0;
+  for (const auto &[place, u] : coarse)
+    for (unsigned int c = 0; c < 2; ++c)
+      sum += std::pow(u[c] - at.at(place)[c], 2);
+  const double error = std::sqrt(sum / static_cast<double>(coarse.size()));
+  const MotionRun motion = run(rough("0.1")).runs.at(0);
+  ASSERT_TRUE(motion.estimate.has_value());
+  EXPECT_GT(motion.estimate->sum(), error);
+  EXPECT_LT(motion.estimate->sum(), 10 * error);
 }
 
 TEST(MovingNodes, keep_energy_where_their_operator_is_symmetric)

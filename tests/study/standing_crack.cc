@@ -100,6 +100,22 @@ TEST(StripLimits, agree_as_far_as_they_lie_apart)
   EXPECT_EQ(all[0].n_methods, 3u);
 }
 
+namespace
+{
+  /// Where the scene expects this of method A alone.
+  auto faults_of(const study::StripResults &results, scene::ExpectedSection expected,
+                 const std::string &quantity, const std::vector<double> &values)
+  {
+    scene::Expected one;
+    one.kind = scene::ExpectedKind::strip;
+    one.method = "A";
+    one.problem = quantity;
+    one.values = values;
+    expected.all = {one};
+    return study::strip_faults(results, expected);
+  }
+} // namespace
+
 TEST(StripFaults, are_what_is_not_as_expected)
 {
   study::StripResults results;
@@ -108,15 +124,7 @@ TEST(StripFaults, are_what_is_not_as_expected)
   scene::ExpectedSection expected;
   expected.error_tolerance = 1e-6;
   const auto expect = [&](const std::string &quantity, const std::vector<double> &values)
-  {
-    scene::Expected one;
-    one.kind = scene::ExpectedKind::strip;
-    one.method = "A";
-    one.problem = quantity;
-    one.values = values;
-    expected.all = {one};
-    return study::strip_faults(results, expected).size();
-  };
+  { return faults_of(results, expected, quantity, values).size(); };
   EXPECT_EQ(expect("tip energy", {.7, .6, .55, .5}), 0u);
   EXPECT_EQ(expect("tip energy", {.7, .6, .55, .51}), 1u);
   EXPECT_EQ(expect("tip energy", {.7, .6}), 1u);              // there are more
@@ -143,15 +151,7 @@ TEST(StripFaults, are_rates_that_are_not_as_expected)
   expected.error_tolerance = 1e-6; // which is not that of rates
   expected.rate_tolerance = .04;
   const auto faults = [&](const std::string &quantity, const std::vector<double> &values)
-  {
-    scene::Expected one;
-    one.kind = scene::ExpectedKind::strip;
-    one.method = "A";
-    one.problem = quantity;
-    one.values = values;
-    expected.all = {one};
-    return study::strip_faults(results, expected);
-  };
+  { return faults_of(results, expected, quantity, values); };
   EXPECT_EQ(faults("tip energy rate", {1.5}).size(), 0u);
   EXPECT_EQ(faults("tip energy rate", {1.53}).size(), 0u);
   EXPECT_EQ(faults("tip energy rate", {1.47}).size(), 0u);
@@ -179,15 +179,7 @@ TEST(StripFaults, are_of_growth_where_a_rule_has_grown)
   scene::ExpectedSection expected;
   expected.error_tolerance = 1e-6;
   const auto expect = [&](const std::string &quantity, const std::vector<double> &values)
-  {
-    scene::Expected one;
-    one.kind = scene::ExpectedKind::strip;
-    one.method = "A";
-    one.problem = quantity;
-    one.values = values;
-    expected.all = {one};
-    return study::strip_faults(results, expected).size();
-  };
+  { return faults_of(results, expected, quantity, values).size(); };
   EXPECT_EQ(expect("growth peak", {1.7, 1.45, 1.325}), 0u);
   EXPECT_EQ(expect("growth peak", {1.7, 1.45, 1.4}), 1u);
   EXPECT_EQ(expect("growth mean", {1.6, 1.35, 1.225}), 0u);
