@@ -35,6 +35,7 @@ nav a { margin-right: 1.1rem; white-space: nowrap; }
 .card h3 { font-size: .86rem; color: var(--soft); font-weight: 600; margin: 0 0 .2rem; }
 .card p { margin: .3rem 0 0; }
 .card td { padding: .18rem .9rem .18rem 0; white-space: nowrap; max-width: none; }
+.card td small { display: block; white-space: normal; }
 .card tr:last-child td { border-bottom: 0; }
 .card .marker { margin: 0 .35rem; }
 .avoid { color: #8a3500; font-size: .9rem; }
