@@ -58,6 +58,21 @@ namespace plumbline::random
       }
     }
 
+    SamplePoints combinations(const std::vector<LineRule> &of)
+    {
+      std::vector<const LineRule *> rules;
+      for (const LineRule &rule : of)
+        rules.push_back(&rule);
+      SamplePoints result;
+      for_each_combination(rules,
+                           [&](const std::vector<double> &point, double weight)
+                           {
+                             result.points.push_back(point);
+                             result.weights.push_back(weight);
+                           });
+      return result;
+    }
+
     /// Calls f(excess) for all ways to distribute a sum over n places.
     void for_each_partition(std::size_t n, unsigned int sum,
                             const std::function<void(const std::vector<unsigned int> &)> &f)
@@ -176,20 +191,25 @@ namespace plumbline::random
 
   SamplePoints tensor_points(const std::vector<Law> &laws, unsigned int n)
   {
-    std::vector<LineRule> all;
+    std::vector<LineRule> rules;
     for (const Law law : laws)
-      all.push_back(gauss_rule(law, n));
-    std::vector<const LineRule *> rules;
-    for (const LineRule &rule : all)
-      rules.push_back(&rule);
-    SamplePoints result;
-    for_each_combination(rules,
-                         [&](const std::vector<double> &point, double weight)
-                         {
-                           result.points.push_back(point);
-                           result.weights.push_back(weight);
-                         });
-    return result;
+      rules.push_back(gauss_rule(law, n));
+    return combinations(rules);
+  }
+
+  SamplePoints equidistant_points(std::size_t n_variables, unsigned int n)
+  {
+    LineRule rule{{0}, {1}};
+    if (n > 1)
+    {
+      rule = {};
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        rule.nodes.push_back(2. * i / (n - 1) - 1);
+        rule.weights.push_back((i == 0 || i + 1 == n ? .5 : 1.) / (n - 1));
+      }
+    }
+    return combinations(std::vector<LineRule>(n_variables, rule));
   }
 
   SamplePoints smolyak_points(const std::vector<Law> &laws, unsigned int level, Growth growth)

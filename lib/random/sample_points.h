@@ -11,7 +11,8 @@ namespace plumbline::random
     tensor, ///< Gauss points in each variable
     smolyak,
     monte_carlo,
-    quasi_monte_carlo ///< Sobol's points
+    quasi_monte_carlo, ///< Sobol's points
+    equidistant        ///< from end to end of uniform variables, to see how results depend on them
   };
 
   /// How many points a variable has at level l = 1, 2, ... of Smolyak's rule.
@@ -54,6 +55,11 @@ namespace plumbline::random
   /// @pre n <= most_line_points
   SamplePoints tensor_points(const std::vector<Law> &laws, unsigned int n);
 
+  /// All combinations of n equidistant values each of uniform variables, both ends among them, with
+  /// the weights of the trapezoidal rule; the middle where n = 1.
+  /// @pre 0 < n <= most_line_points
+  SamplePoints equidistant_points(std::size_t n_variables, unsigned int n);
+
   /// Smolyak's combination of tensor products, of levels whose sum exceeds their number by at most
   /// `level`: exact for polynomials of total degree 2 level + 1 with Gauss points. Points are
   /// sorted; points that come twice are one, and none where their weights cancel.
@@ -76,7 +82,7 @@ namespace plumbline::base
 {
   template <>
   inline constexpr auto words<random::SampleRule> =
-      std::array{"none", "tensor", "Smolyak", "Monte Carlo", "quasi-Monte Carlo"};
+      std::array{"none", "tensor", "Smolyak", "Monte Carlo", "quasi-Monte Carlo", "equidistant"};
   template <>
   inline constexpr auto words<random::Growth> = std::array{"linear", "odd", "doubling", "nested"};
 } // namespace plumbline::base

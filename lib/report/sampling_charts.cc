@@ -80,6 +80,16 @@ namespace plumbline::report
                   [](const Vertex &a, const Vertex &b) { return a.x < b.x; });
     }
 
+    /// One value of x has nothing to show.
+    bool has_width(const Plot &plot)
+    {
+      std::set<double> all;
+      for (const Line &line : plot.lines)
+        for (const Vertex &point : line.points)
+          all.insert(point.x);
+      return all.size() > 1;
+    }
+
     void add_errors(const SamplingResults &results, const std::string &what, const Value &value,
                     std::vector<DataChart> &charts)
     {
@@ -137,8 +147,57 @@ namespace plumbline::report
       if (!results.sampling.modes.empty())
         fill(results, over_modes, value, modes, by_count);
       for (DataChart *const chart : {&over_samples, &over_h, &over_modes, &over_time})
-        if (!chart->plot.lines.empty())
+        if (has_width(chart->plot))
           charts.push_back(std::move(*chart));
+    }
+
+    /// How quantities depend on the one variable that there is: a line for each method and level.
+    void add_dependences(const SamplingResults &results, std::vector<DataChart> &charts)
+    {
+      if (results.variables.size() != 1 || results.sampling.rule != random::SampleRule::equidistant)
+        return;
+      std::set<std::string> names;
+      for (const CaseStatistics &one : results.cases)
+        for (const auto &[name, values] : one.values)
+          names.insert(name);
+      for (const std::string &name : names)
+      {
+        const std::string &variable = results.variables.front();
+        DataChart chart = named(slug("over-" + variable + "-" + name), name + " over " + variable,
+                                "At each value of " + variable + ", methods and levels apart.");
+        chart.plot.x_label = variable;
+        chart.plot.y_label = name;
+        chart.plot.is_x_log = false;
+        chart.data.columns = {"method", "case", "series", "h", variable, "value"};
+        bool is_positive = true;
+        for (const CaseStatistics &one : results.cases)
+        {
+          const auto found = one.values.find(name);
+          if (found == one.values.end())
+            continue;
+          Line &line =
+              line_of(chart.plot.lines,
+                      one.of.method + (one.of.problem.empty() ? "" : ", " + one.of.problem) + ", " +
+                          one.of.series + ", h = " + rounded(one.of.h),
+                      false);
+          for (std::size_t i = 0; i < one.samples.size(); ++i)
+          {
+            const auto &y = found->second[i];
+            if (!y)
+              continue;
+            const double x = results.points[one.samples[i]].front();
+            is_positive = is_positive && *y > 0;
+            line.points.push_back({x, *y});
+            chart.data.rows.push_back({text_cell(one.of.method), text_cell(one.of.problem),
+                                       text_cell(one.of.series), number_cell(one.of.h),
+                                       number_cell(x), error_cell(*y)});
+          }
+          std::sort(line.points.begin(), line.points.end(),
+                    [](const Vertex &a, const Vertex &b) { return a.x < b.x; });
+        }
+        chart.plot.is_y_log = is_positive;
+        charts.push_back(std::move(chart));
+      }
     }
 
     /// Of samples of equal weights, where there are enough to see something.
@@ -213,6 +272,7 @@ namespace plumbline::report
   std::vector<DataChart> sampling_charts(const SamplingResults &results)
   {
     std::vector<DataChart> charts;
+    add_dependences(results, charts);
     add_errors(results, "mean", mean_error, charts);
     add_errors(results, "deviation", deviation_error, charts);
     add_histograms(results, charts);

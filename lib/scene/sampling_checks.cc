@@ -13,10 +13,16 @@ namespace plumbline::scene
   {
     constexpr double most_samples = 1e6;
 
+    /// Points in each variable, in all combinations.
+    bool is_tensor(SampleRule rule)
+    {
+      return rule == SampleRule::tensor || rule == SampleRule::equidistant;
+    }
+
     double n_samples(const SamplingSection &sampling, const std::vector<random::Law> &laws,
                      unsigned int count)
     {
-      if (sampling.rule == SampleRule::tensor)
+      if (is_tensor(sampling.rule))
         return random::n_tensor_points(laws.size(), count);
       if (sampling.rule == SampleRule::smolyak)
         return random::n_smolyak_points(laws, count, sampling.growth);
@@ -27,7 +33,7 @@ namespace plumbline::scene
     double n_line_points(const SamplingSection &sampling, const std::vector<random::Law> &laws,
                          unsigned int count)
     {
-      double most = sampling.rule == SampleRule::tensor ? count : 0.;
+      double most = is_tensor(sampling.rule) ? count : 0.;
       if (sampling.rule == SampleRule::smolyak)
         for (const random::Law law : laws)
           most = std::max(most, random::n_line_points(law, sampling.growth, count + 1));
@@ -51,7 +57,7 @@ namespace plumbline::scene
                   (sampling.modes.empty() ? "" : "for each of Sampling/modes ") + "takes " +
                   (is_smolyak && is_line_too_large ? "at least " : "") + base::to_text(n, 4) +
                   " samples, more than " + base::to_text(most_samples, 4) + "; " + fewer +
-                  (sampling.rule == SampleRule::tensor ? ", or Sampling/rule = Smolyak" : "") +
+                  (is_tensor(sampling.rule) ? ", or Sampling/rule = Smolyak" : "") +
                   (is_smolyak ? ", or Sampling/rule = quasi-Monte Carlo" : ""));
       require(!is_line_too_large,
               key + " takes " + base::to_text(n_line, 4) + " points of a variable, more than " +
@@ -87,6 +93,11 @@ namespace plumbline::scene
             "Sampling/modes must rise from 1 or more to Random/modes = " +
                 std::to_string(scene.random.n_modes) +
                 " at most; give Random/modes the largest of them, or clear it");
+    require(sampling.rule != SampleRule::equidistant ||
+                std::all_of(laws.begin(), laws.end(),
+                            [](random::Law law) { return law == random::Law::uniform; }),
+            rule + " goes from end to end, and normal variables have no ends; make them uniform in "
+                   "Random/variables (and give no Random/modes), or write tensor");
     require(sampling.rule == SampleRule::smolyak || sampling.counts.front() > 0,
             "Sampling/counts = 0 with " + rule + " is no sample; write 1 or more");
     require(sampling.rule != SampleRule::smolyak || sampling.growth != random::Growth::nested ||

@@ -16,6 +16,8 @@ namespace plumbline::study
         return random::tensor_points(laws, count);
       case SampleRule::smolyak:
         return random::smolyak_points(laws, count, sampling.growth);
+      case SampleRule::equidistant:
+        return random::equidistant_points(laws.size(), count);
       case SampleRule::quasi_monte_carlo:
         return random::quasi_monte_carlo_points(laws, count);
       default:

@@ -98,6 +98,20 @@ TEST(SamplePoints, TensorRulesAreExactInEachVariable)
 
 // The numbers that Fan et al. 2022, doi:10.1016/j.cma.2022.115340, section 5 rests on: 20
 // variables.
+TEST(SamplePoints, EquidistantOnesGoFromEndToEnd)
+{
+  const SamplePoints three = equidistant_points(1, 3);
+  EXPECT_EQ(three.points, (std::vector<std::vector<double>>{{-1}, {0}, {1}}));
+  EXPECT_EQ(three.weights, (std::vector<double>{.25, .5, .25}));
+  EXPECT_EQ(equidistant_points(1, 1).points, (std::vector<std::vector<double>>{{0}}));
+  const SamplePoints pairs = equidistant_points(2, 5);
+  ASSERT_EQ(pairs.points.size(), 25u);
+  EXPECT_EQ(pairs.points.front(), (std::vector<double>{-1, -1}));
+  EXPECT_EQ(pairs.points.back(), (std::vector<double>{1, 1}));
+  EXPECT_DOUBLE_EQ(mean(pairs, [](const auto &x) { return 1 + 3 * x[0] - 2 * x[1]; }), 1);
+  EXPECT_DOUBLE_EQ(mean(pairs, [](const auto &x) { return x[0] * x[0]; }), 1. / 3 + 1. / 24);
+}
+
 TEST(SamplePoints, SmolyakOfTwentyVariablesHasAHeavyCentre)
 {
   const std::vector<Law> normal(20, Law::normal), uniform(20, Law::uniform);

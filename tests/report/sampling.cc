@@ -171,6 +171,39 @@ namespace plumbline::report
     EXPECT_TRUE(sampling_charts(results).empty());
   }
 
+  TEST(SamplingReport, DrawsWhatDependsOnAnEquidistantVariable)
+  {
+    study::SamplingResults results = sampled();
+    results.variables = {"nu"};
+    results.points = {{.5}, {.25}, {.375}};
+    study::CaseStatistics one;
+    one.of.method = "OPT";
+    one.of.series = "m = 3";
+    one.of.h = .25;
+    one.samples = {0, 1, 2};
+    one.values["nodal L2 | exact"] = {.75, .125, std::nullopt};
+    one.values["K"] = {-1, 2, 3};
+    results.cases = {one};
+    results.sampling.rule = random::SampleRule::tensor;
+    EXPECT_TRUE(sampling_charts(results).empty());
+    results.sampling.rule = random::SampleRule::equidistant;
+    const std::vector<DataChart> charts = sampling_charts(results);
+    ASSERT_EQ(charts.size(), 2u);
+    EXPECT_EQ(charts[0].name, "over-nu-k");
+    EXPECT_FALSE(charts[0].plot.is_y_log);
+    EXPECT_EQ(charts[1].name, "over-nu-nodal-l2-exact");
+    EXPECT_TRUE(charts[1].plot.is_y_log);
+    ASSERT_EQ(charts[1].plot.lines.size(), 1u);
+    ASSERT_EQ(charts[1].plot.lines[0].points.size(), 2u);
+    EXPECT_EQ(charts[1].plot.lines[0].points[0].x, .25);
+    EXPECT_EQ(charts[1].plot.lines[0].points[0].y, .125);
+    EXPECT_EQ(
+        to_csv(charts[1].data),
+        "method,case,series,h,nu,value\nOPT,,m = 3,0.25,0.5,0.75\nOPT,,m = 3,0.25,0.25,0.125\n");
+    results.variables = {"nu", "a"}; // a chart has room for one
+    EXPECT_TRUE(sampling_charts(results).empty());
+  }
+
   TEST(SamplingReport, TellsTheSeedsOfSamplesAndOfFields)
   {
     const fixture::Folder folder;

@@ -356,6 +356,7 @@ TEST(RandomScene, IsRefusedWithTheRemedy)
   expect_refused({{"Sampling/counts", "3, 2"}}, "must rise");
   expect_refused({{"Sampling/counts", "2, 0.5"}}, "'0.5' is no count");
   expect_refused({{"Sampling/counts", "0, 2"}}, "is no sample");
+  expect_refused({{"Sampling/rule", "equidistant"}}, "normal variables have no ends");
   expect_refused({{"Sampling/counts", "1001"}}, "1.002e+06 samples, more than");
   expect_refused({{"Random/variables", ""}}, "unknown name");
   expect_refused({{"Random/variables", ""}, {"Problem/solution", "x"}}, "needs variables");

@@ -29,14 +29,16 @@ namespace plumbline::scene
         "rule", rule,
         "Where 'plumbline sample' takes the scene. tensor: Gauss points (Hermite, Legendre) in "
         "each variable. Smolyak: sparse combinations of them, some weights negative. Monte "
-        "Carlo: independent samples. quasi-Monte Carlo: Sobol's points.");
+        "Carlo: independent samples. quasi-Monte Carlo: Sobol's points. equidistant: from end to "
+        "end of uniform variables; of one variable, charts of what depends on it.");
     keys.add("analysis", analysis,
              "What is done with a sample. of the scene: statics, a motion (Time), a moving crack "
              "(Crack), growth (Fracture) or a standing crack (Strip), as the scene has it; "
              "stability, dispersion: what these commands measure.");
     keys.add(
         "counts", "", any_text(), [this](const std::string &text) { counts = to_counts(text); },
-        "Of each set of samples, few to many: points a variable (tensor), levels 0, 1, ... "
+        "Of each set of samples, few to many: points a variable (tensor, equidistant), levels 0, "
+        "1, ... "
         "(Smolyak), or samples.");
     keys.add(
         "modes", "", any_text(), [this](const std::string &text) { modes = to_counts(text); },
