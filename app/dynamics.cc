@@ -34,10 +34,12 @@ namespace plumbline::app
       double n_nodes = 0;
       for (const scene::Series &series : scene.study.series)
       {
+        const double h = series.levels.back().h;
         double area = 0;
         for (const geometry::Box &box : scene.domain.boxes.include)
-          area += (box.upper[0] - box.lower[0]) * (box.upper[1] - box.lower[1]);
-        n_nodes += area / (series.levels.back().h * series.levels.back().h);
+          area += (box.upper[0] - box.lower[0]) *
+                  (scene.domain.dimension == 1 ? h : box.upper[1] - box.lower[1]);
+        n_nodes += area / (h * h);
       }
       constexpr double of_node = 50; // its place, u, its rate and indices, compressed
       const double needed = of_node * n_nodes * scene.time.n_frames *

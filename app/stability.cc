@@ -143,6 +143,7 @@ namespace plumbline::app
   int stability(const StabilityOptions &options)
   {
     const scene::Scene scene = read_alone(options);
+    check_analysis(scene, scene::Analysis::stability);
     const method::Methods available = all_methods();
     const method::Methods methods = study::choose_methods(scene, available);
     study::check_memory(scene, methods, available, options.n_levels);

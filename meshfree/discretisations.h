@@ -11,6 +11,11 @@ namespace plumbline::meshfree
   std::unique_ptr<method::Discretisation> discretise_on_lattice(const Rule &rule,
                                                                 const scene::Problem &problem);
 
+  /// On a lattice with one axis: motions of double wells.
+  /// @pre is_axis_rule(rule.name)
+  std::unique_ptr<method::Discretisation> discretise_on_line(const Rule &rule,
+                                                             const scene::Problem &problem);
+
   /// On the problem's scattered nodes: a sparse matrix whose rows all ranks build.
   /// @note Collective.
   std::unique_ptr<method::Discretisation>

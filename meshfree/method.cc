@@ -2,6 +2,7 @@
 
 #include "meshfree/discretisations.h"
 #include "meshfree/fracture/standing_crack.h"
+#include "meshfree/rules/double_well_bonds.h"
 
 #include <utility>
 
@@ -34,9 +35,17 @@ namespace plumbline::meshfree
                "; write automatic, gmres or bicgstab";
       }
 
+      method::Capabilities can() const override
+      {
+        return is_axis_rule(rule_.name) ? scene::all_capabilities()
+                                        : scene::all_but({method::Capability::line});
+      }
+
       std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
                                                          const base::Team &team) const override
       {
+        if (problem.dimension == 1)
+          return discretise_on_line(rule_, problem);
         if (problem.body)
           return discretise_on_body(rule_, problem);
         return problem.lattice ? discretise_on_lattice(rule_, problem)

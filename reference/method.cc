@@ -50,7 +50,7 @@ namespace plumbline::reference
         else
           can.insert({Capability::lattice, Capability::quadrilaterals});
         if (n_vertices_ == 4 && is_continuous_)
-          can.insert({Capability::double_well, Capability::periodic});
+          can.insert({Capability::double_well, Capability::periodic, Capability::line});
         return can;
       }
       std::string why_not(const scene::Problem &problem) const override
@@ -81,6 +81,8 @@ namespace plumbline::reference
       std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
                                                          const base::Team &team) const override
       {
+        if (problem.dimension == 1)
+          return discretise_on_line(problem, AxisShapes(is_continuous_, degree_));
         if (problem.lattice)
           return discretise_on_lattice(problem, AxisShapes(is_continuous_, degree_));
         return discretise_on_mesh(problem, is_continuous_, degree_,

@@ -153,7 +153,7 @@ namespace plumbline::physics
 
   Kernel<2> DoubleWell::linear_kernel() const
   {
-    return {Structure::tensor, influence_.over_t(), horizon_,
+    return {dim_ == 1 ? Structure::scalar : Structure::tensor, influence_.over_t(), horizon_,
             force_factor() * stiffness() / horizon_};
   }
 } // namespace plumbline::physics

@@ -70,8 +70,9 @@ namespace plumbline::physics
     /// @throws InputError  density <= 0
     WaveSpeeds wave_speeds(double density = 1) const;
 
-    /// F of small strains as a kernel: C(ξ) = 4p / (ε³π) J(r/ε)/r e⊗e, what rules make bonds for.
-    /// @pre dim == 2
+    /// F of small strains as a kernel: C(ξ) = 4p / (ε³π) J(r/ε)/r e⊗e, what rules make bonds for;
+    /// in 1D the same of one component, 2p / ε² J(r/ε)/r.
+    /// @pre dim == 1 or 2
     Kernel<2> linear_kernel() const;
 
   private:

@@ -18,6 +18,7 @@ namespace plumbline::report
               {"rates", t.rates},
               {"rate", known_number(t.rate)},
               {"rate_uncertainty", known_number(t.rate_uncertainty)},
+              {"proven", t.proven},
               {"verdict", t.verdict},
               {"reason", t.reason}};
     }

@@ -96,6 +96,8 @@ namespace plumbline::scene
                 "write Domain/boundary = periodic"};
       case C::periodic:
         return {"Domain/boundary = periodic", "write constrained"};
+      case C::line:
+        return {"Domain/dimension = 1, which is for motions of double wells", "write 2"};
       }
       return {};
     }
@@ -137,13 +139,13 @@ namespace plumbline::scene
         {base::word(Model::variational), solids | Capabilities{C::free_boundary, C::floating}},
         {base::word(Model::double_well),
          of_meshes | of_double_wells |
-             Capabilities{C::lattice, C::notch, C::nonlocal, C::dynamic, C::periodic}}};
+             Capabilities{C::lattice, C::notch, C::nonlocal, C::dynamic, C::periodic, C::line}}};
     return all;
   }
 
   const std::vector<Capable> &analyses()
   {
-    const Capabilities moving = {C::dynamic, C::notch, C::periodic};
+    const Capabilities moving = {C::dynamic, C::notch, C::periodic, C::line};
     static const std::vector<Capable> all = {
         {base::word(Analysis::statics),
          all_but(moving | of_double_wells | Capabilities{C::floating})},
@@ -154,11 +156,11 @@ namespace plumbline::scene
          of_damage | Capabilities{C::lattice, C::free_boundary, C::heterogeneous, C::dilatation,
                                   C::nonlocal}},
         {base::word(Analysis::strip), {C::lattice, C::nonlocal}},
-        {base::word(Analysis::stability), all_capabilities()},
+        {base::word(Analysis::stability), all_but({C::line})},
         {base::word(Analysis::dispersion),
-         all_but(on_meshes_alone | Capabilities{C::free_boundary, C::floating})},
+         all_but(on_meshes_alone | Capabilities{C::free_boundary, C::floating, C::line})},
         {base::word(Analysis::check),
-         all_but(of_damage | Capabilities{C::free_boundary, C::floating, C::dilatation,
+         all_but(of_damage | Capabilities{C::line, C::free_boundary, C::floating, C::dilatation,
                                           C::zero_dilatation, C::mixed_dilatation})}};
     return all;
   }
@@ -193,6 +195,7 @@ namespace plumbline::scene
     add(is_double_well, C::double_well);
     add(is_double_well && scene.time.is_dynamic() && !domain.is_periodic, C::double_well_collar);
     add(domain.is_periodic, C::periodic);
+    add(domain.dimension == 1, C::line);
     return needed;
   }
 

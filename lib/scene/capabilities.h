@@ -30,7 +30,8 @@ namespace plumbline::scene
     dynamic,          ///< motions, see TimeSection
     double_well,
     double_well_collar, ///< with u given all around
-    periodic            ///< a torus
+    periodic,           ///< a torus
+    line                ///< one axis
   };
 
   using Capabilities = std::set<Capability>;
@@ -105,7 +106,8 @@ namespace plumbline::base
                                                               "dynamic",
                                                               "double well",
                                                               "double well in a collar",
-                                                              "periodic"};
+                                                              "periodic",
+                                                              "one dimension"};
   template <>
   inline constexpr auto words<scene::Analysis> = std::array{
       "statics", "motion", "crack", "growth", "strip", "stability", "dispersion", "check"};

@@ -70,7 +70,7 @@ namespace plumbline::scene
         else
         {
           if (scene.domain.mesh.is_of_boxes() && !scene.strip.is_there())
-            (void)geometry::Lattice(scene.domain.boxes, level.h);
+            (void)scene.domain.lattice(level.h);
           continue;
         }
         throw InputError(message.str());
@@ -114,12 +114,14 @@ namespace plumbline::scene
 
     void check_problem(const Scene &scene)
     {
+      const unsigned int n = scene.n_components();
       const ProblemSection &problem = scene.problem;
-      const std::string needed_by = scene.material.takes_influence() ? "solid"
-                                    : scene.is_vector()              ? "bond tensor"
-                                                                     : "scalar kernel";
+      const std::string needed_by = scene.domain.dimension == 1        ? "line"
+                                    : scene.material.takes_influence() ? "solid"
+                                    : scene.is_vector()                ? "bond tensor"
+                                                                       : "scalar kernel";
       const auto check = [&](const std::string &key, const std::string &text)
-      { check_components(key, text, scene.is_vector() ? 2 : 1, needed_by, scene.names(1)); };
+      { check_components(key, text, n, needed_by, scene.names(1)); };
       for (const Case &solution : problem.solutions)
         check("Problem/solution", solution.expression);
       for (const Case &load : problem.loads)
@@ -133,7 +135,7 @@ namespace plumbline::scene
         auto names = scene.names(1);
         names.constants["h"] = 1; // of the level
         if (!text.empty())
-          check_components(key, text, scene.is_vector() ? 2 : 1, needed_by, names);
+          check_components(key, text, n, needed_by, names);
       };
       check_start("Time/initial displacement", scene.time.initial_displacement);
       check_start("Time/initial velocity", scene.time.initial_velocity);

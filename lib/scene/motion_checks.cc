@@ -58,6 +58,34 @@ namespace plumbline::scene
       }
     }
 
+    /// Fields on a line are of x alone: at some points, whatever y.
+    void check_line(const Scene &scene)
+    {
+      require(scene.domain.is_periodic,
+              "Domain/dimension = 1 needs Domain/boundary = periodic: a line has no collar here");
+      const TimeSection &time = scene.time;
+      std::vector<std::pair<std::string, std::string>> given = {
+          {"Time/initial displacement", time.initial_displacement},
+          {"Time/initial velocity", time.initial_velocity}};
+      for (const Case &one : scene.problem.solutions)
+        given.emplace_back("Problem/solution", one.expression);
+      for (const Case &one : scene.problem.loads)
+        given.emplace_back("Problem/load", one.expression);
+      auto names = scene.names(1, .3 * time.final_time);
+      names.constants["h"] = 1; // of the level
+      for (const auto &[key, text] : given)
+      {
+        if (text.empty())
+          continue;
+        const physics::Expression u(key, text, names);
+        for (const double x : {.137, .528, .919})
+          require(u(dealii::Point<2>(x, .271), 0) == u(dealii::Point<2>(x, .619), 0),
+                  key + " = '" + text +
+                      "' depends on y, which a line (Domain/dimension = 1) does "
+                      "not have; write it in x alone");
+      }
+    }
+
     void check_double_well(const Scene &scene)
     {
       const MaterialSection &material = scene.material;
@@ -112,7 +140,7 @@ namespace plumbline::scene
               given + " needs Domain/boundary = periodic and Material/model = double well");
       const geometry::Box &box = scene.domain.boxes.include.front();
       const dealii::Tensor<1, 2> side = box.upper - box.lower;
-      require(std::abs(side[0] - side[1]) <= 1e-12 * side[0],
+      require(scene.domain.dimension == 1 || std::abs(side[0] - side[1]) <= 1e-12 * side[0],
               given + " needs a square (Domain/boxes), and has sides of " + short_number(side[0]) +
                   " and " + short_number(side[1]));
     }
@@ -120,6 +148,8 @@ namespace plumbline::scene
 
   void check_motion(const Scene &scene)
   {
+    if (scene.domain.dimension == 1)
+      check_line(scene);
     if (scene.domain.is_periodic)
     {
       check_torus(scene);

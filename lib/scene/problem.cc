@@ -124,21 +124,32 @@ namespace plumbline::scene
 
     /// -F(u) of double wells. All components come at once: they are kept for who asks for the
     /// others at the same points.
+    template <int dim>
     struct WellLoad
     {
-      physics::WellForce<2> force;
+      physics::WellForce<dim> force;
       Expression u;
-      mutable std::map<std::pair<double, double>, dealii::Tensor<1, 2>> known;
+      mutable std::map<std::pair<double, double>, dealii::Tensor<1, dim>> known;
 
       double operator()(const Point<2> &x, unsigned int component) const
       {
         const auto [entry, is_new] = known.try_emplace({x[0], x[1]});
         if (is_new)
+        {
+          Point<dim> at;
+          for (unsigned int axis = 0; axis < dim; ++axis)
+            at[axis] = x[axis];
           entry->second = -force(
-              [this](const Point<2> &y) {
-                return dealii::Tensor<1, 2>({u(y, 0), u(y, 1)});
+              [&](const Point<dim> &y)
+              {
+                const Point<2> place(y[0], dim == 1 ? x[1] : y[dim - 1]);
+                dealii::Tensor<1, dim> value;
+                for (unsigned int c = 0; c < dim; ++c)
+                  value[c] = u(place, c);
+                return value;
               },
-              x);
+              at);
+        }
         return entry->second[component];
       }
     };
@@ -147,8 +158,10 @@ namespace plumbline::scene
     ChebyshevField::Function manufactured_load(const Problem &problem, const Expression &u,
                                                const Extent &extent)
     {
+      if (problem.double_well && problem.dimension == 1)
+        return WellLoad<1>{physics::WellForce<1>(*problem.double_well), u, {}};
       if (problem.double_well)
-        return WellLoad{physics::WellForce<2>(*problem.double_well), u, {}};
+        return WellLoad<2>{physics::WellForce<2>(*problem.double_well), u, {}};
       const physics::ManufacturedLoad bonds(problem.kernel, u, problem.coefficient);
       if (!problem.dilatation)
         return bonds;
@@ -199,6 +212,7 @@ namespace plumbline::scene
                       {},
                       {},
                       {}};
+      problem.dimension = scene.domain.dimension;
       problem.is_load_given = !scene.problem.loads.empty();
       problem.is_homogeneous = scene.is_homogeneous();
       problem.is_periodic = scene.domain.is_periodic;
@@ -230,7 +244,7 @@ namespace plumbline::scene
         problem.mesh_seconds = timer.seconds();
       }
       else if (scene.domain.mesh.is_lattice())
-        problem.lattice.emplace(scene.domain.boxes, level.h);
+        problem.lattice = scene.domain.lattice(level.h);
       else
       {
         problem.mesh = std::make_shared<const geometry::Mesh>(make_mesh(scene, level));

@@ -67,6 +67,7 @@ namespace plumbline::scene
     bool is_load_given = false;          ///< else it is manufactured from the solution
     bool is_homogeneous = true;          ///< no constant of the material varies in space
     bool is_periodic = false;            ///< a torus
+    unsigned int dimension = 2;          ///< 1: one row of a lattice's cells, fields of x alone
     bool is_floating = false;            ///< a body of which nothing is fixed
     bool has_collar_dilatation = true;   ///< else the dilatation counts as 0 there
     Damage damage = {};

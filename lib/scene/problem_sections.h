@@ -43,6 +43,7 @@ namespace plumbline::scene
 
   struct DomainSection
   {
+    unsigned int dimension = 2; ///< 1: a line, the first axis of the boxes
     geometry::Domain boxes;
     MeshSource mesh;
     std::shared_ptr<MeshFiles> mesh_files; ///< those read so far; copies share them
@@ -58,6 +59,10 @@ namespace plumbline::scene
     std::string outside;
 
     bool is_damaged() const { return !cracks.empty() || !outside.empty(); }
+
+    /// The cells of size h: of a line one row of them, whatever the boxes say of y.
+    /// @throws InputError  as geometry::Lattice
+    geometry::Lattice lattice(double h) const;
 
     void declare(Keys &keys);
   };

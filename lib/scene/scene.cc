@@ -192,7 +192,8 @@ namespace plumbline::scene
 
   physics::DoubleWell make_double_well(const Scene &scene, double horizon)
   {
-    return {2, scene.kernel.profile, scene.material.c, scene.material.beta, horizon};
+    return {static_cast<int>(scene.domain.dimension), scene.kernel.profile, scene.material.c,
+            scene.material.beta, horizon};
   }
 
   physics::Kernel<2> make_kernel(const Scene &scene, double horizon)

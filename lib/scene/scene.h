@@ -46,6 +46,8 @@ namespace plumbline::scene
       return kernel.structure == physics::Structure::tensor || material.takes_influence();
     }
 
+    unsigned int n_components() const { return is_vector() ? domain.dimension : 1; }
+
     /// It moves, or has cracks that do or stand in a strip: not one problem at a time.
     bool is_no_problem() const
     {

@@ -51,6 +51,7 @@ namespace plumbline::study
   struct MotionTrend : Trend
   {
     std::string scheme, steps; ///< steps empty: they are the parameter
+    std::string proven;        ///< the rate over levels that theory promises; empty: unknown
   };
 
   /// The torus without a mesh at one horizon.

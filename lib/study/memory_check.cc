@@ -17,7 +17,7 @@ namespace plumbline::study
     {
       method::ProblemSize size;
       size.level = level;
-      size.n_components = scene.is_vector() ? 2 : 1;
+      size.n_components = scene.n_components();
       size.is_body = scene.domain.is_free_body;
       size.has_dilatation = scene.has_dilatation();
       return size;
@@ -26,7 +26,7 @@ namespace plumbline::study
     method::ProblemSize lattice_size(const scene::Scene &scene, const scene::Level &level)
     {
       method::ProblemSize size = size_of(scene, level);
-      const auto n = geometry::Lattice(scene.domain.boxes, level.h).n_cells();
+      const auto n = scene.domain.lattice(level.h).n_cells();
       size.extents = {static_cast<double>(n[0]), static_cast<double>(n[1])};
       return size;
     }

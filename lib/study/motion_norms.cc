@@ -35,7 +35,7 @@ namespace plumbline::study
     for (int j = 0; j < lattice.n_cells()[1]; ++j)
       for (int i = 0; i < lattice.n_cells()[0]; ++i)
         n += lattice.is_inside(i, j) ? 1 : 0;
-    return n * lattice.h() * lattice.h();
+    return n * std::pow(lattice.h(), problem.dimension);
   }
 
   double extent_of(const std::vector<double> &nodal, unsigned int n_components)

@@ -50,6 +50,15 @@ namespace plumbline::study
       return trend;
     }
 
+    /// Of double wells by differences h^γ/ε² with data in C^(0,γ), γ <= 1: at a fixed horizon.
+    /// Source: Jha & Lipton 2018, doi:10.1137/17M1112236, Theorems 3 and 4.
+    std::string proven_rate(const scene::Scene &scene, const MotionTrend &trend)
+    {
+      if (!scene.material.is_double_well() || trend.side != Side::meshfree)
+        return {};
+      return scene.study.regime == scene::Regime::m ? "γ <= 1" : "none";
+    }
+
     MotionTrend over_levels(const scene::Scene &scene, const std::vector<const MotionRun *> &runs,
                             const std::string &error)
     {
@@ -58,6 +67,7 @@ namespace plumbline::study
       MotionTrend trend = begin(*runs.back(), error);
       trend.steps = runs.back()->steps;
       trend.axis = level_axis(scene.study.regime);
+      trend.proven = proven_rate(scene, trend);
       std::string failure;
       for (const MotionRun *run : runs)
       {
@@ -184,16 +194,29 @@ namespace plumbline::study
                                                               ", β = " + number(law.beta()) +
                                                               ", p = " + number(law.stiffness()));
         add("moments M_1, M_2 of J", number(law.moment(1)) + ", " + number(law.moment(2)));
-        add("λ = μ of the elastic limit", number(law.modulus()));
-        add("speeds of long waves c_L, c_T",
-            number(speeds.longitudinal) + ", " + number(speeds.transverse));
+        if (law.dim() == 1)
+        {
+          add("modulus of the elastic limit", number(law.modulus()));
+          add("speed of long waves", number(speeds.longitudinal));
+        }
+        else
+        {
+          add("λ = μ of the elastic limit", number(law.modulus()));
+          add("speeds of long waves c_L, c_T",
+              number(speeds.longitudinal) + ", " + number(speeds.transverse));
+        }
         add("toughness G_c", number(law.toughness()));
         add("C₁, C₂, C₃ = max |F₁'|, |F₁''|, |F₁'''|",
             number(law.c1()) + ", " + number(law.c2()) + ", " + number(law.c3()));
         add("C̄; Lipschitz bound 6 C̄/ε² of F in L²",
             number(law.c_bar()) + "; " + number(6 * law.c_bar() / (horizon * horizon)));
-        add("rates proven (Jha & Lipton 2018, doi:10.1137/17M1112236)",
+        add("rates proven (Jha & Lipton 2018, doi:10.1137/17M1112236, Theorem 3)",
             "h^γ/ε² for data in C^(0,γ), γ <= 1, and Δt; smooth data show more");
+        const double final_time = scene.time.final_time;
+        add("factor of that bound, T exp(T (1 + 6 C̄/ε²)), (17) there: large as it is, it says "
+            "nothing of sizes",
+            number(final_time *
+                   std::exp(final_time * (1 + 6 * law.c_bar() / (horizon * horizon)))));
         add("softening strain of a bond as long as the horizon",
             number(law.softening_strain(horizon)));
         return;

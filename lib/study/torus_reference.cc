@@ -26,7 +26,9 @@ namespace plumbline::study
     const base::CpuTimer timer;
     Torus coarse, fine;
     TorusEstimate estimate{problem, horizon};
-    for (const unsigned int n : {16u, 24u, 36u, 54u})
+    using Sizes = std::vector<unsigned int>;
+    for (const unsigned int n :
+         scene.domain.dimension == 1 ? Sizes{32, 48, 72, 108, 162} : Sizes{16, 24, 36, 54})
     {
       coarse = std::move(fine);
       fine.equation = control.make_torus(scene, horizon, n);
@@ -37,9 +39,10 @@ namespace plumbline::study
       if (!coarse.equation)
         continue;
       const std::vector<double> exact = fine.at(coarse.equation->nodes(), fine.state.u);
-      estimate.estimate =
-          norm_of(difference(coarse.equation->nodal(coarse.state.u), exact), 2, 1, false);
-      if (estimate.estimate <= tolerance * extent_of(exact, 2))
+      const unsigned int n_components = fine.equation->n_components();
+      estimate.estimate = norm_of(difference(coarse.equation->nodal(coarse.state.u), exact),
+                                  n_components, 1, false);
+      if (estimate.estimate <= tolerance * extent_of(exact, n_components))
         break;
     }
     estimate.seconds = timer.seconds();

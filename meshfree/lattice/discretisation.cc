@@ -5,6 +5,7 @@
 #include "meshfree/rules/family_statistics.h"
 #include "method/lattice_discretisation.h"
 #include "method/limit_proof.h"
+#include "method/line_discretisation.h"
 
 #include <utility>
 
@@ -123,6 +124,15 @@ namespace plumbline::meshfree
       method::Diagnostics diagnostics_;
     };
   } // namespace
+
+  std::unique_ptr<method::Discretisation> discretise_on_line(const Rule &rule,
+                                                             const scene::Problem &problem)
+  {
+    return std::make_unique<method::LineDiscretisation>(
+        problem.lattice->n_cells()[0], false,
+        [&problem, name = rule.name](bool, unsigned int)
+        { return move_double_well_on_line(problem, name); });
+  }
 
   std::unique_ptr<method::Discretisation> discretise_on_lattice(const Rule &rule,
                                                                 const scene::Problem &problem)

@@ -69,19 +69,25 @@ namespace plumbline::meshfree
 
     /// What drives states is b at the free nodes and behind it u at the held ones, of the same
     /// shape.
-    class DoubleWellMotion : public method::NodalMotion<>
+    template <int dim>
+    class DoubleWellMotion : public method::NodalMotion<method::EquationOfMotion, dim>
     {
+      using Nodal = method::NodalMotion<method::EquationOfMotion, dim>;
+      using Nodal::nodes_;
+
     public:
+      using Nodal::size;
+      using Nodal::state;
+
       DoubleWellMotion(const scene::Problem &problem, const Box &box,
-                       const std::vector<WellBond> &bonds, double largest_eigenvalue,
-                       const dealii::Tensor<2, 2> &gradient)
-          : cell_(problem.h * problem.h), largest_(largest_eigenvalue),
-            toughness_(lattice_toughness(bonds, 2, problem.h)), n_all_(box.places.size()),
+                       const std::vector<WellBond> &bonds, std::optional<double> largest_eigenvalue,
+                       const typename DoubleWellForce<dim>::Gradient &gradient)
+          : cell_(std::pow(problem.h, dim)), largest_(largest_eigenvalue),
+            toughness_(lattice_toughness(bonds, dim, problem.h)), n_all_(box.places.size()),
             force_(bonds, problem.h, box.n,
                    problem.is_periodic ? Exterior::periodic : Exterior::empty,
-                   boundary_function(problem, box),
-                   {{{gradient[0][0], gradient[0][1]}, {gradient[1][0], gradient[1][1]}}}),
-            all_(2 * n_all_), other_(2 * n_all_)
+                   boundary_function(problem, box), gradient),
+            all_(dim * n_all_), other_(dim * n_all_)
       {
         for (std::size_t k = 0; k < n_all_; ++k)
           (box.is_free[k] != 0 ? free_ : held_).push_back(k);
@@ -94,7 +100,7 @@ namespace plumbline::meshfree
       std::vector<double> drive(const scene::Problem &instant) const override
       {
         std::vector<double> g = state(instant.load);
-        for (unsigned int c = 0; c < 2; ++c)
+        for (unsigned int c = 0; c < dim; ++c)
           for (const auto &node : held_nodes_)
             g.push_back(instant.constraint.value(node, c));
         return g;
@@ -103,7 +109,7 @@ namespace plumbline::meshfree
       std::vector<double> inertia(const scene::Problem &instant) const override
       {
         std::vector<double> g = state(*instant.solution);
-        g.resize(size() + 2 * held_.size());
+        g.resize(size() + dim * held_.size());
         return g;
       }
 
@@ -119,7 +125,7 @@ namespace plumbline::meshfree
       void tangent(const State &u, const std::vector<double> &g, const State &v,
                    State &out) const override
       {
-        State direction(2 * n_all_);
+        State direction(dim * n_all_);
         spread(u, &g[size()], all_);
         spread(v, nullptr, direction);
         force_.tangent(all_, direction, other_);
@@ -148,7 +154,7 @@ namespace plumbline::meshfree
           return sum;
         spread(u, &g[size()], all_);
         force_.force(all_, other_);
-        for (unsigned int c = 0; c < 2; ++c)
+        for (unsigned int c = 0; c < dim; ++c)
           for (std::size_t k = 0; k < held_.size(); ++k)
             sum -= cell_ * other_[c * n_all_ + held_[k]] * rate[size() + c * held_.size() + k];
         return sum;
@@ -166,7 +172,7 @@ namespace plumbline::meshfree
       /// @param held  at the held nodes, shape (2, n_held); null: 0
       void spread(const State &u, const double *held, State &all) const
       {
-        for (unsigned int c = 0; c < 2; ++c)
+        for (unsigned int c = 0; c < dim; ++c)
         {
           for (std::size_t k = 0; k < free_.size(); ++k)
             all[c * n_all_ + free_[k]] = u[c * free_.size() + k];
@@ -178,17 +184,19 @@ namespace plumbline::meshfree
       void gather(const State &all, State &u) const
       {
         u.resize(size());
-        for (unsigned int c = 0; c < 2; ++c)
+        for (unsigned int c = 0; c < dim; ++c)
           for (std::size_t k = 0; k < free_.size(); ++k)
             u[c * free_.size() + k] = all[c * n_all_ + free_[k]];
       }
 
-      double cell_, largest_, toughness_;
+      double cell_;
+      std::optional<double> largest_;
+      double toughness_;
       std::size_t n_all_;
-      DoubleWellForce<2> force_;
+      DoubleWellForce<dim> force_;
       std::vector<std::size_t> free_, held_; ///< of the box
       std::vector<dealii::Point<2>> held_nodes_;
-      mutable State all_, other_; ///< over the box, shape (2, n[1], n[0])
+      mutable State all_, other_; ///< over the box, shape (dim, n[1], n[0])
     };
   } // namespace
 
@@ -201,6 +209,16 @@ namespace plumbline::meshfree
     const Box box = problem.is_periodic ? torus(problem)
                                         : with_margin(method::comparison_nodes(problem, 1),
                                                       *problem.lattice, reach(wells));
-    return std::make_unique<DoubleWellMotion>(problem, box, wells, largest_eigenvalue, gradient);
+    const DoubleWellForce<2>::Gradient of_torus{
+        {{gradient[0][0], gradient[0][1]}, {gradient[1][0], gradient[1][1]}}};
+    return std::make_unique<DoubleWellMotion<2>>(problem, box, wells, largest_eigenvalue, of_torus);
+  }
+
+  std::unique_ptr<method::EquationOfMotion> move_double_well_on_line(const scene::Problem &problem,
+                                                                     const std::string &rule)
+  {
+    return std::make_unique<DoubleWellMotion<1>>(problem, torus(problem),
+                                                 axis_bonds(*problem.double_well, problem.h, rule),
+                                                 std::nullopt, DoubleWellForce<1>::Gradient{});
   }
 } // namespace plumbline::meshfree

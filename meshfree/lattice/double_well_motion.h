@@ -16,4 +16,10 @@ namespace plumbline::meshfree
   std::unique_ptr<method::EquationOfMotion>
   move_double_well(const scene::Problem &problem, const Bonds &bonds, double largest_eigenvalue,
                    const dealii::Tensor<2, 2> &gradient = {});
+
+  /// The same on the torus of one axis, by axis_bonds.
+  /// @throws InputError  as axis_bonds
+  /// @pre problem.dimension == 1
+  std::unique_ptr<method::EquationOfMotion> move_double_well_on_line(const scene::Problem &problem,
+                                                                     const std::string &rule);
 } // namespace plumbline::meshfree

@@ -22,13 +22,14 @@ namespace plumbline::meshfree
       bool is_cut, at_centre, is_recalibrated;
     };
 
+    constexpr std::array<AxisRule, 4> axis_rules = {{{"FA", false, false, false},
+                                                     {"PA-AC", true, false, false},
+                                                     {"IPA-AC", true, true, false},
+                                                     {"IPA-AC-R2", true, false, true}}};
+
     const AxisRule &axis_rule(const std::string &name)
     {
-      static const std::vector<AxisRule> rules = {{"FA", false, false, false},
-                                                  {"PA-AC", true, false, false},
-                                                  {"IPA-AC", true, true, false},
-                                                  {"IPA-AC-R2", true, false, true}};
-      for (const AxisRule &rule : rules)
+      for (const AxisRule &rule : axis_rules)
         if (rule.name == name)
           return rule;
       throw InputError("Methods/names = '" + name +
@@ -66,6 +67,12 @@ namespace plumbline::meshfree
                          static_cast<int>(std::lround(bond.xi[1] / bonds.h))};
     }
     return result;
+  }
+
+  bool is_axis_rule(const std::string &name)
+  {
+    return std::any_of(axis_rules.begin(), axis_rules.end(),
+                       [&](const AxisRule &rule) { return rule.name == name; });
   }
 
   std::vector<WellBond> axis_bonds(const physics::DoubleWell &law, double h,

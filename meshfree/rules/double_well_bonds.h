@@ -36,6 +36,9 @@ namespace plumbline::meshfree
   std::vector<WellBond> axis_bonds(const physics::DoubleWell &law, double h,
                                    const std::string &rule);
 
+  /// Whether there are axis_bonds of a rule.
+  bool is_axis_rule(const std::string &name);
+
   /// What it costs a lattice of size h to open a straight crack along its axis, all bonds across it
   /// at f's limit c. Tends to law.toughness() as h → 0.
   double lattice_toughness(const std::vector<WellBond> &bonds, int dim, double h);

@@ -2,6 +2,7 @@
 
 #include "method/lattice_discretisation.h"
 #include "method/limit_proof.h"
+#include "method/line_discretisation.h"
 #include "reference/geometry_check.h"
 #include "reference/lattice/dilatation.h"
 #include "reference/lattice/double_well_motion.h"
@@ -233,6 +234,15 @@ namespace plumbline::reference
       method::LimitProof limit_;
     };
   } // namespace
+
+  std::unique_ptr<method::Discretisation> discretise_on_line(const scene::Problem &problem,
+                                                             const AxisShapes &shapes)
+  {
+    return std::make_unique<method::LineDiscretisation>(
+        problem.lattice->n_cells()[0] * shapes.degree(), true,
+        [&problem, shapes](bool is_lumped, unsigned int n_more)
+        { return move_galerkin_on_torus(problem, shapes, is_lumped, {}, n_more); });
+  }
 
   std::unique_ptr<method::Discretisation> discretise_on_lattice(const scene::Problem &problem,
                                                                 const AxisShapes &shapes)

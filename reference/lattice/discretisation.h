@@ -11,4 +11,9 @@ namespace plumbline::reference
   /// each cell: Hinton, Rock & Zienkiewicz 1976, doi:10.1002/eqe.4290040305.
   std::unique_ptr<method::Discretisation> discretise_on_lattice(const scene::Problem &problem,
                                                                 const AxisShapes &shapes);
+
+  /// With one axis: motions of double wells.
+  /// @pre shapes are continuous
+  std::unique_ptr<method::Discretisation> discretise_on_line(const scene::Problem &problem,
+                                                             const AxisShapes &shapes);
 } // namespace plumbline::reference

@@ -6,6 +6,7 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <cmath>
 #include <numeric>
 
 namespace plumbline::reference
@@ -13,13 +14,20 @@ namespace plumbline::reference
   namespace
   {
     /// States are M^½ u, in which the tangent is symmetric. Nodes are numbered cell by cell.
-    class GalerkinMotion : public method::NodalMotion<>
+    template <int dim>
+    class GalerkinMotion : public method::NodalMotion<method::EquationOfMotion, dim>
     {
+      using Nodal = method::NodalMotion<method::EquationOfMotion, dim>;
+      using Nodal::nodes_;
+      using Nodal::size;
+
     public:
+      using State = typename Nodal::State;
+
       /// Forces by degree + 2 points: of Q1 the load is wrong by 1e-6 of itself; with 2 points by
       /// 3e-4, at a fifth of the cost, which errors of h = 1/20 show.
       GalerkinMotion(const scene::Problem &problem, const AxisShapes &shapes, bool is_lumped,
-                     double largest_eigenvalue, unsigned int n_more)
+                     std::optional<double> largest_eigenvalue, unsigned int n_more)
           : lattice_(*problem.lattice), shapes_(shapes),
             space_(*problem.double_well, problem.h, lattice_.n_cells(),
                    shapes.degree() + 2 + n_more, shapes.degree(), is_lumped),
@@ -30,7 +38,7 @@ namespace plumbline::reference
         for (int j = 0; j < n[1]; ++j)
           for (int i = 0; i < n[0]; ++i)
             nodes_.push_back(lattice_.point(i / p + shapes.support_point(i % p),
-                                            j / p + shapes.support_point(j % p)));
+                                            dim == 1 ? 0 : j / p + shapes.support_point(j % p)));
       }
 
       std::vector<double> drive(const scene::Problem &instant) const override
@@ -43,13 +51,13 @@ namespace plumbline::reference
       }
       State state(const scene::Field &field) const override
       {
-        State x = NodalMotion::state(field);
+        State x = Nodal::state(field);
         space_.apply_mass(x, .5);
         return x;
       }
       std::vector<double> nodal(const State &x) const override
       {
-        return NodalMotion::nodal(over_root(x));
+        return Nodal::nodal(over_root(x));
       }
       void acceleration(const State &x, const std::vector<double> &g, State &a) const override
       {
@@ -80,7 +88,7 @@ namespace plumbline::reference
       }
 
     private:
-      double cell() const { return lattice_.h() * lattice_.h(); }
+      double cell() const { return std::pow(lattice_.h(), dim); }
 
       int degree() const { return static_cast<int>(shapes_.degree()); }
 
@@ -94,7 +102,7 @@ namespace plumbline::reference
       /// M^-½ ∫ b φ.
       State tested(const scene::Field &b) const
       {
-        const dealii::QGauss<2> gauss(shapes_.degree() + 2);
+        const dealii::QGauss<dim> gauss(shapes_.degree() + 2);
         const auto &n_cells = lattice_.n_cells();
         const auto n = space_.n_along();
         const int p = degree();
@@ -103,15 +111,16 @@ namespace plumbline::reference
           for (int i = 0; i < n_cells[0]; ++i)
             for (unsigned int q = 0; q < gauss.size(); ++q)
             {
-              const dealii::Point<2> s = gauss.point(q), x = lattice_.point(i + s[0], j + s[1]);
-              for (unsigned int c = 0; c < 2; ++c)
+              const double s = gauss.point(q)[0], t = dim == 1 ? 0 : gauss.point(q)[dim - 1];
+              const dealii::Point<2> x = lattice_.point(i + s, j + t);
+              for (unsigned int c = 0; c < dim; ++c)
               {
                 const double value = cell() * gauss.weight(q) * b(x, c);
-                for (int l = 0; l <= p; ++l)
+                for (int l = 0; l <= (dim == 1 ? 0 : p); ++l)
                   for (int k = 0; k <= p; ++k)
                     result[(c * static_cast<std::size_t>(n[1]) + (j * p + l) % n[1]) * n[0] +
                            (i * p + k) % n[0]] +=
-                        value * shapes_.value(k, s[0]) * shapes_.value(l, s[1]);
+                        value * shapes_.value(k, s) * (dim == 1 ? 1 : shapes_.value(l, t));
               }
             }
         return over_root(std::move(result));
@@ -119,15 +128,19 @@ namespace plumbline::reference
 
       geometry::Lattice lattice_;
       AxisShapes shapes_;
-      DoubleWellGalerkin<2> space_;
-      double largest_;
+      DoubleWellGalerkin<dim> space_;
+      std::optional<double> largest_;
     };
   } // namespace
 
   std::unique_ptr<method::EquationOfMotion>
   move_galerkin_on_torus(const scene::Problem &problem, const AxisShapes &shapes, bool is_lumped,
-                         double largest_eigenvalue, unsigned int n_more)
+                         std::optional<double> largest_eigenvalue, unsigned int n_more)
   {
-    return std::make_unique<GalerkinMotion>(problem, shapes, is_lumped, largest_eigenvalue, n_more);
+    if (problem.dimension == 1)
+      return std::make_unique<GalerkinMotion<1>>(problem, shapes, is_lumped, largest_eigenvalue,
+                                                 n_more);
+    return std::make_unique<GalerkinMotion<2>>(problem, shapes, is_lumped, largest_eigenvalue,
+                                               n_more);
   }
 } // namespace plumbline::reference

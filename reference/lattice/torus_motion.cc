@@ -4,19 +4,28 @@
 #include "method/nodal_motion.h"
 #include "reference/lattice/torus_force.h"
 
+#include <cmath>
+
 namespace plumbline::reference
 {
   namespace
   {
-    class TorusMotion : public method::NodalMotion<method::ContinuousMotion>
+    template <int dim>
+    class TorusMotion : public method::NodalMotion<method::ContinuousMotion, dim>
     {
+      using Nodal = method::NodalMotion<method::ContinuousMotion, dim>;
+      using Nodal::nodes_;
+      using Nodal::state;
+
     public:
+      using State = typename Nodal::State;
+
       TorusMotion(const scene::Scene &scene, double horizon, unsigned int n)
           : lower_(scene.domain.boxes.include.front().lower),
             side_(scene.domain.boxes.include.front().upper[0] - lower_[0]), n_(n),
             force_(make_double_well(scene, horizon), n, side_, n_radii, n_angles)
       {
-        for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int j = 0; j < (dim == 1 ? 1 : n); ++j)
           for (unsigned int i = 0; i < n; ++i)
             nodes_.emplace_back(lower_[0] + side_ * i / n, lower_[1] + side_ * j / n);
       }
@@ -46,7 +55,7 @@ namespace plumbline::reference
         double sum = 0;
         for (std::size_t i = 0; i < u.size(); ++i)
           sum += u[i] * v[i];
-        return side_ * side_ / static_cast<double>(nodes_.size()) * sum;
+        return std::pow(side_, dim) / static_cast<double>(nodes_.size()) * sum;
       }
       double energy(const State &u, const std::vector<double> &) const override
       {
@@ -59,8 +68,10 @@ namespace plumbline::reference
       }
       double value(const State &u, const dealii::Point<2> &x, unsigned int component) const override
       {
-        return force_.interpolate(&u[component * nodes_.size()],
-                                  {x[0] - lower_[0], x[1] - lower_[1]});
+        std::array<double, dim> from{};
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          from[axis] = x[axis] - lower_[axis];
+        return force_.interpolate(&u[component * nodes_.size()], from);
       }
 
     private:
@@ -69,13 +80,15 @@ namespace plumbline::reference
       dealii::Point<2> lower_;
       double side_;
       unsigned int n_;
-      TorusForce<2> force_;
+      TorusForce<dim> force_;
     };
   } // namespace
 
   std::unique_ptr<method::ContinuousMotion> move_on_torus(const scene::Scene &scene, double horizon,
                                                           unsigned int n)
   {
-    return std::make_unique<TorusMotion>(scene, horizon, n);
+    if (scene.domain.dimension == 1)
+      return std::make_unique<TorusMotion<1>>(scene, horizon, n);
+    return std::make_unique<TorusMotion<2>>(scene, horizon, n);
   }
 } // namespace plumbline::reference

@@ -109,6 +109,33 @@ TEST(Motion, refuses_by_key_value_and_remedy)
                  false);
 }
 
+TEST(Motion, on_a_line_is_of_x_alone)
+{
+  const Settings line = {{"Domain/dimension", "1"},
+                         {"Time/initial displacement", "0.1*sin(2*pi*x)"}};
+  const auto refuse = [&](const Settings &settings, const std::string &fragment)
+  {
+    Settings all = line;
+    all.insert(all.end(), settings.begin(), settings.end());
+    expect_refused(all, fragment);
+  };
+  Settings loaded = line;
+  loaded.push_back({"Problem/solution", "1e-4*sin(2*pi*x)*cos(t)"});
+  const Problem problem = make_problem(torus(loaded), 0, {.025, .1}, 0);
+  EXPECT_EQ(problem.n_components, 1u);
+  EXPECT_EQ(problem.lattice->n_cells(), (std::array<int, 2>{40, 1}));
+  const double rigid =
+      1e-4 * std::sin(.6 * M_PI) * 13.0304043; // see tests/reference/torus_force.cc
+  EXPECT_NEAR(problem.load.value({.3, 0}, 0), rigid, 1e-6 * rigid);
+
+  refuse({{"Time/initial displacement", "0.1*sin(2*pi*y)"}}, "depends on y, which a line");
+  refuse({{"Problem/load", "y"}}, "Problem/load = 'y' depends on y");
+  refuse({{"Time/initial displacement", "sin(2*pi*x), 0"}}, "but the line needs 1");
+  refuse({{"Domain/boundary", "constrained"}}, "needs Domain/boundary = periodic");
+  refuse({{"Domain/dimension", "3"}}, "Domain/dimension");
+  expect_refused({{"Domain/dimension", "1"}}, "which is for motions of double wells", false);
+}
+
 TEST(Motion, of_meshes_has_no_room_for_a_dilatation_without_mass)
 {
   EXPECT_NO_THROW((void)wave({{"Domain/mesh", "squares"}}));

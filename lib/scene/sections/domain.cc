@@ -18,10 +18,23 @@ namespace plumbline::scene
     return base::has_ending(name, ".msh");
   }
 
+  geometry::Lattice DomainSection::lattice(double h) const
+  {
+    geometry::Domain cells = boxes;
+    if (dimension == 1)
+      for (geometry::Box &box : cells.include)
+        box.upper[1] = box.lower[1] + h;
+    return {cells, h};
+  }
+
   void DomainSection::declare(Keys &keys)
   {
     const auto &words = base::words<Boundary>;
     mesh_files = std::make_shared<MeshFiles>();
+    keys.add("dimension", dimension, count(1, 2),
+             "2: the plane. 1: a line, the first axis of the boxes; expressions are of x and have "
+             "one component (motions of Material/model = double well with Domain/boundary = "
+             "periodic).");
     keys.add(
         "boxes", "0, 0 : 1, 1", scene::boxes(),
         [this](const std::string &text) { boxes.include = to_boxes(text); },
