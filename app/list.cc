@@ -6,6 +6,7 @@
 #include "methods.h"
 #include "physics/kernel.h"
 #include "scene/capabilities.h"
+#include "scene/models/model.h"
 #include "scene/scene.h"
 #include "study/refusal.h"
 
@@ -103,7 +104,7 @@ namespace plumbline::app
     else if (listed == Listed::methods)
       list_methods();
     else if (listed == Listed::models)
-      std::cout << scene::capability_table(subject, scene::models());
+      std::cout << scene::capability_table(subject, scene::capable_models());
     else if (listed == Listed::analyses)
       std::cout << scene::capability_table(subject, scene::analyses());
     else if (listed == Listed::kernels)

@@ -6,6 +6,7 @@
 #include "methods.h"
 #include "report/formats.h"
 #include "report/stability_page.h"
+#include "scene/models/model.h"
 #include "study/preflight.h"
 
 #include <algorithm>
@@ -128,7 +129,8 @@ namespace plumbline::app
                        if (is_finest && at_finest)
                          at_finest(rows[i].back());
                      }
-                     if (is_finest && scene.material.is_double_well() && scene.domain.is_periodic)
+                     if (is_finest && !scene.material.model->is_linear() &&
+                         scene.domain.is_periodic)
                        add_strains(methods, scene, problem, series.name, level, results.strains);
                    });
     for (auto &own : rows)

@@ -15,7 +15,9 @@ set(may_include_study base physics geometry random scene algebra method analysis
 set(may_include_report base physics geometry random scene algebra method analysis study report)
 set(may_include_reference base physics geometry random scene algebra method reference)
 set(may_include_meshfree base physics geometry random scene algebra method meshfree)
-# what a folder of a side may include of its side's other folders
+# what a folder within one may include of the others there
+set(scene_sections models)
+set(scene_models)
 set(meshfree_rules)
 set(meshfree_lattice rules)
 set(meshfree_scattered rules)

@@ -1,6 +1,7 @@
 #include "scene/capabilities.h"
 
 #include "base/error.h"
+#include "scene/models/model.h"
 #include "scene/values.h"
 
 #include <algorithm>
@@ -13,19 +14,7 @@ namespace plumbline::scene
   {
     using C = Capability;
 
-    const Capabilities of_meshes = {C::meshes, C::quadrilaterals, C::triangles, C::mixed_cells};
-    const Capabilities of_damage = {C::cracks, C::free_surfaces, C::damaged_dilatation};
     const Capabilities of_double_wells = {C::double_well, C::double_well_collar};
-
-    Capabilities operator|(Capabilities a, const Capabilities &b)
-    {
-      a.insert(b.begin(), b.end());
-      return a;
-    }
-
-    const Capabilities on_meshes_alone =
-        of_meshes | of_damage |
-        Capabilities{C::heterogeneous, C::zero_dilatation, C::mixed_dilatation};
 
     bool includes(const Capabilities &can, const Capabilities &needed)
     {
@@ -43,7 +32,7 @@ namespace plumbline::scene
     {
       const std::string mesh = "Domain/mesh = " + scene.domain.mesh.name,
                         cells = "the cells of " + mesh + " are ",
-                        model = "Material/model = " + base::word(scene.material.model);
+                        model = "Material/model = " + scene.material.model->name();
       switch (capability)
       {
       case C::lattice:
@@ -113,6 +102,22 @@ namespace plumbline::scene
     }
   } // namespace
 
+  Capabilities operator|(Capabilities a, const Capabilities &b)
+  {
+    a.insert(b.begin(), b.end());
+    return a;
+  }
+
+  Capabilities of_meshes()
+  {
+    return {C::meshes, C::quadrilaterals, C::triangles, C::mixed_cells};
+  }
+
+  Capabilities of_damage()
+  {
+    return {C::cracks, C::free_surfaces, C::damaged_dilatation};
+  }
+
   Capabilities all_capabilities()
   {
     return all_but({});
@@ -127,24 +132,11 @@ namespace plumbline::scene
     return rest;
   }
 
-  const std::vector<Capable> &models()
-  {
-    const Capabilities bonds =
-        of_meshes | Capabilities{C::lattice, C::heterogeneous, C::nonlocal, C::dynamic};
-    const Capabilities solids =
-        bonds | Capabilities{C::dilatation, C::zero_dilatation, C::mixed_dilatation};
-    static const std::vector<Capable> all = {
-        {base::word(Model::bond_based), bonds | Capabilities{C::cracks}},
-        {base::word(Model::lps), solids | of_damage},
-        {base::word(Model::variational), solids | Capabilities{C::free_boundary, C::floating}},
-        {base::word(Model::double_well),
-         of_meshes | of_double_wells |
-             Capabilities{C::lattice, C::notch, C::nonlocal, C::dynamic, C::periodic, C::line}}};
-    return all;
-  }
-
   const std::vector<Capable> &analyses()
   {
+    const Capabilities on_meshes_alone =
+        of_meshes() | of_damage() |
+        Capabilities{C::heterogeneous, C::zero_dilatation, C::mixed_dilatation};
     const Capabilities moving = {C::dynamic, C::notch, C::periodic, C::line};
     static const std::vector<Capable> all = {
         {base::word(Analysis::statics),
@@ -153,23 +145,22 @@ namespace plumbline::scene
         {base::word(Analysis::crack),
          of_double_wells | Capabilities{C::lattice, C::notch, C::dynamic, C::nonlocal}},
         {base::word(Analysis::growth),
-         of_damage | Capabilities{C::lattice, C::free_boundary, C::heterogeneous, C::dilatation,
-                                  C::nonlocal}},
+         of_damage() | Capabilities{C::lattice, C::free_boundary, C::heterogeneous, C::dilatation,
+                                    C::nonlocal}},
         {base::word(Analysis::strip), {C::lattice, C::nonlocal}},
         {base::word(Analysis::stability), all_but({C::line})},
         {base::word(Analysis::dispersion),
          all_but(on_meshes_alone | Capabilities{C::free_boundary, C::floating, C::line})},
         {base::word(Analysis::check),
-         all_but(of_damage | Capabilities{C::line, C::free_boundary, C::floating, C::dilatation,
-                                          C::zero_dilatation, C::mixed_dilatation})}};
+         all_but(of_damage() | Capabilities{C::line, C::free_boundary, C::floating, C::dilatation,
+                                            C::zero_dilatation, C::mixed_dilatation})}};
     return all;
   }
 
   Capabilities needs(const Scene &scene)
   {
     const DomainSection &domain = scene.domain;
-    const bool is_double_well = scene.material.is_double_well();
-    Capabilities needed;
+    Capabilities needed = scene.material.model->needs(scene);
     const auto add = [&](bool is_needed, Capability capability)
     {
       if (is_needed)
@@ -184,16 +175,12 @@ namespace plumbline::scene
     add(!scene.is_homogeneous(), C::heterogeneous);
     add(!domain.cracks.empty(), C::cracks);
     add(!domain.outside.empty(), C::free_surfaces);
-    add(domain.is_damaged() && scene.has_dilatation(), C::damaged_dilatation);
     add(scene.crack.is_there(), C::notch);
-    add(scene.has_dilatation(), C::dilatation);
     add(!scene.material.has_collar_dilatation, C::zero_dilatation);
     add(scene.solver.is_mixed, C::mixed_dilatation);
     add(scene.study.regime != Regime::delta && scene.study.decisive_error.target != Target::local,
         C::nonlocal);
     add(scene.time.is_dynamic(), C::dynamic);
-    add(is_double_well, C::double_well);
-    add(is_double_well && scene.time.is_dynamic() && !domain.is_periodic, C::double_well_collar);
     add(domain.is_periodic, C::periodic);
     add(domain.dimension == 1, C::line);
     return needed;
@@ -215,11 +202,11 @@ namespace plumbline::scene
 
   void check_model(const Scene &scene)
   {
-    const Capable &model = models()[static_cast<std::size_t>(scene.material.model)];
+    const Model &model = *scene.material.model;
     const Capabilities needed = needs(scene);
-    if (const std::string why = refusal(scene, needed, model.can, able(models(), needed));
+    if (const std::string why = refusal(scene, needed, model.can(), able(capable_models(), needed));
         !why.empty())
-      throw InputError("Material/model = " + model.name + " cannot do this scene: " + why);
+      throw InputError("Material/model = " + model.name() + " cannot do this scene: " + why);
   }
 
   void check_analysis(const Scene &scene, Analysis analysis)

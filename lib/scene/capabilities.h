@@ -38,6 +38,9 @@ namespace plumbline::scene
 
   Capabilities all_capabilities();
   Capabilities all_but(const Capabilities &left_out);
+  Capabilities of_meshes(); ///< with cells of all kinds
+  Capabilities of_damage(); ///< cracks that stand, and free surfaces
+  Capabilities operator|(Capabilities a, const Capabilities &b);
 
   /// A row of a table: what a model, an analysis or a method can do.
   struct Capable
@@ -45,9 +48,6 @@ namespace plumbline::scene
     std::string name;
     Capabilities can;
   };
-
-  /// By their words, in their order.
-  const std::vector<Capable> &models();
 
   /// What is done with a scene.
   enum class Analysis

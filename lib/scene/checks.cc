@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/text_file.h"
 #include "physics/expression.h"
+#include "scene/models/model.h"
 #include "scene/values.h"
 
 #include <algorithm>
@@ -83,10 +84,10 @@ namespace plumbline::scene
     {
       const KernelSection &kernel = scene.kernel;
       const bool is_navier = kernel.limit == Limit::navier;
-      require(!scene.material.takes_influence() ||
+      require(!scene.material.model->takes_influence() ||
                   (kernel.structure == physics::Structure::scalar && is_navier &&
                    kernel.coefficient.empty() && kernel.materials.empty()),
-              "Material/model = " + base::word(scene.material.model) +
+              "Material/model = " + scene.material.model->name() +
                   " takes Kernel/type as its influence function and its constants from Material; "
                   "write a scalar Kernel/type (1/r, constant, ...), Kernel/limit = Navier, and "
                   "clear Kernel/coefficient and Kernel/materials");
@@ -116,10 +117,10 @@ namespace plumbline::scene
     {
       const unsigned int n = scene.n_components();
       const ProblemSection &problem = scene.problem;
-      const std::string needed_by = scene.domain.dimension == 1        ? "line"
-                                    : scene.material.takes_influence() ? "solid"
-                                    : scene.is_vector()                ? "bond tensor"
-                                                                       : "scalar kernel";
+      const std::string needed_by = scene.domain.dimension == 1               ? "line"
+                                    : scene.material.model->takes_influence() ? "solid"
+                                    : scene.is_vector()                       ? "bond tensor"
+                                                                              : "scalar kernel";
       const auto check = [&](const std::string &key, const std::string &text)
       { check_components(key, text, n, needed_by, scene.names(1)); };
       for (const Case &solution : problem.solutions)

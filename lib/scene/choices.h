@@ -24,14 +24,6 @@ namespace plumbline::scene
     none
   };
 
-  enum class Model
-  {
-    bond_based,
-    lps,         ///< linear peridynamic solid
-    variational, ///< state-based, its constants at one point
-    double_well  ///< bonds that soften and break, of Jha & Lipton
-  };
-
   /// ω of double wells, which weakens bonds near the boundary.
   enum class BoundaryFunction
   {
@@ -140,9 +132,6 @@ namespace plumbline::base
   template <>
   inline constexpr auto words<scene::Limit> =
       std::array{"-1/2 Laplace", "-Laplace", "Navier", "none"};
-  template <>
-  inline constexpr auto words<scene::Model> =
-      std::array{"bond-based", "LPS", "variational", "double well"};
   template <>
   inline constexpr auto words<scene::BoundaryFunction> = std::array{"one", "smoothstep"};
   template <>

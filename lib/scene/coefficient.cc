@@ -2,6 +2,7 @@
 #include "geometry/cell_locator.h"
 #include "physics/expression.h"
 #include "scene/mesh.h"
+#include "scene/models/model.h"
 
 #include <algorithm>
 #include <memory>
@@ -43,11 +44,9 @@ namespace plumbline::scene
     if (scene.is_homogeneous() && !scene.domain.is_free_body)
       return {};
     std::optional<physics::Coefficient> coefficient;
-    if (scene.material.is_state_based())
+    if (scene.material.model->is_state_based())
       coefficient.emplace([lame = scene.material.lame()](const Point<2> &x) { return lame(x).mu; },
-                          "Material/" + scene.material.keys[1],
-                          scene.material.model == Model::lps ? physics::Mean::harmonic
-                                                             : physics::Mean::arithmetic);
+                          "Material/" + scene.material.keys[1], scene.material.model->mean());
     else if (scene.kernel.materials.empty())
       coefficient.emplace(
           physics::Expression("Kernel/coefficient", scene.kernel.coefficient, scene.random.names()),

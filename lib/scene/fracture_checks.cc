@@ -2,6 +2,7 @@
 #include "physics/expression.h"
 #include "scene/capabilities.h"
 #include "scene/checks.h"
+#include "scene/models/model.h"
 #include "scene/values.h"
 
 namespace plumbline::scene
@@ -24,7 +25,7 @@ namespace plumbline::scene
                                "area");
     needs(!scene.crack.is_there() && !scene.time.is_dynamic(),
           "Crack/notch = 0 and Time/final time = 0: 'plumbline grow' follows equilibria");
-    needs(scene.material.model == Model::lps,
+    needs(scene.material.model == &lps(),
           "Material/model = LPS (with nu = 1/4 in plane strain it is bond-based)");
     needs(is_inverse_distance(scene.kernel),
           "Kernel/type = 1/r: the critical stretch is known for that influence function");

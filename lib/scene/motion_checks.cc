@@ -2,6 +2,7 @@
 #include "physics/expression.h"
 #include "scene/capabilities.h"
 #include "scene/checks.h"
+#include "scene/models/model.h"
 #include "scene/values.h"
 
 #include <algorithm>
@@ -86,31 +87,6 @@ namespace plumbline::scene
       }
     }
 
-    void check_double_well(const Scene &scene)
-    {
-      const MaterialSection &material = scene.material;
-      const auto positive = [](const std::string &key, double value, const std::string &remedy)
-      {
-        require(value > 0 && std::isfinite(value), "Material/" + key + " = " + short_number(value) +
-                                                       " must be positive and finite; " + remedy);
-      };
-      positive("c", material.c, "it is the energy of a broken bond, take for example 1");
-      positive("beta", material.beta,
-               "bonds soften at strains 1/sqrt(2 beta r), take for example 1");
-      (void)make_double_well(scene, 1);
-      require(material.boundary_function == BoundaryFunction::one ||
-                  (scene.domain.mesh.is_of_boxes() && scene.domain.mesh.map.empty()),
-              "Material/boundary function = smoothstep falls to 0 at the sides of Domain/boxes, "
-              "which Domain/mesh = " +
-                  scene.domain.mesh.name +
-                  " need not have; write one, or Domain/mesh = lattice, squares or triangles");
-      require(material.boundary_function == BoundaryFunction::one ||
-                  scene.problem.solutions.empty() || !scene.problem.loads.empty(),
-              "Problem/load = manufactured with Material/boundary function = smoothstep: its kinks "
-              "in the ball would spoil the quadrature (2.5e-5 of the load); write one, or give "
-              "Problem/load as expressions");
-    }
-
     void check_targets(const Scene &scene)
     {
       const StudySection &study = scene.study;
@@ -136,7 +112,7 @@ namespace plumbline::scene
       const std::string given = "Reference/method = " + *scene.reference.method;
       require(scene.reference.is_torus(),
               given + " is for statics; motions take torus, or none and Problem/solution");
-      require(scene.domain.is_periodic && scene.material.is_double_well(),
+      require(scene.domain.is_periodic && !scene.material.model->is_linear(),
               given + " needs Domain/boundary = periodic and Material/model = double well");
       const geometry::Box &box = scene.domain.boxes.include.front();
       const dealii::Tensor<1, 2> side = box.upper - box.lower;
@@ -155,8 +131,7 @@ namespace plumbline::scene
       check_torus(scene);
       check_periods(scene);
     }
-    if (scene.material.is_double_well())
-      check_double_well(scene);
+    scene.material.model->check_motion(scene);
     if (scene.crack.is_there())
       return check_crack(scene);
     const TimeSection &time = scene.time;

@@ -5,6 +5,7 @@
 #include "physics/double_well_load.h"
 #include "physics/load.h"
 #include "scene/mesh.h"
+#include "scene/models/model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -184,34 +185,12 @@ namespace plumbline::scene
               scene.solver};
     }
 
-    /// ω of double wells, which falls to 0 at the boundary of a box.
-    double smoothstep(const geometry::Box &box, double horizon, const Point<2> &x)
-    {
-      double distance = horizon;
-      for (unsigned int a = 0; a < 2; ++a)
-        distance = std::min({distance, x[a] - box.lower[a], box.upper[a] - x[a]});
-      const double t = std::max(0., distance) / horizon;
-      return t * t * (3 - 2 * t);
-    }
-
     /// What does not follow from cells or fields.
     Problem without_data(const Scene &scene, const Level &level, const physics::Kernel<2> &kernel)
     {
       const std::string &mesh = scene.domain.mesh.name;
-      Problem problem{{},
-                      {},
-                      {},
-                      {},
-                      mesh,
-                      level.h,
-                      kernel,
-                      {},
-                      make_dilatation(scene, level.horizon),
-                      kernel.n_components(),
-                      {},
-                      {},
-                      {},
-                      {}};
+      Problem problem{{}, {}, {}, {}, mesh, level.h, kernel, {}, {}, kernel.n_components(),
+                      {}, {}, {}, {}};
       problem.dimension = scene.domain.dimension;
       problem.is_load_given = !scene.problem.loads.empty();
       problem.is_homogeneous = scene.is_homogeneous();
@@ -219,14 +198,7 @@ namespace plumbline::scene
       problem.is_floating = scene.domain.is_floating;
       problem.has_collar_dilatation = scene.material.has_collar_dilatation;
       problem.damage = {scene.domain.cracks, scene.domain.outside};
-      if (scene.domain.is_free_body)
-        problem.lame = scene.material.lame();
-      if (scene.material.is_double_well())
-        problem.double_well = make_double_well(scene, level.horizon);
-      if (scene.material.boundary_function == BoundaryFunction::smoothstep)
-        problem.boundary_function =
-            [box = scene.domain.boxes.include.front(), horizon = level.horizon](const Point<2> &x)
-        { return smoothstep(box, horizon, x); };
+      scene.material.model->complete(scene, level, problem);
       problem.settings = method_settings(scene);
       return problem;
     }

@@ -18,6 +18,7 @@ namespace plumbline::scene
 {
   class Keys;
   class MeshFiles;
+  class Model;
 
   // What the sections of a scene file say that pose its problem, named as there. Lengths in the
   // scene's unit of length. `declare` binds members to keys, whose defaults they begin with;
@@ -101,7 +102,7 @@ namespace plumbline::scene
   /// The solid of a state-based model, or the bonds with two wells.
   struct MaterialSection
   {
-    Model model = Model::bond_based; ///< which has none of its own
+    const Model *model = nullptr; ///< of models(), see models/model.h
     physics::PlaneState plane = physics::PlaneState::strain;
     std::array<std::array<std::string, 2>, 3> given; ///< E and nu, lambda and mu, k and l
     std::array<std::string, 2> keys;                 ///< of the pair that is not empty
@@ -111,10 +112,6 @@ namespace plumbline::scene
     bool has_collar_dilatation = true; ///< else θ counts as 0 there: wrong, to be shown
     double c = 1, beta = 1;            ///< of double wells, > 0, see physics::DoubleWell
     BoundaryFunction boundary_function = BoundaryFunction::one; ///< ω of double wells
-
-    bool is_state_based() const { return model == Model::lps || model == Model::variational; }
-    bool is_double_well() const { return model == Model::double_well; }
-    bool takes_influence() const { return model != Model::bond_based; } ///< Kernel/type is one
 
     /// λ and μ as a function of the place. Copies share nothing: give each thread its own.
     /// @throws InputError  (the function) constants of no solid, naming keys and place

@@ -7,6 +7,7 @@
 #include "scene/capabilities.h"
 #include "scene/checks.h"
 #include "scene/keys.h"
+#include "scene/models/model.h"
 #include "scene/scene_file.h"
 
 #include <cmath>
@@ -127,14 +128,14 @@ namespace plumbline::scene
     return scene;
   }
 
+  bool Scene::is_vector() const
+  {
+    return kernel.structure == physics::Structure::tensor || material.model->takes_influence();
+  }
+
   bool Scene::has_dilatation() const
   {
-    if (!material.is_state_based())
-      return false;
-    if (solver.is_full_model || domain.is_damaged() || !material.is_homogeneous)
-      return true;
-    const physics::Lame lame = material.lame()({});
-    return std::abs(lame.lambda - lame.mu) > 1e-14 * lame.mu;
+    return material.model->has_dilatation(*this);
   }
 
   physics::Names Scene::names(double horizon, double t) const
@@ -190,37 +191,9 @@ namespace plumbline::scene
     }
   }
 
-  physics::DoubleWell make_double_well(const Scene &scene, double horizon)
-  {
-    return {static_cast<int>(scene.domain.dimension), scene.kernel.profile, scene.material.c,
-            scene.material.beta, horizon};
-  }
-
   physics::Kernel<2> make_kernel(const Scene &scene, double horizon)
   {
-    const KernelSection &kernel = scene.kernel;
-    if (scene.material.model == Model::double_well)
-      return make_double_well(scene, horizon).linear_kernel();
-    if (scene.material.is_state_based())
-      return physics::deviatoric_kernel(physics::influence_function(kernel.profile, horizon),
-                                        scene.material.is_homogeneous && !scene.domain.is_free_body
-                                            ? scene.material.lame()({}).mu
-                                            : 1);
-    if (kernel.limit == Limit::navier)
-      return physics::Kernel<2>::with_bulk_modulus(kernel.profile, horizon, kernel.bulk_modulus);
-    if (kernel.limit == Limit::none)
-      return physics::Kernel<2>(kernel.structure, kernel.profile, horizon, kernel.constant);
-    return physics::Kernel<2>::with_diffusion(kernel.profile, horizon,
-                                              kernel.limit == Limit::laplace ? 1 : .5);
-  }
-
-  std::optional<physics::Dilatation> make_dilatation(const Scene &scene, double horizon)
-  {
-    if (!scene.has_dilatation())
-      return {};
-    return physics::Dilatation{physics::influence_function(scene.kernel.profile, horizon),
-                               scene.material.lame(), scene.material.model == Model::lps,
-                               scene.material.is_homogeneous};
+    return scene.material.model->kernel(scene, horizon);
   }
 
   Scene read_scene(const std::string &file, const std::vector<Override> &overrides)
@@ -242,78 +215,25 @@ namespace plumbline::scene
 
   namespace
   {
-    using Settings = std::vector<std::pair<std::string, std::string>>;
-
     const Settings first_steps = {
         {"Purpose", "Which rules are asymptotically compatible?"},
         {"Methods/names", "FA, PA-AC, IPA-AC, IPA-AC-R2, Q1, DGQ0"},
     };
-    const Settings of_scalar = {{"Problem/solution", "x^3 + 2*y^2"}};
-    const Settings of_tensor = {
-        {"Kernel/type", "bond-tensor"},
-        {"Kernel/limit", "Navier"},
-        {"Problem/solution", "x*(1-x)/2 + y*(1-y)/2, x*(1-x)/2 + y*(1-y)/2"},
-    };
-    const Settings of_lps = {
-        {"Kernel/type", "1/r"},
-        {"Kernel/limit", "Navier"},
-        {"Problem/solution", "x*(1-x)/2 + y*(1-y)/2, x*(1-x)/2 + y*(1-y)/2"},
-        {"Material/model", "LPS"},
-        {"Material/E", "1"},
-        {"Material/nu", "0.3"},
-    };
-    const Settings of_variational = {
-        {"Purpose", "A bar that is held on the left and pulled on the right."},
-        {"Domain/boxes", "0, 0 : 2, 1"},
-        {"Domain/boundary", "free"},
-        {"Domain/fixed", "0, 0 : 0.1, 1"},
-        {"Kernel/type", "1/r"},
-        {"Kernel/limit", "Navier"},
-        {"Material/model", "variational"},
-        {"Material/k", "100"},
-        {"Material/l", "800"},
-        {"Problem/load", "100*(x > 1.9 - 1e-9), 0"},
-        {"Problem/constraint", "0, 0"},
-        {"Problem/local solution", "none"},
-        {"Methods/names", "FA, PA-AC, IPA-AC"},
-        {"Methods/nodes", "vertices"},
-        {"Study/regime", "m"},
-        {"Study/h", "0.05, 0.025, 0.0125"},
-        {"Study/horizon", "0.05"},
-        {"Study/norms", "averages L2"},
-        {"Study/decisive error", "averages L2 | reference"},
-        {"Reference/method", "DGQ0"},
-    };
-    const Settings of_double_well = {
-        {"Purpose", "A wave of double-well bonds on a torus: how fast do rules converge?"},
-        {"Domain/boundary", "periodic"},
-        {"Kernel/type", "linear-decay"},
-        {"Kernel/limit", "Navier"},
-        {"Material/model", "double well"},
-        {"Problem/local solution", "none"},
-        {"Time/final time", "0.5"},
-        {"Time/initial displacement", "0.1*sin(2*pi*x), 0"},
-        {"Methods/names", "FA, PA-AC, IPA-AC, IPA-AC-R2"},
-        {"Study/regime", "m"},
-        {"Study/h", "0.1, 0.05, 0.025, 0.0125"},
-        {"Study/horizon", "0.2"},
-        {"Study/norms", "nodal L2"},
-        {"Study/decisive error", "nodal L2 | reference"},
-        {"Reference/method", "torus"},
-    };
-    const std::map<std::string, Settings> templates = {{"scalar", of_scalar},
-                                                       {"tensor", of_tensor},
-                                                       {"LPS", of_lps},
-                                                       {"variational", of_variational},
-                                                       {"double-well", of_double_well}};
   } // namespace
 
   std::string scene_template(const std::string &model)
   {
+    std::map<std::string, Settings> templates;
+    std::string all;
+    for (const Model *const one : models())
+      for (const auto &[name, settings] : one->templates())
+      {
+        templates[name] = settings;
+        all += (all.empty() ? "" : ", ") + name;
+      }
     const auto found = templates.find(model);
     if (found == templates.end())
-      throw InputError("template: model '" + model +
-                       "' is not known; choose scalar, tensor, LPS, variational or double-well");
+      throw InputError("template: model '" + model + "' is not known; choose one of " + all);
     Scene scene;
     Keys keys;
     declare(keys, scene);

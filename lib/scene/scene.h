@@ -41,11 +41,7 @@ namespace plumbline::scene
     {
       return kernel.coefficient.empty() && kernel.materials.empty() && material.is_homogeneous;
     }
-    bool is_vector() const ///< two components
-    {
-      return kernel.structure == physics::Structure::tensor || material.takes_influence();
-    }
-
+    bool is_vector() const; ///< a component for each axis
     unsigned int n_components() const { return is_vector() ? domain.dimension : 1; }
 
     /// It moves, or has cracks that do or stand in a strip: not one problem at a time.
@@ -54,7 +50,7 @@ namespace plumbline::scene
       return time.is_dynamic() || crack.is_there() || fracture.is_there() || strip.is_there();
     }
 
-    /// λ = μ leaves a state-based solid its bonds alone.
+    /// Its model's force is more than bonds, see Model::has_dilatation.
     bool has_dilatation() const;
 
     /// Names in expressions of this scene: delta, t where it moves, and what is random.
@@ -73,12 +69,8 @@ namespace plumbline::scene
 
   /// The law of its bonds with two wells.
   /// @throws InputError  a constant or an influence function (Kernel/type) that is not allowed
-  /// @pre scene.material.model == Model::double_well
+  /// @pre scene.material.model == &double_well()
   physics::DoubleWell make_double_well(const Scene &scene, double horizon);
-
-  /// What the dilatation adds to its bonds, or nothing.
-  /// @throws InputError  (its material) a constant that is not allowed, naming key and place
-  std::optional<physics::Dilatation> make_dilatation(const Scene &scene, double horizon);
 
   /// The same scene at other values of its random variables; whether its material is one there is
   /// seen when it is needed.

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "scene/checks.h"
+#include "scene/models/model.h"
 #include "scene/values.h"
 
 #include <cmath>
@@ -18,7 +19,7 @@ namespace plumbline::scene
     };
     needs(!scene.crack.is_there() && !scene.fracture.is_there() && !scene.time.is_dynamic(),
           "Crack/notch = 0, Fracture/toughness empty and Time/final time = 0: its crack stands");
-    needs(scene.material.model == Model::lps && !scene.has_dilatation() && scene.is_homogeneous(),
+    needs(scene.material.model == &lps() && !scene.has_dilatation() && scene.is_homogeneous(),
           "Material/model = LPS of constants with lambda = mu (nu = 1/4 in plane strain), whose "
           "bonds are all of it");
     needs(is_inverse_distance(scene.kernel),

@@ -1,6 +1,7 @@
 #include "study/conclusions.h"
 
 #include "base/number_text.h"
+#include "scene/models/model.h"
 #include "study/cheapest.h"
 #include "study/expectations.h"
 #include "study/trend.h"
@@ -260,7 +261,7 @@ namespace plumbline::study
             {"the dilatation as an unknown",
              "homogeneous: eliminated, it is part of one stencil of twice the reach",
              "a third of the unknowns, and a system that stays positive definite"});
-      if (scene.material.is_state_based() && scene.material.is_homogeneous)
+      if (scene.material.model->is_state_based() && scene.material.is_homogeneous)
         results.omissions.push_back({"means of the material at both ends of each bond",
                                      "the material is homogeneous", megabytes(16 * bonds) + where});
       results.omissions.push_back(

@@ -1,4 +1,5 @@
 #include "base/number_text.h"
+#include "scene/models/model.h"
 #include "study/dynamics.h"
 #include "study/expectations.h"
 #include "study/trend.h"
@@ -54,7 +55,7 @@ namespace plumbline::study
     /// Source: Jha & Lipton 2018, doi:10.1137/17M1112236, Theorems 3 and 4.
     std::string proven_rate(const scene::Scene &scene, const MotionTrend &trend)
     {
-      if (!scene.material.is_double_well() || trend.side != Side::meshfree)
+      if (scene.material.model->is_linear() || trend.side != Side::meshfree)
         return {};
       return scene.study.regime == scene::Regime::m ? "γ <= 1" : "none";
     }
@@ -186,48 +187,8 @@ namespace plumbline::study
       const double horizon = scene.study.series.front().levels.front().horizon;
       add("final time T", number(scene.time.final_time));
       add("density ρ, damping η", number(scene.time.density) + ", " + number(scene.time.damping));
-      if (scene.material.is_double_well())
-      {
-        const physics::DoubleWell law = make_double_well(scene, horizon);
-        const auto speeds = law.wave_speeds(scene.time.density);
-        add("f(s) = c (1 - exp(-β s)), stiffness p = cβ", "c = " + number(law.c()) +
-                                                              ", β = " + number(law.beta()) +
-                                                              ", p = " + number(law.stiffness()));
-        add("moments M_1, M_2 of J", number(law.moment(1)) + ", " + number(law.moment(2)));
-        if (law.dim() == 1)
-        {
-          add("modulus of the elastic limit", number(law.modulus()));
-          add("speed of long waves", number(speeds.longitudinal));
-        }
-        else
-        {
-          add("λ = μ of the elastic limit", number(law.modulus()));
-          add("speeds of long waves c_L, c_T",
-              number(speeds.longitudinal) + ", " + number(speeds.transverse));
-        }
-        add("toughness G_c", number(law.toughness()));
-        add("C₁, C₂, C₃ = max |F₁'|, |F₁''|, |F₁'''|",
-            number(law.c1()) + ", " + number(law.c2()) + ", " + number(law.c3()));
-        add("C̄; Lipschitz bound 6 C̄/ε² of F in L²",
-            number(law.c_bar()) + "; " + number(6 * law.c_bar() / (horizon * horizon)));
-        add("rates proven (Jha & Lipton 2018, doi:10.1137/17M1112236, Theorem 3)",
-            "h^γ/ε² for data in C^(0,γ), γ <= 1, and Δt; smooth data show more");
-        const double final_time = scene.time.final_time;
-        add("factor of that bound, T exp(T (1 + 6 C̄/ε²)), (17) there: large as it is, it says "
-            "nothing of sizes",
-            number(final_time *
-                   std::exp(final_time * (1 + 6 * law.c_bar() / (horizon * horizon)))));
-        add("softening strain of a bond as long as the horizon",
-            number(law.softening_strain(horizon)));
-        return;
-      }
-      const physics::LocalLimit limit = make_kernel(scene, horizon).limit();
-      if (scene.is_vector() && !scene.material.is_state_based())
-        add("speeds of long waves c_L, c_T", number(std::sqrt(3 * limit.mu / scene.time.density)) +
-                                                 ", " +
-                                                 number(std::sqrt(limit.mu / scene.time.density)));
-      else if (!scene.is_vector())
-        add("speed of long waves", number(std::sqrt(limit.diffusion / scene.time.density)));
+      for (const auto &[what, value] : scene.material.model->facts(scene, horizon))
+        add(what, value);
     }
 
     void say_omissions(const scene::Scene &scene, DynamicResults &results)
@@ -239,7 +200,7 @@ namespace plumbline::study
       if (!scene.is_vector())
         leave_out("the second component", "the kernel is scalar, so components do not couple",
                   "half the unknowns, a quarter of the bonds' work");
-      if (scene.material.is_double_well())
+      if (!scene.material.model->is_linear())
         leave_out("bond state", "double wells break by the law itself, without memory",
                   "a bit for each bond");
       else
@@ -250,7 +211,7 @@ namespace plumbline::study
           leave_out("the stencil of each node", "the lattice's nodes are alike",
                     "all but one family of bonds");
       }
-      if (scene.material.is_state_based() && !scene.has_dilatation())
+      if (scene.material.model->is_state_based() && !scene.has_dilatation())
         leave_out("the dilatation", "lambda = mu: the bonds are all",
                   "half the reach of the stencil");
       if (scene.is_steady())

@@ -1,6 +1,7 @@
 #include "study/saving.h"
 
 #include "base/error.h"
+#include "scene/models/model.h"
 #include "study/refusal.h"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ namespace plumbline::study
 
   bool has_fuller_model(const scene::Scene &scene)
   {
-    const bool drops_dilatation = scene.material.is_state_based() && !scene.has_dilatation();
+    const bool drops_dilatation = scene.material.model->is_state_based() && !scene.has_dilatation();
     return !scene.solver.is_full_model && !scene.domain.collar &&
            scene.solver.operator_backend == base::OperatorBackend::automatic &&
            (scene.domain.is_free_body ? drops_dilatation : scene.domain.mesh.is_lattice());

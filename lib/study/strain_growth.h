@@ -50,7 +50,7 @@ namespace plumbline::study
   };
 
   /// All directions; methods come by add_growth.
-  /// @pre scene.material.is_double_well() && scene.domain.is_periodic
+  /// @pre !scene.material.model->is_linear() && scene.domain.is_periodic
   /// Cost: some 3 seconds for each horizon.
   std::vector<StrainGrowth> strain_growths(const scene::Scene &scene, const std::string &series,
                                            const scene::Level &level);

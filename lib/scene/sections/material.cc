@@ -1,15 +1,10 @@
 #include "base/error.h"
 #include "physics/expression.h"
 #include "scene/keys.h"
-#include "scene/problem_sections.h"
+#include "scene/models/model.h"
 
+#include <algorithm>
 #include <sstream>
-
-namespace plumbline::base
-{
-  template <>
-  inline constexpr auto words<physics::PlaneState> = std::array{"strain", "stress"};
-} // namespace plumbline::base
 
 namespace plumbline::scene
 {
@@ -44,14 +39,7 @@ namespace plumbline::scene
         lame = physics::lame_from_bulk(first, second);
       else
         lame = lame_from_lame(first, second);
-      if (material.model == Model::lps && !material.is_homogeneous && !(lame.lambda > 0))
-      {
-        std::ostringstream message;
-        message << "lambda = " << lame.lambda
-                << ", but harmonic means need it positive; choose constants with lambda > 0 (nu > "
-                   "0), or Material/model = variational";
-        throw InputError(message.str());
-      }
+      material.model->check(lame, material.is_homogeneous);
       return lame;
     }
   } // namespace
@@ -85,35 +73,24 @@ namespace plumbline::scene
 
   void MaterialSection::declare(Keys &by_name)
   {
+    std::vector<std::string> names_of_models;
+    std::string help;
+    for (const Model *const one : models())
+    {
+      names_of_models.push_back(one->name());
+      help += one->name() + ": " + one->help() + ". ";
+    }
     by_name.add(
-        "model", model,
-        "bond-based: the kernel is all. LPS: the linear peridynamic solid, with harmonic means of "
-        "lambda and of mu at both ends of a bond. variational: constants at one point. double "
-        "well: "
-        "bonds that soften and break (Jha & Lipton 2018), of c, beta and the boundary function, "
-        "for motions (Time/final time). All three take Kernel/type as their influence function, "
-        "with Kernel/limit = Navier.");
-    by_name.add("plane", plane, "Plane strain or plane stress, for E and nu.");
-    by_name.add("E", given[0][0],
-                "Young's modulus > 0, an expression in x and y. [force/length^2]");
-    by_name.add("nu", given[0][1], "Poisson's ratio, -1 < nu < 1/2, given with E.");
-    by_name.add("lambda", given[1][0],
-                "Lame's first constant in the plane, instead of E and nu. [force/length^2]");
-    by_name.add("mu", given[1][1],
-                "The shear modulus > 0, given with lambda, which is > -mu. [force/length^2]");
-    by_name.add("collar dilatation", has_collar_dilatation, "zero", "from data",
-                "theta in the collar, of state-based solids on scattered nodes: from data, or "
-                "zero, which is wrong and there to show by how much.");
-    by_name.add("c", c, any_number(),
-                "Of double wells f(s) = c (1 - exp(-beta s)): the energy of a broken bond, > 0. "
-                "[force/length]");
-    by_name.add("beta", beta, any_number(), "Of double wells, > 0. [1/length]");
-    by_name.add("boundary function", boundary_function,
-                "omega of double wells: one, or smoothstep, t^2 (3 - 2t) with t = min(1, distance "
-                "to the boundary / horizon), which lets bonds fade out there.");
-    by_name.add("k", given[2][0],
-                "lambda + mu > 0 of the variational model, instead. [force/length^2]");
-    by_name.add("l", given[2][1], "8 mu > 0, given with k. [force/length^2]");
+        "model", bond_based().name(), one_of(names_of_models),
+        [this](const std::string &text)
+        {
+          model = *std::find_if(models().begin(), models().end(),
+                                [&](const Model *one) { return one->name() == text; });
+        },
+        help + "All but the first take Kernel/type as their influence function, with Kernel/limit "
+               "= Navier.");
+    for (const Model *const one : models())
+      one->declare(by_name, *this);
   }
 
   void MaterialSection::complete()
@@ -131,16 +108,9 @@ namespace plumbline::scene
       keys = pairs[i];
       expressions = given[i];
     }
-    if (n_pairs != (is_state_based() ? 1 : 0))
-      throw InputError("Material/model = " + base::word(model) +
-                       (is_state_based()
-                            ? " needs its constants once: E and nu, lambda and mu, or k and l"
-                        : is_double_well()
-                            ? " has the constants c and beta; clear Material/E, nu, lambda, mu, k "
-                              "and l"
-                            : " takes its constants from the kernel; clear Material/E, nu, lambda, "
-                              "mu, k and l, or choose LPS or variational"));
-    if (!is_state_based())
+    if (n_pairs != (model->is_state_based() ? 1 : 0))
+      throw InputError("Material/model = " + model->name() + model->constants());
+    if (!model->is_state_based())
       return;
     for (unsigned int i = 0; i < 2; ++i)
     {

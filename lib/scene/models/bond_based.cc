@@ -1,0 +1,71 @@
+#include "base/number_text.h"
+#include "scene/models/model.h"
+
+#include <cmath>
+
+namespace plumbline::scene
+{
+  namespace
+  {
+    class BondBased : public Model
+    {
+    public:
+      std::string name() const override { return "bond-based"; }
+      std::string help() const override { return "the kernel is all"; }
+
+      Capabilities can() const override
+      {
+        using C = Capability;
+        return of_meshes() |
+               Capabilities{C::lattice, C::heterogeneous, C::nonlocal, C::dynamic, C::cracks};
+      }
+
+      std::map<std::string, Settings> templates() const override
+      {
+        return {{"scalar", {{"Problem/solution", "x^3 + 2*y^2"}}},
+                {"tensor",
+                 {{"Kernel/type", "bond-tensor"},
+                  {"Kernel/limit", "Navier"},
+                  {"Problem/solution", "x*(1-x)/2 + y*(1-y)/2, x*(1-x)/2 + y*(1-y)/2"}}}};
+      }
+
+      bool takes_influence() const override { return false; }
+
+      std::string constants() const override
+      {
+        return " takes its constants from the kernel; clear Material/E, nu, lambda, mu, k and l, "
+               "or "
+               "choose LPS or variational";
+      }
+
+      physics::Kernel<2> kernel(const Scene &scene, double horizon) const override
+      {
+        const KernelSection &kernel = scene.kernel;
+        if (kernel.limit == Limit::navier)
+          return physics::Kernel<2>::with_bulk_modulus(kernel.profile, horizon,
+                                                       kernel.bulk_modulus);
+        if (kernel.limit == Limit::none)
+          return {kernel.structure, kernel.profile, horizon, kernel.constant};
+        return physics::Kernel<2>::with_diffusion(kernel.profile, horizon,
+                                                  kernel.limit == Limit::laplace ? 1 : .5);
+      }
+
+      std::vector<std::pair<std::string, std::string>> facts(const Scene &scene,
+                                                             double horizon) const override
+      {
+        const physics::LocalLimit limit = kernel(scene, horizon).limit();
+        const auto speed = [&](double modulus)
+        { return base::to_text(std::sqrt(modulus / scene.time.density), 6); };
+        if (scene.is_vector())
+          return {{"speeds of long waves c_L, c_T", speed(3 * limit.mu) + ", " + speed(limit.mu)}};
+        return {{"speed of long waves", speed(limit.diffusion)}};
+      }
+    };
+  } // namespace
+
+  const Model &bond_based()
+  {
+    static const BondBased model;
+    return model;
+  }
+} // namespace plumbline::scene

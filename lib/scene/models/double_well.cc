@@ -1,0 +1,186 @@
+#include "base/error.h"
+#include "base/number_text.h"
+#include "scene/keys.h"
+#include "scene/models/model.h"
+#include "scene/values.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::scene
+{
+  namespace
+  {
+    std::string number(double value)
+    {
+      return base::to_text(value, 6);
+    }
+
+    /// ω, which falls to 0 at the boundary of a box.
+    double smoothstep(const geometry::Box &box, double horizon, const dealii::Point<2> &x)
+    {
+      double distance = horizon;
+      for (unsigned int a = 0; a < 2; ++a)
+        distance = std::min({distance, x[a] - box.lower[a], box.upper[a] - x[a]});
+      const double t = std::max(0., distance) / horizon;
+      return t * t * (3 - 2 * t);
+    }
+
+    class DoubleWells : public Model
+    {
+    public:
+      std::string name() const override { return "double well"; }
+      std::string help() const override
+      {
+        return "bonds that soften and break (Jha & Lipton 2018), of c, beta and the boundary "
+               "function, for motions (Time/final time)";
+      }
+
+      Capabilities can() const override
+      {
+        using C = Capability;
+        return of_meshes() | Capabilities{C::double_well, C::double_well_collar,
+                                          C::lattice,     C::notch,
+                                          C::nonlocal,    C::dynamic,
+                                          C::periodic,    C::line};
+      }
+
+      Capabilities needs(const Scene &scene) const override
+      {
+        Capabilities needed = {Capability::double_well};
+        if (scene.time.is_dynamic() && !scene.domain.is_periodic)
+          needed.insert(Capability::double_well_collar);
+        return needed;
+      }
+
+      std::map<std::string, Settings> templates() const override
+      {
+        return {
+            {"double-well",
+             {{"Purpose", "A wave of double-well bonds on a torus: how fast do rules converge?"},
+              {"Domain/boundary", "periodic"},
+              {"Kernel/type", "linear-decay"},
+              {"Kernel/limit", "Navier"},
+              {"Material/model", "double well"},
+              {"Problem/local solution", "none"},
+              {"Time/final time", "0.5"},
+              {"Time/initial displacement", "0.1*sin(2*pi*x), 0"},
+              {"Methods/names", "FA, PA-AC, IPA-AC, IPA-AC-R2"},
+              {"Study/regime", "m"},
+              {"Study/h", "0.1, 0.05, 0.025, 0.0125"},
+              {"Study/horizon", "0.2"},
+              {"Study/norms", "nodal L2"},
+              {"Study/decisive error", "nodal L2 | reference"},
+              {"Reference/method", "torus"}}}};
+      }
+
+      void declare(Keys &keys, MaterialSection &material) const override
+      {
+        keys.add("c", material.c, any_number(),
+                 "Of double wells f(s) = c (1 - exp(-beta s)): the energy of a broken bond, > 0. "
+                 "[force/length]");
+        keys.add("beta", material.beta, any_number(), "Of double wells, > 0. [1/length]");
+        keys.add("boundary function", material.boundary_function,
+                 "omega of double wells: one, or smoothstep, t^2 (3 - 2t) with t = min(1, distance "
+                 "to the boundary / horizon), which lets bonds fade out there.");
+      }
+
+      bool is_linear() const override { return false; }
+
+      std::string constants() const override
+      {
+        return " has the constants c and beta; clear Material/E, nu, lambda, mu, k and l";
+      }
+
+      void check_motion(const Scene &scene) const override
+      {
+        const MaterialSection &material = scene.material;
+        const auto positive = [](const std::string &key, double value, const std::string &remedy)
+        {
+          require(value > 0 && std::isfinite(value), "Material/" + key + " = " +
+                                                         short_number(value) +
+                                                         " must be positive and finite; " + remedy);
+        };
+        positive("c", material.c, "it is the energy of a broken bond, take for example 1");
+        positive("beta", material.beta,
+                 "bonds soften at strains 1/sqrt(2 beta r), take for example 1");
+        (void)make_double_well(scene, 1);
+        if (material.boundary_function == BoundaryFunction::one)
+          return;
+        require(scene.domain.mesh.is_of_boxes() && scene.domain.mesh.map.empty(),
+                "Material/boundary function = smoothstep falls to 0 at the sides of Domain/boxes, "
+                "which Domain/mesh = " +
+                    scene.domain.mesh.name +
+                    " need not have; write one, or Domain/mesh = lattice, squares or triangles");
+        require(scene.problem.solutions.empty() || !scene.problem.loads.empty(),
+                "Problem/load = manufactured with Material/boundary function = smoothstep: its "
+                "kinks in the ball would spoil the quadrature (2.5e-5 of the load); write one, or "
+                "give Problem/load as expressions");
+      }
+
+      physics::Kernel<2> kernel(const Scene &scene, double horizon) const override
+      {
+        return make_double_well(scene, horizon).linear_kernel();
+      }
+
+      void complete(const Scene &scene, const Level &level, Problem &problem) const override
+      {
+        problem.double_well = make_double_well(scene, level.horizon);
+        if (scene.material.boundary_function == BoundaryFunction::smoothstep)
+          problem.boundary_function = [box = scene.domain.boxes.include.front(),
+                                       horizon = level.horizon](const dealii::Point<2> &x)
+          { return smoothstep(box, horizon, x); };
+      }
+
+      std::vector<std::pair<std::string, std::string>> facts(const Scene &scene,
+                                                             double horizon) const override
+      {
+        const physics::DoubleWell law = make_double_well(scene, horizon);
+        const auto speeds = law.wave_speeds(scene.time.density);
+        const double final_time = scene.time.final_time,
+                     lipschitz = 6 * law.c_bar() / (horizon * horizon);
+        std::vector<std::pair<std::string, std::string>> facts = {
+            {"f(s) = c (1 - exp(-β s)), stiffness p = cβ", "c = " + number(law.c()) +
+                                                               ", β = " + number(law.beta()) +
+                                                               ", p = " + number(law.stiffness())},
+            {"moments M_1, M_2 of J", number(law.moment(1)) + ", " + number(law.moment(2))}};
+        if (law.dim() == 1)
+        {
+          facts.emplace_back("modulus of the elastic limit", number(law.modulus()));
+          facts.emplace_back("speed of long waves", number(speeds.longitudinal));
+        }
+        else
+        {
+          facts.emplace_back("λ = μ of the elastic limit", number(law.modulus()));
+          facts.emplace_back("speeds of long waves c_L, c_T",
+                             number(speeds.longitudinal) + ", " + number(speeds.transverse));
+        }
+        facts.emplace_back("toughness G_c", number(law.toughness()));
+        facts.emplace_back("C₁, C₂, C₃ = max |F₁'|, |F₁''|, |F₁'''|",
+                           number(law.c1()) + ", " + number(law.c2()) + ", " + number(law.c3()));
+        facts.emplace_back("C̄; Lipschitz bound 6 C̄/ε² of F in L²",
+                           number(law.c_bar()) + "; " + number(lipschitz));
+        facts.emplace_back("rates proven (Jha & Lipton 2018, doi:10.1137/17M1112236, Theorem 3)",
+                           "h^γ/ε² for data in C^(0,γ), γ <= 1, and Δt; smooth data show more");
+        facts.emplace_back("factor of that bound, T exp(T (1 + 6 C̄/ε²)), (17) there: large as it "
+                           "is, it says nothing of sizes",
+                           number(final_time * std::exp(final_time * (1 + lipschitz))));
+        facts.emplace_back("softening strain of a bond as long as the horizon",
+                           number(law.softening_strain(horizon)));
+        return facts;
+      }
+    };
+  } // namespace
+
+  physics::DoubleWell make_double_well(const Scene &scene, double horizon)
+  {
+    return {static_cast<int>(scene.domain.dimension), scene.kernel.profile, scene.material.c,
+            scene.material.beta, horizon};
+  }
+
+  const Model &double_well()
+  {
+    static const DoubleWells model;
+    return model;
+  }
+} // namespace plumbline::scene
