@@ -1,7 +1,7 @@
 #include "check.h"
 
+#include "base/communicator.h"
 #include "base/error.h"
-#include "base/team.h"
 #include "check_files.h"
 #include "check_text.h"
 
@@ -22,7 +22,7 @@ namespace plumbline::app
         if (!one.failure.empty())
           throw NumericalError("no solution of " + one.name + ": " + one.failure);
     const int exit_code = is_wrong ? 1 : 0;
-    if (base::Team::all().rank() != 0)
+    if (base::Communicator::all().rank() != 0)
       return exit_code;
     const bool is_silent = options.quiet || options.json;
     if (options.json)

@@ -93,12 +93,13 @@ namespace plumbline::app
       std::string name() const override { return "given"; }
       method::Side side() const override { return method::Side::meshfree; }
       std::string help() const override { return "weights of a file"; }
-      std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
-                                                         const base::Team &team) const override
+      std::unique_ptr<method::Discretisation>
+      discretise(const scene::Problem &problem,
+                 const base::Communicator &communicator) const override
       {
         return discretise_on_scattered_nodes(
             [&](auto share) { return scattered_operator(families_, problem, share); }, problem,
-            team);
+            communicator);
       }
 
     private:

@@ -1,8 +1,8 @@
 #include "command.h"
 
 #include "arguments.h"
+#include "base/communicator.h"
 #include "base/error.h"
-#include "base/team.h"
 #include "check.h"
 #include "crack.h"
 #include "dispersion.h"
@@ -44,7 +44,7 @@ namespace
   /// On several ranks one of them says what all of them found.
   int fail(const std::string &message, int exit_code)
   {
-    if (plumbline::base::Team::all().rank() == 0)
+    if (plumbline::base::Communicator::all().rank() == 0)
       std::cerr << "plumbline: " << message << '\n';
     return exit_code;
   }
@@ -202,9 +202,9 @@ int plumbline::app::command(int argc, char **argv)
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(
       argc, argv, n_threads == 0 ? dealii::numbers::invalid_unsigned_int : n_threads);
   // whatever one rank alone fails at, all of them end with it
-  const plumbline::base::SeparateTeam ranks(plumbline::base::Team::all());
+  const plumbline::base::SeparateCommunicator ranks(plumbline::base::Communicator::all());
   constexpr double patience = 30; // of a rank that failed, with others that wait for it [s]
-  const bool is_first = ranks.team().rank() == 0;
+  const bool is_first = ranks.communicator().rank() == 0;
   int exit_code = 0;
   const auto act = [&]
   {
@@ -239,7 +239,7 @@ int plumbline::app::command(int argc, char **argv)
   };
   try
   {
-    ranks.team().together(act, patience);
+    ranks.communicator().together(act, patience);
   }
   catch (const plumbline::InputError &error)
   {

@@ -1,9 +1,9 @@
 #include "dynamics.h"
 
+#include "base/communicator.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/number_text.h"
-#include "base/team.h"
 #include "methods.h"
 #include "reference/lattice/torus_motion.h"
 #include "report/dynamics_page.h"
@@ -140,7 +140,7 @@ namespace plumbline::app
     check_frames(scene, methods, folder);
     study::check_motions(scene, methods, options.n_levels);
     prepare_folder(folder);
-    if (base::Team::all().rank() != 0)
+    if (base::Communicator::all().rank() != 0)
       return 0; // motions are not shared among ranks: the first one does them
 
     const study::DynamicResults earlier = earlier_motions(folder, scene, options.n_levels);

@@ -1,8 +1,8 @@
 #include "run.h"
 
 #include "base/choice.h"
+#include "base/communicator.h"
 #include "base/error.h"
-#include "base/team.h"
 #include "dynamics.h"
 #include "methods.h"
 #include "report/journal.h"
@@ -158,17 +158,18 @@ namespace plumbline::app
 
     /// What the sweep goes on from: what is in the folder, with where the numbers come from.
     study::Results begin_results(const fs::path &folder, const scene::Scene &scene,
-                                 const method::Methods &methods, const base::Team &team)
+                                 const method::Methods &methods,
+                                 const base::Communicator &communicator)
     {
       study::Results results = earlier_results(folder, scene);
       // all have read before the first one writes, and go on from the same
       const auto n_found = static_cast<double>(results.runs.size());
-      if (team.largest(n_found) != -team.largest(-n_found))
+      if (communicator.largest(n_found) != -communicator.largest(-n_found))
         results = {};
       results.provenance = provenance();
       if (const auto spectrum = study::field_spectrum(scene.random))
         results.provenance["random field"] = words_of(*spectrum);
-      if (team.n_ranks() > 1 && repeats_work(scene, methods))
+      if (communicator.n_ranks() > 1 && repeats_work(scene, methods))
         results.provenance["work of ranks"] =
             "repeated by each: lattices are not shared among ranks";
       return results;
@@ -176,20 +177,20 @@ namespace plumbline::app
 
     /// @param earlier  as begin_results() gives them
     void tell_beginning(const study::Results &earlier, const fs::path &folder,
-                        const base::Team &team, bool is_quiet)
+                        const base::Communicator &communicator, bool is_quiet)
     {
       if (!earlier.runs.empty() && !is_quiet)
         std::cerr << "continuing: " << earlier.runs.size() << " solves are in '" << folder.string()
                   << "' already\n";
-      if (team.rank() == 0 && earlier.provenance.count("work of ranks") > 0)
-        std::cerr << "note: each of the " << team.n_ranks()
+      if (communicator.rank() == 0 && earlier.provenance.count("work of ranks") > 0)
+        std::cerr << "note: each of the " << communicator.n_ranks()
                   << " ranks repeats all of the work, since lattices are not shared among them; "
                      "one rank is as fast, and Domain/mesh = squares is shared\n";
     }
 
     /// @param journal, progress  outlive it
     study::SweepControl control_of(const RunOptions &options, const scene::Scene &scene,
-                                   const fs::path &folder, const base::Team &team,
+                                   const fs::path &folder, const base::Communicator &communicator,
                                    report::Journal &journal, ProgressLine &progress)
     {
       study::SweepControl control;
@@ -198,18 +199,18 @@ namespace plumbline::app
       control.on_progress = [&progress](const std::string &what, double f)
       { progress.show(what, f); };
       // the first rank writes; where it cannot, all end
-      const auto write = [team](const std::function<void()> &action)
+      const auto write = [communicator](const std::function<void()> &action)
       {
-        team.together(
+        communicator.together(
             [&]
             {
-              if (team.rank() == 0)
+              if (communicator.rank() == 0)
                 action();
             });
       };
       control.on_result = [write, &journal](const study::Results &results)
       { write([&] { journal.append(results); }); };
-      control.should_stop = [team] { return team.any(is_interrupted()); };
+      control.should_stop = [communicator] { return communicator.any(is_interrupted()); };
       if (scene.output.fields)
         control.on_finest =
             [write, folder](const analysis::Solution &solution, const study::Run &run)
@@ -257,13 +258,13 @@ namespace plumbline::app
     study::check_data(scene);
 
     // every rank runs the scene, and they share the work on meshes; the first one talks and writes
-    const base::Team team = base::Team::all();
-    const bool is_first = team.rank() == 0, is_quiet = options.quiet || !is_first;
+    const base::Communicator communicator = base::Communicator::all();
+    const bool is_first = communicator.rank() == 0, is_quiet = options.quiet || !is_first;
     const fs::path folder =
         options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
     prepare_folder(folder);
-    const study::Results earlier = begin_results(folder, scene, methods, team);
-    tell_beginning(earlier, folder, team, is_quiet);
+    const study::Results earlier = begin_results(folder, scene, methods, communicator);
+    tell_beginning(earlier, folder, communicator, is_quiet);
 
     watch_interrupts();
     report::Journal journal(folder);
@@ -271,9 +272,9 @@ namespace plumbline::app
     try
     {
       ProgressLine progress(!is_quiet);
-      results =
-          study::run_sweep(scene, methods, available,
-                           control_of(options, scene, folder, team, journal, progress), earlier);
+      results = study::run_sweep(
+          scene, methods, available,
+          control_of(options, scene, folder, communicator, journal, progress), earlier);
     }
     catch (...)
     {
@@ -282,7 +283,7 @@ namespace plumbline::app
         fs::remove(folder, not_empty);
       throw;
     }
-    team.together(
+    communicator.together(
         [&]
         {
           if (!is_first)

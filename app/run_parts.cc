@@ -1,7 +1,7 @@
 #include "run_parts.h"
 
+#include "base/communicator.h"
 #include "base/error.h"
-#include "base/team.h"
 
 #include <deal.II/base/config.h>
 #include <deal.II/base/multithread_info.h>
@@ -55,7 +55,7 @@ namespace plumbline::app
             {"compiler", __VERSION__},
             {"processor", processor()},
             {"threads", std::to_string(dealii::MultithreadInfo::n_threads())},
-            {"ranks", std::to_string(base::Team::all().n_ranks())}};
+            {"ranks", std::to_string(base::Communicator::all().n_ranks())}};
   }
 
   bool has_newer_files(const scene::Scene &scene, const std::filesystem::path &than)
@@ -81,7 +81,7 @@ namespace plumbline::app
   void prepare_folder(const std::filesystem::path &folder)
   {
     bool is_writable = true;
-    if (base::Team::all().rank() == 0)
+    if (base::Communicator::all().rank() == 0)
     {
       std::error_code error;
       fs::create_directories(folder, error);
@@ -89,7 +89,7 @@ namespace plumbline::app
       is_writable = !error && (std::ofstream(probe) << "x").flush().good();
       fs::remove(probe, error);
     }
-    if (base::Team::all().any(!is_writable))
+    if (base::Communicator::all().any(!is_writable))
       throw InputError("output folder '" + folder.string() +
                        "' cannot be written; give a writable one with -o");
   }

@@ -1,9 +1,9 @@
 #include "sample.h"
 
+#include "base/communicator.h"
 #include "base/cost.h"
 #include "base/error.h"
 #include "base/number_text.h"
-#include "base/team.h"
 #include "grow.h"
 #include "report/formats.h"
 #include "report/sample_files.h"
@@ -165,21 +165,21 @@ namespace plumbline::app
                   const study::SamplingPlan &plan, const report::SampleFiles &files,
                   const fs::path &folder)
     {
-      const base::Team team = base::Team::all();
+      const base::Communicator communicator = base::Communicator::all();
       const unsigned int n_jobs = n_processes(options, plan);
       std::vector<std::uint64_t> due;
-      for (std::size_t i = team.rank(); i < plan.values.size(); i += team.n_ranks())
+      for (std::size_t i = communicator.rank(); i < plan.values.size(); i += communicator.n_ranks())
         if (!files.read(i)) // there is none, or it is not whole
         {
           files.remove(i);
           due.push_back(i);
         }
-      const bool is_talking = !options.quiet && team.rank() == 0;
-      if (is_talking && due.size() < plan.values.size() && team.n_ranks() == 1)
+      const bool is_talking = !options.quiet && communicator.rank() == 0;
+      if (is_talking && due.size() < plan.values.size() && communicator.n_ranks() == 1)
         std::cerr << "continuing: " << plan.values.size() - due.size() << " samples are in '"
                   << folder.string() << "' already\n";
       if (is_talking && is_growth(scene))
-        tell_size(scene, due.size(), n_jobs, team.n_ranks());
+        tell_size(scene, due.size(), n_jobs, communicator.n_ranks());
       ProgressLine progress(is_talking);
       Forecast forecast(due.size(), is_talking);
       const auto n_done = [&]
@@ -219,18 +219,18 @@ namespace plumbline::app
 
     sample_taker(scene).check(scene, folder, n_processes(options, plan));
     prepare_folder(folder);
-    const base::Team team = base::Team::all();
-    team.together(
+    const base::Communicator communicator = base::Communicator::all();
+    communicator.together(
         [&]
         {
-          if (team.rank() == 0 &&
+          if (communicator.rank() == 0 &&
               (!files.are_there() || has_newer_files(scene, files.subject_file())))
             files.begin();
         });
     watch_interrupts();
     take_all(options, scene, plan, files, folder);
-    team.wait();
-    if (team.rank() != 0)
+    communicator.wait();
+    if (communicator.rank() != 0)
       return 0;
 
     const study::SamplingResults results =

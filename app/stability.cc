@@ -50,7 +50,7 @@ namespace plumbline::app
       const base::CpuTimer timer;
       try
       {
-        const auto discretisation = method.discretise(problem, base::Team::alone());
+        const auto discretisation = method.discretise(problem, base::Communicator::alone());
         const method::DiscreteOperator matrix = discretisation->matrix();
         if (matrix.size() == 0)
           throw InputError("Methods/names: '" + method.name() +

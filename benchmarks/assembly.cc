@@ -145,7 +145,7 @@ namespace plumbline::benchmarks
       for (auto _ : state)
         n_entries = static_cast<double>(reference::assemble(body.space, body.cells, kernel, {},
                                                             {0, is_exact, Backend::fast},
-                                                            base::Team::alone())
+                                                            base::Communicator::alone())
                                             .rows.value.size());
       const Pairs pairs = all_pairs(body, horizon);
       const auto n = static_cast<double>(pairs.size());

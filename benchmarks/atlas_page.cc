@@ -201,7 +201,7 @@ namespace plumbline::atlas
 
     // ---- solvers and operators ------------------------------------------------------------------
 
-    /// Rows: method and level of one scene; columns: its choices.
+    /// CsrMatrix: method and level of one scene; columns: its choices.
     std::string choices(const std::vector<Entry> &entries, const std::string &scene)
     {
       std::vector<const Entry *> columns;

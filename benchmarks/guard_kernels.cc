@@ -110,7 +110,7 @@ namespace plumbline::benchmarks
     {
       const auto field = std::make_shared<Field>();
       const auto rows =
-          std::make_shared<algebra::Rows>(algebra::assemble(field->stencil, field->nodes));
+          std::make_shared<algebra::CsrMatrix>(algebra::assemble(field->stencil, field->nodes));
       return {"rows apply", "entry", static_cast<double>(rows->value.size()), 4,
               [=]
               {
@@ -226,7 +226,7 @@ namespace plumbline::benchmarks
       const auto make = [=]
       {
         return assemble_by_edges(body->space, make_kernel("constant", Body::horizon),
-                                 base::Team::alone());
+                                 base::Communicator::alone());
       };
       return {"edges P1 constant", "entry", static_cast<double>(make().value.size()), 1,
               [=] { sink = make().value[0]; }};
@@ -247,7 +247,8 @@ namespace plumbline::benchmarks
       const physics::Dilatation solid{physics::influence_function({{1, -1}}, horizon), material,
                                       true, false};
       return {name, "node", static_cast<double>(space->n_free()), 1, [=, owner = mesh] {
-                sink = assemble_dilatation(*space, *cells, solid, {}, base::Team::alone()).value[0];
+                sink = assemble_dilatation(*space, *cells, solid, {}, base::Communicator::alone())
+                           .value[0];
               }};
     }
 

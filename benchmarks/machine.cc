@@ -1,6 +1,6 @@
 #include "machine.h"
 
-#include "algebra/lane.h"
+#include "algebra/simd.h"
 #include "base/cost.h"
 
 #include <benchmark/benchmark.h>
@@ -12,28 +12,28 @@ namespace plumbline::benchmarks
 {
   namespace
   {
-    using algebra::Lane, algebra::lanes, algebra::load;
+    using algebra::Simd, algebra::simd_width, algebra::load;
     /// Numbers a step of the loops below; arrays are multiples of it.
-    constexpr std::size_t step = 8 * lanes;
+    constexpr std::size_t step = 8 * simd_width;
 
     PLUMBLINE_VECTOR_CLONES void triad(double *a, const double *b, const double *c, double s,
                                        std::size_t n)
     {
       for (std::size_t i = 0; i < n; i += step)
-        for (std::size_t l = 0; l < step; l += lanes)
+        for (std::size_t l = 0; l < step; l += simd_width)
         {
-          const Lane sum = load(b + i + l) + s * load(c + i + l);
+          const Simd sum = load(b + i + l) + s * load(c + i + l);
           std::memcpy(a + i + l, &sum, sizeof(sum));
         }
     }
 
     PLUMBLINE_VECTOR_CLONES double sum(const double *a, std::size_t n)
     {
-      Lane part[8] = {};
+      Simd part[8] = {};
       for (std::size_t i = 0; i < n; i += step)
         for (std::size_t l = 0; l < 8; ++l)
-          part[l] += load(a + i + l * lanes);
-      Lane all = part[0];
+          part[l] += load(a + i + l * simd_width);
+      Simd all = part[0];
       for (std::size_t l = 1; l < 8; ++l)
         all += part[l];
       return all[0] + all[1] + all[2] + all[3];
@@ -44,15 +44,15 @@ namespace plumbline::benchmarks
     template <int n_chains>
     PLUMBLINE_VECTOR_CLONES double multiply_add(std::size_t n, double a, double b)
     {
-      Lane x[n_chains];
+      Simd x[n_chains];
       for (int k = 0; k < n_chains; ++k)
-        x[k] = Lane{1., 2., 3., 4.} * static_cast<double>(k);
+        x[k] = Simd{1., 2., 3., 4.} * static_cast<double>(k);
       for (std::size_t i = 0; i < n; ++i)
 #pragma GCC unroll 16
         for (int k = 0; k < n_chains; ++k)
           x[k] = a * x[k] + b;
       double result = 0;
-      for (const Lane &lane : x)
+      for (const Simd &lane : x)
         result += lane[0] + lane[1] + lane[2] + lane[3];
       return result;
     }
@@ -143,7 +143,7 @@ namespace plumbline::benchmarks
 
     machine.loads = measure_loads();
     constexpr std::size_t n = 100000;
-    const auto flops = [](int n_chains) { return 2. * lanes * n_chains * n; };
+    const auto flops = [](int n_chains) { return 2. * simd_width * n_chains * n; };
     double value = 0;
     machine.flop = std::max(
         flops(5) * rate([&] { benchmark::DoNotOptimize(value += multiply_add<5>(n, .999, .001)); }),

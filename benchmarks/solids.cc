@@ -91,8 +91,9 @@ namespace
       benchmarks::count(state, "bonds", bonds);
   }
 
-  /// Rows of a heterogeneous solid at m = 3 by OPT, θ eliminated or kept: u, or (u, θ). At least: 2
-  /// operations, 12 bytes (value and column) and a neighbour for each value, and the vectors.
+  /// CsrMatrix of a heterogeneous solid at m = 3 by OPT, θ eliminated or kept: u, or (u, θ). At
+  /// least: 2 operations, 12 bytes (value and column) and a neighbour for each value, and the
+  /// vectors.
   void apply_rows(benchmark::State &state, bool is_kept)
   {
     constexpr double h = 1. / 80, horizon = 3 * h;

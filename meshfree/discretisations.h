@@ -20,13 +20,13 @@ namespace plumbline::meshfree
   /// @note Collective.
   std::unique_ptr<method::Discretisation>
   discretise_on_scattered_nodes(const Rule &rule, const scene::Problem &problem,
-                                const base::Team &team);
+                                const base::Communicator &communicator);
 
   /// The same with an operator of which every rank makes its share.
   /// @note Collective.
   std::unique_ptr<method::Discretisation> discretise_on_scattered_nodes(
       const std::function<ScatteredOperator(std::pair<std::size_t, std::size_t> share)> &make,
-      const scene::Problem &problem, const base::Team &team);
+      const scene::Problem &problem, const base::Communicator &communicator);
 
   /// On a body with a free boundary: sums over one family for all nodes. Its data throw InputError
   /// for a constraint that is not 0.

@@ -13,14 +13,14 @@ namespace plumbline::meshfree
     class RuleMethod : public method::Method
     {
     public:
-      explicit RuleMethod(Rule rule, bool is_trap = false)
-          : rule_(std::move(rule)), is_trap_(is_trap)
+      explicit RuleMethod(Rule rule, bool is_counterexample = false)
+          : rule_(std::move(rule)), is_counterexample_(is_counterexample)
       {
       }
       std::string name() const override { return rule_.name; }
       method::Side side() const override { return method::Side::meshfree; }
       std::string help() const override { return rule_.help; }
-      bool is_in_all() const override { return !is_trap_; }
+      bool is_in_all() const override { return !is_counterexample_; }
       std::string why_not(const scene::Problem &problem) const override
       {
         if (problem.settings.solver.iteration != base::Iteration::cg || problem.lattice ||
@@ -41,15 +41,16 @@ namespace plumbline::meshfree
                                         : scene::all_but({method::Capability::line});
       }
 
-      std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
-                                                         const base::Team &team) const override
+      std::unique_ptr<method::Discretisation>
+      discretise(const scene::Problem &problem,
+                 const base::Communicator &communicator) const override
       {
         if (problem.dimension == 1)
           return discretise_on_line(rule_, problem);
         if (problem.body)
           return discretise_on_body(rule_, problem);
         return problem.lattice ? discretise_on_lattice(rule_, problem)
-                               : discretise_on_scattered_nodes(rule_, problem, team);
+                               : discretise_on_scattered_nodes(rule_, problem, communicator);
       }
 
       method::StripState solve_strip(const method::RiceStrip &strip,
@@ -66,7 +67,7 @@ namespace plumbline::meshfree
 
     private:
       Rule rule_;
-      bool is_trap_;
+      bool is_counterexample_;
     };
   } // namespace
 
@@ -80,7 +81,7 @@ namespace plumbline::meshfree
     method::Methods methods;
     for (const Rule &rule : rules())
       methods.push_back(make_method(rule));
-    for (const Rule &rule : traps())
+    for (const Rule &rule : counterexamples())
       methods.push_back(std::make_shared<RuleMethod>(rule, true));
     return methods;
   }

@@ -78,8 +78,9 @@ namespace plumbline::reference
         return std::make_shared<GalerkinMethod>(n_vertices_, is_continuous_, degree_ + 1,
                                                 by_quadrature_);
       }
-      std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
-                                                         const base::Team &team) const override
+      std::unique_ptr<method::Discretisation>
+      discretise(const scene::Problem &problem,
+                 const base::Communicator &communicator) const override
       {
         if (problem.dimension == 1)
           return discretise_on_line(problem, AxisShapes(is_continuous_, degree_));
@@ -87,7 +88,7 @@ namespace plumbline::reference
           return discretise_on_lattice(problem, AxisShapes(is_continuous_, degree_));
         return discretise_on_mesh(problem, is_continuous_, degree_,
                                   problem.settings.quadrature.exact_entries && !by_quadrature_,
-                                  team);
+                                  communicator);
       }
       method::StripState solve_strip(const method::RiceStrip &strip,
                                      const physics::Kernel<2> &influence) const override
@@ -137,7 +138,7 @@ namespace plumbline::reference
                    : "Domain/sides = curved is not for classical elements; write straight";
       }
       std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
-                                                         const base::Team &) const override
+                                                         const base::Communicator &) const override
       {
         return discretise_local_limit(problem);
       }

@@ -13,22 +13,22 @@ namespace plumbline::algebra
   class BlockPreconditioner
   {
   public:
-    using Vector = SharedRows::Vector;
+    using Vector = DistributedMatrix::Vector;
 
     /// @param matrix        of the whole system; a reference is kept
     /// @param n_first       size of x
     /// @param n_components  of x, a node
     /// @param nodes         places of the nodes of x, or none
     /// @note Collective. What Trilinos throws is thrown.
-    BlockPreconditioner(const SharedRows &matrix, std::size_t n_first, unsigned int n_components,
-                        const std::vector<dealii::Point<2>> &nodes);
+    BlockPreconditioner(const DistributedMatrix &matrix, std::size_t n_first,
+                        unsigned int n_components, const std::vector<dealii::Point<2>> &nodes);
 
     /// @note Collective.
     void vmult(Vector &z, const Vector &r) const;
 
   private:
-    const SharedRows &matrix_;
-    Shares first_; ///< ranks hold of x what they hold of the whole
+    const DistributedMatrix &matrix_;
+    OwnedRanges first_; ///< ranks hold of x what they hold of the whole
     Multigrid multigrid_;
   };
 } // namespace plumbline::algebra

@@ -1,6 +1,6 @@
 #include "algebra/direct.h"
 
-#include "algebra/lane.h"
+#include "algebra/simd.h"
 
 #include <deal.II/base/parallel.h>
 
@@ -11,21 +11,22 @@ namespace plumbline::algebra
 {
   namespace
   {
-    constexpr int n_registers = 4, tile = lanes * n_registers;
+    constexpr int n_registers = 4, tile = simd_width * n_registers;
 
     /// One tile of a scalar operator: result = a u + Σ w (u(+k) + u(-k)).
     template <class Pair>
     PLUMBLINE_VECTOR_CLONES void tile_scalar(const double *u, double a, const Pair *pair,
                                              const Pair *end, double *result)
     {
-      Lane sum[n_registers];
+      Simd sum[n_registers];
       for (int l = 0; l < n_registers; ++l)
-        sum[l] = a * load(u + l * lanes);
+        sum[l] = a * load(u + l * simd_width);
       for (; pair != end; ++pair)
       {
         const double *const forward = u + pair->shift, *const backward = u - pair->shift;
         for (int l = 0; l < n_registers; ++l)
-          sum[l] += pair->weight[0] * (load(forward + l * lanes) + load(backward + l * lanes));
+          sum[l] +=
+              pair->weight[0] * (load(forward + l * simd_width) + load(backward + l * simd_width));
       }
       std::memcpy(result, sum, sizeof(sum));
     }
@@ -35,10 +36,10 @@ namespace plumbline::algebra
     PLUMBLINE_VECTOR_CLONES void tile_pair(const double *u, std::size_t block, const double *a,
                                            const Pair *pair, const Pair *end, double *result)
     {
-      Lane sum0[n_registers], sum1[n_registers];
+      Simd sum0[n_registers], sum1[n_registers];
       for (int l = 0; l < n_registers; ++l)
       {
-        const Lane u0 = load(u + l * lanes), u1 = load(u + block + l * lanes);
+        const Simd u0 = load(u + l * simd_width), u1 = load(u + block + l * simd_width);
         sum0[l] = a[0] * u0 + a[1] * u1;
         sum1[l] = a[1] * u0 + a[2] * u1;
       }
@@ -47,8 +48,9 @@ namespace plumbline::algebra
         const double *const forward = u + pair->shift, *const backward = u - pair->shift;
         for (int l = 0; l < n_registers; ++l)
         {
-          const Lane s0 = load(forward + l * lanes) + load(backward + l * lanes);
-          const Lane s1 = load(forward + block + l * lanes) + load(backward + block + l * lanes);
+          const Simd s0 = load(forward + l * simd_width) + load(backward + l * simd_width);
+          const Simd s1 =
+              load(forward + block + l * simd_width) + load(backward + block + l * simd_width);
           sum0[l] += pair->weight[0] * s0 + pair->weight[1] * s1;
           sum1[l] += pair->weight[1] * s0 + pair->weight[2] * s1;
         }

@@ -26,7 +26,7 @@ namespace plumbline::algebra
     /// Residual that an eigenpair of norm 1 may have, relative to the largest row sum.
     constexpr double residual_tolerance = 1e-8;
 
-    std::vector<Complex> dense_eigenvalues(const Rows &rows)
+    std::vector<Complex> dense_eigenvalues(const CsrMatrix &rows)
     {
       const auto n = static_cast<Eigen::Index>(rows.n_rows());
       Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
@@ -42,7 +42,7 @@ namespace plumbline::algebra
 
     struct Product
     {
-      const Rows &rows;
+      const CsrMatrix &rows;
 
       void vmult(Vector &y, const Vector &x) const
       {
@@ -59,7 +59,7 @@ namespace plumbline::algebra
     /// Separators of a lattice of n nodes whose rows have k entries have √(n k / π) nodes, so their
     /// dense blocks sum up to n k log₂(n / k) entries; UMFPACK's peak, measured for n = 400 to
     /// 28,800 and horizons of 1.5 h to 6 h, is 7 to 18 bytes of each.
-    void require_factors(const Rows &rows)
+    void require_factors(const CsrMatrix &rows)
     {
       constexpr double of_entry = 13;
       const auto n = static_cast<double>(rows.n_rows());
@@ -76,7 +76,7 @@ namespace plumbline::algebra
     class Inverse
     {
     public:
-      Inverse(const Rows &rows, double shift)
+      Inverse(const CsrMatrix &rows, double shift)
       {
         const auto n = static_cast<unsigned int>(rows.n_rows());
         require_factors(rows);
@@ -169,7 +169,7 @@ namespace plumbline::algebra
     }
   } // namespace
 
-  Eigenvalues eigenvalues(const Rows &rows)
+  Eigenvalues eigenvalues(const CsrMatrix &rows)
   {
     constexpr std::size_t few = 100;        // dense is faster
     constexpr double relative_shift = 1e-8; // off zero modes, beyond rounding

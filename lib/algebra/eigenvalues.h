@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/rows.h"
+#include "algebra/csr_matrix.h"
 
 namespace plumbline::algebra
 {
@@ -20,5 +20,5 @@ namespace plumbline::algebra
   /// factors, and 60 vectors. Not for: matrices whose factors do not fit into memory. Source:
   /// Lehoucq, Sorensen & Yang 1998, "ARPACK Users' Guide", doi:10.1137/1.9780898719628.
   /// @throws NumericalError  no factors, or no convergence
-  Eigenvalues eigenvalues(const Rows &rows);
+  Eigenvalues eigenvalues(const CsrMatrix &rows);
 } // namespace plumbline::algebra

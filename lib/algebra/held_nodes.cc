@@ -1,6 +1,6 @@
 #include "algebra/held_nodes.h"
 
-#include "algebra/lane.h"
+#include "algebra/simd.h"
 
 #include <Eigen/Dense>
 
@@ -17,15 +17,15 @@ namespace plumbline::algebra
     PLUMBLINE_VECTOR_CLONES void dot_products(const double *a, const double *u, std::size_t n,
                                               double *products)
     {
-      Lane part0{}, part1{}, next0{}, next1{};
-      for (std::size_t k = 0; k < n; k += 2 * lanes)
+      Simd part0{}, part1{}, next0{}, next1{};
+      for (std::size_t k = 0; k < n; k += 2 * simd_width)
       {
         const double *const row = a + k, *const next = row + n;
-        const Lane value0 = load(u + k), value1 = load(u + k + lanes);
+        const Simd value0 = load(u + k), value1 = load(u + k + simd_width);
         part0 += value0 * load(row);
-        part1 += value1 * load(row + lanes);
+        part1 += value1 * load(row + simd_width);
         next0 += value0 * load(next);
-        next1 += value1 * load(next + lanes);
+        next1 += value1 * load(next + simd_width);
       }
       part0 += part1;
       next0 += next1;

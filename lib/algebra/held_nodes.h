@@ -22,7 +22,7 @@ namespace plumbline::algebra
   {
   public:
     /// @param rows     longer rows of both axes, or rows as they are
-    /// @param stride   between rows of fields, a multiple of `wide`, see lane.h
+    /// @param stride   between rows of fields, a multiple of `wide`, see simd.h
     /// @param inverse  1/λ, shape (rows[1].n, stride), zero beyond rows[0].n
     HeldNodes(const std::array<SineRow, 2> &rows, int stride, const double *inverse);
 

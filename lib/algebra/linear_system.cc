@@ -41,9 +41,9 @@ namespace plumbline::algebra
             operator_->n_bonds()};
   }
 
-  SparseSystem::SparseSystem(std::shared_ptr<const Rows> rows, SparseOptions options,
-                             base::Team team)
-      : rows_(std::move(rows)), options_(std::move(options)), team_(team)
+  SparseSystem::SparseSystem(std::shared_ptr<const CsrMatrix> rows, SparseOptions options,
+                             base::Communicator communicator)
+      : rows_(std::move(rows)), options_(std::move(options)), communicator_(communicator)
   {
   }
 
@@ -64,7 +64,7 @@ namespace plumbline::algebra
     options.tolerance = stopping.tolerance;
     options.max_iterations = stopping.max_iterations;
     const SparseSolution solved =
-        solve_sparse(*rows_, std::vector<double>(b.begin(), b.end()), options, team_);
+        solve_sparse(*rows_, std::vector<double>(b.begin(), b.end()), options, communicator_);
     std::copy(solved.values.begin(), solved.values.end(), x.begin());
     return {solved.n_iterations, solved.relative_residual, "sparse, " + solved.solver,
             solved.n_nonzeros};

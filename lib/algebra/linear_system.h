@@ -59,14 +59,15 @@ namespace plumbline::algebra
   {
   public:
     /// @param options  those for stopping are not looked at
-    SparseSystem(std::shared_ptr<const Rows> rows, SparseOptions options, base::Team team);
+    SparseSystem(std::shared_ptr<const CsrMatrix> rows, SparseOptions options,
+                 base::Communicator communicator);
 
     void vmult(Vector &y, const Vector &x) const override;
     LinearSolve solve(Vector &x, const Vector &b, const Stopping &stopping) const override;
 
   private:
-    std::shared_ptr<const Rows> rows_;
+    std::shared_ptr<const CsrMatrix> rows_;
     SparseOptions options_;
-    base::Team team_;
+    base::Communicator communicator_;
   };
 } // namespace plumbline::algebra

@@ -15,12 +15,13 @@ namespace plumbline::algebra
     /// Couplings below this fraction of the diagonal do not join nodes into ML's aggregates. At
     /// most .02, which suits finite elements, but below the strongest coupling of all but a few
     /// rows: rows of many small entries would otherwise not be coarsened at all.
-    double aggregation_threshold(const Rows &own, const Shares &shares, unsigned int n_components)
+    double aggregation_threshold(const CsrMatrix &own, const OwnedRanges &ranges,
+                                 unsigned int n_components)
     {
       std::vector<double> strongest(own.n_rows() + 1, 1); // one more, a rank may have none
       for (std::size_t i = 0; i < own.n_rows(); ++i)
       {
-        const std::size_t row = shares.own_first + i;
+        const std::size_t row = ranges.own_first + i;
         double coupling = 0, diagonal = 0;
         for (std::size_t e = own.start[i]; e < own.start[i + 1]; ++e)
           if (own.column[e] == row)
@@ -31,7 +32,7 @@ namespace plumbline::algebra
       }
       const auto low = strongest.begin() + strongest.size() / 20;
       std::nth_element(strongest.begin(), low, strongest.end());
-      return std::min(.02, .7 * dealii::Utilities::MPI::min(*low, shares.team.communicator));
+      return std::min(.02, .7 * dealii::Utilities::MPI::min(*low, ranges.communicator.mpi));
     }
 
     /// Modes of little energy: the constants and, where places are known, the rotation.
@@ -42,16 +43,16 @@ namespace plumbline::algebra
                                   ///< no rows, but ML wants values of it
     };
 
-    NearNullSpace near_null_space(const Shares &shares, unsigned int n_components,
+    NearNullSpace near_null_space(const OwnedRanges &ranges, unsigned int n_components,
                                   const std::vector<dealii::Point<2>> &nodes)
     {
       const bool has_rotation = n_components == 2 && !nodes.empty();
-      const std::size_t n = shares.own_size, dimension = n_components + (has_rotation ? 1 : 0);
+      const std::size_t n = ranges.own_size, dimension = n_components + (has_rotation ? 1 : 0);
       NearNullSpace modes{static_cast<int>(dimension), std::vector<double>(dimension * n + 1)};
       for (std::size_t i = 0; i < n; ++i)
       {
-        const std::size_t node = (shares.own_first + i) / n_components,
-                          c = (shares.own_first + i) % n_components;
+        const std::size_t node = (ranges.own_first + i) / n_components,
+                          c = (ranges.own_first + i) % n_components;
         modes.values[c * n + i] = 1;
         if (has_rotation)
         {
@@ -63,17 +64,17 @@ namespace plumbline::algebra
     }
   } // namespace
 
-  Multigrid::Multigrid(const Rows &own, const Shares &shares, unsigned int n_components,
+  Multigrid::Multigrid(const CsrMatrix &own, const OwnedRanges &ranges, unsigned int n_components,
                        const std::vector<dealii::Point<2>> &nodes)
-      : entries_(to_trilinos(own, shares))
+      : entries_(to_trilinos(own, ranges))
   {
     // elliptic, also if not symmetric: measured to be the more robust
     decltype(cycle_)::AdditionalData data;
-    data.aggregation_threshold = aggregation_threshold(own, shares, n_components);
+    data.aggregation_threshold = aggregation_threshold(own, ranges, n_components);
     Teuchos::ParameterList parameters;
     std::unique_ptr<Epetra_MultiVector> deals_own;
     data.set_parameters(parameters, deals_own, entries_);
-    NearNullSpace modes = near_null_space(shares, n_components, nodes);
+    NearNullSpace modes = near_null_space(ranges, n_components, nodes);
     parameters.set("null space: type", "pre-computed");
     parameters.set("null space: dimension", modes.dimension);
     parameters.set("null space: vectors", modes.values.data());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/shared_rows.h"
+#include "algebra/distributed_matrix.h"
 
 #include <deal.II/base/point.h>
 #include <deal.II/lac/trilinos_precondition.h>
@@ -11,14 +11,14 @@ namespace plumbline::algebra
   class Multigrid
   {
   public:
-    using Vector = SharedRows::Vector;
+    using Vector = DistributedMatrix::Vector;
 
     /// @param own           this rank's share of the rows, each with a diagonal entry
     /// @param n_components  unknowns a node, numbered node by node
     /// @param nodes         places of all nodes, or none: with two components rotations are among
     ///                      the near-null modes then, besides the constants
     /// @note Collective. What Trilinos throws is thrown.
-    Multigrid(const Rows &own, const Shares &shares, unsigned int n_components,
+    Multigrid(const CsrMatrix &own, const OwnedRanges &ranges, unsigned int n_components,
               const std::vector<dealii::Point<2>> &nodes);
 
     /// y ≈ A⁻¹ x. @note Collective.

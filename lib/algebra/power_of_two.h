@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/lane.h"
+#include "algebra/simd.h"
 
 namespace plumbline::algebra
 {

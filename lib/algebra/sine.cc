@@ -1,7 +1,7 @@
 #include "algebra/rectangle_solver.h"
 
 #include "algebra/held_nodes.h"
-#include "algebra/lane.h"
+#include "algebra/simd.h"
 #include "base/error.h"
 #include "base/fftw.h"
 
@@ -50,8 +50,8 @@ namespace plumbline::algebra
       return fast_sine_row(n, reach, nodes_to_hold(reach, n_components));
     }
 
-    /// Whole vectors. Rows of a power of two doubles would meet in one part of the cache, column by
-    /// column: a transform of 1024 x 1024 takes twice as long then.
+    /// Whole vectors. CsrMatrix of a power of two doubles would meet in one part of the cache,
+    /// column by column: a transform of 1024 x 1024 takes twice as long then.
     int row_stride(int width)
     {
       constexpr int crowded = 64;
@@ -164,7 +164,7 @@ namespace plumbline::algebra
       }
     }
 
-    /// Rows of half cells become those of the mirrored operator.
+    /// CsrMatrix of half cells become those of the mirrored operator.
     void SineSolver::double_mirrored() const
     {
       for (unsigned int upper = 0; upper < 2; ++upper)

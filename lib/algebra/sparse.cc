@@ -47,7 +47,7 @@ namespace plumbline::algebra
     return positions;
   }
 
-  Rows assemble(const Stencil &stencil, const geometry::NodeSet &nodes)
+  CsrMatrix assemble(const Stencil &stencil, const geometry::NodeSet &nodes)
   {
     const auto positions = free_positions(nodes);
     const std::size_t n_positions = nodes.n_positions();
@@ -55,7 +55,7 @@ namespace plumbline::algebra
     for (std::size_t i = 0; i < positions.size(); ++i)
       number[positions[i]] = i;
 
-    Rows rows;
+    CsrMatrix rows;
     rows.start.assign(1, 0);
     std::vector<std::pair<std::size_t, double>> row;
     for (const std::size_t position : positions)
@@ -95,7 +95,7 @@ namespace plumbline::algebra
     for (std::size_t i = 0; i < positions.size(); ++i)
       matrix_->number[positions[i]] = i;
 
-    const Rows rows = assemble(stencil, nodes);
+    const CsrMatrix rows = assemble(stencil, nodes);
     unsigned int most_entries = 1;
     for (std::size_t i = 0; i < rows.n_rows(); ++i)
       most_entries =

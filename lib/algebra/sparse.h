@@ -1,7 +1,7 @@
 #pragma once
 
+#include "algebra/csr_matrix.h"
 #include "algebra/operator.h"
-#include "algebra/rows.h"
 
 #include <memory>
 
@@ -12,7 +12,7 @@ namespace plumbline::algebra
   std::vector<std::size_t> free_positions(const geometry::NodeSet &nodes);
 
   /// Couplings between the free unknowns, numbered like that.
-  Rows assemble(const Stencil &stencil, const geometry::NodeSet &nodes);
+  CsrMatrix assemble(const Stencil &stencil, const geometry::NodeSet &nodes);
 
   /// The same operator as an assembled Trilinos matrix: a second way to every number, and the
   /// one that other solvers can take. Memory O(unknowns × bonds).

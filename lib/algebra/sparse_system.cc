@@ -26,8 +26,8 @@ namespace plumbline::algebra
 {
   namespace
   {
-    using base::Team;
-    using Vector = SharedRows::Vector;
+    using base::Communicator;
+    using Vector = DistributedMatrix::Vector;
 
     constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -61,9 +61,10 @@ namespace plumbline::algebra
     constexpr int none = std::numeric_limits<int>::max();
 
     /// Throws on every rank if the row, of this rank or another, is not none.
-    void reject(int row, const std::string &fault, const SparseOptions &options, const Team &team)
+    void reject(int row, const std::string &fault, const SparseOptions &options,
+                const Communicator &communicator)
     {
-      row = dealii::Utilities::MPI::min(row, team.communicator);
+      row = dealii::Utilities::MPI::min(row, communicator.mpi);
       if (row == none)
         return;
       std::ostringstream message;
@@ -80,7 +81,7 @@ namespace plumbline::algebra
     /// Take a step that all ranks take; if it fails on one of them, it fails on all.
     /// @param who  opens messages
     template <class Step>
-    void together(const std::string &who, const Team &team, const Step &step)
+    void together(const std::string &who, const Communicator &communicator, const Step &step)
     {
       std::string fault;
       try
@@ -111,35 +112,35 @@ namespace plumbline::algebra
         fault = library_fault("Trilinos' error code " + std::to_string(code));
       }
       const int is_bad = fault.empty() ? 0 : 1;
-      if (dealii::Utilities::MPI::max(is_bad, team.communicator) == 1)
+      if (dealii::Utilities::MPI::max(is_bad, communicator.mpi) == 1)
         throw NumericalError(who + " " +
                              (is_bad ? fault : "fails on another rank; see what that one says"));
     }
 
     // ---- what solvers ask of the matrix ---------------------------------------------------------
 
-    void check_rows(const SharedRows &matrix, const SparseOptions &options)
+    void check_rows(const DistributedMatrix &matrix, const SparseOptions &options)
     {
-      const Rows &rows = matrix.own();
+      const CsrMatrix &rows = matrix.own();
       int bad = none;
       for (std::size_t i = rows.n_rows(); i-- > 0;)
         if (rows.start[i] == rows.start[i + 1])
-          bad = static_cast<int>(matrix.shares().own_first + i);
+          bad = static_cast<int>(matrix.ranges().own_first + i);
       reject(bad,
              "has no entries: nothing ties this unknown to the others; raise the horizon or leave "
              "the node out",
-             options, matrix.shares().team);
+             options, matrix.ranges().communicator);
     }
 
     /// Of this rank's rows. @throws NumericalError  an entry is missing, on all ranks
-    std::vector<double> find_diagonal(const SharedRows &matrix, const SparseOptions &options)
+    std::vector<double> find_diagonal(const DistributedMatrix &matrix, const SparseOptions &options)
     {
-      const Rows &rows = matrix.own();
+      const CsrMatrix &rows = matrix.own();
       std::vector<double> result(rows.n_rows());
       int bad = none;
       for (std::size_t i = rows.n_rows(); i-- > 0;)
       {
-        const std::size_t row = matrix.shares().own_first + i;
+        const std::size_t row = matrix.ranges().own_first + i;
         for (std::size_t e = rows.start[i]; e < rows.start[i + 1]; ++e)
           if (rows.column[e] == row)
             result[i] = rows.value[e];
@@ -148,7 +149,7 @@ namespace plumbline::algebra
       }
       reject(bad,
              "has no diagonal entry, which iterations need; write Solver/linear solver = direct",
-             options, matrix.shares().team);
+             options, matrix.ranges().communicator);
       return result;
     }
 
@@ -163,22 +164,22 @@ namespace plumbline::algebra
 
     /// @param bytes  on the rank that takes most
     /// @throws NumericalError  on all ranks, where one of them has not as much
-    void require_factors(double bytes, const SharedRows &rows)
+    void require_factors(double bytes, const DistributedMatrix &rows)
     {
       const std::string fault =
           base::memory_fault(bytes, "for its factors",
                              "write Solver/linear solver = amg or jacobi, or choose a larger h");
-      if (rows.shares().team.any(!fault.empty()))
+      if (rows.ranges().communicator.any(!fault.empty()))
         throw NumericalError(fault.empty() ? "has no memory for its factors on another rank"
                                            : fault);
     }
 
     /// MUMPS. On several ranks it is faster than KLU, which gathers all on one.
     /// @return  what it allocated on this rank [bytes]
-    std::size_t solve_directly(const SharedRows &rows, Vector &x, const Vector &b)
+    std::size_t solve_directly(const DistributedMatrix &rows, Vector &x, const Vector &b)
     {
       const std::size_t bytes_before = heap_bytes();
-      const auto matrix = to_trilinos(rows.own(), rows.shares());
+      const auto matrix = to_trilinos(rows.own(), rows.ranges());
       Epetra_LinearProblem problem(const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()),
                                    &x.trilinos_vector(),
                                    const_cast<Epetra_MultiVector *>(&b.trilinos_vector()));
@@ -204,8 +205,8 @@ namespace plumbline::algebra
 
     /// @return  the number of iterations
     template <class Preconditioner>
-    unsigned int iterate(const SharedRows &matrix, const Preconditioner &preconditioner, Vector &x,
-                         const Vector &b, const SparseOptions &options)
+    unsigned int iterate(const DistributedMatrix &matrix, const Preconditioner &preconditioner,
+                         Vector &x, const Vector &b, const SparseOptions &options)
     {
       using GMRES = dealii::SolverGMRES<Vector>;
       const double scale = b.l2_norm();
@@ -230,7 +231,7 @@ namespace plumbline::algebra
     }
 
     /// x, and in the solution what it took.
-    void solve_by(const SharedRows &matrix, Vector &x, const Vector &b,
+    void solve_by(const DistributedMatrix &matrix, Vector &x, const Vector &b,
                   const SparseOptions &options, SparseSolution &solution)
     {
       if (options.solver == SparseSolver::direct)
@@ -260,7 +261,7 @@ namespace plumbline::algebra
         precondition(blocks);
       }
       else
-        precondition(Multigrid(matrix.own(), matrix.shares(), options.n_components, options.nodes));
+        precondition(Multigrid(matrix.own(), matrix.ranges(), options.n_components, options.nodes));
     }
 
     SparseSolver choose(std::size_t n, std::uint64_t n_nonzeros, const SparseOptions &options)
@@ -283,7 +284,7 @@ namespace plumbline::algebra
              (options.nodes.empty() || options.nodes.size() == n_of_nodes / options.n_components);
     }
 
-    void check_symmetry(const SharedRows &matrix)
+    void check_symmetry(const DistributedMatrix &matrix)
     {
       const double asymmetry = matrix.asymmetry();
       if (!(asymmetry > largest_asymmetry))
@@ -296,8 +297,8 @@ namespace plumbline::algebra
     }
 
     /// A row of either whose sum is no finite number holds a value that is none.
-    void check_values(const Rows &rows, const std::vector<double> &right_hand_side,
-                      const SparseOptions &options, const Team &team)
+    void check_values(const CsrMatrix &rows, const std::vector<double> &right_hand_side,
+                      const SparseOptions &options, const Communicator &communicator)
     {
       int bad = none;
       for (std::size_t i = 0; i < right_hand_side.size(); ++i)
@@ -311,7 +312,7 @@ namespace plumbline::algebra
       reject(bad,
              "holds a value, in the matrix or the right-hand side, that is not a finite number; "
              "look at the kernel and the load there",
-             options, team);
+             options, communicator);
     }
 
     /// Choose what was left to the program.
@@ -331,14 +332,15 @@ namespace plumbline::algebra
     /// What x leaves of b, relative.
     /// @param who  opens messages
     /// @throws NumericalError  more than the solver was to leave
-    double check_residual(const SharedRows &matrix, const Vector &x, const Vector &b,
-                          const SparseOptions &options, const std::string &who, const Team &team)
+    double check_residual(const DistributedMatrix &matrix, const Vector &x, const Vector &b,
+                          const SparseOptions &options, const std::string &who,
+                          const Communicator &communicator)
     {
       Vector residual(b);
       // A x cannot be computed more accurately than this
       const double norm = b.l2_norm(), scale = norm > 0 ? norm : 1;
       const double round_off =
-          10 * eps * team.largest(largest_row_sum(matrix.own())) * x.l2_norm() / scale;
+          10 * eps * communicator.largest(largest_row_sum(matrix.own())) * x.l2_norm() / scale;
       const double allowed = options.solver == SparseSolver::direct
                                  ? largest_residual
                                  : 10 * options.tolerance + std::min(round_off, largest_residual);
@@ -357,40 +359,40 @@ namespace plumbline::algebra
     }
   } // namespace
 
-  SparseSolution solve_sparse(const Rows &rows, const std::vector<double> &right_hand_side,
-                              const SparseOptions &given, const base::Team &team)
+  SparseSolution solve_sparse(const CsrMatrix &rows, const std::vector<double> &right_hand_side,
+                              const SparseOptions &given, const base::Communicator &communicator)
   {
     SparseOptions options = given;
     const std::size_t n = right_hand_side.size();
     Assert(rows.n_rows() == n && fits(options, n), dealii::ExcInternalError());
     if (n == 0)
       return {};
-    check_values(rows, right_hand_side, options, team);
-    const Shares shares(n, options.n_first > 0 ? 1 : options.n_components, team);
-    const SharedRows matrix(rows, shares);
+    check_values(rows, right_hand_side, options, communicator);
+    const OwnedRanges ranges(n, options.n_first > 0 ? 1 : options.n_components, communicator);
+    const DistributedMatrix matrix(rows, ranges);
     check_rows(matrix, options);
     if (options.iteration == Iteration::cg)
       check_symmetry(matrix);
-    Vector b(shares.own(), team.communicator), x(b);
-    MPI_Reduce_scatter(right_hand_side.data(), b.begin(), shares.size.data(), MPI_DOUBLE, MPI_SUM,
-                       team.communicator);
+    Vector b(ranges.own(), communicator.mpi), x(b);
+    MPI_Reduce_scatter(right_hand_side.data(), b.begin(), ranges.size.data(), MPI_DOUBLE, MPI_SUM,
+                       communicator.mpi);
 
     SparseSolution solution{};
-    const Rows &own = matrix.own();
+    const CsrMatrix &own = matrix.own();
     solution.bytes = dealii::MemoryConsumption::memory_consumption(own.start) +
                      dealii::MemoryConsumption::memory_consumption(own.column) +
                      dealii::MemoryConsumption::memory_consumption(own.value);
-    solution.n_nonzeros = dealii::Utilities::MPI::sum(static_cast<std::uint64_t>(own.value.size()),
-                                                      team.communicator);
+    solution.n_nonzeros =
+        dealii::Utilities::MPI::sum(static_cast<std::uint64_t>(own.value.size()), communicator.mpi);
     solution.solver = settle(options, n, solution.n_nonzeros);
     const std::string who = "the sparse solver '" + solution.solver +
                             "' (Solver/linear solver, Solver/iteration) of " + std::to_string(n) +
                             " unknowns";
-    together(who, team, [&] { solve_by(matrix, x, b, options, solution); });
-    solution.relative_residual = check_residual(matrix, x, b, options, who, team);
+    together(who, communicator, [&] { solve_by(matrix, x, b, options, solution); });
+    solution.relative_residual = check_residual(matrix, x, b, options, who, communicator);
     solution.values.resize(n);
-    MPI_Allgatherv(x.begin(), static_cast<int>(shares.own_size), MPI_DOUBLE, solution.values.data(),
-                   shares.size.data(), shares.first.data(), MPI_DOUBLE, team.communicator);
+    MPI_Allgatherv(x.begin(), static_cast<int>(ranges.own_size), MPI_DOUBLE, solution.values.data(),
+                   ranges.size.data(), ranges.first.data(), MPI_DOUBLE, communicator.mpi);
     return solution;
   }
 } // namespace plumbline::algebra

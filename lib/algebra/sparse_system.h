@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/rows.h"
+#include "algebra/csr_matrix.h"
 #include "base/solver_choices.h"
 
 #include <deal.II/base/point.h>
@@ -51,6 +51,6 @@ namespace plumbline::algebra
   /// Accuracy: the same on any number of ranks to condition × tolerance (direct: × round-off).
   /// Limits: a singular system that has solutions is an error of direct; iterations may return one
   /// of them.
-  SparseSolution solve_sparse(const Rows &rows, const std::vector<double> &right_hand_side,
-                              const SparseOptions &options, const base::Team &team);
+  SparseSolution solve_sparse(const CsrMatrix &rows, const std::vector<double> &right_hand_side,
+                              const SparseOptions &options, const base::Communicator &communicator);
 } // namespace plumbline::algebra

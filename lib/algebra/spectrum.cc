@@ -147,7 +147,7 @@ namespace plumbline::algebra
       }
     };
 
-    SparseMatrix to_sparse(const Rows &rows)
+    SparseMatrix to_sparse(const CsrMatrix &rows)
     {
       const auto n = static_cast<Index>(rows.n_rows());
       std::vector<Eigen::Triplet<double>> entries;
@@ -160,7 +160,7 @@ namespace plumbline::algebra
     }
 
     /// How many connected parts the graph of the matrix has, by merging them edge by edge.
-    std::size_t count_parts(const Rows &rows)
+    std::size_t count_parts(const CsrMatrix &rows)
     {
       std::vector<unsigned int> parent(rows.n_rows());
       std::iota(parent.begin(), parent.end(), 0u);
@@ -182,9 +182,9 @@ namespace plumbline::algebra
       return n_parts;
     }
 
-    /// Rows from which no chain of entries leads to one that is marked.
+    /// CsrMatrix from which no chain of entries leads to one that is marked.
     /// @param columns  the transposed matrix
-    std::size_t count_unreached(const Rows &columns, std::vector<char> is_reached)
+    std::size_t count_unreached(const CsrMatrix &columns, std::vector<char> is_reached)
     {
       std::vector<std::size_t> open;
       for (std::size_t i = 0; i < is_reached.size(); ++i)
@@ -251,7 +251,7 @@ namespace plumbline::algebra
     return result;
   }
 
-  SignCheck check_signs(const Rows &rows)
+  SignCheck check_signs(const CsrMatrix &rows)
   {
     constexpr double rounding = 1e-12; // of a row's sum
     SignCheck check;
@@ -275,8 +275,8 @@ namespace plumbline::algebra
       check.n_weak += diagonal < others - rounding * sum ? 1 : 0;
       is_strict[i] = static_cast<char>(diagonal > others + rounding * sum);
     }
-    const Rows columns = transpose(rows);
-    Rows negative = columns;
+    const CsrMatrix columns = transpose(rows);
+    CsrMatrix negative = columns;
     for (double &value : negative.value)
       value = -value;
     const double size = largest(rows.value);
@@ -301,7 +301,7 @@ namespace plumbline::algebra
     };
   }
 
-  MatrixCheck check_matrix(const Rows &rows)
+  MatrixCheck check_matrix(const CsrMatrix &rows)
   {
     MatrixCheck check{check_signs(rows)};
     SparseMatrix matrix = to_sparse(rows);

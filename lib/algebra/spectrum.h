@@ -1,7 +1,7 @@
 #pragma once
 
+#include "algebra/csr_matrix.h"
 #include "algebra/operator.h"
-#include "algebra/rows.h"
 
 #include <functional>
 #include <memory>
@@ -43,8 +43,8 @@ namespace plumbline::algebra
   {
     std::size_t n_positive = 0; ///< rows with a positive off-diagonal entry
     std::size_t n_weak = 0;     ///< rows that are not diagonally dominant
-    /// Rows from which no chain of entries leads to a strictly dominant row: nodes that nothing
-    /// ties to the data in the collar.
+    /// CsrMatrix from which no chain of entries leads to a strictly dominant row: nodes that
+    /// nothing ties to the data in the collar.
     std::size_t n_loose = 0;
     std::size_t n_parts = 0; ///< connected parts of the graph of A + Aᵀ; 1: irreducible
     double asymmetry = 0;    ///< max |A_ij - A_ji| / max |A|
@@ -55,7 +55,7 @@ namespace plumbline::algebra
     bool is_m_matrix() const { return n_positive == 0 && n_weak == 0 && n_loose == 0; }
   };
 
-  SignCheck check_signs(const Rows &rows);
+  SignCheck check_signs(const CsrMatrix &rows);
 
   /// The same with eigenvalues of the symmetric part.
   struct MatrixCheck : SignCheck
@@ -70,5 +70,5 @@ namespace plumbline::algebra
   /// iteration, from below it.
   /// @throws NumericalError  the factorisation fails
   /// Cost: 1 factorisation, or up to 12 if the matrix is not positive definite.
-  MatrixCheck check_matrix(const Rows &rows);
+  MatrixCheck check_matrix(const CsrMatrix &rows);
 } // namespace plumbline::algebra

@@ -28,7 +28,7 @@ namespace plumbline::algebra
       double condition() { return cholmod_rcond(m_cholmodFactor, &cholmod()); }
     };
 
-    Sparse to_sparse(const Rows &rows, std::size_t n)
+    Sparse to_sparse(const CsrMatrix &rows, std::size_t n)
     {
       std::vector<Eigen::Triplet<double>> entries;
       entries.reserve(rows.value.size());
@@ -81,7 +81,7 @@ namespace plumbline::algebra
   };
 
   std::optional<UpdatedCholesky>
-  UpdatedCholesky::factor(const Rows &terms, const std::vector<double> &factors, std::size_t n)
+  UpdatedCholesky::factor(const CsrMatrix &terms, const std::vector<double> &factors, std::size_t n)
   {
     const Sparse C = to_sparse(terms, n);
     const Sparse scaled = view(factors).asDiagonal() * C;
@@ -116,7 +116,7 @@ namespace plumbline::algebra
     return to_vector(factor_->cholesky.solve(view(b)));
   }
 
-  void UpdatedCholesky::update(const Rows &rows, const std::vector<double> &S)
+  void UpdatedCholesky::update(const CsrMatrix &rows, const std::vector<double> &S)
   {
     Factor &f = *factor_;
     const auto n_new = static_cast<Eigen::Index>(rows.n_rows());
@@ -195,7 +195,7 @@ namespace plumbline::algebra
     return seconds_per_product * (static_cast<double>(factor_->n) * r + 2 * r * r);
   }
 
-  std::optional<std::vector<double>> zero_mode(const Rows &terms,
+  std::optional<std::vector<double>> zero_mode(const CsrMatrix &terms,
                                                const std::vector<double> &factors, std::size_t n)
   {
     // shifted by so much, the mode grows by 1e4 a step and more against one of 1e-5 of the scale
@@ -204,7 +204,7 @@ namespace plumbline::algebra
     double scale = 0;
     for (const double factor : factors)
       scale = std::max(scale, std::abs(factor));
-    Rows shifted = terms;
+    CsrMatrix shifted = terms;
     std::vector<double> all = factors;
     for (std::size_t i = 0; i < n; ++i)
     {

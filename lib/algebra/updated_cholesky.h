@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/rows.h"
+#include "algebra/csr_matrix.h"
 
 #include <memory>
 #include <optional>
@@ -20,7 +20,7 @@ namespace plumbline::algebra
     /// @param factors  s, of any sign
     /// @return         empty: A is not positive definite, to 1e-13 of its condition as its factor
     ///                 shows it
-    static std::optional<UpdatedCholesky> factor(const Rows &terms,
+    static std::optional<UpdatedCholesky> factor(const CsrMatrix &terms,
                                                  const std::vector<double> &factors, std::size_t n);
     UpdatedCholesky(UpdatedCholesky &&) noexcept;
     UpdatedCholesky &operator=(UpdatedCholesky &&) noexcept;
@@ -33,7 +33,7 @@ namespace plumbline::algebra
 
     /// Add rows to U, and take another S.
     /// @param S  symmetric, shape (rank, rank), of all rows
-    void update(const Rows &rows, const std::vector<double> &S);
+    void update(const CsrMatrix &rows, const std::vector<double> &S);
     std::size_t rank() const; ///< rows of U
 
     /// The solution x of (A + Uᵀ S U) x = b - Uᵀ S o.
@@ -58,6 +58,6 @@ namespace plumbline::algebra
 
   /// A vector of norm 1 that a positive semidefinite A = Cᵀ diag(s) C takes to zero, to 1e-8 of the
   /// largest factor, by inverse iteration; empty where there is none.
-  std::optional<std::vector<double>> zero_mode(const Rows &terms,
+  std::optional<std::vector<double>> zero_mode(const CsrMatrix &terms,
                                                const std::vector<double> &factors, std::size_t n);
 } // namespace plumbline::algebra

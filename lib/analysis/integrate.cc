@@ -1,6 +1,6 @@
 #include "analysis/integrate.h"
 
-#include "algebra/lane.h"
+#include "algebra/simd.h"
 #include "analysis/steps.h"
 #include "base/error.h"
 

@@ -13,7 +13,7 @@ namespace plumbline::analysis
 {
   namespace
   {
-    using algebra::Rows;
+    using algebra::CsrMatrix;
     using method::DiscreteOperator;
     using Values = std::vector<double>;
 
@@ -22,7 +22,7 @@ namespace plumbline::analysis
     {
       if (matrix.action)
         return matrix.action(x, y);
-      const Rows &rows = matrix.rows;
+      const CsrMatrix &rows = matrix.rows;
       for (std::size_t i = 0; i < rows.n_rows(); ++i)
       {
         y[i] = 0;
@@ -70,13 +70,13 @@ namespace plumbline::analysis
     }
 
     /// Column by column from the action of a symmetric A.
-    Rows rows_of(const DiscreteOperator &matrix)
+    CsrMatrix rows_of(const DiscreteOperator &matrix)
     {
       constexpr std::size_t most_unknowns = 1500;
       const std::size_t n = matrix.size();
       if (!matrix.rows.start.empty() || n > most_unknowns)
         return matrix.rows;
-      Rows rows;
+      CsrMatrix rows;
       rows.start.assign(1, 0);
       Values unit(n), column(n);
       for (std::size_t i = 0; i < n; ++i)
@@ -97,14 +97,17 @@ namespace plumbline::analysis
 
     /// ‖A⁻¹M‖∞ = ‖M A⁻ᵀ‖₁ for a positive definite A. The convex function ‖M A⁻ᵀ x‖₁ climbs over the
     /// corners of the unit ball.
-    double inverse_norm(const Rows &rows, const Values &mass, bool is_m_matrix, bool is_symmetric)
+    double inverse_norm(const CsrMatrix &rows, const Values &mass, bool is_m_matrix,
+                        bool is_symmetric)
     {
       constexpr unsigned int most_steps = 5;
       algebra::SparseOptions options;
       options.is_symmetric = is_symmetric;
       options.tolerance = 1e-10;
-      const auto solve = [&](const Rows &matrix, const Values &right_hand_side) {
-        return algebra::solve_sparse(matrix, right_hand_side, options, base::Team::alone()).values;
+      const auto solve = [&](const CsrMatrix &matrix, const Values &right_hand_side)
+      {
+        return algebra::solve_sparse(matrix, right_hand_side, options, base::Communicator::alone())
+            .values;
       };
       const auto largest = [](const Values &values)
       {
@@ -119,7 +122,7 @@ namespace plumbline::analysis
         const Values u = solve(rows, mass);
         return std::abs(u[largest(u)]);
       }
-      const Rows other = is_symmetric ? Rows() : algebra::transpose(rows);
+      const CsrMatrix other = is_symmetric ? CsrMatrix() : algebra::transpose(rows);
       Values x(n, 1 / static_cast<double>(n));
       double norm = 0;
       for (unsigned int step = 0; step < most_steps; ++step)
@@ -142,7 +145,7 @@ namespace plumbline::analysis
     }
 
     /// Of M⁻¹A, by the ends of the symmetric part's spectrum where that tells them.
-    algebra::Eigenvalues eigenvalues_of(Rows rows, const Values &mass, const Stability &known)
+    algebra::Eigenvalues eigenvalues_of(CsrMatrix rows, const Values &mass, const Stability &known)
     {
       if (known.is_symmetric() && known.smallest >= -1e-10 * known.largest)
         return {known.smallest, std::abs(known.smallest), known.largest, 0, 2};
@@ -193,7 +196,7 @@ namespace plumbline::analysis
       for (std::size_t i = 0; i < mass.size(); ++i)
         mode[i] /= std::sqrt(mass[i]);
 
-    const Rows rows = rows_of(matrix);
+    const CsrMatrix rows = rows_of(matrix);
     result.has_signs = rows.n_rows() > 0;
     if (result.has_signs)
     {

@@ -45,8 +45,8 @@ namespace plumbline::analysis
     {
     public:
       Statics(const method::Method &method, const std::vector<const scene::Problem *> &cases,
-              const base::Team &team)
-          : method_(method), team_(team)
+              const base::Communicator &communicator)
+          : method_(method), communicator_(communicator)
       {
         for (const scene::Problem *problem : cases)
           cases_.push_back({problem});
@@ -98,11 +98,11 @@ namespace plumbline::analysis
         const base::CpuTimer timer;
         system_.reset();
         if (refinement_ == 0)
-          discretisation_ = method_.discretise(*cases_.front().problem, team_);
+          discretisation_ = method_.discretise(*cases_.front().problem, communicator_);
         else
           discretisation_->refine_quadrature();
         system_ = discretisation_->tangent();
-        const double seconds = discretisation_->team().sum(timer.seconds());
+        const double seconds = discretisation_->communicator().sum(timer.seconds());
         for (Case &one : cases_)
           if (!one.is_done)
             one.cost.setup_seconds += seconds;
@@ -115,8 +115,8 @@ namespace plumbline::analysis
         Vector u(data.load.size());
         const algebra::LinearSolve solved = system_->solve(
             u, data.load, {settings().solver.tolerance, settings().solver.max_iterations});
-        const base::Team team = discretisation_->team();
-        one.cost.solve_seconds += team.sum(timer.seconds());
+        const base::Communicator communicator = discretisation_->communicator();
+        one.cost.solve_seconds += communicator.sum(timer.seconds());
         one.cost.n_unknowns = discretisation_->n_unknowns();
         one.cost.n_bonds = solved.n_bonds;
         one.cost.n_iterations = solved.n_iterations;
@@ -137,9 +137,9 @@ namespace plumbline::analysis
 
       void finish(Case &one, const method::CaseData &data)
       {
-        const base::Team team = discretisation_->team();
-        one.cost.peak_bytes =
-            static_cast<std::size_t>(team.largest(static_cast<double>(memory_.peak_bytes())));
+        const base::Communicator communicator = discretisation_->communicator();
+        one.cost.peak_bytes = static_cast<std::size_t>(
+            communicator.largest(static_cast<double>(memory_.peak_bytes())));
         Solution solution{data.field(one.u), one.cost, discretisation_->diagnostics()};
         method::Diagnostics &said = solution.diagnostics;
         said.relative_residual = one.solver.relative_residual;
@@ -155,7 +155,7 @@ namespace plumbline::analysis
       }
 
       const method::Method &method_;
-      base::Team team_;
+      base::Communicator communicator_;
       const base::MemoryGauge memory_;
       std::vector<Case> cases_;
       std::unique_ptr<Discretisation> discretisation_;
@@ -166,9 +166,9 @@ namespace plumbline::analysis
 
   std::vector<Outcome> solve(const method::Method &method,
                              const std::vector<const scene::Problem *> &cases,
-                             const base::Team &team)
+                             const base::Communicator &communicator)
   {
-    return Statics(method, cases, team).run();
+    return Statics(method, cases, communicator).run();
   }
 
   void settle_quadrature(Discretisation &discretisation, const scene::Problem &problem)
@@ -194,9 +194,9 @@ namespace plumbline::analysis
   }
 
   Solution solve(const method::Method &method, const scene::Problem &problem,
-                 const base::Team &team)
+                 const base::Communicator &communicator)
   {
-    std::vector<Outcome> outcomes = solve(method, {&problem}, team);
+    std::vector<Outcome> outcomes = solve(method, {&problem}, communicator);
     if (!outcomes.front().solution)
       std::rethrow_exception(outcomes.front().failure);
     return std::move(*outcomes.front().solution);

@@ -29,7 +29,7 @@ namespace plumbline::analysis
   /// @throws InputError  data that is not finite
   std::vector<Outcome> solve(const method::Method &method,
                              const std::vector<const scene::Problem *> &cases,
-                             const base::Team &team = base::Team::all());
+                             const base::Communicator &communicator = base::Communicator::all());
 
   /// Refine the quadrature of a discretisation as `solve` does for a problem.
   /// @throws NumericalError  it does not settle, or there is no solution
@@ -38,5 +38,5 @@ namespace plumbline::analysis
   /// One case.
   /// @throws NumericalError  there is no solution
   Solution solve(const method::Method &method, const scene::Problem &problem,
-                 const base::Team &team = base::Team::all());
+                 const base::Communicator &communicator = base::Communicator::all());
 } // namespace plumbline::analysis

@@ -7,8 +7,8 @@
 
 namespace plumbline::geometry
 {
-  /// Rows of nodes of a square lattice, numbered i1 + n[0] i2; each has a square of side h about
-  /// it.
+  /// CsrMatrix of nodes of a square lattice, numbered i1 + n[0] i2; each has a square of side h
+  /// about it.
   struct NodeLattice
   {
     double h = 0;         ///< [length]

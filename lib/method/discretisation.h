@@ -30,7 +30,8 @@ namespace plumbline::method
   /// What one case brings to a discretisation: its load, and the constraint around the unknowns.
   struct CaseData
   {
-    Vector load; ///< M b less what the constraint adds to the force; the sum over the team's ranks
+    Vector load; ///< M b less what the constraint adds to the force; the sum over the
+                 ///< communicator's ranks
     std::function<Field(const Vector &u)> field;
     /// ‖v - u‖ / ‖v‖, L2 over Ω. Empty where quadrature is never refined.
     std::function<double(const Vector &u, const Vector &v)> relative_change;
@@ -47,7 +48,7 @@ namespace plumbline::method
     /// neighbours of a node, in the collar too, and how far they are along an axis; else 0.
     double second_moment = 0, reach = 0;
     bool is_collocated = true; ///< row i states the equation at node i: no Galerkin method
-    algebra::Rows rows;        ///< A; empty where only its action is there
+    algebra::CsrMatrix rows;   ///< A; empty where only its action is there
     algebra::Action action;    ///< of a symmetric A, matrix-free; empty where only rows are there
 
     std::size_t size() const { return nodes.size() * n_components; }
@@ -105,7 +106,7 @@ namespace plumbline::method
     virtual Diagnostics diagnostics() const = 0;
 
     /// The ranks that share it; each gives its part of loads and rows.
-    virtual base::Team team() const { return base::Team::alone(); }
+    virtual base::Communicator communicator() const { return base::Communicator::alone(); }
 
     /// Its entries are quadrature that can be refined; else exact, or a rule of their own.
     virtual bool has_quadrature_error() const { return false; }

@@ -24,7 +24,7 @@ namespace plumbline::method
       return {x.data(), x.data() + x.size()};
     }
 
-    Eigen::SparseMatrix<double> to_matrix(const algebra::Rows &rows)
+    Eigen::SparseMatrix<double> to_matrix(const algebra::CsrMatrix &rows)
     {
       const auto n = static_cast<Eigen::Index>(rows.n_rows());
       std::vector<Eigen::Triplet<double>> entries;
@@ -51,7 +51,7 @@ namespace plumbline::method
     is_one_ = std::all_of(roots_.begin(), roots_.end(), [](double root) { return root == 1; });
   }
 
-  MassRoot::MassRoot(const algebra::Rows &matrix) : factor_(std::make_unique<Factor>())
+  MassRoot::MassRoot(const algebra::CsrMatrix &matrix) : factor_(std::make_unique<Factor>())
   {
     factor_->permuted.compute(to_matrix(matrix));
     if (factor_->permuted.info() != Eigen::Success)

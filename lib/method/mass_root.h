@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/rows.h"
+#include "algebra/csr_matrix.h"
 
 #include <memory>
 #include <vector>
@@ -19,7 +19,7 @@ namespace plumbline::method
     explicit MassRoot(std::vector<double> masses);
 
     /// @throws NumericalError  M is not positive definite
-    explicit MassRoot(const algebra::Rows &matrix);
+    explicit MassRoot(const algebra::CsrMatrix &matrix);
     MassRoot(MassRoot &&) noexcept;
     ~MassRoot();
 

@@ -46,12 +46,13 @@ namespace plumbline::method
     /// of its capabilities.
     virtual std::string why_not(const scene::Problem &) const { return {}; }
 
-    /// Collective over the team.
+    /// Collective over the communicator.
     /// @param problem  must outlive what is made
     /// @throws NumericalError  there is none, e.g. weights are infeasible; @throws InputError  data
     /// that is not finite
     virtual std::unique_ptr<Discretisation>
-    discretise(const scene::Problem &problem, const base::Team &team = base::Team::all()) const = 0;
+    discretise(const scene::Problem &problem,
+               const base::Communicator &communicator = base::Communicator::all()) const = 0;
 
     /// A strip with a standing crack, of bonds 8 μ K ξ⊗ξ/|ξ|².
     /// @param influence  K, ∫K|ξ|² = 2

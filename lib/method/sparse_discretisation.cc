@@ -4,9 +4,9 @@
 
 namespace plumbline::method
 {
-  PartedRows part(algebra::Rows rows, std::size_t n_free)
+  PartedRows part(algebra::CsrMatrix rows, std::size_t n_free)
   {
-    algebra::Rows held;
+    algebra::CsrMatrix held;
     held.start.assign(1, 0);
     std::size_t end = 0, k = 0;
     for (std::size_t row = 0; row < rows.n_rows(); ++row)
@@ -30,7 +30,8 @@ namespace plumbline::method
     return {std::move(rows), std::move(held)};
   }
 
-  void subtract_held(const algebra::Rows &held, const std::vector<double> &values, Vector &load)
+  void subtract_held(const algebra::CsrMatrix &held, const std::vector<double> &values,
+                     Vector &load)
   {
     for (std::size_t i = 0; i < held.n_rows(); ++i)
       for (std::size_t k = held.start[i]; k < held.start[i + 1]; ++k)
@@ -38,8 +39,9 @@ namespace plumbline::method
   }
 
   SparseDiscretisation::SparseDiscretisation(const scene::SolverSection &solver,
-                                             algebra::SparseOptions options, const base::Team &team)
-      : options_(std::move(options)), team_(team)
+                                             algebra::SparseOptions options,
+                                             const base::Communicator &communicator)
+      : options_(std::move(options)), communicator_(communicator)
   {
     options_.solver = solver.linear_solver;
     options_.iteration = solver.iteration;
@@ -47,12 +49,12 @@ namespace plumbline::method
 
   void SparseDiscretisation::set_rows(PartedRows rows)
   {
-    free_ = std::make_shared<const algebra::Rows>(std::move(rows.free));
+    free_ = std::make_shared<const algebra::CsrMatrix>(std::move(rows.free));
     held_ = std::move(rows.held);
   }
 
   std::unique_ptr<algebra::LinearSystem> SparseDiscretisation::tangent() const
   {
-    return std::make_unique<algebra::SparseSystem>(free_, options_, team_);
+    return std::make_unique<algebra::SparseSystem>(free_, options_, communicator_);
   }
 } // namespace plumbline::method

@@ -14,7 +14,7 @@ namespace plumbline::method
   {
     using State = EquationOfMotion::State;
 
-    algebra::Action action_of(const algebra::Rows &rows)
+    algebra::Action action_of(const algebra::CsrMatrix &rows)
     {
       return [&rows](const State &x, State &y)
       {
@@ -36,10 +36,10 @@ namespace plumbline::method
       };
     }
 
-    /// Rows of another matrix with a life of their own.
-    algebra::Action action_of(algebra::Rows &&rows)
+    /// CsrMatrix of another matrix with a life of their own.
+    algebra::Action action_of(algebra::CsrMatrix &&rows)
     {
-      const auto own = std::make_shared<const algebra::Rows>(std::move(rows));
+      const auto own = std::make_shared<const algebra::CsrMatrix>(std::move(rows));
       return [own, act = action_of(*own)](const State &x, State &y) { act(x, y); };
     }
 

@@ -11,7 +11,7 @@ namespace plumbline::method
     std::vector<dealii::Point<2>> nodes; ///< that are free
     unsigned int n_components = 1;
     /// A of the equation M ü = load - A u; must stay valid.
-    const algebra::Rows &stiffness, &held;
+    const algebra::CsrMatrix &stiffness, &held;
     std::vector<double> masses; ///< of each node; empty: `mass` is a matrix
     PartedRows mass;            ///< of all unknowns, by free and by held ones
     std::function<Vector(const scene::Problem &)> load;                ///< M b

@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "report/page_parts.h"
-#include "report/panels.h"
 #include "report/plot.h"
+#include "report/small_multiples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -102,7 +102,7 @@ namespace plumbline::report
         upper[d] += spacing;
       }
       const std::size_t n = page.defects.size();
-      const Panels panels(n, std::min<std::size_t>(n, 2), lower, upper);
+      const SmallMultiples panels(n, std::min<std::size_t>(n, 2), lower, upper);
       const double pixels = spacing / (upper[0] - lower[0]) * panels.panel_width();
       const Range range = colour_range(page.defects);
       const int decades = static_cast<int>(std::lround(std::log10(range.high / range.low)));
@@ -125,8 +125,8 @@ namespace plumbline::report
       for (std::size_t i = 0; i < n; ++i)
         out << panels.panel(i, page.defects[i].title) << "plot $p" << i
             << " using 1:2:3 with points pt 5 ps " << .12 * pixels << " lc palette notitle\n"
-            << Panels::next();
-      out << Panels::end();
+            << SmallMultiples::next();
+      out << SmallMultiples::end();
       return out.str();
     }
   } // namespace

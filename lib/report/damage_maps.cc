@@ -2,7 +2,7 @@
 
 #include "report/formats.h"
 #include "report/maps.h"
-#include "report/panels.h"
+#include "report/small_multiples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,7 +91,7 @@ namespace plumbline::report
   {
     const auto &[lower, h, n] = cells;
     constexpr int most_columns = 300;
-    const Panels panels(maps.size(), 2, lower, {lower[0] + h * n[0], lower[1] + h * n[1]});
+    const SmallMultiples panels(maps.size(), 2, lower, {lower[0] + h * n[0], lower[1] + h * n[1]});
     const int size = block_size(cells, most_columns);
     std::ostringstream out;
     out << "\nreset\n";
@@ -103,8 +103,8 @@ namespace plumbline::report
     for (std::size_t i = 0; i < maps.size(); ++i)
       out << panels.panel(i, maps[i].title) << "set ylabel offset 1.5,0\nplot "
           << image_of("$m" + std::to_string(i), cells, size) << "\n"
-          << Panels::next();
-    out << Panels::end();
+          << SmallMultiples::next();
+    out << SmallMultiples::end();
     return out.str();
   }
 

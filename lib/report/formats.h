@@ -71,7 +71,7 @@ namespace plumbline::report
     std::vector<std::string> csv;
   };
 
-  /// Rows all have columns.size() cells.
+  /// CsrMatrix all have columns.size() cells.
   struct Table
   {
     std::string caption;

@@ -1,7 +1,7 @@
 #include "report/maps.h"
 
-#include "report/panels.h"
 #include "report/plot.h"
+#include "report/small_multiples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,7 +74,11 @@ namespace plumbline::report
   std::string map_script(const std::vector<study::ErrorMap> &maps, const std::string &file)
   {
     const std::size_t n = maps.size();
-    const Panels panels(n, n <= 4 ? n : n <= 6 ? 3 : 4, maps.front().lower, maps.front().upper);
+    const SmallMultiples panels(n,
+                                n <= 4   ? n
+                                : n <= 6 ? 3
+                                         : 4,
+                                maps.front().lower, maps.front().upper);
     const ColourScale scale = colour_scale(maps);
     const int decades = static_cast<int>(std::lround(std::log10(scale.high / scale.low)));
     std::ostringstream out;
@@ -87,8 +91,8 @@ namespace plumbline::report
         << exact(scale.low) << ":" << exact(scale.high) << "]\nset cbtics 1e" << (decades + 7) / 8
         << "\nunset mcbtics\nset format cb '10^{%T}'\n";
     for (std::size_t i = 0; i < n; ++i)
-      out << panels.panel(i, maps[i].method) << plot(maps[i], i) << Panels::next();
-    out << Panels::end();
+      out << panels.panel(i, maps[i].method) << plot(maps[i], i) << SmallMultiples::next();
+    out << SmallMultiples::end();
     return out.str();
   }
 

@@ -2,7 +2,7 @@
 
 #include "report/damage_maps.h"
 #include "report/formats.h"
-#include "report/panels.h"
+#include "report/small_multiples.h"
 
 #include <algorithm>
 #include <numeric>
@@ -52,7 +52,7 @@ namespace plumbline::report
     const DamageMap map = map_of("G", results.nodes, results.toughness, cells);
     const auto [least, largest] =
         std::minmax_element(results.toughness.begin(), results.toughness.end());
-    const Panels panels(
+    const SmallMultiples panels(
         1, 1, cells.lower,
         {cells.lower[0] + cells.h * cells.n[0], cells.lower[1] + cells.h * cells.n[1]});
     std::ostringstream data, plot;
@@ -80,6 +80,7 @@ namespace plumbline::report
            "',12' samplen 2 width -2\n" +
            panels.panel(0, "load " + rounded(end.load) + ", " + std::to_string(end.n_events) +
                                " events") +
-           "set ylabel offset 1.5,0\n" + plot.str() + "\n" + Panels::next() + Panels::end();
+           "set ylabel offset 1.5,0\n" + plot.str() + "\n" + SmallMultiples::next() +
+           SmallMultiples::end();
   }
 } // namespace plumbline::report

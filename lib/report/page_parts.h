@@ -40,8 +40,8 @@ namespace plumbline::report::page
   /// Which method to take: one sentence over all cases, then a card for each problem and series.
   std::string advice(const study::Results &results);
 
-  /// Rows: methods; columns: problems and series; in each cell the verdict in a word and a sign,
-  /// the finest error and the last rate.
+  /// CsrMatrix: methods; columns: problems and series; in each cell the verdict in a word and a
+  /// sign, the finest error and the last rate.
   std::string verdicts(const study::Results &results);
 
   /// All charts, the overall and the first convergence chart large.

@@ -2,7 +2,7 @@
 
 #include "report/charts.h"
 #include "report/formats.h"
-#include "report/panels.h"
+#include "report/small_multiples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -279,7 +279,7 @@ namespace plumbline::report
         upper[d] += margin;
       }
       const std::size_t n = picture.panels.size();
-      const Panels panels(n, n <= 4 ? std::min<std::size_t>(n, 2) : 3, lower, upper);
+      const SmallMultiples panels(n, n <= 4 ? std::min<std::size_t>(n, 2) : 3, lower, upper);
       std::ostringstream out, plots;
       out << "\nreset\n";
       for (std::size_t i = 0; i < picture.panels.size(); ++i)
@@ -295,7 +295,7 @@ namespace plumbline::report
                 << .35 * pixels / panels.panel_width() << ",24 lw 1.2 lc palette notitle";
         else
           plots << " using 1:2:3 with points pt 7 ps " << .12 * pixels << " lc palette notitle";
-        plots << "\n" << Panels::next();
+        plots << "\n" << SmallMultiples::next();
       }
       out << panels.begin(picture.name + ".svg", picture.title,
                           is_vector ? "|mode| over its largest" : "mode over its largest")
@@ -303,7 +303,7 @@ namespace plumbline::report
           << (is_vector ? "0 '#c9d3dd', .5 '#4a9cc9', 1 '#00365c'"
                         : "-1 '#2166ac', -.5 '#92c5de', 0 '#dcdcdc', .5 '#f4a582', 1 '#b2182b'")
           << ")\nset cbrange [" << (is_vector ? 0 : -1) << ":1]\nset cbtics .5\n"
-          << plots.str() << Panels::end();
+          << plots.str() << SmallMultiples::end();
       return out.str();
     }
   } // namespace

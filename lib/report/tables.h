@@ -7,8 +7,8 @@
 
 namespace plumbline::report
 {
-  /// Rows: levels with h, horizon and m = horizon / h. Columns: of each method the decisive error
-  /// and the rate from the level before. No value: no solution, or no error of that name.
+  /// CsrMatrix: levels with h, horizon and m = horizon / h. Columns: of each method the decisive
+  /// error and the rate from the level before. No value: no solution, or no error of that name.
   Table error_table(const study::Results &results, const Case &one);
 
   /// One row for each method and case: fitted rate and plateau, verdict and reason.

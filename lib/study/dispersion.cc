@@ -223,7 +223,7 @@ namespace plumbline::study
     std::optional<algebra::WaveOperator> waves;
     try
     {
-      const auto discretisation = method.discretise(problem, base::Team::alone());
+      const auto discretisation = method.discretise(problem, base::Communicator::alone());
       waves = discretisation->waves();
       row.limit = discretisation->diagnostics().limit;
     }

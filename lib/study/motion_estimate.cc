@@ -103,7 +103,7 @@ namespace plumbline::study
 
       double change_to(const Method &method, ProblemsInTime &problems) const
       {
-        const auto other = method.discretise(problems.at(0), base::Team::alone());
+        const auto other = method.discretise(problems.at(0), base::Communicator::alone());
         settle_quadrature(scene_, *other, problems.at(0));
         return change_to(*other->motion(scene_.time.is_lumped), problems);
       }

@@ -135,7 +135,7 @@ namespace plumbline::study
           const double shared = problems.seconds();
           const scene::Problem &first = problems.at(0);
           area_ = area_of(first);
-          const auto discretisation = method.discretise(first, base::Team::alone());
+          const auto discretisation = method.discretise(first, base::Communicator::alone());
           settle_quadrature(scene_, *discretisation, first);
           const auto equation = discretisation->motion(scene_.time.is_lumped);
           if (!equation)

@@ -154,7 +154,7 @@ namespace plumbline::study
     std::unique_ptr<method::Discretisation> discretisation;
     try
     {
-      discretisation = method.discretise(problem, base::Team::alone());
+      discretisation = method.discretise(problem, base::Communicator::alone());
     }
     catch (const NumericalError &error)
     {

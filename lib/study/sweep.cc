@@ -1,7 +1,7 @@
 #include "study/sweep.h"
 
+#include "base/communicator.h"
 #include "base/error.h"
-#include "base/team.h"
 #include "study/comparison.h"
 #include "study/conclusions.h"
 #include "study/contradiction.h"
@@ -85,7 +85,8 @@ namespace plumbline::study
           const auto seconds =
               expected_seconds(results_.runs, method->name(), name, series.name, level);
           const bool is_dear = !seconds || *seconds > control_.budget;
-          if (!base::Team::all().any(is_dear)) // each rank has its own clock, and all must agree
+          if (!base::Communicator::all().any(
+                  is_dear)) // each rank has its own clock, and all must agree
           {
             result.push_back(method);
             continue;
@@ -209,10 +210,10 @@ namespace plumbline::study
           return;
         }
         say(cases_[due.front()->index], series, level, method.name());
-        const bool is_alone = base::Team::all().n_ranks() == 1;
+        const bool is_alone = base::Communicator::all().n_ranks() == 1;
         std::vector<analysis::Outcome> solved;
         if (is_alone)
-          ranks_.team().together([&] { solved = solve_cases(method, due); });
+          ranks_.communicator().together([&] { solved = solve_cases(method, due); });
         for (std::size_t i = 0; i < due.size(); ++i)
         {
           Run run = empty_run(method, *due[i], series, level);
@@ -226,7 +227,8 @@ namespace plumbline::study
           };
           try
           {
-            ranks_.team().together(solve, patience); // what one fails at, all have failed at
+            ranks_.communicator().together(solve,
+                                           patience); // what one fails at, all have failed at
           }
           catch (const NumericalError &error)
           {
@@ -377,7 +379,7 @@ namespace plumbline::study
       const SweepControl &control_;
       const Results &earlier_;
       const std::vector<std::string> cases_;
-      const base::SeparateTeam ranks_{base::Team::all()};
+      const base::SeparateCommunicator ranks_{base::Communicator::all()};
       Results results_;
       OwnFinest own_finest_;
       std::size_t n_done_ = 0, n_all_ = 0;

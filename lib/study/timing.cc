@@ -1,6 +1,6 @@
 #include "study/timing.h"
 
-#include "base/team.h"
+#include "base/communicator.h"
 
 #include <algorithm>
 
@@ -19,7 +19,7 @@ namespace plumbline::study
   solve_and_time(const std::function<std::vector<analysis::Outcome>()> &solve)
   {
     auto outcomes = solve();
-    const int n_repeats = base::Team::all().n_ranks() == 1 ? 2 : 0;
+    const int n_repeats = base::Communicator::all().n_ranks() == 1 ? 2 : 0;
     for (int repeat = 0;
          repeat < n_repeats && std::any_of(outcomes.begin(), outcomes.end(), is_short); ++repeat)
     {

@@ -1,7 +1,7 @@
 #include "meshfree/body/sums.h"
 
 #include "algebra/convolution.h"
-#include "algebra/lane.h"
+#include "algebra/simd.h"
 
 #include <deal.II/base/parallel.h>
 
@@ -12,25 +12,25 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    using algebra::Lane, algebra::lanes, algebra::load;
-    constexpr int n_registers = 2, tile = lanes * n_registers;
+    using algebra::Simd, algebra::simd_width, algebra::load;
+    constexpr int n_registers = 2, tile = simd_width * n_registers;
 
     /// One tile of all three sums; the fields stand `block` behind each other.
     template <class Pair>
     PLUMBLINE_VECTOR_CLONES void sum_tile(const double *u, std::size_t block, const Pair *pair,
                                           const Pair *end, double *result)
     {
-      Lane sum[3][n_registers] = {};
+      Simd sum[3][n_registers] = {};
       for (; pair != end; ++pair)
       {
         const double *const forward = u + pair->shift, *const backward = u - pair->shift;
         for (int l = 0; l < n_registers; ++l)
         {
-          Lane even[2], odd[3];
+          Simd even[2], odd[3];
           for (int s = 0; s < 3; ++s)
           {
-            const Lane f = load(forward + s * block + l * lanes),
-                       b = load(backward + s * block + l * lanes);
+            const Simd f = load(forward + s * block + l * simd_width),
+                       b = load(backward + s * block + l * simd_width);
             if (s < 2)
               even[s] = f + b;
             odd[s] = f - b;

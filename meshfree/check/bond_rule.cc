@@ -100,7 +100,7 @@ namespace plumbline::meshfree
   {
     constexpr double enough = .9;
     std::vector<Rule> candidates = rules();
-    candidates.insert(candidates.end(), traps().begin(), traps().end());
+    candidates.insert(candidates.end(), counterexamples().begin(), counterexamples().end());
     std::optional<Recognised> best;
     std::size_t best_score = 0;
     for (const Rule &rule : candidates)

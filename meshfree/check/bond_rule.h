@@ -34,8 +34,7 @@ namespace plumbline::meshfree
   /// @throws NumericalError  as Families::make
   std::vector<Family> rule_families(const std::string &name, const GivenBonds &given);
 
-  /// Of all rules and traps the one that most weights and kernel points agree with, nine of ten
-  /// weights at least, relative to the neighbours' volumes and their √.
-  /// Cost: .1 ms a node.
+  /// Of all rules and counterexamples the one that most weights and kernel points agree with, nine
+  /// of ten weights at least, relative to the neighbours' volumes and their √. Cost: .1 ms a node.
   std::optional<Recognised> recognise(const GivenBonds &given);
 } // namespace plumbline::meshfree

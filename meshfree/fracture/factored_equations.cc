@@ -91,7 +91,7 @@ namespace plumbline::meshfree
     void FactoredEquations::take_out(const std::vector<std::size_t> &bonds,
                                      const Connections &connections)
     {
-      algebra::Rows rows;
+      algebra::CsrMatrix rows;
       const auto add_row = [&](Form form)
       {
         offsets_.push_back(form.offset);

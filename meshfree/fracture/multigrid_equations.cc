@@ -13,13 +13,13 @@ namespace plumbline::meshfree
     public:
       MultigridEquations(const BondNetwork &network, const Connections &connections)
           : network_(&network), connections_(&connections), terms_(network),
-            shares_(terms_.n_unknowns(), 2, base::Team::alone())
+            ranges_(terms_.n_unknowns(), 2, base::Communicator::alone())
       {
         const NetworkTerms::Terms all = terms_.all(connections);
-        const algebra::Rows matrix =
+        const algebra::CsrMatrix matrix =
             algebra::normal_matrix(all.rows, all.factors, terms_.n_unknowns());
         n_entries_ = matrix.value.size();
-        cycle_.emplace(matrix, shares_, 2, terms_.free_nodes());
+        cycle_.emplace(matrix, ranges_, 2, terms_.free_nodes());
       }
 
       void take_out(const std::vector<std::size_t> &bonds,
@@ -45,7 +45,7 @@ namespace plumbline::meshfree
       std::optional<NodeField> displacements(const NodeField &forces) const override
       {
         const std::vector<double> given = terms_.free(forces);
-        Vector b(shares_.own(), MPI_COMM_SELF), x(b);
+        Vector b(ranges_.own(), MPI_COMM_SELF), x(b);
         std::copy(given.begin(), given.end(), b.begin());
         cycle_->vmult(x, b);
         return terms_.expand({x.begin(), x.end()});
@@ -76,7 +76,7 @@ namespace plumbline::meshfree
       const BondNetwork *network_;
       const Connections *connections_;
       NetworkTerms terms_;
-      algebra::Shares shares_;
+      algebra::OwnedRanges ranges_;
       std::optional<algebra::Multigrid> cycle_;
       std::size_t n_entries_ = 0, n_taken_ = 0;
     };

@@ -109,7 +109,7 @@ namespace plumbline::meshfree
     return nodes;
   }
 
-  void append(algebra::Rows &rows, NetworkTerms::Form form)
+  void append(algebra::CsrMatrix &rows, NetworkTerms::Form form)
   {
     std::sort(form.entries.begin(), form.entries.end());
     if (rows.start.empty())

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/rows.h"
+#include "algebra/csr_matrix.h"
 #include "meshfree/fracture/equations.h"
 
 namespace plumbline::meshfree
@@ -25,7 +25,7 @@ namespace plumbline::meshfree
 
     struct Terms
     {
-      algebra::Rows rows;
+      algebra::CsrMatrix rows;
       std::vector<double> factors, offsets;
     };
     Terms all(const Connections &connections) const; ///< of what is whole
@@ -46,5 +46,5 @@ namespace plumbline::meshfree
     double hold_stiffness_ = 0;
   };
 
-  void append(algebra::Rows &rows, NetworkTerms::Form form);
+  void append(algebra::CsrMatrix &rows, NetworkTerms::Form form);
 } // namespace plumbline::meshfree

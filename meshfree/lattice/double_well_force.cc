@@ -14,8 +14,8 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    using algebra::Lane;
     using algebra::power_of_two;
+    using algebra::Simd;
     using algebra::Wide;
     using algebra::width_of;
 
@@ -170,7 +170,7 @@ namespace plumbline::meshfree
     PLUMBLINE_VECTOR_CLONES void sum_by_lanes(const Place &at, const Groups<Group> &groups,
                                               double *result)
     {
-      sum_tile<dim, derivative, Lane>(at, groups, result);
+      sum_tile<dim, derivative, Simd>(at, groups, result);
     }
 
     template <int dim, int derivative, class Group>

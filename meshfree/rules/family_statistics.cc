@@ -110,21 +110,23 @@ namespace plumbline::meshfree
     n_clipped_ += family.is_clipped ? 1 : 0;
   }
 
-  method::Diagnostics FamilyStatistics::diagnostics(const base::Team &team) const
+  method::Diagnostics FamilyStatistics::diagnostics(const base::Communicator &communicator) const
   {
-    const auto total = [&](double n) { return static_cast<std::uint64_t>(team.sum(n)); };
+    const auto total = [&](double n) { return static_cast<std::uint64_t>(communicator.sum(n)); };
     method::Diagnostics result;
-    result.n_neighbours = static_cast<unsigned int>(team.largest(weights_.n_neighbours));
-    result.smallest_weight_ratio = -team.largest(-weights_.smallest_weight_ratio);
+    result.n_neighbours = static_cast<unsigned int>(communicator.largest(weights_.n_neighbours));
+    result.smallest_weight_ratio = -communicator.largest(-weights_.smallest_weight_ratio);
     result.n_negative_weights = static_cast<unsigned int>(total(weights_.n_negative_weights));
-    result.n_conditions = static_cast<unsigned int>(team.largest(weights_.n_conditions));
-    result.rank = result.n_conditions -
-                  static_cast<unsigned int>(team.largest(weights_.n_conditions - weights_.rank));
-    result.smallest_singular_value = -team.largest(-weights_.smallest_singular_value);
-    const double n = team.sum(n_families_), mean = team.sum(ratio_) / n;
-    result.limit.defect = team.largest(worst_defect_);
+    result.n_conditions = static_cast<unsigned int>(communicator.largest(weights_.n_conditions));
+    result.rank =
+        result.n_conditions -
+        static_cast<unsigned int>(communicator.largest(weights_.n_conditions - weights_.rank));
+    result.smallest_singular_value = -communicator.largest(-weights_.smallest_singular_value);
+    const double n = communicator.sum(n_families_), mean = communicator.sum(ratio_) / n;
+    result.limit.defect = communicator.largest(worst_defect_);
     result.limit.mean_defect = mean;
-    result.limit.spread = std::sqrt(std::max(0., team.sum(squared_ratio_) / n - mean * mean));
+    result.limit.spread =
+        std::sqrt(std::max(0., communicator.sum(squared_ratio_) / n - mean * mean));
     judge_moments(result.limit, n, is_scalar_ && total(n_unstable_) == 0);
     const std::string n_families = std::to_string(total(n_families_));
     const auto note = [&](double n, const std::string &what, const std::string &so)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/team.h"
+#include "base/communicator.h"
 #include "meshfree/rules/recipe.h"
 #include "method/diagnostics.h"
 
@@ -19,7 +19,7 @@ namespace plumbline::meshfree
     /// The largest family, the distribution of moments, the smallest weight and the number of
     /// negative ones, with notes on how many families are concerned; over all ranks.
     /// @note Collective.
-    method::Diagnostics diagnostics(const base::Team &team) const;
+    method::Diagnostics diagnostics(const base::Communicator &communicator) const;
 
   private:
     method::Diagnostics weights_;

@@ -19,10 +19,10 @@ namespace plumbline::meshfree
     return table;
   }
 
-  const std::vector<Rule> &traps()
+  const std::vector<Rule> &counterexamples()
   {
     static const std::vector<Rule> table = {
-        {"IPA-AC-R2c", "IPA-AC-R2 with tensors at the centroid: negative weights, a trap",
+        {"IPA-AC-R2c", "IPA-AC-R2 with tensors at the centroid: negative weights, a counterexample",
          recalibrated_at_centroid},
     };
     return table;

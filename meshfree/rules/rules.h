@@ -36,10 +36,10 @@ namespace plumbline::meshfree
   /// Infeasible, a NumericalError, where a node has too few neighbours to meet the moments.
   Recipe recalibrated(const Kernel<2> &kernel, unsigned int degree);
 
-  /// The same with tensors at the centroid, where IPA-AC takes them: a trap. The moments of C_ab
-  /// ξ^α up to degree 2, 5 conditions on lattices and 15 on scattered nodes, of which those of C_11
-  /// ξ_2² and C_12 ξ_1 ξ_2, one and the same at the node, nearly depend on each other: weights turn
-  /// negative, for non-integer m by many areas. For scalars it is `recalibrated`.
+  /// The same with tensors at the centroid, where IPA-AC takes them: a counterexample. The moments
+  /// of C_ab ξ^α up to degree 2, 5 conditions on lattices and 15 on scattered nodes, of which those
+  /// of C_11 ξ_2² and C_12 ξ_1 ξ_2, one and the same at the node, nearly depend on each other:
+  /// weights turn negative, for non-integer m by many areas. For scalars it is `recalibrated`.
   Recipe recalibrated_at_centroid(const Kernel<2> &kernel);
 
   /// Weights of least Σ w² that integrate s1^a s2^b / |s|³, 2 <= a + b <= 5, exactly.
@@ -58,5 +58,5 @@ namespace plumbline::meshfree
   const std::vector<Rule> &rules();
 
   /// Rules that are there to show how they fail; `all` does not take them.
-  const std::vector<Rule> &traps();
+  const std::vector<Rule> &counterexamples();
 } // namespace plumbline::meshfree

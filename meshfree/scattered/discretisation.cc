@@ -31,17 +31,19 @@ namespace plumbline::meshfree
     class RuleOnNodes : public method::SparseDiscretisation
     {
     public:
-      RuleOnNodes(const scene::Problem &problem, const base::Team &team, ScatteredOperator matrix)
-          : SparseDiscretisation(problem.settings.solver, solver_options(problem), team),
+      RuleOnNodes(const scene::Problem &problem, const base::Communicator &communicator,
+                  ScatteredOperator matrix)
+          : SparseDiscretisation(problem.settings.solver, solver_options(problem), communicator),
             cells_(problem.cells), n_components_(problem.n_components),
             is_mixed_(problem.settings.solver.is_mixed)
       {
-        const auto n =
-            static_cast<std::size_t>(team.largest(static_cast<double>(matrix.rows.free.n_rows())));
-        for (algebra::Rows *rows : {&matrix.rows.free, &matrix.rows.held}) // ranks that gave none
+        const auto n = static_cast<std::size_t>(
+            communicator.largest(static_cast<double>(matrix.rows.free.n_rows())));
+        for (algebra::CsrMatrix *rows :
+             {&matrix.rows.free, &matrix.rows.held}) // ranks that gave none
           rows->start.resize(n + 1, rows->column.size());
         set_rows(std::move(matrix.rows));
-        diagnostics_ = matrix.statistics.diagnostics(team);
+        diagnostics_ = matrix.statistics.diagnostics(communicator);
         if (!problem.settings.tends_to_local_limit || problem.damage.is_there() ||
             !problem.is_homogeneous)
           diagnostics_.limit = {}; // the moments of whole families decide nothing there
@@ -53,7 +55,7 @@ namespace plumbline::meshfree
       {
         method::CaseData result;
         result.load.reinit(static_cast<unsigned int>(n_unknowns()));
-        team().together([&] { add_data(problem, result.load); });
+        communicator().together([&] { add_data(problem, result.load); });
         result.field = [this](const Vector &u) { return field(u); };
         return result;
       }
@@ -105,7 +107,7 @@ namespace plumbline::meshfree
 
       void add_load(const scene::Problem &problem, Vector &load) const
       {
-        const auto [first, last] = team().share(cells_->n_free);
+        const auto [first, last] = communicator().owned_range(cells_->n_free);
         const scene::Field &b = problem.load;
         for (std::size_t i = first; i < last; ++i)
           for (unsigned int c = 0; c < n_components_; ++c)
@@ -135,7 +137,7 @@ namespace plumbline::meshfree
         return {cells_->area.begin(), cells_->area.begin() + n};
       }
 
-      algebra::Rows by_volumes(algebra::Rows rows) const
+      algebra::CsrMatrix by_volumes(algebra::CsrMatrix rows) const
       {
         for (std::size_t i = 0; i < rows.n_rows(); ++i)
           for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
@@ -175,9 +177,9 @@ namespace plumbline::meshfree
     class WellsOnNodes : public RuleOnNodes
     {
     public:
-      WellsOnNodes(const Rule &rule, const scene::Problem &problem, const base::Team &team,
-                   ScatteredOperator matrix)
-          : RuleOnNodes(problem, team, std::move(matrix)), rule_(rule), problem_(problem)
+      WellsOnNodes(const Rule &rule, const scene::Problem &problem,
+                   const base::Communicator &communicator, ScatteredOperator matrix)
+          : RuleOnNodes(problem, communicator, std::move(matrix)), rule_(rule), problem_(problem)
       {
       }
 
@@ -193,7 +195,7 @@ namespace plumbline::meshfree
 
     /// A kept dilatation's system is on the first rank alone.
     ScatteredOperator make_operator(const Rule &rule, const scene::Problem &problem,
-                                    const base::Team &team,
+                                    const base::Communicator &communicator,
                                     std::pair<std::size_t, std::size_t> share)
     {
       const Families families = families_of(rule, problem);
@@ -207,30 +209,30 @@ namespace plumbline::meshfree
           problem.has_collar_dilatation};
       if (!problem.settings.solver.is_mixed)
         return state_based_operator(make, body, share);
-      return team.rank() == 0 ? state_based_system(make, body) : ScatteredOperator();
+      return communicator.rank() == 0 ? state_based_system(make, body) : ScatteredOperator();
     }
   } // namespace
 
   std::unique_ptr<method::Discretisation> discretise_on_scattered_nodes(
       const std::function<ScatteredOperator(std::pair<std::size_t, std::size_t> share)> &make,
-      const scene::Problem &problem, const base::Team &team)
+      const scene::Problem &problem, const base::Communicator &communicator)
   {
     ScatteredOperator matrix;
-    team.together([&] { matrix = make(team.share(problem.cells->n_free)); });
-    return std::make_unique<RuleOnNodes>(problem, team, std::move(matrix));
+    communicator.together([&] { matrix = make(communicator.owned_range(problem.cells->n_free)); });
+    return std::make_unique<RuleOnNodes>(problem, communicator, std::move(matrix));
   }
 
   std::unique_ptr<method::Discretisation>
   discretise_on_scattered_nodes(const Rule &rule, const scene::Problem &problem,
-                                const base::Team &team)
+                                const base::Communicator &communicator)
   {
     const auto make = [&](std::pair<std::size_t, std::size_t> share)
-    { return make_operator(rule, problem, team, share); };
+    { return make_operator(rule, problem, communicator, share); };
     if (!problem.double_well)
-      return discretise_on_scattered_nodes(make, problem, team);
+      return discretise_on_scattered_nodes(make, problem, communicator);
     ScatteredOperator matrix;
-    team.together([&] { matrix = make(team.share(problem.cells->n_free)); });
-    return std::make_unique<WellsOnNodes>(rule, problem, team, std::move(matrix));
+    communicator.together([&] { matrix = make(communicator.owned_range(problem.cells->n_free)); });
+    return std::make_unique<WellsOnNodes>(rule, problem, communicator, std::move(matrix));
   }
 
   double expected_bytes(const method::ProblemSize &size)

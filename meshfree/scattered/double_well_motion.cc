@@ -15,7 +15,7 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    using algebra::Lane;
+    using algebra::Simd;
     using State = method::EquationOfMotion::State;
     using Pair = std::array<double, 2>;
 
@@ -30,15 +30,15 @@ namespace plumbline::meshfree
     };
 
     /// 2^(-q²), and what is left of 1.
-    /// @param n  values, a multiple of `lanes`
+    /// @param n  values, a multiple of simd_width
     PLUMBLINE_VECTOR_CLONES void decay_of(const double *q, std::size_t n, double *decay,
                                           double *loss)
     {
-      for (std::size_t k = 0; k < n; k += algebra::lanes)
+      for (std::size_t k = 0; k < n; k += algebra::simd_width)
       {
-        const Lane value = algebra::load<Lane>(q + k);
-        const auto power = algebra::power_of_two<Lane>(-(value * value));
-        const Lane kept = power.scale + power.scale * power.tail,
+        const Simd value = algebra::load<Simd>(q + k);
+        const auto power = algebra::power_of_two<Simd>(-(value * value));
+        const Simd kept = power.scale + power.scale * power.tail,
                    lost = (1 - power.scale) - power.scale * power.tail;
         std::memcpy(decay + k, &kept, sizeof(kept));
         std::memcpy(loss + k, &lost, sizeof(lost));
@@ -257,8 +257,9 @@ namespace plumbline::meshfree
 
       void see(std::size_t i, Row &row) const
       {
-        const std::size_t n = start_[i + 1] - start_[i],
-                          padded = (n + algebra::lanes - 1) / algebra::lanes * algebra::lanes;
+        const std::size_t n = start_[i + 1] - start_[i], padded = (n + algebra::simd_width - 1) /
+                                                                  algebra::simd_width *
+                                                                  algebra::simd_width;
         row.q.assign(padded, 0.);
         row.decay.resize(padded);
         row.loss.resize(padded);

@@ -33,7 +33,7 @@ namespace plumbline::meshfree
     const unsigned int n_components = problem.n_components;
     const auto a = coefficients(problem);
     ScatteredOperator result;
-    algebra::Rows rows; // columns of all nodes
+    algebra::CsrMatrix rows; // columns of all nodes
     rows.start.assign(share.first * n_components + 1, 0);
     const BrokenBonds broken({problem.damage.cracks, {}}, *problem.cells, problem.horizon());
     Family family;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/rows.h"
+#include "algebra/csr_matrix.h"
 #include "meshfree/rules/families.h"
 #include "meshfree/rules/family_statistics.h"
 #include "method/sparse_discretisation.h"
@@ -8,7 +8,7 @@
 namespace plumbline::meshfree
 {
   /// Part of a rule's linear system over the free nodes, numbered node by node; held are the nodes
-  /// of the collar. Rows of a share of the nodes, the others empty.
+  /// of the collar. CsrMatrix of a share of the nodes, the others empty.
   struct ScatteredOperator
   {
     method::PartedRows rows;

@@ -165,7 +165,7 @@ namespace plumbline::meshfree
             define_dilatation(i);
             put_row(2);
           }
-        for (algebra::Rows *rows : {&result_.rows.free, &result_.rows.held})
+        for (algebra::CsrMatrix *rows : {&result_.rows.free, &result_.rows.held})
           rows->start.resize(n_unknowns_ + 1, rows->column.size());
         return std::move(result_);
       }
@@ -272,7 +272,7 @@ namespace plumbline::meshfree
       void put_row(unsigned int c)
       {
         auto &[free, held] = result_.rows;
-        const auto put = [](algebra::Rows &rows, std::size_t column, double entry)
+        const auto put = [](algebra::CsrMatrix &rows, std::size_t column, double entry)
         {
           rows.column.push_back(static_cast<unsigned int>(column));
           rows.value.push_back(entry);
@@ -290,7 +290,7 @@ namespace plumbline::meshfree
         for (const unsigned int j : nodes)
           if (const double entry = row_[j][c][2]; entry != 0)
             put(free, number_of_dilatation_[j], entry);
-        for (algebra::Rows *rows : {&free, &held})
+        for (algebra::CsrMatrix *rows : {&free, &held})
           rows->start.push_back(rows->column.size());
       }
 

@@ -274,13 +274,13 @@ namespace plumbline::reference
     std::vector<PairBlocks> integrate_repeated(const MeshSpace &space, const MeshCells &cells,
                                                double horizon, const PairIntegrator &integrator,
                                                const std::vector<std::size_t> &all,
-                                               const base::Team &team,
+                                               const base::Communicator &communicator,
                                                std::vector<CellPairs> &pairs)
     {
       if (integrator.has_changing_coefficient() || cells.has_curves())
         return {};
       std::vector<CellPairs> of_all;
-      if (team.n_ranks() > 1)
+      if (communicator.n_ranks() > 1)
         of_all = find_pairs(space, cells, horizon, all);
       const RepeatedPairs repeated(space.mesh(), of_all.empty() ? pairs : of_all, pairs);
       return integrate_first(repeated.first(), integrator);
@@ -328,15 +328,15 @@ namespace plumbline::reference
   MeshMatrix assemble(const MeshSpace &space, const MeshCells &cells,
                       const physics::Kernel<2> &kernel,
                       const std::optional<physics::Coefficient> &coefficient,
-                      const AssemblyOptions &options, const base::Team &team)
+                      const AssemblyOptions &options, const base::Communicator &communicator)
   {
     if (options.exact_entries && options.cracks.empty() &&
         goes_by_edges(space, cells, kernel, coefficient))
-      return {assemble_by_edges(space, kernel, team), true,
+      return {assemble_by_edges(space, kernel, communicator), true,
               "exact by pairs of sides of the triangles"};
     const KernelEntries profile(kernel);
     const std::vector<std::size_t> all_cells = cells_inside(space.mesh());
-    const auto [first, last] = team.share(all_cells.size());
+    const auto [first, last] = communicator.owned_range(all_cells.size());
     std::vector<std::size_t> outer_cells(all_cells.begin() + static_cast<std::ptrdiff_t>(first),
                                          all_cells.begin() + static_cast<std::ptrdiff_t>(last));
 
@@ -351,7 +351,7 @@ namespace plumbline::reference
                        tell_way(space, kernel, scratch.integrator, options, false) +
                        "; write Domain/sides = straight, or change that");
     const std::vector<PairBlocks> first_blocks = integrate_repeated(
-        space, cells, kernel.horizon(), scratch.integrator, all_cells, team, pairs);
+        space, cells, kernel.horizon(), scratch.integrator, all_cells, communicator, pairs);
     // an exception must not leave a thread: the first one is kept and thrown at the end
     std::exception_ptr failure;
     std::mutex mutex;

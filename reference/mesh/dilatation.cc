@@ -168,22 +168,22 @@ namespace plumbline::reference
           family);
     }
 
-    void keep_share(const base::Team &team, std::vector<OuterCell> &outer)
+    void keep_share(const base::Communicator &communicator, std::vector<OuterCell> &outer)
     {
-      const auto [first, last] = team.share(outer.size());
+      const auto [first, last] = communicator.owned_range(outer.size());
       outer.erase(outer.begin() + static_cast<std::ptrdiff_t>(last), outer.end());
       outer.erase(outer.begin(), outer.begin() + static_cast<std::ptrdiff_t>(first));
     }
 
     /// Zero rows whose columns are the unknowns of all outer cells that a dof is near to.
-    algebra::Rows make_pattern(const MeshSpace &space, const std::vector<OuterCell> &outer)
+    algebra::CsrMatrix make_pattern(const MeshSpace &space, const std::vector<OuterCell> &outer)
     {
       std::vector<std::vector<unsigned int>> around(space.n_free());
       for (std::size_t i = 0; i < outer.size(); ++i)
         for (const unsigned int dof : outer[i].dofs)
           if (dof < space.n_free())
             around[dof].push_back(static_cast<unsigned int>(i));
-      algebra::Rows rows;
+      algebra::CsrMatrix rows;
       rows.start.assign(1, 0);
       std::vector<std::size_t> last_row(space.n_dofs(), space.n_dofs());
       std::vector<unsigned int> columns;
@@ -211,7 +211,7 @@ namespace plumbline::reference
 
     /// Add a row of a block to that of a component of a dof, if it is free.
     void add_row(const MeshSpace &space, const OuterCell &outer, unsigned int dof, unsigned int c,
-                 double factor, const double *row, algebra::Rows &rows)
+                 double factor, const double *row, algebra::CsrMatrix &rows)
     {
       if (dof >= space.n_free())
         return;
@@ -228,7 +228,7 @@ namespace plumbline::reference
     }
 
     void add(const MeshSpace &space, const OuterCell &outer, const Block &block,
-             algebra::Rows &rows)
+             algebra::CsrMatrix &rows)
     {
       Eigen::Index from = 0;
       for (const unsigned int dof : outer.dofs)
@@ -238,7 +238,7 @@ namespace plumbline::reference
 
     /// A family with the materials of the outer cell and of those near to it.
     void add(const MeshSpace &space, const OuterCell &outer, const Family &family,
-             const DilatationRow &row, algebra::Rows &rows)
+             const DilatationRow &row, algebra::CsrMatrix &rows)
     {
       const Eigen::Index n = 2 * space.shapes().size();
       const double own_factor = row.factor(outer.cell, outer.cell);
@@ -302,9 +302,10 @@ namespace plumbline::reference
     };
   } // namespace
 
-  algebra::Rows assemble_dilatation(const MeshSpace &space, const MeshCells &cells,
-                                    const physics::Dilatation &dilatation,
-                                    const DilatationOptions &options, const base::Team &team)
+  algebra::CsrMatrix assemble_dilatation(const MeshSpace &space, const MeshCells &cells,
+                                         const physics::Dilatation &dilatation,
+                                         const DilatationOptions &options,
+                                         const base::Communicator &communicator)
   {
     const Translations translations(space.mesh());
     const std::vector<physics::Lame> materials =
@@ -320,8 +321,8 @@ namespace plumbline::reference
     const DilatationRow row(space, cells, dilatation, materials, 2 + 2 * options.refinement,
                             options.backend);
     const DilatationParts parts(space, outer, translations, rule.unit, row);
-    keep_share(team, outer);
-    algebra::Rows rows = make_pattern(space, outer);
+    keep_share(communicator, outer);
+    algebra::CsrMatrix rows = make_pattern(space, outer);
 
     dealii::Threads::ThreadLocalStorage<std::optional<BlockIntegrator>> integrators;
     const auto in_threads = [&](std::size_t n, const auto &action)

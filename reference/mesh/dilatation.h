@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/rows.h"
+#include "algebra/csr_matrix.h"
 #include "physics/state_based.h"
 #include "reference/mesh/cells.h"
 #include "reference/mesh/space.h"
@@ -22,19 +22,19 @@ namespace plumbline::reference
   ///   θ_u(x) = ∫ K ξ·(u(x+ξ) - u(x)) dξ,  E_v(x) = ∫ f(x, x+ξ) K ξ·(v(x+ξ) - v(x)) dξ,
   /// over Ω and its collar within δ of it. Outer points on all cells there, at each of them a row
   /// of θ and of E (`DilatationRow`). Threads share the cells (results do not depend on their
-  /// number), ranks of the team too. Memory: the matrix, whose rows reach 2δ, and 4 bytes for each
-  /// dof in the reach of each cell.
-  /// Accuracy, relative (δ = 3 h, K = c/|ξ|, continuous): degree 1 on squares 1e-3, 4e-5, 3e-6,
-  /// 2e-7 for refinements 0 to 3, degree 2 and triangles half of that or less; degree 0 loses a
-  /// factor 8 a refinement, 3e-3 at first.
-  /// Cost: .15 ms for each outer point on squares of degree 1, four of them a cell at first; once
-  /// for all cells whose surroundings are translations of each other, whatever their materials, if
-  /// these are constant in each cell. What is left then is to add to the matrix.
+  /// number), ranks of the communicator too. Memory: the matrix, whose rows reach 2δ, and 4 bytes
+  /// for each dof in the reach of each cell. Accuracy, relative (δ = 3 h, K = c/|ξ|, continuous):
+  /// degree 1 on squares 1e-3, 4e-5, 3e-6, 2e-7 for refinements 0 to 3, degree 2 and triangles half
+  /// of that or less; degree 0 loses a factor 8 a refinement, 3e-3 at first. Cost: .15 ms for each
+  /// outer point on squares of degree 1, four of them a cell at first; once for all cells whose
+  /// surroundings are translations of each other, whatever their materials, if these are constant
+  /// in each cell. What is left then is to add to the matrix.
   /// @param space  its mesh has a collar 2δ wide, or ends at a free boundary
   /// @return  rows of the free unknowns, columns of all, as MeshMatrix::rows
   /// Sources: Fan et al. 2022, eq. (2.5); with normalised θ and degree 0 on squares Pflug, Stingl &
   /// Zetzmann 2026, eqs. (13)-(15).
-  algebra::Rows assemble_dilatation(const MeshSpace &space, const MeshCells &cells,
-                                    const physics::Dilatation &dilatation,
-                                    const DilatationOptions &options, const base::Team &team);
+  algebra::CsrMatrix assemble_dilatation(const MeshSpace &space, const MeshCells &cells,
+                                         const physics::Dilatation &dilatation,
+                                         const DilatationOptions &options,
+                                         const base::Communicator &communicator);
 } // namespace plumbline::reference

@@ -28,13 +28,13 @@ namespace plumbline::reference
 
     /// ∫ b φ over this rank's share of the cells of Ω, shape (n_free n_components).
     Vector load_vector(const scene::Problem &problem, const MeshSpace &space,
-                       const MeshCells &cells, const base::Team &team)
+                       const MeshCells &cells, const base::Communicator &communicator)
     {
       const CellShapes &shapes = space.shapes();
       const unsigned int n_points = std::min(7u, shapes.degree() + 4), nc = problem.n_components;
       const CellRules rules = gauss_on_cells(space, cells, n_points);
 
-      const auto [first, last] = team.share(space.mesh().cells.size());
+      const auto [first, last] = communicator.owned_range(space.mesh().cells.size());
       const std::size_t n_values = shapes.size() * nc;
       std::vector<double> of_cells((last - first) * n_values); // shape (n_cells, n_shapes, nc)
       const auto integrate = [&, first = first](std::size_t begin, std::size_t end)
@@ -110,16 +110,16 @@ namespace plumbline::reference
     /// The matrix with an outer rule refined so many times.
     MeshMatrix assemble_all(const scene::Problem &problem, const MeshSpace &space,
                             const MeshCells &cells, const AssemblyOptions &options,
-                            const base::Team &team)
+                            const base::Communicator &communicator)
     {
       MeshMatrix matrix =
-          assemble(space, cells, problem.kernel, bond_coefficient(problem), options, team);
+          assemble(space, cells, problem.kernel, bond_coefficient(problem), options, communicator);
       if (problem.dilatation)
       {
         const DilatationOptions dilatation{options.refinement, problem.body.has_value(),
                                            options.backend};
-        matrix.rows = add(matrix.rows,
-                          assemble_dilatation(space, cells, *problem.dilatation, dilatation, team));
+        matrix.rows = add(matrix.rows, assemble_dilatation(space, cells, *problem.dilatation,
+                                                           dilatation, communicator));
         matrix.is_exact = false;
         matrix.way += ", dilatations by quadrature";
       }
@@ -171,8 +171,9 @@ namespace plumbline::reference
     {
     public:
       GalerkinOnMesh(const scene::Problem &problem, std::shared_ptr<const MeshSpace> space,
-                     bool exact_entries, const base::Team &team)
-          : SparseDiscretisation(problem.settings.solver, solver_options(problem, *space), team),
+                     bool exact_entries, const base::Communicator &communicator)
+          : SparseDiscretisation(problem.settings.solver, solver_options(problem, *space),
+                                 communicator),
             problem_(problem), space_(std::move(space)),
             cells_(std::make_shared<const MeshCells>(*problem.mesh)),
             options_{0, exact_entries, problem.settings.geometry.backend,
@@ -185,11 +186,11 @@ namespace plumbline::reference
       {
         method::CaseData result;
         std::vector<double> held_data;
-        team().together(
+        communicator().together(
             [&]
             {
               held_data = held_values(problem, *space_);
-              result.load = load_vector(problem, *space_, *cells_, team());
+              result.load = load_vector(problem, *space_, *cells_, communicator());
             });
         method::subtract_held(held(), held_data, result.load);
         const auto around = std::make_shared<const std::vector<double>>(std::move(held_data));
@@ -225,7 +226,7 @@ namespace plumbline::reference
             {nodes, problem_.n_components, free(), held(),
              is_lumped ? lumped_masses(*space_, *cells_) : std::vector<double>(), std::move(mass),
              [this](const scene::Problem &instant)
-             { return load_vector(instant, *space_, *cells_, team()); },
+             { return load_vector(instant, *space_, *cells_, communicator()); },
              [this](const scene::Problem &instant) { return held_values(instant, *space_); }});
       }
 
@@ -281,7 +282,7 @@ namespace plumbline::reference
       void add_entry_check(const scene::GeometrySection &geometry,
                            method::Diagnostics &result) const
       {
-        if (problem_.dilatation || problem_.body || team().n_ranks() > 1 ||
+        if (problem_.dilatation || problem_.body || communicator().n_ranks() > 1 ||
             problem_.damage.is_there() || (problem_.coefficient && !is_exact_))
           return;
         const EntryCheck check =
@@ -315,9 +316,9 @@ namespace plumbline::reference
       void make_rows()
       {
         MeshMatrix matrix;
-        team().together([&]
-                        { matrix = assemble_all(problem_, *space_, *cells_, options_, team()); });
-        is_exact_ = !team().any(!matrix.is_exact);
+        communicator().together(
+            [&] { matrix = assemble_all(problem_, *space_, *cells_, options_, communicator()); });
+        is_exact_ = !communicator().any(!matrix.is_exact);
         way_ = matrix.way;
         set_rows(method::part(std::move(matrix.rows), space_->n_free() * problem_.n_components));
       }
@@ -340,10 +341,10 @@ namespace plumbline::reference
 
   std::unique_ptr<method::Discretisation>
   discretise_on_mesh(const scene::Problem &problem, bool is_continuous, unsigned int degree,
-                     bool exact_entries, const base::Team &team)
+                     bool exact_entries, const base::Communicator &communicator)
   {
     return std::make_unique<GalerkinOnMesh>(problem, make_space(problem, is_continuous, degree),
-                                            exact_entries, team);
+                                            exact_entries, communicator);
   }
 
   std::string refuse_curves(const scene::Problem &problem, bool is_continuous, unsigned int degree)

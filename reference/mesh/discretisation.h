@@ -12,7 +12,7 @@ namespace plumbline::reference
   /// @throws NumericalError  no degree of freedom is free
   std::unique_ptr<method::Discretisation>
   discretise_on_mesh(const scene::Problem &problem, bool is_continuous, unsigned int degree,
-                     bool exact_entries, const base::Team &team);
+                     bool exact_entries, const base::Communicator &communicator);
 
   /// Why a space cannot have its matrix where sides follow curves, and the remedy; empty: it can.
   std::string refuse_curves(const scene::Problem &problem, bool is_continuous, unsigned int degree);

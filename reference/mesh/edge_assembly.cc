@@ -105,12 +105,12 @@ namespace plumbline::reference
     template <unsigned int n>
     void add_groups(const MeshSpace &space, const EdgeForm &form, const PairWays &ways,
                     const physics::Kernel<2> &kernel, const WholePotential &whole,
-                    const base::Team &team, HalfMatrix &half)
+                    const base::Communicator &communicator, HalfMatrix &half)
     {
       const typename EdgeIntegrals<n>::Tables potential(kernel, 0);
       const EdgeGroups<n> groups(space, form, ways, potential, whole);
       const std::vector<std::size_t> starts = group_starts(form);
-      const auto [first, last] = team.share(starts.size() - 1);
+      const auto [first, last] = communicator.owned_range(starts.size() - 1);
       std::vector<std::size_t> own(last - first);
       std::iota(own.begin(), own.end(), first);
       using Scratch = typename EdgeGroups<n>::Scratch;
@@ -180,7 +180,7 @@ namespace plumbline::reference
     };
 
     /// Free rows in place of the half: at the peak a scalar matrix takes 12 bytes an entry.
-    algebra::Rows combine(const MeshSpace &space, const Entries<1> &entries, HalfMatrix &half)
+    algebra::CsrMatrix combine(const MeshSpace &space, const Entries<1> &entries, HalfMatrix &half)
     {
       const auto n_free = static_cast<unsigned int>(space.n_free());
       in_parallel(n_free,
@@ -205,9 +205,9 @@ namespace plumbline::reference
     }
 
     /// The same of tensors, of which every pair of nodes has a block of 2 x 2.
-    algebra::Rows combine(const MeshSpace &space, const Entries<3> &entries, HalfMatrix &half)
+    algebra::CsrMatrix combine(const MeshSpace &space, const Entries<3> &entries, HalfMatrix &half)
     {
-      algebra::Rows rows;
+      algebra::CsrMatrix rows;
       rows.start.assign(1, 0);
       for (unsigned int dof = 0; dof < space.n_free(); ++dof)
         for (unsigned int c = 0; c < 2; ++c)
@@ -247,20 +247,20 @@ namespace plumbline::reference
     /// @param parts  of a kernel, without breaks, the one with the longest horizon first: places of
     /// the others are some of its
     template <unsigned int n>
-    algebra::Rows assemble_parts(const MeshSpace &space,
-                                 const std::vector<physics::Kernel<2>> &parts,
-                                 const base::Team &team, std::uint64_t *n_pairs)
+    algebra::CsrMatrix
+    assemble_parts(const MeshSpace &space, const std::vector<physics::Kernel<2>> &parts,
+                   const base::Communicator &communicator, std::uint64_t *n_pairs)
     {
       const EdgeForm form(space);
       HalfMatrix half =
           make_half(space, form, PairWays(space, form, parts.front()), parts.front().horizon(), n);
-      const bool is_first = team.rank() == 0; // of ranks: what one alone must give
+      const bool is_first = communicator.rank() == 0; // of ranks: what one alone must give
       std::vector<Constant> constants;
       for (const physics::Kernel<2> &part : parts)
       {
         const PairWays ways(space, form, part);
         const WholePotential whole(part, reach(form, ways), form.longest);
-        add_groups<n>(space, form, ways, part, whole, team, half);
+        add_groups<n>(space, form, ways, part, whole, communicator, half);
         if (is_first)
         {
           subtract_mass(space, part.moment({0, 0}), n, half);
@@ -313,14 +313,15 @@ namespace plumbline::reference
     return "";
   }
 
-  algebra::Rows assemble_by_edges(const MeshSpace &space, const physics::Kernel<2> &kernel,
-                                  const base::Team &team, std::uint64_t *n_pairs)
+  algebra::CsrMatrix assemble_by_edges(const MeshSpace &space, const physics::Kernel<2> &kernel,
+                                       const base::Communicator &communicator,
+                                       std::uint64_t *n_pairs)
   {
     auto parts = kernel.parts();
     std::sort(parts.begin(), parts.end(),
               [](const auto &a, const auto &b) { return a.horizon() > b.horizon(); });
     return kernel.structure() == physics::Structure::scalar
-               ? assemble_parts<1>(space, parts, team, n_pairs)
-               : assemble_parts<3>(space, parts, team, n_pairs);
+               ? assemble_parts<1>(space, parts, communicator, n_pairs)
+               : assemble_parts<3>(space, parts, communicator, n_pairs);
   }
 } // namespace plumbline::reference

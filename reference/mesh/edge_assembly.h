@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/rows.h"
+#include "algebra/csr_matrix.h"
 #include "physics/kernel.h"
 #include "reference/mesh/space.h"
 
@@ -22,10 +22,11 @@ namespace plumbline::reference
   /// within the horizon are larger than their sum by the fourth power of their distance, or of δ,
   /// over h. Profiles with breaks are a sum of several without. Symmetric to the last bit.
   /// Memory: 24 bytes an entry. Threads share the edges (the result does not depend on their
-  /// number), ranks of the team too.
+  /// number), ranks of the communicator too.
   /// @pre     refuse_edges is empty
   /// @param n_pairs  of edges that this rank has integrated, if asked for
   /// @return  as MeshMatrix::rows
-  algebra::Rows assemble_by_edges(const MeshSpace &space, const physics::Kernel<2> &kernel,
-                                  const base::Team &team, std::uint64_t *n_pairs = nullptr);
+  algebra::CsrMatrix assemble_by_edges(const MeshSpace &space, const physics::Kernel<2> &kernel,
+                                       const base::Communicator &communicator,
+                                       std::uint64_t *n_pairs = nullptr);
 } // namespace plumbline::reference

@@ -63,7 +63,7 @@ namespace plumbline::reference
   EntryCheck check_entries(const MeshSpace &space, const MeshCells &cells,
                            const physics::Kernel<2> &kernel,
                            const std::optional<physics::Coefficient> &coefficient,
-                           const algebra::Rows &rows, unsigned int n_pairs, unsigned int seed)
+                           const algebra::CsrMatrix &rows, unsigned int n_pairs, unsigned int seed)
   {
     EntryCheck check;
     if (!is_served(space))
@@ -109,7 +109,7 @@ namespace plumbline::reference
 
   EntryCheck check_entries(const MeshSpace &space, const physics::Kernel<2> &kernel,
                            const std::optional<physics::Coefficient> &coefficient,
-                           const algebra::Rows &rows, unsigned int n_pairs, unsigned int seed)
+                           const algebra::CsrMatrix &rows, unsigned int n_pairs, unsigned int seed)
   {
     return check_entries(space, MeshCells(space.mesh()), kernel, coefficient, rows, n_pairs, seed);
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/rows.h"
+#include "algebra/csr_matrix.h"
 #include "physics/coefficient.h"
 #include "physics/kernel.h"
 #include "reference/mesh/cells.h"
@@ -27,10 +27,10 @@ namespace plumbline::reference
   EntryCheck check_entries(const MeshSpace &space, const MeshCells &cells,
                            const physics::Kernel<2> &kernel,
                            const std::optional<physics::Coefficient> &coefficient,
-                           const algebra::Rows &rows, unsigned int n_pairs, unsigned int seed);
+                           const algebra::CsrMatrix &rows, unsigned int n_pairs, unsigned int seed);
 
   /// Of cells with straight sides.
   EntryCheck check_entries(const MeshSpace &space, const physics::Kernel<2> &kernel,
                            const std::optional<physics::Coefficient> &coefficient,
-                           const algebra::Rows &rows, unsigned int n_pairs, unsigned int seed);
+                           const algebra::CsrMatrix &rows, unsigned int n_pairs, unsigned int seed);
 } // namespace plumbline::reference

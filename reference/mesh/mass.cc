@@ -14,7 +14,8 @@ namespace plumbline::reference
     }
   } // namespace
 
-  algebra::Rows mass_rows(const MeshSpace &space, const MeshCells &cells, unsigned int n_components)
+  algebra::CsrMatrix mass_rows(const MeshSpace &space, const MeshCells &cells,
+                               unsigned int n_components)
   {
     const unsigned int n = space.shapes().size();
     const CellRules rules = mass_rules(space, cells);
@@ -33,7 +34,7 @@ namespace plumbline::reference
             entries[space.dofs(cell)[a]][space.dofs(cell)[b]] += rule.weights[q] * phi[a] * phi[b];
       }
     }
-    algebra::Rows rows;
+    algebra::CsrMatrix rows;
     rows.start.assign(1, 0);
     for (const auto &row : entries)
       for (unsigned int c = 0; c < n_components; ++c)

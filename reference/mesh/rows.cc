@@ -95,8 +95,8 @@ namespace plumbline::reference
   }
 
   /// Free rows first ... last - 1 of U + Uᵀ.
-  algebra::Rows MeshRows::combine_rows(std::size_t first, std::size_t last,
-                                       unsigned int n_components) const
+  algebra::CsrMatrix MeshRows::combine_rows(std::size_t first, std::size_t last,
+                                            unsigned int n_components) const
   {
     // of each row those whose columns hold it, and where
     struct Entry
@@ -114,7 +114,7 @@ namespace plumbline::reference
             {static_cast<unsigned int>(row), static_cast<std::size_t>(column - column_.data())});
     }
 
-    algebra::Rows rows;
+    algebra::CsrMatrix rows;
     rows.start.assign(1, 0);
     std::vector<unsigned int> columns;
     std::vector<double> values;
@@ -149,13 +149,13 @@ namespace plumbline::reference
     return rows;
   }
 
-  algebra::Rows MeshRows::combine(unsigned int n_components)
+  algebra::CsrMatrix MeshRows::combine(unsigned int n_components)
   {
     scatter_diagonal();
     // few parts, since each looks at all rows for what is transposed into it
     constexpr std::size_t n_parts = 16;
     const auto bound = [&](std::size_t part) { return space_.n_free() * part / n_parts; };
-    std::vector<algebra::Rows> parts(n_parts);
+    std::vector<algebra::CsrMatrix> parts(n_parts);
     in_parallel(
         n_parts,
         [&](std::size_t first, std::size_t last)
@@ -165,9 +165,9 @@ namespace plumbline::reference
         },
         1);
 
-    algebra::Rows rows;
+    algebra::CsrMatrix rows;
     rows.start.assign(1, 0);
-    for (const algebra::Rows &part : parts)
+    for (const algebra::CsrMatrix &part : parts)
       for (std::size_t i = 0; i < part.n_rows(); ++i)
         rows.start.push_back(rows.start.back() + part.start[i + 1] - part.start[i]);
     rows.column.resize(rows.start.back());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/rows.h"
+#include "algebra/csr_matrix.h"
 #include "reference/mesh/space.h"
 
 #include <deal.II/base/parallel.h>
@@ -41,15 +41,15 @@ namespace plumbline::reference
     void add(const CellRows &part);
 
     /// U + Uᵀ + diagonal blocks on the free rows, components interleaved.
-    algebra::Rows combine(unsigned int n_components);
+    algebra::CsrMatrix combine(unsigned int n_components);
 
     bool is_exact = true;
 
   private:
     void make_pattern();
     void scatter_diagonal();
-    algebra::Rows combine_rows(std::size_t first, std::size_t last,
-                               unsigned int n_components) const;
+    algebra::CsrMatrix combine_rows(std::size_t first, std::size_t last,
+                                    unsigned int n_components) const;
 
     const MeshSpace &space_;
     unsigned int n_entries_;

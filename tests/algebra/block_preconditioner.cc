@@ -10,9 +10,9 @@ namespace
 {
   /// A u + B θ = f, θ - D u = g on n × n nodes, with differences over the four neighbours as D
   /// and a tenth of Dᵀ as B, so that eliminating θ makes A stiffer.
-  System with_divergences(const Rows &A, int n)
+  System with_divergences(const CsrMatrix &A, int n)
   {
-    Rows D;
+    CsrMatrix D;
     D.start = {0};
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i)
@@ -31,9 +31,9 @@ namespace
         D.start.push_back(D.column.size());
       }
     const unsigned int n_first = 2 * n * n;
-    Rows square = D;
+    CsrMatrix square = D;
     square.start.resize(n_first + 1, D.column.size());
-    Rows B = transpose(square);
+    CsrMatrix B = transpose(square);
     for (std::size_t e = 0; e < B.column.size(); ++e)
     {
       B.column[e] += n_first;
@@ -73,7 +73,7 @@ TEST(BlockPreconditioner, UnknownsThatOthersGiveCostFewIterationsMoreThanTheseAl
     for (const auto iteration : {Iteration::gmres, Iteration::bicgstab})
     {
       options.iteration = iteration;
-      const SparseSolution solution = solve(system, options, Team::all(), spread);
+      const SparseSolution solution = solve(system, options, Communicator::all(), spread);
       EXPECT_LE(distance(solution.values, exact), 1e-10 * norm(exact)) << solution.solver;
     }
   options.iteration = Iteration::gmres;
@@ -89,10 +89,10 @@ TEST(BlockPreconditioner, MeetsTheRowsOfUnknownsThatOthersGiveExactly)
   constexpr std::size_t n_first = 2 * n * n;
   const System system = with_divergences(matrix({n, 3.2, 2, true, true}), n);
   const auto data = wave(system.right_hand_side.size());
-  const Shares shares(data.size(), 1, Team::alone());
-  const SharedRows whole(system.rows, shares);
+  const OwnedRanges ranges(data.size(), 1, Communicator::alone());
+  const DistributedMatrix whole(system.rows, ranges);
   const BlockPreconditioner blocks(whole, n_first, 2, {});
-  SharedRows::Vector r(shares.own(), shares.team.communicator), z(r), product(r);
+  DistributedMatrix::Vector r(ranges.own(), ranges.communicator.mpi), z(r), product(r);
   std::copy(data.begin(), data.end(), r.begin());
   blocks.vmult(z, r);
   whole.vmult(product, z);

@@ -36,7 +36,7 @@ namespace
   /// The sum over two directions, and its eigenvalues: sums of those in each.
   struct Plane
   {
-    Rows rows;
+    CsrMatrix rows;
     double smallest_real = 1e300, smallest_modulus = 1e300, largest_modulus = 0,
            largest_imaginary = 0;
 

@@ -10,7 +10,7 @@
 
 namespace plumbline::algebra
 {
-  using base::Team;
+  using base::Communicator;
 
   struct Lattice
   {
@@ -23,11 +23,11 @@ namespace plumbline::algebra
 
   /// Σ_j w(r) e⊗e (u(i) - u(j)) with w = 1 - r/δ; e is 1 for one component, else the bond's
   /// direction.
-  inline Rows matrix(const Lattice &lattice)
+  inline CsrMatrix matrix(const Lattice &lattice)
   {
     const int n = lattice.n, reach = static_cast<int>(lattice.reach);
     const unsigned int n_components = lattice.n_components;
-    Rows rows;
+    CsrMatrix rows;
     rows.start = {0};
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i)
@@ -65,7 +65,7 @@ namespace plumbline::algebra
     return rows;
   }
 
-  inline std::vector<double> times(const Rows &rows, const std::vector<double> &x)
+  inline std::vector<double> times(const CsrMatrix &rows, const std::vector<double> &x)
   {
     std::vector<double> y(rows.n_rows());
     for (std::size_t i = 0; i < y.size(); ++i)
@@ -99,7 +99,7 @@ namespace plumbline::algebra
 
   struct System
   {
-    Rows rows;
+    CsrMatrix rows;
     std::vector<double> right_hand_side;
   };
 
@@ -112,10 +112,11 @@ namespace plumbline::algebra
 
   /// This rank's part of a system that all ranks know.
   inline System part(const System &whole, Spread spread, unsigned int n_components,
-                     const Team &team)
+                     const Communicator &communicator)
   {
-    const unsigned int rank = team.rank(), n_ranks = team.n_ranks();
-    const auto [first, last] = team.share(whole.right_hand_side.size() / n_components);
+    const unsigned int rank = communicator.rank(), n_ranks = communicator.n_ranks();
+    const auto [first, last] =
+        communicator.owned_range(whole.right_hand_side.size() / n_components);
     System part{{{0}, {}, {}}, whole.right_hand_side};
     for (std::size_t i = 0; i < whole.rows.n_rows(); ++i)
     {
@@ -137,15 +138,16 @@ namespace plumbline::algebra
   }
 
   inline SparseSolution solve(const System &system, const SparseOptions &options,
-                              const Team &team = Team::all(), Spread spread = Spread::by_shares)
+                              const Communicator &communicator = Communicator::all(),
+                              Spread spread = Spread::by_shares)
   {
-    const System own = part(system, spread, options.n_components, team);
-    return solve_sparse(own.rows, own.right_hand_side, options, team);
+    const System own = part(system, spread, options.n_components, communicator);
+    return solve_sparse(own.rows, own.right_hand_side, options, communicator);
   }
 
   inline System known(const Lattice &lattice)
   {
-    const Rows rows = matrix(lattice);
+    const CsrMatrix rows = matrix(lattice);
     return {rows, times(rows, wave(rows.n_rows()))};
   }
 
@@ -162,8 +164,8 @@ namespace plumbline::algebra
   {
     try
     {
-      const System own = part(system, Spread::by_shares, options.n_components, Team::all());
-      solve_sparse(own.rows, own.right_hand_side, options, Team::all());
+      const System own = part(system, Spread::by_shares, options.n_components, Communicator::all());
+      solve_sparse(own.rows, own.right_hand_side, options, Communicator::all());
       ADD_FAILURE() << "no error";
     }
     catch (const NumericalError &error)

@@ -11,28 +11,28 @@ namespace
   const auto solvers = {SparseSolver::direct, SparseSolver::amg, SparseSolver::jacobi};
 } // namespace
 
-TEST(Team, SharesCoverEverythingInOrderAndDifferByAtMostOne)
+TEST(Communicator, SharesCoverEverythingInOrderAndDifferByAtMostOne)
 {
-  const Team team = Team::all();
+  const Communicator communicator = Communicator::all();
   for (const std::size_t n : {0, 1, 2, 3, 7, 1000, 1003})
   {
-    const auto [first, last] = team.share(n);
-    std::vector<unsigned long> firsts(team.n_ranks()), lasts(team.n_ranks());
+    const auto [first, last] = communicator.owned_range(n);
+    std::vector<unsigned long> firsts(communicator.n_ranks()), lasts(communicator.n_ranks());
     MPI_Allgather(&first, 1, MPI_UNSIGNED_LONG, firsts.data(), 1, MPI_UNSIGNED_LONG,
-                  team.communicator);
+                  communicator.mpi);
     MPI_Allgather(&last, 1, MPI_UNSIGNED_LONG, lasts.data(), 1, MPI_UNSIGNED_LONG,
-                  team.communicator);
+                  communicator.mpi);
     EXPECT_EQ(firsts.front(), 0u);
     EXPECT_EQ(lasts.back(), n);
-    for (unsigned int r = 0; r < team.n_ranks(); ++r)
+    for (unsigned int r = 0; r < communicator.n_ranks(); ++r)
     {
-      EXPECT_EQ(lasts[r], r + 1 < team.n_ranks() ? firsts[r + 1] : n);
-      EXPECT_GE(lasts[r] - firsts[r], n / team.n_ranks());
-      EXPECT_LE(lasts[r] - firsts[r], n / team.n_ranks() + 1);
+      EXPECT_EQ(lasts[r], r + 1 < communicator.n_ranks() ? firsts[r + 1] : n);
+      EXPECT_GE(lasts[r] - firsts[r], n / communicator.n_ranks());
+      EXPECT_LE(lasts[r] - firsts[r], n / communicator.n_ranks() + 1);
     }
   }
-  EXPECT_EQ(Team::alone().n_ranks(), 1u);
-  EXPECT_EQ(Team::alone().rank(), 0u);
+  EXPECT_EQ(Communicator::alone().n_ranks(), 1u);
+  EXPECT_EQ(Communicator::alone().rank(), 0u);
 }
 
 TEST(SparseSystem, EverySolverFindsTheKnownSolutionHoweverTheEntriesAreSpread)
@@ -48,12 +48,12 @@ TEST(SparseSystem, EverySolverFindsTheKnownSolutionHoweverTheEntriesAreSpread)
         options.n_components = n_components;
         options.is_symmetric = is_symmetric;
         options.tolerance = 1e-14;
-        const SparseSolution alone = solve(system, options, Team::alone());
+        const SparseSolution alone = solve(system, options, Communicator::alone());
         EXPECT_LE(distance(alone.values, exact), 1e-12 * norm(exact)) << alone.solver;
         EXPECT_EQ(alone.n_iterations == 0, solver == SparseSolver::direct);
         for (const auto spread : {Spread::by_shares, Spread::on_last, Spread::split})
         {
-          const SparseSolution all = solve(system, options, Team::all(), spread);
+          const SparseSolution all = solve(system, options, Communicator::all(), spread);
           EXPECT_LE(distance(all.values, alone.values), 1e-12 * norm(exact))
               << all.solver << " spread " << static_cast<int>(spread);
           EXPECT_EQ(all.n_nonzeros, system.rows.value.size());
@@ -73,7 +73,7 @@ TEST(SparseSystem, ResidualAndMemoryAreTheMatrixOwn)
   EXPECT_NEAR(solution.relative_residual, residual, 1e-13);
   EXPECT_LE(residual, 1e-5);
   EXPECT_GT(residual, 1e-8);
-  EXPECT_GE(solution.bytes, 12 * solution.n_nonzeros / Team::all().n_ranks() / 2);
+  EXPECT_GE(solution.bytes, 12 * solution.n_nonzeros / Communicator::all().n_ranks() / 2);
 }
 
 TEST(SparseSystem, AutomaticTakesDirectForFewUnknownsJacobiForWideAndMultigridForNarrowHorizons)
@@ -224,8 +224,9 @@ TEST(SparseSystem, FewerUnknownsThanRanksAreSolved)
   for (const auto solver : solvers)
     for (const auto spread : {Spread::by_shares, Spread::on_last, Spread::split})
     {
-      EXPECT_LE(distance(solve(one, with(solver), Team::all(), spread).values, {2}), 1e-14);
-      EXPECT_LE(distance(solve(three, with(solver), Team::all(), spread).values, {1, 1, 1}), 1e-12);
+      EXPECT_LE(distance(solve(one, with(solver), Communicator::all(), spread).values, {2}), 1e-14);
+      EXPECT_LE(distance(solve(three, with(solver), Communicator::all(), spread).values, {1, 1, 1}),
+                1e-12);
     }
 }
 

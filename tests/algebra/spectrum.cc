@@ -29,7 +29,7 @@ namespace
     return nodes;
   }
 
-  Action action_of(const Rows &rows)
+  Action action_of(const CsrMatrix &rows)
   {
     return [&rows](const std::vector<double> &x, std::vector<double> &y)
     {
@@ -42,9 +42,9 @@ namespace
     };
   }
 
-  Rows to_rows(const std::vector<std::vector<double>> &dense)
+  CsrMatrix to_rows(const std::vector<std::vector<double>> &dense)
   {
-    Rows rows;
+    CsrMatrix rows;
     rows.start.assign(1, 0);
     for (const auto &row : dense)
     {
@@ -62,7 +62,7 @@ namespace
 
 TEST(Spectrum, of_the_five_point_stencil_is_that_of_sines)
 {
-  const Rows rows = assemble(five_points(), rectangle(20, 13));
+  const CsrMatrix rows = assemble(five_points(), rectangle(20, 13));
   const Spectrum found = spectrum(action_of(rows), rows.n_rows(), 1e-9);
   const auto term = [](int p, int n) { return 2 - 2 * std::cos(M_PI * p / (n + 1)); };
   EXPECT_NEAR(found.smallest, term(1, 20) + term(1, 13), 1e-12);
@@ -84,7 +84,7 @@ TEST(Spectrum, counts_zero_modes_of_a_graph_in_three_parts)
       dense[i + 1][i + 1] += 1;
       dense[i][i + 1] = dense[i + 1][i] = -1;
     }
-  const Rows rows = to_rows(dense);
+  const CsrMatrix rows = to_rows(dense);
   const Spectrum found = spectrum(action_of(rows), rows.n_rows());
   ASSERT_EQ(found.zero_modes.size(), 3u);
   for (const auto &mode : found.zero_modes) // constant in each chain
@@ -100,7 +100,7 @@ TEST(Spectrum, counts_zero_modes_of_a_graph_in_three_parts)
 TEST(Spectrum, deflates_zero_modes_of_many_unknowns)
 {
   // three chains of 60, 70 and 80 nodes
-  Rows rows;
+  CsrMatrix rows;
   rows.start = {0};
   for (const unsigned int n : {60u, 70u, 80u})
   {
@@ -145,7 +145,7 @@ TEST(Spectrum, refuses_an_operator_that_is_not_symmetric)
 
 TEST(Spectrum, of_an_indefinite_matrix_is_found_as_well)
 {
-  const Rows rows = to_rows({{-1, 2, 0}, {2, 0, 0}, {0, 0, 5}});
+  const CsrMatrix rows = to_rows({{-1, 2, 0}, {2, 0, 0}, {0, 0, 5}});
   const Spectrum found = spectrum(action_of(rows), 3);
   EXPECT_NEAR(found.smallest, -.5 - std::sqrt(4.25), 1e-13);
   EXPECT_NEAR(found.largest, 5, 1e-13);
@@ -181,7 +181,7 @@ TEST(SignCheck, takes_rounding_for_zero)
 
 TEST(SignCheck, entries_that_are_zero_join_no_parts)
 {
-  Rows rows; // 2, -1; -1, 2 twice, and zeros between, which a sparse matrix may store
+  CsrMatrix rows; // 2, -1; -1, 2 twice, and zeros between, which a sparse matrix may store
   rows.start = {0};
   for (unsigned int i = 0; i < 4; ++i)
   {
@@ -214,7 +214,7 @@ TEST(Assembly, has_the_eigenvalues_of_the_operator_on_every_road)
   geometry::NodeSet nodes = rectangle(9, 7);
   nodes.n_components = 2;
   nodes.is_free[0] = nodes.is_free[30] = 0; // a corner and a hole
-  const Rows rows = assemble(stencil, nodes);
+  const CsrMatrix rows = assemble(stencil, nodes);
   const auto n = static_cast<Eigen::Index>(rows.n_rows());
   ASSERT_EQ(rows.n_rows(), nodes.n_unknowns());
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);

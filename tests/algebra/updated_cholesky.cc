@@ -14,9 +14,9 @@ namespace
   using Dense = Eigen::MatrixXd;
   using Vector = Eigen::VectorXd;
 
-  Rows to_rows(const Dense &dense)
+  CsrMatrix to_rows(const Dense &dense)
   {
-    Rows rows;
+    CsrMatrix rows;
     rows.start = {0};
     for (Eigen::Index i = 0; i < dense.rows(); ++i)
     {
@@ -49,14 +49,14 @@ namespace
   }
 } // namespace
 
-TEST(Rows, normal_matrix_is_the_product)
+TEST(CsrMatrix, normal_matrix_is_the_product)
 {
   const Eigen::Index n = 7;
   Dense C = random(12, n, 4);
   C = (C.array() > 0).select(C, 0); // sparse
   C.col(3).setZero();               // a column that no row has
   const Vector s = random(12, 1, 5);
-  const Rows rows = normal_matrix(to_rows(C), to_vector(s), n);
+  const CsrMatrix rows = normal_matrix(to_rows(C), to_vector(s), n);
   const Dense expected = C.transpose() * s.asDiagonal() * C;
   ASSERT_EQ(rows.n_rows(), 7u);
   Dense found = Dense::Zero(n, n);

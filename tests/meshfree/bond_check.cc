@@ -213,7 +213,7 @@ TEST(CheckMatrix, finds_the_smallest_eigenvalue_of_a_known_matrix)
   constexpr unsigned int n = 20;
   for (const double s : {0., -.1, -2.5})
   {
-    algebra::Rows rows;
+    algebra::CsrMatrix rows;
     rows.start = {0};
     for (unsigned int i = 0; i < n; ++i)
     {

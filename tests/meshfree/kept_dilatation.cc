@@ -20,7 +20,8 @@ namespace
     const auto &nodes = one.square.cells.nodes;
     options.nodes.assign(nodes.begin(),
                          nodes.begin() + static_cast<std::ptrdiff_t>(one.square.cells.n_free));
-    return algebra::solve_sparse(system.rows, system.right_hand_side, options, base::Team::alone());
+    return algebra::solve_sparse(system.rows, system.right_hand_side, options,
+                                 base::Communicator::alone());
   }
 
   unsigned int n_iterations(const StateBasedProblem &problem, const Square &square)

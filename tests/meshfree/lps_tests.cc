@@ -44,7 +44,7 @@ namespace
   std::vector<double> solve_without_collar_dilatation(const StateBasedCase &one)
   {
     auto system = one.system(true);
-    algebra::Rows &rows = system.rows;
+    algebra::CsrMatrix &rows = system.rows;
     for (std::size_t row = 3 * one.square.cells.n_free; row < rows.n_rows(); ++row)
     {
       system.right_hand_side[row] = 0;

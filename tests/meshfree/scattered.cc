@@ -80,7 +80,7 @@ namespace
     const auto matrix = scattered_operator(families, problem, {0, families.size()});
     std::vector<double> result(matrix.rows.free.n_rows());
     const unsigned int nc = problem.n_components;
-    const auto multiply = [&](const algebra::Rows &rows, std::size_t first_node)
+    const auto multiply = [&](const algebra::CsrMatrix &rows, std::size_t first_node)
     {
       for (std::size_t row = 0; row < rows.n_rows(); ++row)
         for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)

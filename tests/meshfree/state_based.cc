@@ -68,7 +68,7 @@ namespace
   }
 
   /// max |A_ij - A_ji| / max |A|
-  double symmetry_defect(const algebra::Rows &rows)
+  double symmetry_defect(const algebra::CsrMatrix &rows)
   {
     std::map<std::pair<std::size_t, std::size_t>, double> entries;
     for (std::size_t i = 0; i < rows.n_rows(); ++i)
@@ -335,12 +335,12 @@ TEST(StateBasedOperator, shares_are_parts_of_the_whole)
              second = state_based_operator(make, one.body, {23, 64});
   for (const auto rows : {&method::PartedRows::free, &method::PartedRows::held})
   {
-    const algebra::Rows &all = whole.rows.*rows;
+    const algebra::CsrMatrix &all = whole.rows.*rows;
     EXPECT_EQ((first.rows.*rows).column.size() + (second.rows.*rows).column.size(),
               all.column.size());
     for (std::size_t row = 0; row < all.n_rows(); ++row)
     {
-      const algebra::Rows &part = (row < 46 ? first : second).rows.*rows;
+      const algebra::CsrMatrix &part = (row < 46 ? first : second).rows.*rows;
       const std::size_t from = part.start[row];
       ASSERT_EQ(part.start[row + 1] - from, all.start[row + 1] - all.start[row]);
       for (std::size_t k = all.start[row]; k < all.start[row + 1]; ++k)

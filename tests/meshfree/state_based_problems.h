@@ -126,7 +126,7 @@ namespace plumbline::meshfree
 
   struct System
   {
-    algebra::Rows rows;
+    algebra::CsrMatrix rows;
     std::vector<double> right_hand_side;
   };
 
@@ -191,6 +191,7 @@ namespace plumbline::meshfree
     options.is_symmetric = false;
     options.solver = solver;
     options.n_components = n_components;
-    return algebra::solve_sparse(system.rows, system.right_hand_side, options, base::Team::alone());
+    return algebra::solve_sparse(system.rows, system.right_hand_side, options,
+                                 base::Communicator::alone());
   }
 } // namespace plumbline::meshfree

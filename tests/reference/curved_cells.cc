@@ -79,7 +79,7 @@ namespace
                                    const std::optional<physics::Coefficient> &a = {}) const
     {
       return reference::assemble(space, cells, kernel, a, {0, true, geometry::Backend::fast},
-                                 base::Team::alone());
+                                 base::Communicator::alone());
     }
 
     MeshSpace space;
@@ -87,7 +87,8 @@ namespace
   };
 
   /// The largest |Σ_j A_ij u(x_j - x_i)| of the rows, in units of the diagonal.
-  double worst_row(const System &system, const algebra::Rows &rows, double constant, double slope)
+  double worst_row(const System &system, const algebra::CsrMatrix &rows, double constant,
+                   double slope)
   {
     double worst = 0;
     for (std::size_t i = 0; i < rows.n_rows(); ++i)
@@ -104,7 +105,7 @@ namespace
     return worst;
   }
 
-  bool is_symmetric(const algebra::Rows &rows)
+  bool is_symmetric(const algebra::CsrMatrix &rows)
   {
     const auto at = [&](std::size_t i, std::size_t j)
     {

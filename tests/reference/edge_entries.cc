@@ -104,7 +104,8 @@ namespace
     const reference::MeshCells cells(mesh);
     return {space,
             reference::assemble(*space, cells, kernel, {},
-                                {refinement, exact, geometry::Backend::fast}, base::Team::alone()),
+                                {refinement, exact, geometry::Backend::fast},
+                                base::Communicator::alone()),
             kernel.n_components()};
   }
 

@@ -73,7 +73,7 @@ namespace
     const std::size_t before = now;
     most = before;
     const auto matrix = reference::assemble(
-        space, cells, kernel, {}, {0, exact, geometry::Backend::fast}, base::Team::alone());
+        space, cells, kernel, {}, {0, exact, geometry::Backend::fast}, base::Communicator::alone());
     const auto n_entries = static_cast<double>(matrix.rows.value.size());
     return {static_cast<double>(most - before) / n_entries,
             static_cast<double>(now - before) / n_entries, matrix.way};

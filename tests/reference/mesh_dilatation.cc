@@ -35,12 +35,12 @@ namespace
     {
     }
 
-    algebra::Rows assemble(const Dilatation &dilatation, unsigned int refinement,
-                           bool is_normalised = false) const
+    algebra::CsrMatrix assemble(const Dilatation &dilatation, unsigned int refinement,
+                                bool is_normalised = false) const
     {
       return reference::assemble_dilatation(space, cells, dilatation,
                                             {refinement, is_normalised, geometry::Backend::fast},
-                                            base::Team::alone());
+                                            base::Communicator::alone());
     }
 
     std::vector<double> interpolate(const Field &u) const
@@ -114,7 +114,7 @@ namespace
       decaying = physics::kernel_type("exponential").make({{}, 0, .5, {}}),
       table = physics::RadialProfile::table({{0, 2}, {.3, 1.5}, {.5, .2}, {1, .1}});
 
-  std::vector<double> product(const algebra::Rows &rows, const std::vector<double> &values)
+  std::vector<double> product(const algebra::CsrMatrix &rows, const std::vector<double> &values)
   {
     std::vector<double> result(rows.n_rows());
     for (std::size_t i = 0; i < rows.n_rows(); ++i)
@@ -131,7 +131,7 @@ namespace
     return result;
   }
 
-  std::map<std::pair<std::size_t, std::size_t>, double> entries(const algebra::Rows &rows)
+  std::map<std::pair<std::size_t, std::size_t>, double> entries(const algebra::CsrMatrix &rows)
   {
     std::map<std::pair<std::size_t, std::size_t>, double> matrix;
     for (std::size_t i = 0; i < rows.n_rows(); ++i)
@@ -141,7 +141,7 @@ namespace
   }
 
   /// Largest |D_ij - D_ji| among the free unknowns, in units of the largest entry.
-  double asymmetry(const algebra::Rows &rows)
+  double asymmetry(const algebra::CsrMatrix &rows)
   {
     const auto matrix = entries(rows);
     double worst = 0;
@@ -374,7 +374,7 @@ TEST(MeshDilatation, WithItsBondsIsTheLocalOperatorOfPolynomials)
           integrals[dof] +=
               gauss.weight(q) * discrete.space.map(cell).determinant(gauss.point(q)) * phi[a];
     }
-  const auto error = [&](const algebra::Rows &rows, const Field &u, const Point<2> &expected)
+  const auto error = [&](const algebra::CsrMatrix &rows, const Field &u, const Point<2> &expected)
   {
     auto residual = product(rows, discrete.interpolate(u));
     for (std::size_t i = 0; i < residual.size(); ++i)
@@ -387,7 +387,7 @@ TEST(MeshDilatation, WithItsBondsIsTheLocalOperatorOfPolynomials)
     const auto rows = discrete.assemble(dilatation, refinement);
     const auto bonds = reference::assemble(
         discrete.space, discrete.cells, physics::deviatoric_kernel(dilatation.influence, 1), {},
-        {refinement, true, geometry::Backend::fast}, base::Team::alone());
+        {refinement, true, geometry::Backend::fast}, base::Communicator::alone());
     errors[refinement] = {error(rows, linear, Point<2>()), error(rows, quadratic, Point<2>(2, -8)),
                           error(algebra::add(bonds.rows, rows), quadratic, Point<2>(2, -18))};
   }

@@ -63,10 +63,10 @@ namespace
     const reference::MeshCells cells(mesh);
     return {space, reference::assemble(*space, cells, kernel, coefficient,
                                        {refinement, is_exact, geometry::Backend::fast},
-                                       base::Team::alone())};
+                                       base::Communicator::alone())};
   }
 
-  Matrix entries(const algebra::Rows &rows)
+  Matrix entries(const algebra::CsrMatrix &rows)
   {
     Matrix matrix;
     for (std::size_t i = 0; i < rows.n_rows(); ++i)
@@ -180,7 +180,7 @@ namespace
   }
 
   /// All entries of all rows, and no entry of the stencil without one.
-  void expect_equal(const algebra::Rows &rows, const std::vector<LatticePlace> &places,
+  void expect_equal(const algebra::CsrMatrix &rows, const std::vector<LatticePlace> &places,
                     const algebra::Stencil &stencil, unsigned int n_components)
   {
     const unsigned int n_blocks = stencil.n_blocks();
@@ -229,7 +229,7 @@ namespace
                      double margin = 0)
   {
     double largest = 0;
-    const algebra::Rows &rows = system.matrix.rows;
+    const algebra::CsrMatrix &rows = system.matrix.rows;
     for (std::size_t i = 0; i < rows.n_rows(); ++i)
     {
       double sum = 0, size = 0;

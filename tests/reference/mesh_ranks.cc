@@ -47,8 +47,10 @@ TEST(Ranks, FindTheSolutionThatOneOfThemFindsAlone)
         const std::string cell = mesh == "squares" ? "Q" : "P";
         for (const std::string &name : {cell + "1", "DG" + cell + "2"})
         {
-          const auto together = analysis::solve(*method_named(name), problem, base::Team::all());
-          const auto alone = analysis::solve(*method_named(name), problem, base::Team::alone());
+          const auto together =
+              analysis::solve(*method_named(name), problem, base::Communicator::all());
+          const auto alone =
+              analysis::solve(*method_named(name), problem, base::Communicator::alone());
           ASSERT_EQ(together.nodal.size(), alone.nodal.size());
           double difference = 0;
           for (std::size_t i = 0; i < alone.nodal.size(); ++i)
@@ -68,10 +70,11 @@ TEST(Ranks, SharePairsOfSidesOfWhichEachIsIntegratedOnce)
   const auto kernel = physics::Kernel<2>::with_diffusion(
       physics::RadialProfile::Powers{{1, 0}, {-1, 1}}, horizon, 1);
   ASSERT_EQ(reference::refuse_edges(space, kernel), "");
-  const base::Team all = base::Team::all();
+  const base::Communicator all = base::Communicator::all();
   std::uint64_t n_own = 0, n_alone = 0;
   const auto own = reference::assemble_by_edges(space, kernel, all, &n_own);
-  const auto alone = reference::assemble_by_edges(space, kernel, base::Team::alone(), &n_alone);
+  const auto alone =
+      reference::assemble_by_edges(space, kernel, base::Communicator::alone(), &n_alone);
   EXPECT_GT(n_alone, 100000u);
   // none twice, none by nobody, and nobody has much more than a share
   EXPECT_EQ(all.sum(static_cast<double>(n_own)), static_cast<double>(n_alone));

@@ -369,7 +369,8 @@ TEST(MeshGalerkin, TellsWhatExactPredicatesSayOfPairsOfCells)
     const auto problem = make_problem(scene, 0, {.125, .5});
     std::string all;
     for (const std::string &note :
-         analysis::solve(*method_named(name), problem, base::Team::alone()).diagnostics.notes)
+         analysis::solve(*method_named(name), problem, base::Communicator::alone())
+             .diagnostics.notes)
       all += note + "; ";
     return all;
   };

@@ -149,7 +149,7 @@ namespace
     auto space = std::make_shared<const MeshSpace>(std::make_shared<const Mesh>(mesh),
                                                    is_continuous, degree);
     return {space, reference::assemble(*space, MeshCells(mesh), kernel, coefficient, {},
-                                       base::Team::alone())};
+                                       base::Communicator::alone())};
   }
 
   physics::Kernel<2> bond_tensor(const Powers &powers, double horizon)
@@ -179,7 +179,7 @@ namespace
     return worst;
   }
 
-  void expect_symmetric(const algebra::Rows &rows)
+  void expect_symmetric(const algebra::CsrMatrix &rows)
   {
     for (std::size_t i = 0; i < rows.n_rows(); ++i)
       for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
@@ -336,7 +336,7 @@ TEST(PairTensors, GiveContinuousMatricesThoseOfPairsOfNodes)
     const Assembled by_pairs = assemble(mesh, bond_tensor(powers, 4 * h), true, 1, one),
                     by_nodes = assemble(mesh, bond_tensor(powers, 4 * h), true, 1);
     EXPECT_NE(by_pairs.matrix.way, by_nodes.matrix.way);
-    const algebra::Rows &a = by_pairs.matrix.rows, &b = by_nodes.matrix.rows;
+    const algebra::CsrMatrix &a = by_pairs.matrix.rows, &b = by_nodes.matrix.rows;
     ASSERT_EQ(a.n_rows(), b.n_rows());
     const double largest = *std::max_element(b.value.begin(), b.value.end());
     for (std::size_t i = 0; i < a.n_rows(); ++i)

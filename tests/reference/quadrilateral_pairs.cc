@@ -77,8 +77,9 @@ namespace
     auto space = std::make_shared<const MeshSpace>(std::make_shared<const Mesh>(mesh),
                                                    is_continuous, degree);
     const MeshCells cells(mesh);
-    return {space, reference::assemble(*space, cells, kernel, {},
-                                       {0, true, geometry::Backend::fast}, base::Team::alone())};
+    return {space,
+            reference::assemble(*space, cells, kernel, {}, {0, true, geometry::Backend::fast},
+                                base::Communicator::alone())};
   }
 
   /// The largest |Σ_j A_ij u(x_j - x_i)| of the rows, in units of the diagonal.
@@ -100,7 +101,7 @@ namespace
     return worst;
   }
 
-  bool is_symmetric(const algebra::Rows &rows)
+  bool is_symmetric(const algebra::CsrMatrix &rows)
   {
     const auto at = [&](std::size_t i, std::size_t j)
     {

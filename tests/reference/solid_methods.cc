@@ -341,11 +341,12 @@ TEST(FreeBody, MovesAsAWholeWithoutForces)
     const physics::Coefficient mu([=](const Point<2> &x)
                                   { return dilatation.material(x).mu * 2 / (*volume)(x); },
                                   "mu", physics::Mean::arithmetic);
-    const algebra::Rows rows = algebra::add(
+    const algebra::CsrMatrix rows = algebra::add(
         reference::assemble(space, cells, physics::deviatoric_kernel(dilatation.influence, 1), mu,
-                            {}, base::Team::alone())
+                            {}, base::Communicator::alone())
             .rows,
-        reference::assemble_dilatation(space, cells, dilatation, {0, true}, base::Team::alone()));
+        reference::assemble_dilatation(space, cells, dilatation, {0, true},
+                                       base::Communicator::alone()));
     const auto largest_force = [&](const std::function<Point<2>(const Point<2> &)> &u)
     {
       double largest = 0;

@@ -146,9 +146,9 @@ namespace
     auto space = std::make_shared<const MeshSpace>(std::make_shared<const Mesh>(mesh),
                                                    is_continuous, degree);
     const MeshCells cells(mesh);
-    return {space,
-            reference::assemble(*space, cells, kernel, coefficient,
-                                {refinement, exact, geometry::Backend::fast}, base::Team::alone())};
+    return {space, reference::assemble(*space, cells, kernel, coefficient,
+                                       {refinement, exact, geometry::Backend::fast},
+                                       base::Communicator::alone())};
   }
 
   /// In units of the diagonal: of degree 2, terms of near pairs are larger than their sum by the
@@ -186,7 +186,7 @@ namespace
     return worst;
   }
 
-  std::map<std::pair<std::size_t, unsigned int>, double> entries(const algebra::Rows &rows)
+  std::map<std::pair<std::size_t, unsigned int>, double> entries(const algebra::CsrMatrix &rows)
   {
     std::map<std::pair<std::size_t, unsigned int>, double> result;
     for (std::size_t i = 0; i < rows.n_rows(); ++i)
@@ -290,7 +290,7 @@ TEST(TrianglePairs, MakeDiscontinuousMatricesThatReproduceLinearFields)
         const auto linear = [&](const auto &x)
         { return degree == 0 ? 0 : (x[0] - 2 * x[1]) / (m * h); };
         EXPECT_LT(worst_row(system, linear), allowed) << m;
-        const algebra::Rows &rows = system.matrix.rows;
+        const algebra::CsrMatrix &rows = system.matrix.rows;
         for (std::size_t i = 0; i < rows.n_rows(); ++i)
           for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
             if (const unsigned int j = rows.column[k]; j < i)
@@ -365,7 +365,7 @@ TEST(EntryCheck, FindsEntriesThatAreWrong)
     {
       const auto kernel = kernel_of(powers, 3 * h);
       Assembled system = assemble(triangles(h, 3 * h, .2), kernel, is_continuous, degree);
-      algebra::Rows &rows = system.matrix.rows;
+      algebra::CsrMatrix &rows = system.matrix.rows;
       const auto check = [&]
       { return reference::check_entries(*system.space, kernel, {}, rows, 20, 1); };
       EXPECT_GE(check().n_pairs, 20u);

@@ -214,9 +214,9 @@ TEST(VisiblePairs, of_two_bodies_hold_none_at_the_other)
   {
     const std::vector<geometry::Cut> cracks = {{Point<2>(-5, .5), Point<2>(.54, .5)},
                                                {Point<2>(.43, .5), Point<2>(5, .5)}};
-    const auto matrix =
-        reference::assemble(system.space, system.cells, bonds(), {},
-                            {0, true, geometry::Backend::fast, cracks}, base::Team::alone());
+    const auto matrix = reference::assemble(system.space, system.cells, bonds(), {},
+                                            {0, true, geometry::Backend::fast, cracks},
+                                            base::Communicator::alone());
     EXPECT_FALSE(matrix.is_exact);
     std::vector<char> is_above(system.space.n_dofs()), is_below(is_above);
     for (std::size_t cell = 0; cell < system.cells.size(); ++cell)

@@ -1,5 +1,5 @@
-#include "scene/models/model.h"
 #include "base/error.h"
+#include "scene/models/model.h"
 
 #include <gtest/gtest.h>
 

@@ -17,7 +17,7 @@ namespace plumbline::study
     Side side() const override { return side_; }
     std::string help() const override { return ""; }
     std::unique_ptr<method::Discretisation> discretise(const scene::Problem &,
-                                                       const base::Team &) const override
+                                                       const base::Communicator &) const override
     {
       return std::make_unique<Given>(*this);
     }

@@ -17,8 +17,8 @@ namespace
   using study::GrowthModel;
   using study::GrowthResults;
 
-  /// Rows at y = -1.5, -.5, .5, 1.5 of so many columns, bonds between next neighbours along y; the
-  /// notch cuts those of the first three columns.
+  /// CsrMatrix at y = -1.5, -.5, .5, 1.5 of so many columns, bonds between next neighbours along y;
+  /// the notch cuts those of the first three columns.
   GrowthModel comb(unsigned int n_columns)
   {
     GrowthModel model;

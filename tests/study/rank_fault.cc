@@ -1,5 +1,5 @@
 // Ends as it should if no rank hangs: the last one fails while the others wait for it elsewhere.
-#include "base/team.h"
+#include "base/communicator.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -7,16 +7,16 @@
 
 int main(int argc, char **argv)
 {
-  using plumbline::base::Team;
+  using plumbline::base::Communicator;
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const plumbline::base::SeparateTeam ranks(Team::all());
+  const plumbline::base::SeparateCommunicator ranks(Communicator::all());
   constexpr double patience = .5;
-  ranks.team().together(
+  ranks.communicator().together(
       []
       {
-        if (Team::all().rank() == 1)
+        if (Communicator::all().rank() == 1)
           throw std::bad_alloc();
-        Team::all().wait();
+        Communicator::all().wait();
       },
       patience);
 }

@@ -1,6 +1,6 @@
 // A fault of one rank alone is one of all: they throw the same, and none waits for another.
+#include "base/communicator.h"
 #include "base/error.h"
-#include "base/team.h"
 #include "study/sweep.h"
 
 #include <deal.II/base/exceptions.h>
@@ -12,13 +12,13 @@
 #include <new>
 
 using namespace plumbline;
-using base::Team;
+using base::Communicator;
 
 namespace
 {
   bool is_last()
   {
-    return Team::all().rank() + 1 == Team::all().n_ranks();
+    return Communicator::all().rank() + 1 == Communicator::all().n_ranks();
   }
 
   /// What all ranks hear of what the last one throws.
@@ -27,7 +27,7 @@ namespace
   {
     try
     {
-      Team::all().together(
+      Communicator::all().together(
           [&]
           {
             if (is_last())
@@ -39,7 +39,7 @@ namespace
       EXPECT_EQ(typeid(error), typeid(Error));
       return error.what();
     }
-    ADD_FAILURE() << "nothing is thrown on rank " << Team::all().rank();
+    ADD_FAILURE() << "nothing is thrown on rank " << Communicator::all().rank();
     return {};
   }
 
@@ -97,16 +97,16 @@ TEST(Together, every_kind_of_fault_reaches_all_ranks)
 TEST(Together, good_ranks_go_on)
 {
   int n = 0;
-  Team::all().together([&] { ++n; });
+  Communicator::all().together([&] { ++n; });
   EXPECT_EQ(n, 1);
 }
 
-TEST(SeparateTeam, has_the_same_ranks_and_its_own_messages)
+TEST(SeparateCommunicator, has_the_same_ranks_and_its_own_messages)
 {
-  const base::SeparateTeam ranks(Team::all());
-  EXPECT_EQ(ranks.team().n_ranks(), Team::all().n_ranks());
-  EXPECT_EQ(ranks.team().rank(), Team::all().rank());
-  EXPECT_THROW(ranks.team().together(
+  const base::SeparateCommunicator ranks(Communicator::all());
+  EXPECT_EQ(ranks.communicator().n_ranks(), Communicator::all().n_ranks());
+  EXPECT_EQ(ranks.communicator().rank(), Communicator::all().rank());
+  EXPECT_THROW(ranks.communicator().together(
                    []
                    {
                      if (is_last())

@@ -88,7 +88,7 @@ namespace anisotropic
                                         : "";
       }
       std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
-                                                         const base::Team &) const override
+                                                         const base::Communicator &) const override
       {
         const auto bonds =
             meshfree::lattice_bonds(rule_.recipe(problem.kernel), problem.kernel,

@@ -18,8 +18,8 @@
 namespace plumbline::algebra
 {
   /// As many values as a vector register holds, for sources that are one hot loop.
-  constexpr int lanes = 4;
-  using Lane = double __attribute__((vector_size(lanes * sizeof(double))));
+  constexpr int simd_width = 4;
+  using Simd = double __attribute__((vector_size(simd_width * sizeof(double))));
 
   /// The same for the widest registers: functions of it are PLUMBLINE_WIDE_TARGET, and called where
   /// has_wide_registers().
@@ -35,7 +35,7 @@ namespace plumbline::algebra
 #endif
   }
 
-  template <typename Values = Lane>
+  template <typename Values = Simd>
   [[gnu::always_inline]] inline Values load(const double *from)
   {
     Values values;

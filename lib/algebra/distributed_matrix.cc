@@ -1,6 +1,6 @@
-#include "algebra/shared_rows.h"
+#include "algebra/distributed_matrix.h"
 
-#include "algebra/lane.h"
+#include "algebra/simd.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parallel.h>
@@ -13,7 +13,7 @@ namespace plumbline::algebra
 {
   namespace
   {
-    using base::Team;
+    using base::Communicator;
 
     /// Every rank sends pieces of its data to the others.
     /// @param out, out_from  sizes and places of the pieces in data, by receiver
@@ -21,51 +21,51 @@ namespace plumbline::algebra
     template <class T>
     std::vector<T> exchange(const std::vector<T> &data, const std::vector<int> &out,
                             const std::vector<int> &out_from, const std::vector<int> &in,
-                            const Team &team)
+                            const Communicator &communicator)
     {
       const auto type = dealii::Utilities::MPI::mpi_type_id_for_type<T>;
       std::vector<int> in_from(in.size());
       std::exclusive_scan(in.begin(), in.end(), in_from.begin(), 0);
       std::vector<T> received(in_from.back() + in.back());
       MPI_Alltoallv(data.data(), out.data(), out_from.data(), type, received.data(), in.data(),
-                    in_from.data(), type, team.communicator);
+                    in_from.data(), type, communicator.mpi);
       return received;
     }
 
     /// What all ranks give to this rank's share: shape (n_ranks × own_size) rows, by sender.
-    Rows from_all(const Rows &rows, const Shares &shares)
+    CsrMatrix from_all(const CsrMatrix &rows, const OwnedRanges &ranges)
     {
-      const std::size_t n_ranks = shares.first.size();
+      const std::size_t n_ranks = ranges.first.size();
       std::vector<std::size_t> length(rows.n_rows());
       for (std::size_t row = 0; row < length.size(); ++row)
         length[row] = rows.start[row + 1] - rows.start[row];
       std::vector<int> out(n_ranks), out_from(n_ranks), in(n_ranks);
       for (std::size_t r = 0; r < n_ranks; ++r)
       {
-        out_from[r] = static_cast<int>(rows.start[shares.first[r]]);
-        out[r] = static_cast<int>(rows.start[shares.first[r] + shares.size[r]]) - out_from[r];
+        out_from[r] = static_cast<int>(rows.start[ranges.first[r]]);
+        out[r] = static_cast<int>(rows.start[ranges.first[r] + ranges.size[r]]) - out_from[r];
       }
-      MPI_Alltoall(out.data(), 1, MPI_INT, in.data(), 1, MPI_INT, shares.team.communicator);
-      Rows received;
-      received.start =
-          exchange(length, shares.size, shares.first,
-                   std::vector<int>(n_ranks, static_cast<int>(shares.own_size)), shares.team);
+      MPI_Alltoall(out.data(), 1, MPI_INT, in.data(), 1, MPI_INT, ranges.communicator.mpi);
+      CsrMatrix received;
+      received.start = exchange(length, ranges.size, ranges.first,
+                                std::vector<int>(n_ranks, static_cast<int>(ranges.own_size)),
+                                ranges.communicator);
       received.start.insert(received.start.begin(), 0);
       std::partial_sum(received.start.begin(), received.start.end(), received.start.begin());
-      received.column = exchange(rows.column, out, out_from, in, shares.team);
-      received.value = exchange(rows.value, out, out_from, in, shares.team);
+      received.column = exchange(rows.column, out, out_from, in, ranges.communicator);
+      received.value = exchange(rows.value, out, out_from, in, ranges.communicator);
       return received;
     }
 
-    /// Rows first ... first + n - 1 alone.
-    Rows slice(const Rows &rows, std::size_t first, std::size_t n)
+    /// CsrMatrix first ... first + n - 1 alone.
+    CsrMatrix slice(const CsrMatrix &rows, std::size_t first, std::size_t n)
     {
       const auto at = [](const auto &data, std::size_t i)
       { return data.begin() + static_cast<std::ptrdiff_t>(i); };
       const std::size_t from = rows.start[first], to = rows.start[first + n];
-      Rows result{{at(rows.start, first), at(rows.start, first + n + 1)},
-                  {at(rows.column, from), at(rows.column, to)},
-                  {at(rows.value, from), at(rows.value, to)}};
+      CsrMatrix result{{at(rows.start, first), at(rows.start, first + n + 1)},
+                       {at(rows.column, from), at(rows.column, to)},
+                       {at(rows.value, from), at(rows.value, to)}};
       for (std::size_t &start : result.start)
         start -= from;
       return result;
@@ -88,11 +88,11 @@ namespace plumbline::algebra
     void multiply(const double *upper, const double *lower, const unsigned int *column,
                   std::size_t n, const double *x, double *y)
     {
-      Lane sum[2][2] = {};
+      Simd sum[2][2] = {};
       const auto add = [&](std::size_t k, unsigned int to) __attribute__((always_inline))
       {
         const double *const a = x + 2 * column[k], *const b = x + 2 * column[k + 1];
-        const Lane values = {a[0], a[1], b[0], b[1]};
+        const Simd values = {a[0], a[1], b[0], b[1]};
         sum[0][to] += load(upper + 2 * k) * values;
         sum[1][to] += load(lower + 2 * k) * values;
       };
@@ -104,7 +104,7 @@ namespace plumbline::algebra
       }
       for (unsigned int c = 0; c < 2; ++c)
       {
-        const Lane all = sum[c][0] + sum[c][1];
+        const Simd all = sum[c][0] + sum[c][1];
         y[c] = (all[0] + all[1]) + (all[2] + all[3]);
       }
       for (; k < n; ++k)
@@ -117,7 +117,7 @@ namespace plumbline::algebra
 
     /// Half the even columns of every second row if the columns of rows 2 i and 2 i + 1 are the
     /// same pairs 2 j, 2 j + 1; else empty.
-    std::vector<unsigned int> block_columns(const Rows &rows)
+    std::vector<unsigned int> block_columns(const CsrMatrix &rows)
     {
       std::vector<unsigned int> columns;
       if (rows.n_rows() % 2 != 0)
@@ -142,19 +142,21 @@ namespace plumbline::algebra
     }
   } // namespace
 
-  Shares::Shares(std::size_t n, unsigned int n_components, const Team &team) : team(team)
+  OwnedRanges::OwnedRanges(std::size_t n, unsigned int n_components,
+                           const Communicator &communicator)
+      : communicator(communicator)
   {
-    for (unsigned int rank = 0; rank < team.n_ranks(); ++rank)
+    for (unsigned int rank = 0; rank < communicator.n_ranks(); ++rank)
     {
-      const auto [begin, end] = team.share(n / n_components, rank);
+      const auto [begin, end] = communicator.owned_range(n / n_components, rank);
       first.push_back(static_cast<int>(begin * n_components));
       size.push_back(static_cast<int>((end - begin) * n_components));
     }
-    own_first = first[team.rank()];
-    own_size = size[team.rank()];
+    own_first = first[communicator.rank()];
+    own_size = size[communicator.rank()];
   }
 
-  Shares::Shares(const Shares &others, std::size_t n) : Shares(others)
+  OwnedRanges::OwnedRanges(const OwnedRanges &others, std::size_t n) : OwnedRanges(others)
   {
     const int end = static_cast<int>(n);
     for (std::size_t rank = 0; rank < first.size(); ++rank)
@@ -163,23 +165,24 @@ namespace plumbline::algebra
       size[rank] = std::min(others.first[rank] + others.size[rank], end) - first[rank];
       size[rank] = std::max(size[rank], 0);
     }
-    own_first = first[team.rank()];
-    own_size = size[team.rank()];
+    own_first = first[communicator.rank()];
+    own_size = size[communicator.rank()];
   }
 
-  dealii::IndexSet Shares::own() const
+  dealii::IndexSet OwnedRanges::own() const
   {
     dealii::IndexSet rows(size_of_all());
     rows.add_range(own_first, own_first + own_size);
     return rows;
   }
 
-  SharedRows::SharedRows(const Rows &rows, const Shares &shares) : shares_(shares), given_(rows)
+  DistributedMatrix::DistributedMatrix(const CsrMatrix &rows, const OwnedRanges &ranges)
+      : ranges_(ranges), given_(rows)
   {
-    const std::size_t n_ranks = shares.first.size(), n = shares.own_size;
+    const std::size_t n_ranks = ranges.first.size(), n = ranges.own_size;
     if (n_ranks > 1)
     {
-      const Rows all = from_all(rows, shares);
+      const CsrMatrix all = from_all(rows, ranges);
       sum_ = slice(all, 0, n);
       for (std::size_t rank = 1; rank < n_ranks; ++rank)
         sum_ = add(sum_, slice(all, rank * n, n));
@@ -187,11 +190,11 @@ namespace plumbline::algebra
     block_column_ = block_columns(own());
   }
 
-  /// Rows 2 first ... 2 last - 1.
-  void SharedRows::multiply_blocks(std::size_t first, std::size_t last, const double *x,
-                                   double *y) const
+  /// CsrMatrix 2 first ... 2 last - 1.
+  void DistributedMatrix::multiply_blocks(std::size_t first, std::size_t last, const double *x,
+                                          double *y) const
   {
-    const Rows &rows = own();
+    const CsrMatrix &rows = own();
     for (std::size_t pair = first; pair < last; ++pair)
     {
       const std::size_t start = rows.start[2 * pair], next = rows.start[2 * pair + 1];
@@ -200,32 +203,32 @@ namespace plumbline::algebra
     }
   }
 
-  void SharedRows::vmult(Vector &y, const Vector &x, std::size_t first_row) const
+  void DistributedMatrix::vmult(Vector &y, const Vector &x, std::size_t first_row) const
   {
     const double *all = x.begin();
     std::vector<double> gathered;
-    if (shares_.first.size() > 1)
+    if (ranges_.first.size() > 1)
     {
       gathered.resize(x.size());
-      MPI_Allgatherv(x.begin(), static_cast<int>(shares_.own_size), MPI_DOUBLE, gathered.data(),
-                     shares_.size.data(), shares_.first.data(), MPI_DOUBLE,
-                     shares_.team.communicator);
+      MPI_Allgatherv(x.begin(), static_cast<int>(ranges_.own_size), MPI_DOUBLE, gathered.data(),
+                     ranges_.size.data(), ranges_.first.data(), MPI_DOUBLE,
+                     ranges_.communicator.mpi);
       all = gathered.data();
     }
-    const Rows &rows = own();
+    const CsrMatrix &rows = own();
     constexpr unsigned int grain = 128;
-    const std::size_t begin = std::max(first_row, shares_.own_first) - shares_.own_first;
+    const std::size_t begin = std::max(first_row, ranges_.own_first) - ranges_.own_first;
     if (!block_column_.empty() && begin == 0)
     {
       dealii::parallel::apply_to_subranges(
-          static_cast<std::size_t>(0), shares_.own_size / 2,
+          static_cast<std::size_t>(0), ranges_.own_size / 2,
           [&, to = y.begin()](std::size_t first, std::size_t last)
           { multiply_blocks(first, last, all, to); },
           grain);
       return;
     }
     dealii::parallel::apply_to_subranges(
-        std::min(begin, shares_.own_size), shares_.own_size,
+        std::min(begin, ranges_.own_size), ranges_.own_size,
         [&, to = y.begin()](std::size_t first, std::size_t last)
         {
           for (std::size_t row = first; row < last; ++row)
@@ -238,12 +241,13 @@ namespace plumbline::algebra
         grain);
   }
 
-  double SharedRows::asymmetry() const
+  double DistributedMatrix::asymmetry() const
   {
-    const Rows &rows = own();
-    const std::size_t n = shares_.size_of_all();
-    Rows transposed{std::vector<std::size_t>(n + 1), std::vector<unsigned int>(rows.column.size()),
-                    std::vector<double>(rows.value.size())}; // this rank's part of -Aᵀ
+    const CsrMatrix &rows = own();
+    const std::size_t n = ranges_.size_of_all();
+    CsrMatrix transposed{std::vector<std::size_t>(n + 1),
+                         std::vector<unsigned int>(rows.column.size()),
+                         std::vector<double>(rows.value.size())}; // this rank's part of -Aᵀ
     for (const unsigned int column : rows.column)
       ++transposed.start[column + 1];
     std::partial_sum(transposed.start.begin(), transposed.start.end(), transposed.start.begin());
@@ -252,7 +256,7 @@ namespace plumbline::algebra
       for (std::size_t e = rows.start[row]; e < rows.start[row + 1]; ++e)
       {
         const std::size_t place = next[rows.column[e]]++;
-        transposed.column[place] = static_cast<unsigned int>(shares_.own_first + row);
+        transposed.column[place] = static_cast<unsigned int>(ranges_.own_first + row);
         transposed.value[place] = -rows.value[e];
       }
     const auto largest = [&](const std::vector<double> &values)
@@ -260,20 +264,21 @@ namespace plumbline::algebra
       double result = 0;
       for (const double value : values)
         result = std::max(result, std::abs(value));
-      return shares_.team.largest(result);
+      return ranges_.communicator.largest(result);
     };
-    const SharedRows other(transposed, shares_);
+    const DistributedMatrix other(transposed, ranges_);
     return largest(add(rows, other.own()).value) / largest(rows.value);
   }
 
-  dealii::TrilinosWrappers::SparseMatrix to_trilinos(const Rows &own, const Shares &shares)
+  dealii::TrilinosWrappers::SparseMatrix to_trilinos(const CsrMatrix &own,
+                                                     const OwnedRanges &ranges)
   {
     std::vector<unsigned int> length(own.n_rows() + 1); // one more, deal.II looks at the first
     for (std::size_t i = 0; i < own.n_rows(); ++i)
       length[i] = own.start[i + 1] - own.start[i];
-    dealii::TrilinosWrappers::SparseMatrix result(shares.own(), shares.team.communicator, length);
+    dealii::TrilinosWrappers::SparseMatrix result(ranges.own(), ranges.communicator.mpi, length);
     for (std::size_t i = 0; i < own.n_rows(); ++i)
-      result.set(shares.own_first + i, length[i], &own.column[own.start[i]],
+      result.set(ranges.own_first + i, length[i], &own.column[own.start[i]],
                  &own.value[own.start[i]]);
     result.compress(dealii::VectorOperation::insert);
     return result;

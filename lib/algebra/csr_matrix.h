@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/team.h"
+#include "base/communicator.h"
 
 #include <cstdint>
 #include <vector>
@@ -9,7 +9,7 @@ namespace plumbline::algebra
 {
   /// A sparse matrix by rows: columns of row i are column[start[i]] ... column[start[i + 1] - 1],
   /// ascending, each once.
-  struct Rows
+  struct CsrMatrix
   {
     std::vector<std::size_t> start; ///< shape (n_rows + 1)
     std::vector<unsigned int> column;
@@ -19,14 +19,14 @@ namespace plumbline::algebra
   };
 
   /// The sum of two matrices with the same number of rows.
-  Rows add(const Rows &a, const Rows &b);
+  CsrMatrix add(const CsrMatrix &a, const CsrMatrix &b);
 
-  Rows transpose(const Rows &rows); ///< of a square matrix
-  Rows transpose(const Rows &rows, std::size_t n_columns);
+  CsrMatrix transpose(const CsrMatrix &rows); ///< of a square matrix
+  CsrMatrix transpose(const CsrMatrix &rows, std::size_t n_columns);
 
   /// Cᵀ diag(s) C, n columns.
-  Rows normal_matrix(const Rows &C, const std::vector<double> &s, std::size_t n);
+  CsrMatrix normal_matrix(const CsrMatrix &C, const std::vector<double> &s, std::size_t n);
 
   /// ‖A‖_∞.
-  double largest_row_sum(const Rows &rows);
+  double largest_row_sum(const CsrMatrix &rows);
 } // namespace plumbline::algebra

@@ -10,21 +10,21 @@
 namespace plumbline::base
 {
   /// The processes that work on one problem together: each takes a share, all get the result.
-  struct Team
+  struct Communicator
   {
-    MPI_Comm communicator = MPI_COMM_WORLD;
+    MPI_Comm mpi = MPI_COMM_WORLD;
 
-    static Team all() { return {MPI_COMM_WORLD}; }  ///< every rank of the run
-    static Team alone() { return {MPI_COMM_SELF}; } ///< this rank by itself
+    static Communicator all() { return {MPI_COMM_WORLD}; }  ///< every rank of the run
+    static Communicator alone() { return {MPI_COMM_SELF}; } ///< this rank by itself
 
     unsigned int rank() const;
     unsigned int n_ranks() const;
 
     /// This rank's contiguous share [first, last) of n things.
-    std::pair<std::size_t, std::size_t> share(std::size_t n) const;
+    std::pair<std::size_t, std::size_t> owned_range(std::size_t n) const;
 
     /// Another rank's share.
-    std::pair<std::size_t, std::size_t> share(std::size_t n, unsigned int rank) const;
+    std::pair<std::size_t, std::size_t> owned_range(std::size_t n, unsigned int rank) const;
 
     // @note Collective, all of them.
     bool any(bool value) const; ///< whether it is true on some rank
@@ -38,7 +38,7 @@ namespace plumbline::base
     /// @param patience  that a rank where it failed has with the others [s]: after it they are
     /// taken to wait for this one within the action, so it says why it failed and ends all of them
     /// with the exit code of its error. For actions whose ranks speak with each other; by a
-    /// SeparateTeam.
+    /// SeparateCommunicator.
     /// @throws InputError, NumericalError, MemoryError  as the action did on the first rank that
     /// failed; where it was out of memory (std::bad_alloc) MemoryError; std::runtime_error with the
     /// message of any other exception
@@ -46,19 +46,19 @@ namespace plumbline::base
   };
 
   /// The same ranks by themselves: what passes between them mixes with nothing that their other
-  /// teams are at.
-  class SeparateTeam
+  /// communicators are at.
+  class SeparateCommunicator
   {
   public:
     /// @note Collective, as the destructor.
-    explicit SeparateTeam(const Team &ranks);
-    ~SeparateTeam();
-    SeparateTeam(const SeparateTeam &) = delete;
-    SeparateTeam &operator=(const SeparateTeam &) = delete;
+    explicit SeparateCommunicator(const Communicator &ranks);
+    ~SeparateCommunicator();
+    SeparateCommunicator(const SeparateCommunicator &) = delete;
+    SeparateCommunicator &operator=(const SeparateCommunicator &) = delete;
 
-    const Team &team() const { return team_; }
+    const Communicator &communicator() const { return communicator_; }
 
   private:
-    Team team_;
+    Communicator communicator_;
   };
 } // namespace plumbline::base

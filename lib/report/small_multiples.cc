@@ -1,4 +1,4 @@
-#include "report/panels.h"
+#include "report/small_multiples.h"
 
 #include "report/formats.h"
 #include "report/plot.h"
@@ -29,8 +29,9 @@ namespace plumbline::report
   const char *const viridis = "0 '#440154', 1 '#472d7b', 2 '#3b528b', 3 '#2c728e', 4 '#21918c', "
                               "5 '#28ae80', 6 '#5ec962', 7 '#addc30', 8 '#fde725'";
 
-  Panels::Panels(std::size_t n, std::size_t n_columns, const std::array<double, 2> &lower,
-                 const std::array<double, 2> &upper)
+  SmallMultiples::SmallMultiples(std::size_t n, std::size_t n_columns,
+                                 const std::array<double, 2> &lower,
+                                 const std::array<double, 2> &upper)
       : n_(n), n_columns_(n_columns), lower_(lower), upper_(upper)
   {
     const double aspect = (upper[1] - lower[1]) / (upper[0] - lower[0]);
@@ -46,28 +47,28 @@ namespace plumbline::report
     height_ = std::max(360., y(n - 1) + panel_height_ + bottom);
   }
 
-  double Panels::x(std::size_t i) const
+  double SmallMultiples::x(std::size_t i) const
   {
     return left + static_cast<double>(i % n_columns_) * (panel_width_ + column_gap);
   }
 
-  double Panels::y(std::size_t i) const
+  double SmallMultiples::y(std::size_t i) const
   {
     return top + head + static_cast<double>(i / n_columns_) * (panel_height_ + row_gap);
   }
 
-  double Panels::across(double pixels) const
+  double SmallMultiples::across(double pixels) const
   {
     return pixels / width;
   }
 
-  double Panels::up(double pixels) const
+  double SmallMultiples::up(double pixels) const
   {
     return 1 - pixels / height_;
   }
 
-  std::string Panels::begin(const std::string &file, const std::string &title,
-                            const std::string &colour_label) const
+  std::string SmallMultiples::begin(const std::string &file, const std::string &title,
+                                    const std::string &colour_label) const
   {
     const double bar_height = std::min(320., height_ - top - head - bottom); // from the first panel
     std::ostringstream out;
@@ -85,7 +86,7 @@ namespace plumbline::report
     return out.str();
   }
 
-  std::string Panels::axis(char name, unsigned int d, bool has_figures) const
+  std::string SmallMultiples::axis(char name, unsigned int d, bool has_figures) const
   {
     std::ostringstream out;
     out << "set " << name << "range [" << exact(lower_[d]) << ":" << exact(upper_[d]) << "]\nset "
@@ -95,7 +96,7 @@ namespace plumbline::report
     return out.str();
   }
 
-  std::string Panels::panel(std::size_t i, const std::string &title) const
+  std::string SmallMultiples::panel(std::size_t i, const std::string &title) const
   {
     std::ostringstream out;
     out << "set lmargin at screen " << across(x(i)) << "\nset rmargin at screen "
@@ -106,12 +107,12 @@ namespace plumbline::report
     return out.str();
   }
 
-  std::string Panels::next()
+  std::string SmallMultiples::next()
   {
     return "unset label\nunset colorbox\n";
   }
 
-  std::string Panels::end()
+  std::string SmallMultiples::end()
   {
     return "unset multiplot\nunset output\n";
   }

@@ -1,13 +1,13 @@
-#include "algebra/rows.h"
+#include "algebra/csr_matrix.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace plumbline::algebra
 {
-  Rows add(const Rows &a, const Rows &b)
+  CsrMatrix add(const CsrMatrix &a, const CsrMatrix &b)
   {
-    Rows result;
+    CsrMatrix result;
     result.start.assign(1, 0);
     result.column.reserve(std::max(a.column.size(), b.column.size()));
     result.value.reserve(result.column.capacity());
@@ -30,14 +30,14 @@ namespace plumbline::algebra
     return result;
   }
 
-  Rows transpose(const Rows &rows)
+  CsrMatrix transpose(const CsrMatrix &rows)
   {
     return transpose(rows, rows.n_rows());
   }
 
-  Rows transpose(const Rows &rows, std::size_t n_columns)
+  CsrMatrix transpose(const CsrMatrix &rows, std::size_t n_columns)
   {
-    Rows result;
+    CsrMatrix result;
     result.start.assign(n_columns + 1, 0);
     for (const unsigned int j : rows.column)
       ++result.start[j + 1];
@@ -56,13 +56,13 @@ namespace plumbline::algebra
     return result;
   }
 
-  Rows normal_matrix(const Rows &C, const std::vector<double> &s, std::size_t n)
+  CsrMatrix normal_matrix(const CsrMatrix &C, const std::vector<double> &s, std::size_t n)
   {
-    const Rows of_columns = transpose(C, n);
+    const CsrMatrix of_columns = transpose(C, n);
     std::vector<double> sum(n);
     std::vector<char> is_there(n, 0);
     std::vector<unsigned int> columns; // of one row
-    Rows result;
+    CsrMatrix result;
     result.start.assign(1, 0);
     for (std::size_t i = 0; i < n; ++i)
     {
@@ -94,7 +94,7 @@ namespace plumbline::algebra
     return result;
   }
 
-  double largest_row_sum(const Rows &rows)
+  double largest_row_sum(const CsrMatrix &rows)
   {
     double largest = 0;
     for (std::size_t i = 0; i < rows.n_rows(); ++i)

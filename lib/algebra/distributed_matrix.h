@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/rows.h"
+#include "algebra/csr_matrix.h"
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -9,24 +9,24 @@
 namespace plumbline::algebra
 {
   /// The contiguous rows of every rank; those of one node stay together.
-  struct Shares
+  struct OwnedRanges
   {
-    base::Team team;
+    base::Communicator communicator;
     std::vector<int> first, size; ///< shape (n_ranks)
     std::size_t own_first = 0, own_size = 0;
 
     /// @note Collective.
-    Shares(std::size_t n, unsigned int n_components, const base::Team &team);
+    OwnedRanges(std::size_t n, unsigned int n_components, const base::Communicator &communicator);
 
     /// The first n rows of others, each on the rank where it was; some ranks may have none.
-    Shares(const Shares &others, std::size_t n);
+    OwnedRanges(const OwnedRanges &others, std::size_t n);
 
     std::size_t size_of_all() const { return first.back() + size.back(); }
     dealii::IndexSet own() const;
   };
 
   /// A square sparse matrix of which every rank has its share of the rows, and all their columns.
-  class SharedRows
+  class DistributedMatrix
   {
   public:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
@@ -34,10 +34,10 @@ namespace plumbline::algebra
     /// The sum of what all ranks give: entries of other ranks' rows are sent to them.
     /// @param rows  any rows, shape (n, n), < 2^31 entries; on one rank a reference is kept
     /// @note Collective.
-    SharedRows(const Rows &rows, const Shares &shares);
+    DistributedMatrix(const CsrMatrix &rows, const OwnedRanges &ranges);
 
-    const Shares &shares() const { return shares_; }
-    const Rows &own() const { return sum_.start.empty() ? given_ : sum_; }
+    const OwnedRanges &ranges() const { return ranges_; }
+    const CsrMatrix &own() const { return sum_.start.empty() ? given_ : sum_; }
 
     /// y = A x, threads sharing the rows; the same on any number of them. Values of y before
     /// first_row stay as they are. @note Collective.
@@ -49,9 +49,9 @@ namespace plumbline::algebra
   private:
     void multiply_blocks(std::size_t first, std::size_t last, const double *x, double *y) const;
 
-    const Shares &shares_;
-    const Rows &given_;
-    Rows sum_; ///< empty on one rank
+    const OwnedRanges &ranges_;
+    const CsrMatrix &given_;
+    CsrMatrix sum_; ///< empty on one rank
     /// Half the even columns of every second row, if all is blocks of 2 x 2: a quarter of the
     /// indices are read, and memory is what a product waits for. Else empty.
     std::vector<unsigned int> block_column_;
@@ -60,5 +60,6 @@ namespace plumbline::algebra
   /// A copy of a square matrix.
   /// @param own  this rank's share of the rows
   /// @note Collective.
-  dealii::TrilinosWrappers::SparseMatrix to_trilinos(const Rows &own, const Shares &shares);
+  dealii::TrilinosWrappers::SparseMatrix to_trilinos(const CsrMatrix &own,
+                                                     const OwnedRanges &ranges);
 } // namespace plumbline::algebra

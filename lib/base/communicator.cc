@@ -1,4 +1,4 @@
-#include "base/team.h"
+#include "base/communicator.h"
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -22,10 +22,10 @@ namespace plumbline::base
       return is_started != 0;
     }
 
-    double reduce(double value, MPI_Op operation, MPI_Comm communicator)
+    double reduce(double value, MPI_Op operation, MPI_Comm mpi)
     {
       if (is_parallel())
-        MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, operation, communicator);
+        MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, operation, mpi);
       return value;
     }
 
@@ -92,15 +92,16 @@ namespace plumbline::base
     }
 
     /// The largest value. A rank with a fault waits for the others no longer than its patience.
-    double agree(double value, const Fault &fault, double patience, const Team &team)
+    double agree(double value, const Fault &fault, double patience,
+                 const Communicator &communicator)
     {
       if (!is_parallel())
         return value;
       using Clock = std::chrono::steady_clock;
       const auto start = Clock::now();
       MPI_Request request{};
-      MPI_Iallreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, team.communicator, &request);
-      if (fault.kind == good || patience == Team::forever)
+      MPI_Iallreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, communicator.mpi, &request);
+      if (fault.kind == good || patience == Communicator::forever)
       {
         MPI_Wait(&request, MPI_STATUS_IGNORE);
         return value;
@@ -110,10 +111,10 @@ namespace plumbline::base
         MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
         if (is_done == 0 && std::chrono::duration<double>(Clock::now() - start).count() > patience)
         {
-          std::cerr << "plumbline: " << fault.message << " (on rank " << team.rank()
+          std::cerr << "plumbline: " << fault.message << " (on rank " << communicator.rank()
                     << " alone; the others have not come to hear of it within " << patience
                     << " s, and all are ended)" << std::endl;
-          MPI_Abort(team.communicator, fault.kind == input ? 2 : 3);
+          MPI_Abort(communicator.mpi, fault.kind == input ? 2 : 3);
         }
         if (is_done == 0)
           std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -122,48 +123,49 @@ namespace plumbline::base
     }
   } // namespace
 
-  unsigned int Team::rank() const
+  unsigned int Communicator::rank() const
   {
     int rank = 0;
     if (is_parallel())
-      MPI_Comm_rank(communicator, &rank);
+      MPI_Comm_rank(mpi, &rank);
     return static_cast<unsigned int>(rank);
   }
 
-  unsigned int Team::n_ranks() const
+  unsigned int Communicator::n_ranks() const
   {
     int n_ranks = 1;
     if (is_parallel())
-      MPI_Comm_size(communicator, &n_ranks);
+      MPI_Comm_size(mpi, &n_ranks);
     return static_cast<unsigned int>(n_ranks);
   }
 
-  std::pair<std::size_t, std::size_t> Team::share(std::size_t n) const
+  std::pair<std::size_t, std::size_t> Communicator::owned_range(std::size_t n) const
   {
-    return share(n, rank());
+    return owned_range(n, rank());
   }
 
-  std::pair<std::size_t, std::size_t> Team::share(std::size_t n, unsigned int rank) const
+  std::pair<std::size_t, std::size_t> Communicator::owned_range(std::size_t n,
+                                                                unsigned int rank) const
   {
     return {n * rank / n_ranks(), n * (rank + 1) / n_ranks()};
   }
 
-  bool Team::any(bool value) const
+  bool Communicator::any(bool value) const
   {
     return largest(value ? 1 : 0) > 0;
   }
 
-  double Team::sum(double value) const
+  double Communicator::sum(double value) const
   {
-    return reduce(value, MPI_SUM, communicator);
+    return reduce(value, MPI_SUM, mpi);
   }
 
-  double Team::largest(double value) const
+  double Communicator::largest(double value) const
   {
-    return reduce(value, MPI_MAX, communicator);
+    return reduce(value, MPI_MAX, mpi);
   }
 
-  void Team::together(const std::function<void()> &action, double patience) const
+  void Communicator::together(const std::function<void()> &action, double patience) const
   {
     Fault fault = attempt(action);
     const double own =
@@ -175,29 +177,29 @@ namespace plumbline::base
     if (is_parallel())
     {
       std::array<int, 2> head = {fault.kind, static_cast<int>(fault.message.size())};
-      MPI_Bcast(head.data(), 2, MPI_INT, root, communicator);
+      MPI_Bcast(head.data(), 2, MPI_INT, root, mpi);
       fault.kind = head[0];
       fault.message.resize(head[1]);
-      MPI_Bcast(fault.message.data(), head[1], MPI_CHAR, root, communicator);
+      MPI_Bcast(fault.message.data(), head[1], MPI_CHAR, root, mpi);
     }
     raise(fault);
   }
 
-  SeparateTeam::SeparateTeam(const Team &ranks) : team_(ranks)
+  SeparateCommunicator::SeparateCommunicator(const Communicator &ranks) : communicator_(ranks)
   {
     if (is_parallel())
-      MPI_Comm_dup(ranks.communicator, &team_.communicator);
+      MPI_Comm_dup(ranks.mpi, &communicator_.mpi);
   }
 
-  SeparateTeam::~SeparateTeam()
+  SeparateCommunicator::~SeparateCommunicator()
   {
-    if (is_parallel() && team_.communicator != MPI_COMM_WORLD)
-      MPI_Comm_free(&team_.communicator);
+    if (is_parallel() && communicator_.mpi != MPI_COMM_WORLD)
+      MPI_Comm_free(&communicator_.mpi);
   }
 
-  void Team::wait() const
+  void Communicator::wait() const
   {
     if (is_parallel())
-      MPI_Barrier(communicator);
+      MPI_Barrier(mpi);
   }
 } // namespace plumbline::base

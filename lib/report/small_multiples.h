@@ -11,12 +11,12 @@ namespace plumbline::report
 
   /// A picture of maps side by side with one colour bar, as commands of gnuplot; lengths are in
   /// pixels from the upper left corner.
-  class Panels
+  class SmallMultiples
   {
   public:
     /// @param lower, upper  corners of what each panel shows
-    Panels(std::size_t n, std::size_t n_columns, const std::array<double, 2> &lower,
-           const std::array<double, 2> &upper);
+    SmallMultiples(std::size_t n, std::size_t n_columns, const std::array<double, 2> &lower,
+                   const std::array<double, 2> &upper);
 
     double panel_width() const { return panel_width_; }
 
