@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <algorithm>
+#include <iostream>
 
 namespace plumbline::app
 {
@@ -40,14 +41,25 @@ namespace plumbline::app
 
   void for_each_level(
       const scene::Scene &scene, unsigned int n_levels,
-      const std::function<void(const scene::Series &, const scene::Level &, bool is_finest)> &visit)
+      const std::function<void(const scene::Series &, const scene::Level &, bool is_finest)> &visit,
+      const ShouldStop &should_stop)
   {
     for (const auto &series : scene.study.series)
     {
       const std::size_t n_all = series.levels.size(),
                         n = n_levels == 0 ? n_all : std::min<std::size_t>(n_levels, n_all);
       for (std::size_t level = 0; level < n; ++level)
+      {
+        if (should_stop && should_stop())
+          return;
         visit(series, series.levels[level], level + 1 == n);
+      }
     }
+  }
+
+  int say_interrupted(const std::filesystem::path &folder)
+  {
+    std::cerr << "interrupted: what is finished is in '" << folder.string() << "'\n";
+    return 130;
   }
 } // namespace plumbline::app

@@ -26,8 +26,16 @@ namespace plumbline::app
   /// @throws InputError  no meshfree rule; cracks are open to those alone
   meshfree::Rule find_rule(const std::string &name);
 
+  using ShouldStop = std::function<bool()>; ///< empty: never
+
   /// The first n_levels of each series, coarse to fine; 0: all.
-  void for_each_level(const scene::Scene &scene, unsigned int n_levels,
-                      const std::function<void(const scene::Series &, const scene::Level &,
-                                               bool is_finest)> &visit);
+  /// @param should_stop  asked before each
+  void for_each_level(
+      const scene::Scene &scene, unsigned int n_levels,
+      const std::function<void(const scene::Series &, const scene::Level &, bool is_finest)> &visit,
+      const ShouldStop &should_stop = {});
+
+  /// Says on the terminal where the results of an interrupted command are.
+  /// @return  exit code
+  int say_interrupted(const std::filesystem::path &folder);
 } // namespace plumbline::app

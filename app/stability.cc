@@ -6,6 +6,7 @@
 #include "methods.h"
 #include "report/formats.h"
 #include "report/stability_page.h"
+#include "run_parts.h"
 #include "scene/models/model.h"
 #include "study/preflight.h"
 
@@ -111,30 +112,41 @@ namespace plumbline::app
 
   study::StabilityResults
   measure_stability(scene::Scene scene, const method::Methods &methods, unsigned int n_levels,
-                    const std::function<void(const StabilityRow &)> &at_finest)
+                    const std::function<void(const StabilityRow &)> &at_finest,
+                    const ShouldStop &should_stop)
   {
     scene.solver.is_mixed = false; // the operator on displacements is measured
     study::StabilityResults results;
     results.scene_name = scene.name;
     results.purpose = scene.purpose;
     std::vector<std::vector<StabilityRow>> rows(methods.size()); // of each method
-    for_each_level(scene, n_levels,
-                   [&](const scene::Series &series, const scene::Level &level, bool is_finest)
-                   {
-                     const scene::Problem problem = scene::make_problem(scene, 0, level);
-                     for (std::size_t i = 0; i < methods.size(); ++i)
-                     {
-                       rows[i].push_back(measure_level(*methods[i], problem, series.name, level,
-                                                       scene.time.density));
-                       if (is_finest && at_finest)
-                         at_finest(rows[i].back());
-                     }
-                     if (is_finest && !scene.material.model->is_linear() &&
-                         scene.domain.is_periodic)
-                       add_strains(methods, scene, problem, series.name, level, results.strains);
-                   });
+    const ShouldStop stops = [&]
+    {
+      results.is_complete = results.is_complete && !(should_stop && should_stop());
+      return !results.is_complete;
+    };
+    for_each_level(
+        scene, n_levels,
+        [&](const scene::Series &series, const scene::Level &level, bool is_finest)
+        {
+          const scene::Problem problem = scene::make_problem(scene, 0, level);
+          for (std::size_t i = 0; i < methods.size(); ++i)
+          {
+            if (stops())
+              return;
+            rows[i].push_back(
+                measure_level(*methods[i], problem, series.name, level, scene.time.density));
+            if (is_finest && at_finest)
+              at_finest(rows[i].back());
+          }
+          if (is_finest && !scene.material.model->is_linear() && scene.domain.is_periodic)
+            add_strains(methods, scene, problem, series.name, level, results.strains);
+        },
+        stops);
     for (auto &own : rows)
     {
+      if (own.empty())
+        continue;
       results.verdicts.push_back(study::judge(own));
       std::move(own.begin(), own.end(), std::back_inserter(results.rows));
     }
@@ -151,11 +163,14 @@ namespace plumbline::app
     study::check_memory(scene, methods, available, options.n_levels);
 
     const fs::path folder = output_folder(options, scene);
+    watch_interrupts();
     report::write_file(folder / "stability.md", ""); // before the work: can it be written?
-    const study::StabilityResults results =
-        measure_stability(scene, methods, options.n_levels,
-                          [&](const StabilityRow &row) { write_modes(row, folder / "stability"); });
+    const study::StabilityResults results = measure_stability(
+        scene, methods, options.n_levels,
+        [&](const StabilityRow &row) { write_modes(row, folder / "stability"); }, is_interrupted);
     report::write_stability(results, folder);
+    if (!results.is_complete)
+      return say_interrupted(folder);
     if (options.json)
       std::cout << report::stability_json(results);
     else if (!options.quiet)

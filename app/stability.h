@@ -12,17 +12,19 @@ namespace plumbline::app
   };
 
   /// The operators of methods over the sweep of a scene, on displacements alone.
-  /// @param at_finest  called with the rows of each series' finest level
+  /// @param at_finest    called with the rows of each series' finest level
+  /// @param should_stop  asked before each level of each method
   /// @throws InputError  a method that shows no operator; what else fails is in its row
   study::StabilityResults
   measure_stability(scene::Scene scene, const method::Methods &methods, unsigned int n_levels,
-                    const std::function<void(const study::StabilityRow &)> &at_finest = {});
+                    const std::function<void(const study::StabilityRow &)> &at_finest = {},
+                    const ShouldStop &should_stop = {});
 
   /// Measure the operators of all methods over the sweep of a scene; print tables and verdicts,
   /// write stability.html, .md and .json with pictures in stability/, and the modes of each series'
   /// finest level to stability/*.vtu.
   /// @return exit code: 0, or with check 1 if Expected/stability does not hold; that a method is
-  ///         unstable is a finding, no error
+  ///         unstable is a finding, no error; 130 if it was interrupted: what was finished is there
   /// @throws InputError  a scene that cannot be used, a folder that cannot be written
   /// @throws NumericalError  pictures cannot be drawn; all else is written before that
   int stability(const StabilityOptions &options);

@@ -7,6 +7,7 @@
 #include "methods.h"
 #include "report/formats.h"
 #include "report/strip_page.h"
+#include "run_parts.h"
 #include "strip_growth.h"
 #include "study/preflight.h"
 
@@ -103,18 +104,25 @@ namespace plumbline::app
   }
 
   study::StripResults stand_cracks(const scene::Scene &scene, const method::Methods &methods,
-                                   unsigned int n_levels)
+                                   unsigned int n_levels, const ShouldStop &should_stop)
   {
     study::StripResults results{
         scene.name, scene.purpose, scene.strip, scene.material.lame()({}).mu, {}, {}};
+    const ShouldStop stops = [&]
+    {
+      results.is_complete = results.is_complete && !(should_stop && should_stop());
+      return !results.is_complete;
+    };
     for (const auto &method : methods)
-      for_each_level(scene, n_levels,
-                     [&](const scene::Series &series, const scene::Level &level, bool)
-                     {
-                       results.rows.push_back(study::stand_crack(*method, scene, series, level));
-                       if (scene.strip.n_growth > 0)
-                         add_growth(scene, results.rows.back());
-                     });
+      for_each_level(
+          scene, n_levels,
+          [&](const scene::Series &series, const scene::Level &level, bool)
+          {
+            results.rows.push_back(study::stand_crack(*method, scene, series, level));
+            if (scene.strip.n_growth > 0)
+              add_growth(scene, results.rows.back());
+          },
+          stops);
     results.limits = study::strip_limits(scene.strip, results.rows);
     return results;
   }
@@ -128,11 +136,17 @@ namespace plumbline::app
                        "or use 'plumbline run'");
     const method::Methods methods = strip_methods(scene, options.n_levels);
     const fs::path folder = output_folder(options, scene);
+    watch_interrupts();
     report::write_file(folder / "strip.md", ""); // before the work: can it be written?
 
-    const study::StripResults results = stand_cracks(scene, methods, options.n_levels);
-    const std::vector<std::string> faults = study::strip_faults(results, scene.expected);
+    const study::StripResults results =
+        stand_cracks(scene, methods, options.n_levels, is_interrupted);
+    const std::vector<std::string> faults = results.is_complete
+                                                ? study::strip_faults(results, scene.expected)
+                                                : std::vector<std::string>();
     report::write_strip(results, faults, folder);
+    if (!results.is_complete)
+      return say_interrupted(folder);
     if (options.json)
       std::cout << report::strip_json(results);
     else if (!options.quiet)

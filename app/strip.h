@@ -18,12 +18,14 @@ namespace plumbline::app
                                 unsigned int n_jobs = 1);
 
   /// Strips with a standing crack by methods at all levels of a scene.
+  /// @param should_stop  asked before each
   study::StripResults stand_cracks(const scene::Scene &scene, const method::Methods &methods,
-                                   unsigned int n_levels);
+                                   unsigned int n_levels, const ShouldStop &should_stop = {});
 
   /// Solve strips with a standing crack by all methods at all levels of a scene; print tables,
   /// write strip.html, .md and .json, and strip/ with pictures and their data.
-  /// @return  1 if check is set and something is not as expected, else 0
+  /// @return  130 if it was interrupted (what was finished is there), 1 if check is set and
+  ///          something is not as expected, else 0
   /// @throws InputError  a scene or method that cannot be used, a folder that cannot be written
   /// @throws NumericalError  pictures cannot be drawn, all else is written then
   int strip(const StripOptions &options);

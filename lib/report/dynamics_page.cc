@@ -61,7 +61,7 @@ namespace plumbline::report
       if (!results.expectations.empty())
         facts.push_back(expectations(results));
       if (!results.is_complete)
-        facts.emplace_back("interrupted: what was finished");
+        facts.emplace_back(page::interrupted);
       return page::plain_header(results.scene_name, "dynamics", results.purpose, facts);
     }
 

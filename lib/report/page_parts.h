@@ -25,6 +25,9 @@ namespace plumbline::report::page
   std::string document(const std::string &name, const std::string &what, const std::string &head,
                        const std::string &content);
 
+  /// The fact that results are not all that was asked for.
+  inline constexpr const char *interrupted = "interrupted: what was finished";
+
   /// Name, purpose if there is one, and a line of facts.
   std::string plain_header(const std::string &name, const std::string &what,
                            const std::string &purpose, const std::vector<std::string> &facts);

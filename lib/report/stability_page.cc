@@ -71,6 +71,8 @@ namespace plumbline::report
                           [&](const study::StabilityVerdict &v) { return v.verdict == verdict; });
         facts.push_back(looks[i].first + (" " + std::to_string(n)) + " " + base::word(verdict));
       }
+      if (!results.is_complete)
+        facts.emplace_back(page::interrupted);
       return page::plain_header(results.scene_name, "stability", results.purpose, facts);
     }
 
@@ -235,11 +237,9 @@ namespace plumbline::report
 
   std::string stability_json(const StabilityResults &results)
   {
-    Json json{{"scene", results.scene_name},
-              {"levels", Json::array()},
-              {"powers", Json::array()},
-              {"verdicts", Json::array()},
-              {"strains", Json::array()}};
+    Json json{{"scene", results.scene_name}, {"is_complete", results.is_complete},
+              {"levels", Json::array()},     {"powers", Json::array()},
+              {"verdicts", Json::array()},   {"strains", Json::array()}};
     for (const study::StrainGrowth &growth : results.strains)
       json["strains"].push_back(strain_json(growth));
     for (const study::StabilityRow &row : results.rows)

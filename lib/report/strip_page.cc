@@ -262,6 +262,7 @@ namespace plumbline::report
   std::string strip_json(const StripResults &results)
   {
     Json json{{"scene", results.scene_name},
+              {"is_complete", results.is_complete},
               {"height", results.strip.height},
               {"length", results.strip.length},
               {"crack", results.strip.crack},
@@ -321,7 +322,9 @@ namespace plumbline::report
           results.scene_name, "strip",
           page::plain_header(results.scene_name, "strip", results.purpose,
                              {std::to_string(results.rows.size()) + " strips",
-                              faults.empty() ? "✓ as expected" : "✗ not as expected"}),
+                              !results.is_complete ? page::interrupted
+                              : faults.empty()     ? "✓ as expected"
+                                                   : "✗ not as expected"}),
           page::section("picture", "What the tip costs",
                         "<p class=\"answer\">" + escape_html(verdict(results, faults)) +
                             "</p>\n<div class=\"grid\">\n" + pictures + "</div>\n") +

@@ -100,6 +100,7 @@ namespace plumbline::study
     std::vector<StabilityTrend> trends;
     std::vector<StabilityVerdict> verdicts;
     std::vector<StrainGrowth> strains = {}; ///< of double wells on a torus
+    bool is_complete = true;                ///< else it was interrupted
   };
 } // namespace plumbline::study
 

@@ -49,6 +49,7 @@ namespace plumbline::study
     double mu = 1; ///< in which energies are to be read [force/length^2]
     std::vector<StripRow> rows;
     std::vector<StripLimit> limits;
+    bool is_complete = true; ///< else it was interrupted
   };
 
   /// @throws InputError  a method that solves none; what else it cannot do is in `failure`

@@ -83,17 +83,29 @@ namespace plumbline::app
     return child;
   }
 
-  /// Kill the command as soon as it has written a file, or after half a minute.
-  /// @return  whether it still ran
-  inline bool kill_at(const std::string &arguments, const fs::path &file)
+  /// Send the command a signal as soon as it has written a file, or after half a minute.
+  /// @return  how it ended, as waitpid says it
+  inline int signal_at(const std::string &arguments, const fs::path &file, int signal)
   {
     const pid_t child = start(arguments);
     for (int i = 0; i < 6000 && !fs::exists(file); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    kill(child, SIGKILL);
+    kill(child, signal);
     int status = 0;
     waitpid(child, &status, 0);
-    return WIFSIGNALED(status);
+    return status;
+  }
+
+  /// @return  whether it still ran
+  inline bool kill_at(const std::string &arguments, const fs::path &file)
+  {
+    return WIFSIGNALED(signal_at(arguments, file, SIGKILL));
+  }
+
+  /// @return  its exit code
+  inline int interrupt_at(const std::string &arguments, const fs::path &file)
+  {
+    return WEXITSTATUS(signal_at(arguments, file, SIGINT));
   }
 
   inline void expect_found(const std::string &text, const std::string &part,

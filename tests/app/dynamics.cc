@@ -77,13 +77,10 @@ TEST(DynamicsCommand, interrupted_keeps_what_is_finished)
   const std::string settings = set("Time/final time", "4000") + set("Time/steps", "0.02") +
                                set("Expected/orders", "") + set("Time/schemes", "velocity Verlet") +
                                set("Study/h", "0.2, 0.1, 0.05, 0.025");
-  const std::string command = std::string(PLUMBLINE_COMMAND) + " run " + schemes + " " + settings +
-                              "--quiet -o " + folder.string() + " 2>/dev/null";
-  const int status = std::system((command + " & pid=$!; for i in $(seq 600); do [ -s " +
-                                  (folder / "dynamics.jsonl").string() +
-                                  " ] && break; sleep 0.1; done; kill -TERM $pid; wait $pid")
-                                     .c_str());
-  EXPECT_EQ(WEXITSTATUS(status), 130);
+  const int exit_code =
+      interrupt_at("run " + schemes + " " + settings + "--quiet -o " + folder.string(),
+                   folder / "dynamics.jsonl");
+  EXPECT_EQ(exit_code, 130);
   const auto json = nlohmann::json::parse(read(folder / "dynamics.json"));
   EXPECT_FALSE(json["is_complete"]);
   EXPECT_GE(json["runs"].size(), 1u);

@@ -2,6 +2,8 @@
 
 #include "command.h"
 
+#include <nlohmann/json.hpp>
+
 namespace
 {
   using namespace plumbline::app;
@@ -33,6 +35,23 @@ TEST(StabilityCommand, says_and_writes_where_a_rule_breaks)
   EXPECT_TRUE(fs::exists(folder / "stability/ipa-ac-r2_m-3.vtu"));
   EXPECT_TRUE(fs::exists(folder / "stability/lowest-modes_m-3.svg"));
   expect_found(read(folder / "stability.html"), "m &gt;= 2.24");
+}
+
+TEST(StabilityCommand, interrupted_keeps_what_is_finished)
+{
+  // the finest level of FA at m = 3 is there, those of DGQ1 and of m = 4 and 5 take a minute
+  const fs::path folder = temporary("stability");
+  EXPECT_EQ(interrupt_at("stability " + std::string(PLUMBLINE_SCENES) +
+                             "/ipa_ac/scalar_delta_convergence.prm --methods FA,DGQ1,Q1 --quiet "
+                             "--set Expected/rates= --set Expected/verdicts= -o " +
+                             folder.string(),
+                         folder / "stability/fa_m-3.vtu"),
+            130);
+  const auto json = nlohmann::json::parse(read(folder / "stability.json"));
+  EXPECT_FALSE(json["is_complete"]);
+  EXPECT_GE(json["levels"].size(), 10u);
+  EXPECT_EQ(json["verdicts"].size(), 3u);
+  expect_found(read(folder / "stability.html"), "interrupted: what was finished");
 }
 
 TEST(StabilityCommand, refuses_levels_that_do_not_fit_into_memory)

@@ -32,6 +32,20 @@ TEST(StripCommand, charts_a_tip_by_both_sides)
   fs::remove_all(folder);
 }
 
+TEST(StripCommand, interrupted_keeps_what_is_finished)
+{
+  // the first level takes a moment, the last one minutes
+  const fs::path folder = temporary("strip");
+  EXPECT_EQ(interrupt_at("strip " + std::string(PLUMBLINE_SCENES) +
+                             "/fracture/strip_growth_narrow.prm --quiet -o " + folder.string(),
+                         folder / "strip.md"),
+            130);
+  const auto json = nlohmann::json::parse(read(folder / "strip.json"));
+  EXPECT_FALSE(json["is_complete"]);
+  EXPECT_LT(json["levels"].size(), 4u);
+  expect_found(read(folder / "strip.html"), "interrupted: what was finished");
+}
+
 TEST(StripCommand, charts_a_crack_in_its_own_field)
 {
   const fs::path folder = temporary("strip");

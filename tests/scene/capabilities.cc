@@ -118,3 +118,21 @@ TEST(Capabilities, those_that_can_do_the_same_share_a_row_of_the_table)
   EXPECT_NE(table.find("| one | yes | - |"), std::string::npos) << table;
   EXPECT_NE(table.find("| two, three | - | - |"), std::string::npos) << table;
 }
+
+TEST(Capabilities, are_needed_by_what_a_body_is_made_of)
+{
+  const auto needed = [](const std::string &of, const std::vector<Override> &settings = {})
+  { return needs(parse_scene("t.prm", scene_template(of), settings)); };
+  EXPECT_EQ(needed("scalar").count(Capability::dilatation), 0u);
+  EXPECT_EQ(needed("LPS").count(Capability::dilatation), 1u);
+  EXPECT_EQ(needed("LPS", {{"Material/nu", "0.25"}}).count(Capability::dilatation), 0u);
+  const Capabilities torus = needed("double-well"),
+                     collar = needed("double-well", {{"Domain/boundary", "constrained"},
+                                                     {"Problem/solution", "x*t, y*t"},
+                                                     {"Reference/method", "none"},
+                                                     {"Study/decisive error", "nodal L2 | exact"}});
+  for (const Capabilities &of : {torus, collar})
+    EXPECT_EQ(of.count(Capability::double_well), 1u);
+  EXPECT_EQ(torus.count(Capability::double_well_collar), 0u);
+  EXPECT_EQ(collar.count(Capability::double_well_collar), 1u);
+}
