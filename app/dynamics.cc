@@ -122,7 +122,7 @@ namespace plumbline::app
         std::cout << report::dynamics_text(results)
                   << "\nreport: " << (folder / "dynamics.html").string() << '\n';
       if (!results.is_complete)
-        std::cerr << "interrupted: what is finished is in '" << folder.string() << "'\n";
+        say_interrupted(folder, true);
       if (results.shows_blow_up)
         return;
       for (const study::MotionRun &run : results.runs)

@@ -3,7 +3,6 @@
 #include "base/error.h"
 
 #include <algorithm>
-#include <iostream>
 
 namespace plumbline::app
 {
@@ -57,9 +56,12 @@ namespace plumbline::app
     }
   }
 
-  int say_interrupted(const std::filesystem::path &folder)
+  ShouldStop noting(const ShouldStop &should_stop, bool &is_complete)
   {
-    std::cerr << "interrupted: what is finished is in '" << folder.string() << "'\n";
-    return 130;
+    return [should_stop, &is_complete]
+    {
+      is_complete = is_complete && !(should_stop && should_stop());
+      return !is_complete;
+    };
   }
 } // namespace plumbline::app

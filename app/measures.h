@@ -35,7 +35,7 @@ namespace plumbline::app
       const std::function<void(const scene::Series &, const scene::Level &, bool is_finest)> &visit,
       const ShouldStop &should_stop = {});
 
-  /// Says on the terminal where the results of an interrupted command are.
-  /// @return  exit code
-  int say_interrupted(const std::filesystem::path &folder);
+  /// The same, noting that it said so, and saying so from then on.
+  /// @param is_complete  outlives it
+  ShouldStop noting(const ShouldStop &should_stop, bool &is_complete);
 } // namespace plumbline::app

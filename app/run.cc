@@ -233,8 +233,7 @@ namespace plumbline::app
       else if (!options.quiet)
         print_summary(results, folder);
       if (!results.is_complete)
-        std::cerr << "interrupted: what is finished is in '" << folder.string()
-                  << "'; the same command continues\n";
+        say_interrupted(folder, true);
       for (const study::Run &run : results.runs)
         if (!run.failure.empty())
           std::cerr << "no solution: " << run.method << ", " << run.problem << ", " << run.series

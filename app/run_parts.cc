@@ -48,6 +48,13 @@ namespace plumbline::app
     return interrupted != 0;
   }
 
+  int say_interrupted(const std::filesystem::path &folder, bool continues)
+  {
+    std::cerr << "interrupted: what is finished is in '" << folder.string() << "'"
+              << (continues ? "; the same command continues\n" : "\n");
+    return 130;
+  }
+
   std::map<std::string, std::string> provenance()
   {
     return {{"plumbline", PLUMBLINE_VERSION},

@@ -15,6 +15,11 @@ namespace plumbline::app
   void watch_interrupts();
   bool is_interrupted();
 
+  /// Says on the terminal where the results of an interrupted command are, and whether it takes
+  /// them over when it is run again.
+  /// @return  its exit code
+  int say_interrupted(const std::filesystem::path &folder, bool continues);
+
   /// Versions and machine, for results.
   std::map<std::string, std::string> provenance();
 

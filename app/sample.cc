@@ -245,11 +245,7 @@ namespace plumbline::app
     for (const study::SampleFailure &failure : results.failures)
       std::cerr << "sample " << failure.sample << " failed: " << failure.reason << '\n';
     if (is_interrupted())
-    {
-      std::cerr << "interrupted: what is finished is in '" << folder.string()
-                << "'; the same command continues\n";
-      return 130;
-    }
+      return say_interrupted(folder, true);
     if (!results.failures.empty() || !results.is_complete)
       return 3;
     for (const std::string &fault : faults)

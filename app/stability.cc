@@ -120,11 +120,7 @@ namespace plumbline::app
     results.scene_name = scene.name;
     results.purpose = scene.purpose;
     std::vector<std::vector<StabilityRow>> rows(methods.size()); // of each method
-    const ShouldStop stops = [&]
-    {
-      results.is_complete = results.is_complete && !(should_stop && should_stop());
-      return !results.is_complete;
-    };
+    const ShouldStop stops = noting(should_stop, results.is_complete);
     for_each_level(
         scene, n_levels,
         [&](const scene::Series &series, const scene::Level &level, bool is_finest)
@@ -170,7 +166,7 @@ namespace plumbline::app
         [&](const StabilityRow &row) { write_modes(row, folder / "stability"); }, is_interrupted);
     report::write_stability(results, folder);
     if (!results.is_complete)
-      return say_interrupted(folder);
+      return say_interrupted(folder, false);
     if (options.json)
       std::cout << report::stability_json(results);
     else if (!options.quiet)

@@ -108,11 +108,7 @@ namespace plumbline::app
   {
     study::StripResults results{
         scene.name, scene.purpose, scene.strip, scene.material.lame()({}).mu, {}, {}};
-    const ShouldStop stops = [&]
-    {
-      results.is_complete = results.is_complete && !(should_stop && should_stop());
-      return !results.is_complete;
-    };
+    const ShouldStop stops = noting(should_stop, results.is_complete);
     for (const auto &method : methods)
       for_each_level(
           scene, n_levels,
@@ -146,7 +142,7 @@ namespace plumbline::app
                                                 : std::vector<std::string>();
     report::write_strip(results, faults, folder);
     if (!results.is_complete)
-      return say_interrupted(folder);
+      return say_interrupted(folder, false);
     if (options.json)
       std::cout << report::strip_json(results);
     else if (!options.quiet)

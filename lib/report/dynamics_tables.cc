@@ -16,11 +16,10 @@ namespace plumbline::report
   const char *const motion_rates_words =
       "At the final time, with the shortest step of each scheme: nodal errors of the displacement "
       "u and of its rate v. rate: slope over the last three levels. What is left of errors in time "
-      "is in them; a plateau may be theirs. proven: for rules and data in C^(0,γ), from h^γ/ε² "
-      "(Jha "
-      "& Lipton 2018, doi:10.1137/17M1112236, Theorems 3 and 4), so nothing where the horizon "
+      "is in them; a plateau may be theirs. proven: of rules, from h^γ/ε² for data in C^(0,γ) "
+      "(Jha & Lipton 2018, doi:10.1137/17M1112236, Theorems 3 and 4); none where the horizon "
       "falls, "
-      "too; less than what rules that are AC show of smooth data.";
+      "too. Smooth data show more by rules that are AC.";
 
   const char *const orders_words =
       "At the finest level: errors of u against the motion of the same lattice that is exact in "

@@ -154,7 +154,7 @@ namespace plumbline::report
     /// How quantities depend on the one variable that there is: a line for each method and level.
     void add_dependences(const SamplingResults &results, std::vector<DataChart> &charts)
     {
-      if (results.variables.size() != 1 || results.sampling.rule != random::SampleRule::equidistant)
+      if (results.variables.size() != 1 || !results.sampling.is_axis())
         return;
       std::set<std::string> names;
       for (const CaseStatistics &one : results.cases)
@@ -273,8 +273,11 @@ namespace plumbline::report
   {
     std::vector<DataChart> charts;
     add_dependences(results, charts);
-    add_errors(results, "mean", mean_error, charts);
-    add_errors(results, "deviation", deviation_error, charts);
+    if (!results.sampling.is_axis())
+    {
+      add_errors(results, "mean", mean_error, charts);
+      add_errors(results, "deviation", deviation_error, charts);
+    }
     add_histograms(results, charts);
     if (results.spectrum && results.spectrum->variance_kept() > 0)
       charts.push_back(spectrum_chart(*results.spectrum));

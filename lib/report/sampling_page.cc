@@ -48,7 +48,11 @@ namespace plumbline::report
         text += ". " + words_of(*r.spectrum);
       if (const std::string seeds = seed_words(r.random, r.n_samples); !seeds.empty())
         text += ". " + seeds;
-      if (const SetStatistics *const set = best(r))
+      if (r.sampling.is_axis())
+        text +=
+            ". Nothing is by chance: variables go from end to end, and means and deviations are "
+            "those over the intervals, by the trapezoidal rule";
+      else if (const SetStatistics *const set = best(r))
         text += ". Weights of the largest set: sum of sizes " + rounded(set->sum_of_sizes) +
                 ", noise √Σw² " + rounded(set->noise) +
                 (set->noise > 1 ? ", by which independent errors of samples grow"

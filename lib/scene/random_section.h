@@ -100,6 +100,9 @@ namespace plumbline::scene
 
     bool is_there() const { return rule != random::SampleRule::none; }
 
+    /// Nothing is by chance: variables are parameters of a study.
+    bool is_axis() const { return rule == random::SampleRule::equidistant; }
+
     void declare(Keys &keys);
   };
 } // namespace plumbline::scene

@@ -305,8 +305,11 @@ namespace plumbline::study
           finest = &other;
       results.cases.push_back(conclude_case(scene, plan, one, *finest, results.findings));
     }
-    results.cheapest = find_cheapest(results.cases);
-    results.balance = find_balance(results.cases);
+    if (!scene.sampling.is_axis()) // else means are over an interval, and nobody asks for them
+    {
+      results.cheapest = find_cheapest(results.cases);
+      results.balance = find_balance(results.cases);
+    }
     for (const std::string &finding : find_findings(results))
       results.findings.push_back(finding);
     if (scene.fracture.is_there() && scene.sampling.analysis == scene::SampledAnalysis::of_scene)

@@ -200,6 +200,8 @@ namespace plumbline::report
     EXPECT_EQ(
         to_csv(charts[1].data),
         "method,case,series,h,nu,value\nOPT,,m = 3,0.25,0.5,0.75\nOPT,,m = 3,0.25,0.25,0.125\n");
+    EXPECT_NE(sampling_text(results).find("Nothing is by chance"), std::string::npos);
+    EXPECT_EQ(sampling_text(results).find("noise"), std::string::npos);
     results.variables = {"nu", "a"}; // a chart has room for one
     EXPECT_TRUE(sampling_charts(results).empty());
   }

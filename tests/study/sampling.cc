@@ -116,6 +116,28 @@ TEST(SampleStatistics, CheapestPairStaysBelowItsTarget)
   EXPECT_EQ(cheapest(.02, .5)[0].h, .125);
 }
 
+TEST(SampleStatistics, ThatAnAxisIsNoChanceAdviseNothing)
+{
+  const auto conclude = [](const std::string &rule)
+  {
+    const scene::Scene scene =
+        random_scene({{"Random/variables", "c: uniform 0 0.2"}, {"Sampling/rule", rule}});
+    const SamplingPlan plan = make_sampling_plan(scene);
+    return conclude_samples(scene, plan,
+                            [&](std::size_t i)
+                            {
+                              SampleRecord record = exact_record(plan, i, first);
+                              for (double &value : record.cases[0].field.values)
+                                value += .02;
+                              return record;
+                            });
+  };
+  EXPECT_FALSE(conclude("tensor").cheapest.empty());
+  EXPECT_FALSE(conclude("tensor").balance.empty());
+  EXPECT_TRUE(conclude("equidistant").cheapest.empty());
+  EXPECT_TRUE(conclude("equidistant").balance.empty());
+}
+
 // A field of which each of three modes adds its part, at two levels whose errors are known.
 TEST(SampleStatistics, WithoutATargetAreHeldAgainstTheLastSetOfTheFinestLevel)
 {
