@@ -46,17 +46,14 @@ namespace plumbline::app
     }
 
     /// That of the scene, or Q1 or P1.
-    std::shared_ptr<const method::Method> reference_method(const scene::Scene &scene,
-                                                           const scene::Problem &problem)
+    std::shared_ptr<const method::Method> reference_method(const scene::Case &one)
     {
-      const std::string name = scene.reference.method         ? *scene.reference.method
-                               : problem.mesh->is_triangles() ? "P1"
-                                                              : "Q1";
+      const auto &wanted = one.scene.reference.method;
+      const std::string name = wanted ? *wanted : one.problem.mesh->is_triangles() ? "P1" : "Q1";
       for (const auto &method : reference::methods())
         if (method->name() == name)
         {
-          if (const std::string reason =
-                  study::refusal(*method, scene, problem, reference::methods());
+          if (const std::string reason = study::refusal(*method, one, reference::methods());
               !reason.empty())
             throw InputError("Reference/method: '" + name + "' cannot do this scene: " + reason);
           return method;
@@ -107,17 +104,19 @@ namespace plumbline::app
     };
 
     /// @param place  the case and the level, for messages
-    CaseCheck check_case(const scene::Scene &scene, const scene::Problem &problem,
-                         const std::string &name, const std::string &place,
+    CaseCheck check_case(const scene::Case &one, const std::string &place,
                          const FamilySource &families)
     {
-      const auto method = reference_method(scene, problem);
+      const scene::Problem &problem = one.problem;
+      const auto &norms = one.scene.study.norms;
+      const auto method = reference_method(one);
       const analysis::Solution reference = reference_solution(problem, *method, place);
-      CaseCheck result{name, method->name(), {}, {}, study::errors(scene, problem, reference, {})};
+      CaseCheck result{
+          one.name(), method->name(), {}, {}, study::errors(norms, problem, reference, {})};
       try
       {
         const analysis::Solution solution = analysis::solve(GivenWeights(families), problem);
-        result.errors = study::errors(scene, problem, solution, {reference.averages, {}});
+        result.errors = study::errors(norms, problem, solution, {reference.averages, {}});
       }
       catch (const NumericalError &error)
       {
@@ -136,9 +135,10 @@ namespace plumbline::app
     }
 
     /// Weights as they stand, for what names their defects.
-    void find_defects(Findings &found, const scene::Scene &scene, const scene::Problem &problem,
+    void find_defects(Findings &found, const scene::Case &one,
                       const std::vector<double> &uncut_areas)
     {
+      const scene::Problem &problem = one.problem;
       const std::vector<Family> &families = found.given.families;
       found.outliers = find_volume_outliers(
           {families, problem.kernel, *problem.cells, found.volumes}, uncut_areas);
@@ -150,7 +150,7 @@ namespace plumbline::app
         found.rule = rule->rule;
         found.rule_factor = rule->factor;
       }
-      found.causes = find_causes(given, rule, scene.methods.names);
+      found.causes = find_causes(given, rule, one.scene.methods.names);
       if (rule && rule->is_full_area() && found.causes.empty())
         found.rule_remark = ramp_text(ramp_effects(given, families));
       const double point_scale = found.causes.empty() ? 1 : found.causes.front().point_scale;
@@ -186,13 +186,14 @@ namespace plumbline::app
     GivenCells cells = given_cells(found.nodes, mesh, boundary_is_data);
     found.cells = std::make_shared<const geometry::NodeCells>(std::move(cells.cells));
     found.n_on_boundary = boundary_is_data ? 0 : cells.n_on_boundary;
-    const auto problem_of = [&](unsigned int c)
+    const auto case_of = [&](unsigned int c)
     {
-      scene::Problem problem = scene::make_problem(scene, c, found.level.level);
-      problem.cells = found.cells;
-      return problem;
+      scene::Case one = scene::make_case(scene, c, found.level.level);
+      one.problem.cells = found.cells;
+      return one;
     };
-    const scene::Problem problem = problem_of(0);
+    const scene::Case first = case_of(0);
+    const scene::Problem &problem = first.problem;
 
     found.given = read_given_families(options.bonds_file, found.nodes, *found.cells);
     for (const std::size_t i : found.cells->source)
@@ -212,7 +213,7 @@ namespace plumbline::app
     found.moments = check_moments(families, problem.kernel);
     found.weights = check_weights(families, problem.kernel, found.volumes);
     found.symmetry = check_symmetry(families, problem.kernel);
-    find_defects(found, scene, problem, cells.uncut_areas);
+    find_defects(found, first, cells.uncut_areas);
     const FamilySource source = [&](std::size_t i, Family &family) { family = families[i]; };
     try
     {
@@ -225,8 +226,7 @@ namespace plumbline::app
     }
     const auto names = scene.problem.case_names();
     for (unsigned int c = 0; c < names.size(); ++c)
-      found.cases.push_back(
-          check_case(scene, problem_of(c), names[c], names[c] + ", " + found.level.text(), source));
+      found.cases.push_back(check_case(case_of(c), names[c] + ", " + found.level.text(), source));
     return found;
   }
 } // namespace plumbline::app

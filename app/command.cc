@@ -23,7 +23,9 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <iostream>
+#include <memory>
 
 namespace
 {
@@ -69,18 +71,220 @@ namespace
         3);
   }
 
-  /// What `stability`, `dispersion`, `crack`, `grow`, `strip` and `sample` take.
-  void add_options(CLI::App &command, plumbline::app::MeasureOptions &options,
-                   std::vector<std::string> &settings)
+  using namespace plumbline::app;
+
+  /// What the command line asks for.
+  struct Request
   {
+    std::vector<std::string> settings; ///< of --set
+    unsigned int n_threads = 0;        ///< 0: one for each core
+    bool is_for_all_ranks = false;     ///< else the first rank does it
+    std::function<int()> action;       ///< gives the exit code
+  };
+
+  /// What a command that is chosen does with its options.
+  template <class Options>
+  void set_action(CLI::App &command, Request &request, const std::shared_ptr<Options> &options,
+                  int (*action)(const Options &), bool is_for_all_ranks = false)
+  {
+    command.callback(
+        [=, &request]
+        {
+          request.is_for_all_ranks = is_for_all_ranks;
+          request.action = [=, &request]
+          {
+            options->overrides = to_overrides(request.settings);
+            return action(*options);
+          };
+        });
+  }
+
+  void add_run(CLI::App &app, Request &request)
+  {
+    const auto options = std::make_shared<RunOptions>();
+    auto &run = *app.add_subcommand("run", "Run a scene and write its report");
+    run.add_option("SCENE", options->scene_file, "Scene file (.prm or .json)")->required();
+    run.add_option("-o,--output", options->output, "Output folder (default: results/<scene>)");
+    run.add_option("--set", request.settings, "Section/key=value, instead of what the file says");
+    run.add_option("--methods", options->methods,
+                   "Methods, comma separated, instead of the scene's");
+    run.add_option("--model", options->model, "smallest (what the scene needs) or full");
+    run.add_option("--levels", options->n_levels, "The first so many levels of each sweep only");
+    run.add_option("--budget", options->budget,
+                   "Leave out solves that are expected to take more CPU seconds");
+    run.add_option("--threads", request.n_threads, "Threads (default: all cores)");
+    run.add_flag("--check", options->check, "Exit with 1 if the Expected section does not hold");
+    run.add_flag("--quiet", options->quiet, "Print nothing but errors");
+    run.add_flag("--json", options->json, "Print results.json instead of the verdict table");
+    set_action(run, request, options, plumbline::app::run, true);
+  }
+
+  void add_check(CLI::App &app, Request &request)
+  {
+    const auto options = std::make_shared<CheckOptions>();
+    auto &check = *app.add_subcommand("check", "Check quadrature weights of another code");
+    check.add_option("NODES", options->nodes_file, "Its nodes: CSV with id,x,y,volume")->required();
+    check.add_option("BONDS", options->bonds_file, "Its bonds: CSV with i,j,weight[,qx,qy]")
+        ->required();
+    check.add_option("--scene", options->scene_file, "Scene file (.prm or .json)")->required();
+    check.add_option(
+        "-o,--output", options->output,
+        "Output folder (default: results/check_<scene>; with --json or --quiet: none)");
+    check.add_option("--require", options->required, requirements_help)->allow_extra_args(false);
+    check.add_option("--set", request.settings, "Section/key=value, instead of what the file says");
+    check.add_flag("--quiet", options->quiet, "Print nothing but errors, write nothing without -o");
+    check.add_flag("--json", options->json, "Print a JSON object, write nothing without -o");
+    set_action(check, request, options, plumbline::app::check, true);
+  }
+
+  /// `stability`, `dispersion`, `crack`, `grow`, `strip` and `sample` take the same.
+  CLI::App &add_measuring(CLI::App &app, const std::string &name, const std::string &help,
+                          MeasureOptions &options, Request &request)
+  {
+    auto &command = *app.add_subcommand(name, help);
     command.add_option("SCENE", options.scene_file, "Scene file (.prm or .json)")->required();
     command.add_option("-o,--output", options.output, "Output folder (default: results/<scene>)");
-    command.add_option("--set", settings, "Section/key=value, instead of what the file says");
+    command.add_option("--set", request.settings,
+                       "Section/key=value, instead of what the file says");
     command.add_option("--methods", options.methods, "Methods, instead of the scene's");
     command.add_option("--levels", options.n_levels, "The first so many levels of each sweep");
     command.add_flag("--quiet", options.quiet, "Print nothing but errors");
-    command.add_flag("--json", options.json,
-                     "Print " + command.get_name() + ".json instead of the table");
+    command.add_flag("--json", options.json, "Print " + name + ".json instead of the table");
+    return command;
+  }
+
+  void add_dispersion(CLI::App &app, Request &request)
+  {
+    const auto options = std::make_shared<DispersionOptions>();
+    auto &command =
+        add_measuring(app, "dispersion", "How waves move by each method", *options, request);
+    command.add_option("--angles", options->angles, "Directions in degrees (default: 0,22.5,45)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    set_action(command, request, options, dispersion);
+  }
+
+  /// Those that are told to check what the scene expects, and nothing else.
+  template <class Options>
+  void add_checked(CLI::App &app, Request &request, const std::string &name,
+                   const std::string &help, const std::string &check,
+                   int (*action)(const Options &))
+  {
+    const auto options = std::make_shared<Options>();
+    auto &command = add_measuring(app, name, help, *options, request);
+    command.add_flag("--check", options->check, "Exit with 1 if " + check);
+    set_action(command, request, options, action);
+  }
+
+  void add_sample(CLI::App &app, Request &request)
+  {
+    const auto options = std::make_shared<SampleOptions>();
+    auto &command = add_measuring(app, "sample", "Take a random scene at many samples; statistics",
+                                  *options, request);
+    command.add_flag("--check", options->check, "Exit with 1 if Expected/sampling fails");
+    command
+        .add_option("--jobs", options->n_jobs,
+                    "Processes that take samples side by side (default: 1)")
+        ->check(CLI::Range(1u, 4096u));
+    command.add_option("--threads", options->n_threads,
+                       "Threads of each process (default: all cores, shared among them)");
+    command.add_flag("--worker", options->is_worker)->group(""); // what it begins itself
+    set_action(command, request, options, sample, true);
+    command.parse_complete_callback(
+        [=, &request] { request.n_threads = options->is_worker ? options->n_threads : 0; });
+  }
+
+  /// What takes one word and prints or writes something about it.
+  void add_word(CLI::App &app, Request &request, const std::string &name, const std::string &help,
+                const std::string &word, const std::string &word_help,
+                const std::function<int(const std::string &)> &action)
+  {
+    const auto text = std::make_shared<std::string>();
+    auto &command = *app.add_subcommand(name, help);
+    command.add_option(word, *text, word_help)->required();
+    command.callback([=, &request] { request.action = [=] { return action(*text); }; });
+  }
+
+  void add_words(CLI::App &app, Request &request)
+  {
+    add_word(app, request, "report",
+             "Rebuild tables, charts and page from the numbers of a run, also of one that was "
+             "killed",
+             "DIR", "Output folder of a run", rebuild_report);
+    const auto as_matrix = std::make_shared<bool>(false);
+    add_word(app, request, "list", "List methods, models, analyses, kernels or scenes", "WHAT",
+             "methods, models, analyses, kernels or scenes",
+             [=](const std::string &what)
+             {
+               plumbline::app::list(what, *as_matrix);
+               return 0;
+             });
+    app.get_subcommand("list")->add_flag("--matrix", *as_matrix,
+                                         "Methods by what they can do, as a table");
+    const auto print = [](std::string (*text)(const std::string &))
+    {
+      return [=](const std::string &word)
+      {
+        std::cout << text(word);
+        return 0;
+      };
+    };
+    add_word(app, request, "template", "Print a scene with all keys and their help", "MODEL",
+             "scalar, tensor, LPS, variational or double-well",
+             print(plumbline::scene::scene_template));
+    add_word(app, request, "describe", "What a key of a scene means", "KEY",
+             "Section or Section/key", print(plumbline::scene::describe));
+  }
+
+  void add_commands(CLI::App &app, Request &request)
+  {
+    app.set_version_flag("--version", PLUMBLINE_VERSION);
+    app.require_subcommand(1);
+    add_run(app, request);
+    add_check(app, request);
+    add_checked(app, request, "stability", "Where methods fail, and how",
+                "Expected/stability fails", stability);
+    add_dispersion(app, request);
+    add_checked(app, request, "crack", "How a crack moves through a strip, in time",
+                "Expected/crack fails", crack);
+    add_checked(app, request, "grow", "How a crack grows in equilibrium, bond by bond",
+                "Expected/growth fails", grow);
+    add_checked(app, request, "strip", "What the tip of a standing crack costs, by each method",
+                "Expected/strip fails, or a strip is too short", strip);
+    add_sample(app, request);
+    add_words(app, request);
+  }
+
+  /// What is asked for, by all ranks or the first, and its exit code.
+  int act(const Request &request)
+  {
+    // whatever one rank alone fails at, all of them end with it
+    const plumbline::base::SeparateCommunicator ranks(plumbline::base::Communicator::all());
+    constexpr double patience = 30; // of a rank that failed, with others that wait for it [s]
+    int exit_code = 0;
+    try
+    {
+      ranks.communicator().together(
+          [&]
+          {
+            if (request.is_for_all_ranks || ranks.communicator().rank() == 0)
+              exit_code = request.action();
+          },
+          patience);
+    }
+    catch (const plumbline::InputError &error)
+    {
+      exit_code = fail(error.what(), 2);
+    }
+    catch (const plumbline::NumericalError &error)
+    {
+      exit_code = fail(error.what(), 3);
+    }
+    catch (const std::exception &error)
+    {
+      exit_code = fail(explain_unexpected(error.what()), 3);
+    }
+    return exit_code;
   }
 } // namespace
 
@@ -88,96 +292,8 @@ int plumbline::app::command(int argc, char **argv)
 {
   CLI::App app(
       "Plumbline: reference solutions for nonlocal models, and which meshfree rule to trust.");
-  app.set_version_flag("--version", PLUMBLINE_VERSION);
-  app.require_subcommand(1);
-
-  plumbline::app::RunOptions options;
-  std::vector<std::string> settings;
-  unsigned int n_threads = 0;
-  auto *run = app.add_subcommand("run", "Run a scene and write its report");
-  run->add_option("SCENE", options.scene_file, "Scene file (.prm or .json)")->required();
-  run->add_option("-o,--output", options.output, "Output folder (default: results/<scene>)");
-  run->add_option("--set", settings, "Section/key=value, instead of what the file says");
-  run->add_option("--methods", options.methods, "Methods, comma separated, instead of the scene's");
-  run->add_option("--model", options.model, "smallest (what the scene needs) or full");
-  run->add_option("--levels", options.n_levels, "The first so many levels of each sweep only");
-  run->add_option("--budget", options.budget,
-                  "Leave out solves that are expected to take more CPU seconds");
-  run->add_option("--threads", n_threads, "Threads (default: all cores)");
-  run->add_flag("--check", options.check, "Exit with 1 if the Expected section does not hold");
-  run->add_flag("--quiet", options.quiet, "Print nothing but errors");
-  run->add_flag("--json", options.json, "Print results.json instead of the verdict table");
-
-  plumbline::app::CheckOptions weights;
-  auto *check = app.add_subcommand("check", "Check quadrature weights of another code");
-  check->add_option("NODES", weights.nodes_file, "Its nodes: CSV with id,x,y,volume")->required();
-  check->add_option("BONDS", weights.bonds_file, "Its bonds: CSV with i,j,weight[,qx,qy]")
-      ->required();
-  check->add_option("--scene", weights.scene_file, "Scene file (.prm or .json)")->required();
-  check->add_option("-o,--output", weights.output,
-                    "Output folder (default: results/check_<scene>; with --json or --quiet: none)");
-  check->add_option("--require", weights.required, plumbline::app::requirements_help)
-      ->allow_extra_args(false);
-  check->add_option("--set", settings, "Section/key=value, instead of what the file says");
-  check->add_flag("--quiet", weights.quiet, "Print nothing but errors, write nothing without -o");
-  check->add_flag("--json", weights.json, "Print a JSON object, write nothing without -o");
-
-  plumbline::app::StabilityOptions measures;
-  auto *stability = app.add_subcommand("stability", "Where methods fail, and how");
-  add_options(*stability, measures, settings);
-  stability->add_flag("--check", measures.check, "Exit with 1 if Expected/stability fails");
-
-  plumbline::app::DispersionOptions waves;
-  auto *dispersion = app.add_subcommand("dispersion", "How waves move by each method");
-  add_options(*dispersion, waves, settings);
-  dispersion->add_option("--angles", waves.angles, "Directions in degrees (default: 0,22.5,45)")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-
-  plumbline::app::CrackOptions strip;
-  auto *crack = app.add_subcommand("crack", "How a crack moves through a strip, in time");
-  add_options(*crack, strip, settings);
-  crack->add_flag("--check", strip.check, "Exit with 1 if Expected/crack fails");
-
-  plumbline::app::GrowOptions body;
-  auto *grow = app.add_subcommand("grow", "How a crack grows in equilibrium, bond by bond");
-  add_options(*grow, body, settings);
-  grow->add_flag("--check", body.check, "Exit with 1 if Expected/growth fails");
-
-  plumbline::app::StripOptions standing;
-  auto *strip_command =
-      app.add_subcommand("strip", "What the tip of a standing crack costs, by each method");
-  add_options(*strip_command, standing, settings);
-  strip_command->add_flag("--check", standing.check,
-                          "Exit with 1 if Expected/strip fails, or a strip is too short");
-
-  plumbline::app::SampleOptions random;
-  auto *sample = app.add_subcommand("sample", "Take a random scene at many samples; statistics");
-  add_options(*sample, random, settings);
-  sample->add_flag("--check", random.check, "Exit with 1 if Expected/sampling fails");
-  sample
-      ->add_option("--jobs", random.n_jobs, "Processes that take samples side by side (default: 1)")
-      ->check(CLI::Range(1u, 4096u));
-  sample->add_option("--threads", random.n_threads,
-                     "Threads of each process (default: all cores, shared among them)");
-  sample->add_flag("--worker", random.is_worker)->group(""); // what it begins itself
-
-  std::string folder, subject, model, key;
-  auto *report = app.add_subcommand(
-      "report",
-      "Rebuild tables, charts and page from the numbers of a run, also of one that was killed");
-  report->add_option("DIR", folder, "Output folder of a run")->required();
-  auto *list = app.add_subcommand("list", "List methods, models, analyses, kernels or scenes");
-  list->add_option("WHAT", subject, "methods, models, analyses, kernels or scenes")->required();
-  bool as_matrix = false;
-  list->add_flag("--matrix", as_matrix, "Methods by what they can do, as a table");
-  auto *make_template =
-      app.add_subcommand("template", "Print a scene with all keys and their help");
-  make_template->add_option("MODEL", model, "scalar, tensor, LPS, variational or double-well")
-      ->required();
-  auto *describe = app.add_subcommand("describe", "What a key of a scene means");
-  describe->add_option("KEY", key, "Section or Section/key")->required();
-
+  Request request;
+  add_commands(app, request);
   try
   {
     app.parse(argc, argv);
@@ -188,70 +304,16 @@ int plumbline::app::command(int argc, char **argv)
   }
   catch (const CLI::ParseError &error)
   {
-    std::cerr << "plumbline: " << plumbline::app::explain(error) << '\n';
+    std::cerr << "plumbline: " << explain(error) << '\n';
     return 2;
   }
-
-  if (random.is_worker)
-    n_threads = random.n_threads;
   // without mpirun: no daemon beside it, nor a shared folder, which one that ends may remove as
   // another begins
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   if (getenv("OMPI_COMM_WORLD_SIZE") == nullptr)
     setenv("OMPI_MCA_orte_create_session_dirs", "false", 0);
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(
-      argc, argv, n_threads == 0 ? dealii::numbers::invalid_unsigned_int : n_threads);
-  // whatever one rank alone fails at, all of them end with it
-  const plumbline::base::SeparateCommunicator ranks(plumbline::base::Communicator::all());
-  constexpr double patience = 30; // of a rank that failed, with others that wait for it [s]
-  const bool is_first = ranks.communicator().rank() == 0;
-  int exit_code = 0;
-  const auto act = [&]
-  {
-    options.overrides = weights.overrides = measures.overrides = waves.overrides = strip.overrides =
-        body.overrides = standing.overrides = random.overrides = to_overrides(settings);
-    if (*run)
-      exit_code = plumbline::app::run(options);
-    else if (*check)
-      exit_code = plumbline::app::check(weights);
-    else if (*sample)
-      exit_code = plumbline::app::sample(random);
-    else if (!is_first)
-      return; // the first rank does it
-    else if (*stability)
-      exit_code = plumbline::app::stability(measures);
-    else if (*dispersion)
-      plumbline::app::dispersion(waves);
-    else if (*crack)
-      exit_code = plumbline::app::crack(strip);
-    else if (*grow)
-      exit_code = plumbline::app::grow(body);
-    else if (*strip_command)
-      exit_code = plumbline::app::strip(standing);
-    else if (*report)
-      exit_code = plumbline::app::rebuild_report(folder);
-    else if (*list)
-      plumbline::app::list(subject, as_matrix);
-    else if (*make_template)
-      std::cout << plumbline::scene::scene_template(model);
-    else if (*describe)
-      std::cout << plumbline::scene::describe(key);
-  };
-  try
-  {
-    ranks.communicator().together(act, patience);
-  }
-  catch (const plumbline::InputError &error)
-  {
-    exit_code = fail(error.what(), 2);
-  }
-  catch (const plumbline::NumericalError &error)
-  {
-    exit_code = fail(error.what(), 3);
-  }
-  catch (const std::exception &error)
-  {
-    exit_code = fail(plumbline::app::explain_unexpected(error.what()), 3);
-  }
-  return finish_output(exit_code);
+      argc, argv,
+      request.n_threads == 0 ? dealii::numbers::invalid_unsigned_int : request.n_threads);
+  return finish_output(act(request));
 }

@@ -36,8 +36,8 @@ namespace plumbline::app
     {
       const physics::DoubleWell law = scene::make_double_well(scene, level.horizon);
       const auto kernel = law.linear_kernel();
-      const auto recipe = find_rule(scene.methods.names.front()).recipe(kernel);
-      return well_bonds(law, lattice_bonds(recipe, kernel, level.h, scene.geometry.backend));
+      const auto rule = find_rule(scene.methods.names.front()).of(kernel);
+      return well_bonds(law, lattice_bonds(rule, kernel, level.h, scene.geometry.backend));
     }
 
     study::CrackThreshold find_threshold(const scene::Scene &scene, const scene::Series &series,

@@ -6,6 +6,8 @@
 #include "methods.h"
 #include "report/dispersion_page.h"
 #include "report/formats.h"
+#include "report/json_lines.h"
+#include "run_parts.h"
 #include "study/preflight.h"
 
 #include <algorithm>
@@ -34,48 +36,62 @@ namespace plumbline::app
     }
   } // namespace
 
-  study::DispersionResults measure_dispersion(const scene::Scene &scene,
-                                              const method::Methods &methods,
-                                              const std::vector<double> &angles,
-                                              unsigned int n_levels)
+  study::DispersionResults
+  measure_dispersion(const scene::Scene &scene, const method::Methods &methods,
+                     const std::vector<double> &angles, unsigned int n_levels,
+                     const std::function<void(const DispersionRow &)> &on_row,
+                     const ShouldStop &should_stop)
   {
     study::DispersionResults results{
         scene.name, scene.purpose, study::plan_waves(scene, angles), {}, {}};
+    const ShouldStop stops = noting(should_stop, results.is_complete);
     std::vector<std::vector<DispersionRow>> rows(methods.size()); // of each method
-    for_each_level(scene, n_levels,
-                   [&](const scene::Series &series, const scene::Level &level, bool is_finest)
-                   {
-                     const scene::Problem problem = scene::make_problem(scene, 0, level);
-                     for (std::size_t i = 0; i < methods.size(); ++i)
-                     {
-                       const base::CpuTimer timer;
-                       auto own = study::measure_waves(*methods[i], problem, results.study,
-                                                       series.name, is_finest);
-                       own.front().seconds = timer.seconds();
-                       std::move(own.begin(), own.end(), std::back_inserter(rows[i]));
-                     }
-                   });
+    for_each_level(
+        scene, n_levels,
+        [&](const scene::Series &series, const scene::Level &level, bool is_finest)
+        {
+          const scene::Problem problem = scene::make_problem(scene, 0, level);
+          for (std::size_t i = 0; i < methods.size() && !stops(); ++i)
+          {
+            const base::CpuTimer timer;
+            auto own =
+                study::measure_waves(*methods[i], problem, results.study, series.name, is_finest);
+            own.front().seconds = timer.seconds();
+            if (on_row)
+              std::for_each(own.begin(), own.end(), on_row);
+            std::move(own.begin(), own.end(), std::back_inserter(rows[i]));
+          }
+        },
+        stops);
     for (auto &own : rows)
       std::move(own.begin(), own.end(), std::back_inserter(results.rows));
     results.trends = study::wave_trends(scene, results.rows);
     return results;
   }
 
-  void dispersion(const DispersionOptions &options)
+  int dispersion(const DispersionOptions &options)
   {
     check_angles(options.angles);
     const scene::Scene scene = read_alone(options);
     (void)study::plan_waves(scene, options.angles);
     const method::Methods methods = study::choose_methods(scene, all_methods());
     const fs::path folder = output_folder(options, scene);
+    watch_interrupts();
     report::write_file(folder / "dispersion.md", ""); // before the work: can it be written?
-    const study::DispersionResults results =
-        measure_dispersion(scene, methods, options.angles, options.n_levels);
+    report::JsonLines finished(folder / "dispersion.jsonl");
+    const study::DispersionResults results = measure_dispersion(
+        scene, methods, options.angles, options.n_levels,
+        [&](const DispersionRow &row) { finished.append(report::dispersion_line(row)); },
+        is_interrupted);
     report::write_dispersion(results, folder);
+    finished.remove();
+    if (!results.is_complete)
+      return say_interrupted(folder, false);
     if (options.json)
       std::cout << report::dispersion_json(results);
     else if (!options.quiet)
       std::cout << report::dispersion_text(results)
                 << "\nwritten: " << (folder / "dispersion.html").string() << '\n';
+    return 0;
   }
 } // namespace plumbline::app

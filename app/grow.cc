@@ -51,7 +51,7 @@ namespace plumbline::app
 
     /// By what G is to be divided for a crack to go on at G in this lattice: the largest energy,
     /// over G, that one needs in a strip whose height is eight horizons.
-    double find_trapping(const scene::Scene &scene, const meshfree::Recipe &recipe,
+    double find_trapping(const scene::Scene &scene, const meshfree::QuadratureRule &rule,
                          const physics::Kernel<2> &influence, double h)
     {
       const int m = static_cast<int>(std::ceil(influence.horizon() / h - 1e-9)), height = 8 * m;
@@ -61,7 +61,7 @@ namespace plumbline::app
                                  4,
                                  lame,
                                  scene.fracture.has_surface_terms,
-                                 recipe,
+                                 rule,
                                  influence,
                                  scene.geometry.backend})
           .peak;
@@ -176,6 +176,23 @@ namespace plumbline::app
     return size;
   }
 
+  namespace
+  {
+    /// @param is_bonds  no node has a dilatation
+    std::string model_words(const scene::Scene &scene, bool is_bonds)
+    {
+      if (is_bonds)
+        return scene.fracture.has_surface_terms
+                   ? "bonds (lambda = mu) with surface terms (Fan et al. 2022, eq. (3.19))"
+                   : "bond-based, for lambda = mu leaves the solid its bonds alone";
+      return std::string("LPS ") +
+             (scene.fracture.has_surface_terms ? "with surface terms (Fan et al. 2022, eq. (3.19))"
+                                               : "without surface terms") +
+             (scene.material.is_homogeneous ? ""
+                                            : ", each node's dilatation with its own constants");
+    }
+  } // namespace
+
   study::GrowthResults grow_body(const scene::Scene &scene, const fs::path &checkpoint,
                                  const std::function<void()> &before_it_grows)
   {
@@ -183,12 +200,12 @@ namespace plumbline::app
     const scene::GrowthSolver solver = check_growth_size(scene).solver;
     const auto influence = physics::influence_function(scene.kernel.profile, level.horizon);
     const meshfree::Rule rule = find_rule(scene.methods.names.front());
-    const meshfree::Recipe recipe = rule.recipe(physics::deviatoric_kernel(influence, 1));
+    const meshfree::QuadratureRule quadrature = rule.of(physics::deviatoric_kernel(influence, 1));
     const double trapping = scene.fracture.criterion == scene::Criterion::calibrated
-                                ? find_trapping(scene, recipe, influence, level.h)
+                                ? find_trapping(scene, quadrature, influence, level.h)
                                 : 1;
     meshfree::BreakingNetwork body(make_bond_network(make_solid(scene, level.horizon, trapping),
-                                                     recipe, influence, level.h,
+                                                     quadrature, influence, level.h,
                                                      scene.geometry.backend),
                                    scene.fracture.stretch, solver);
     if (before_it_grows)
@@ -207,22 +224,13 @@ namespace plumbline::app
     results.scene_text = scene.text;
     results.random = scene.random;
     results.method = rule.name;
-    const bool is_bonds = body.network().dilatation.empty();
-    if (scene.fracture.has_surface_terms)
-      results.model = is_bonds
-                          ? "bonds (lambda = mu) with surface terms (Fan et al. 2022, eq. (3.19))"
-                          : "LPS with surface terms (Fan et al. 2022, eq. (3.19))";
-    else
-      results.model = is_bonds ? "bond-based, for lambda = mu leaves the solid its bonds alone"
-                               : "LPS without surface terms";
-    if (!is_bonds && !scene.material.is_homogeneous)
-      results.model += ", each node's dilatation with its own constants";
+    results.model = model_words(scene, body.network().dilatation.empty());
     results.rules = scene.fracture;
     results.rules.solver = solver;
     results.h = level.h;
     results.horizon = level.horizon;
     results.lattice_toughness =
-        lattice_toughness(recipe, influence, level.h, scene.geometry.backend);
+        lattice_toughness(quadrature, influence, level.h, scene.geometry.backend);
     results.trapping = trapping;
     results.nodes = model.nodes;
     results.notch_tip = model.notch_tip;

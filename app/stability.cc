@@ -5,6 +5,7 @@
 #include "meshfree/vtu.h"
 #include "methods.h"
 #include "report/formats.h"
+#include "report/json_lines.h"
 #include "report/stability_page.h"
 #include "run_parts.h"
 #include "scene/models/model.h"
@@ -71,13 +72,12 @@ namespace plumbline::app
     }
 
     /// Waves on strains in all directions, by all methods.
-    void add_strains(const method::Methods &methods, const scene::Scene &scene,
-                     const scene::Problem &problem, const std::string &series,
-                     const scene::Level &level, std::vector<study::StrainGrowth> &strains)
+    void add_strains(const method::Methods &methods, const scene::Case &one,
+                     const std::string &series, std::vector<study::StrainGrowth> &strains)
     {
-      auto own = study::strain_growths(scene, series, level);
+      auto own = study::strain_growths(one.scene, series, one.level());
       for (const auto &method : methods)
-        study::add_growth(*method, scene, problem, own);
+        study::add_growth(*method, one.problem, one.scene.time.density, own);
       std::move(own.begin(), own.end(), std::back_inserter(strains));
     }
 
@@ -112,7 +112,7 @@ namespace plumbline::app
 
   study::StabilityResults
   measure_stability(scene::Scene scene, const method::Methods &methods, unsigned int n_levels,
-                    const std::function<void(const StabilityRow &)> &at_finest,
+                    const std::function<void(const StabilityRow &, bool is_finest)> &on_row,
                     const ShouldStop &should_stop)
   {
     scene.solver.is_mixed = false; // the operator on displacements is measured
@@ -125,18 +125,18 @@ namespace plumbline::app
         scene, n_levels,
         [&](const scene::Series &series, const scene::Level &level, bool is_finest)
         {
-          const scene::Problem problem = scene::make_problem(scene, 0, level);
+          const scene::Case one = scene::make_case(scene, 0, level);
           for (std::size_t i = 0; i < methods.size(); ++i)
           {
             if (stops())
               return;
             rows[i].push_back(
-                measure_level(*methods[i], problem, series.name, level, scene.time.density));
-            if (is_finest && at_finest)
-              at_finest(rows[i].back());
+                measure_level(*methods[i], one.problem, series.name, level, scene.time.density));
+            if (on_row)
+              on_row(rows[i].back(), is_finest);
           }
           if (is_finest && !scene.material.model->is_linear() && scene.domain.is_periodic)
-            add_strains(methods, scene, problem, series.name, level, results.strains);
+            add_strains(methods, one, series.name, results.strains);
         },
         stops);
     for (auto &own : rows)
@@ -161,10 +161,18 @@ namespace plumbline::app
     const fs::path folder = output_folder(options, scene);
     watch_interrupts();
     report::write_file(folder / "stability.md", ""); // before the work: can it be written?
+    report::JsonLines finished(folder / "stability.jsonl");
     const study::StabilityResults results = measure_stability(
         scene, methods, options.n_levels,
-        [&](const StabilityRow &row) { write_modes(row, folder / "stability"); }, is_interrupted);
+        [&](const StabilityRow &row, bool is_finest)
+        {
+          finished.append(report::stability_line(row));
+          if (is_finest)
+            write_modes(row, folder / "stability");
+        },
+        is_interrupted);
     report::write_stability(results, folder);
+    finished.remove();
     if (!results.is_complete)
       return say_interrupted(folder, false);
     if (options.json)

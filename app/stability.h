@@ -12,13 +12,13 @@ namespace plumbline::app
   };
 
   /// The operators of methods over the sweep of a scene, on displacements alone.
-  /// @param at_finest    called with the rows of each series' finest level
+  /// @param on_row       called with each that is finished
   /// @param should_stop  asked before each level of each method
   /// @throws InputError  a method that shows no operator; what else fails is in its row
-  study::StabilityResults
-  measure_stability(scene::Scene scene, const method::Methods &methods, unsigned int n_levels,
-                    const std::function<void(const study::StabilityRow &)> &at_finest = {},
-                    const ShouldStop &should_stop = {});
+  study::StabilityResults measure_stability(
+      scene::Scene scene, const method::Methods &methods, unsigned int n_levels,
+      const std::function<void(const study::StabilityRow &, bool is_finest)> &on_row = {},
+      const ShouldStop &should_stop = {});
 
   /// Measure the operators of all methods over the sweep of a scene; print tables and verdicts,
   /// write stability.html, .md and .json with pictures in stability/, and the modes of each series'

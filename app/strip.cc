@@ -6,6 +6,7 @@
 #include "base/number_text.h"
 #include "methods.h"
 #include "report/formats.h"
+#include "report/strip_journal.h"
 #include "report/strip_page.h"
 #include "run_parts.h"
 #include "strip_growth.h"
@@ -78,14 +79,14 @@ namespace plumbline::app
       const auto influence = physics::influence_function(scene.kernel.profile, row.horizon);
       try
       {
-        row.growth = grow_through_strip(
-            {row.strip,
-             scene.strip.n_growth,
-             {1, 1},
-             false,
-             find_rule(row.method).recipe(physics::deviatoric_kernel(influence, 1)),
-             influence,
-             scene.geometry.backend});
+        row.growth =
+            grow_through_strip({row.strip,
+                                scene.strip.n_growth,
+                                {1, 1},
+                                false,
+                                find_rule(row.method).of(physics::deviatoric_kernel(influence, 1)),
+                                influence,
+                                scene.geometry.backend});
       }
       catch (const NumericalError &error)
       {
@@ -104,19 +105,33 @@ namespace plumbline::app
   }
 
   study::StripResults stand_cracks(const scene::Scene &scene, const method::Methods &methods,
-                                   unsigned int n_levels, const ShouldStop &should_stop)
+                                   unsigned int n_levels, const StripControl &control)
   {
     study::StripResults results{
         scene.name, scene.purpose, scene.strip, scene.material.lame()({}).mu, {}, {}};
-    const ShouldStop stops = noting(should_stop, results.is_complete);
+    const ShouldStop stops = noting(control.should_stop, results.is_complete);
     for (const auto &method : methods)
       for_each_level(
           scene, n_levels,
           [&](const scene::Series &series, const scene::Level &level, bool)
           {
+            const auto known =
+                std::find_if(control.earlier.begin(), control.earlier.end(),
+                             [&](const study::StripRow &row)
+                             {
+                               return row.method == method->name() && row.series == series.name &&
+                                      row.h == level.h && row.horizon == level.horizon;
+                             });
+            if (known != control.earlier.end())
+            {
+              results.rows.push_back(*known);
+              return;
+            }
             results.rows.push_back(study::stand_crack(*method, scene, series, level));
             if (scene.strip.n_growth > 0)
               add_growth(scene, results.rows.back());
+            if (control.on_row)
+              control.on_row(results.rows.back());
           },
           stops);
     results.limits = study::strip_limits(scene.strip, results.rows);
@@ -135,14 +150,18 @@ namespace plumbline::app
     watch_interrupts();
     report::write_file(folder / "strip.md", ""); // before the work: can it be written?
 
+    report::StripJournal journal(folder, scene.text);
     const study::StripResults results =
-        stand_cracks(scene, methods, options.n_levels, is_interrupted);
+        stand_cracks(scene, methods, options.n_levels,
+                     {is_interrupted, [&](const study::StripRow &row) { journal.append(row); },
+                      journal.earlier()});
     const std::vector<std::string> faults = results.is_complete
                                                 ? study::strip_faults(results, scene.expected)
                                                 : std::vector<std::string>();
     report::write_strip(results, faults, folder);
     if (!results.is_complete)
-      return say_interrupted(folder, false);
+      return say_interrupted(folder, true);
+    journal.remove();
     if (options.json)
       std::cout << report::strip_json(results);
     else if (!options.quiet)

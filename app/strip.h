@@ -17,13 +17,21 @@ namespace plumbline::app
   method::Methods strip_methods(const scene::Scene &scene, unsigned int n_levels,
                                 unsigned int n_jobs = 1);
 
+  /// How strips are taken one after another.
+  struct StripControl
+  {
+    ShouldStop should_stop;                              ///< asked before each
+    std::function<void(const study::StripRow &)> on_row; ///< called with each that is finished
+    std::vector<study::StripRow> earlier;                ///< that need not be solved again
+  };
+
   /// Strips with a standing crack by methods at all levels of a scene.
-  /// @param should_stop  asked before each
   study::StripResults stand_cracks(const scene::Scene &scene, const method::Methods &methods,
-                                   unsigned int n_levels, const ShouldStop &should_stop = {});
+                                   unsigned int n_levels, const StripControl &control = {});
 
   /// Solve strips with a standing crack by all methods at all levels of a scene; print tables,
   /// write strip.html, .md and .json, and strip/ with pictures and their data.
+  /// A run that was interrupted or killed takes over what it had finished, from strip.jsonl.
   /// @return  130 if it was interrupted (what was finished is there), 1 if check is set and
   ///          something is not as expected, else 0
   /// @throws InputError  a scene or method that cannot be used, a folder that cannot be written

@@ -31,7 +31,7 @@ namespace plumbline::app
       auto solid = meshfree::make_strip(shape, strip.lame, strip.influence.horizon());
       solid.has_surface_terms = has_surface_terms;
       return meshfree::BreakingNetwork(
-          make_bond_network(solid, strip.recipe, strip.influence, h, strip.backend),
+          make_bond_network(solid, strip.rule, strip.influence, h, strip.backend),
           scene::Stretch::linear);
     };
     const int n_crack = strip.strip.n_crack;

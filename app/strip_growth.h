@@ -13,7 +13,7 @@ namespace plumbline::app
     unsigned int n_columns = 4; ///< that are measured, after its first two
     physics::Lame lame;
     bool has_surface_terms = false;
-    meshfree::Recipe recipe; ///< of a rule, with the deviatoric kernel of μ = 1
+    meshfree::QuadratureRule rule; ///< of a rule, with the deviatoric kernel of μ = 1
     physics::Kernel<2> influence;
     geometry::Backend backend = geometry::Backend::fast;
   };

@@ -27,13 +27,13 @@ namespace plumbline::audit
               study::field_l2(problem, solution.value, problem.solution->value, degree)};
     }
 
-    Truth against_finer(const scene::Scene &scene, const scene::Problem &problem,
-                        unsigned int case_index, const method::Method &method, unsigned int n,
+    Truth against_finer(const scene::Case &one, const method::Method &method, unsigned int n,
                         const analysis::Solution &solution)
     {
+      const scene::Problem &problem = one.problem;
       const auto better = method.higher_degree();
-      const study::Resized fine = study::finer(scene, problem, case_index, n);
-      const auto found = study::solve_resized(fine, scene, problem, *better);
+      const study::Resized fine = study::finer(one, n);
+      const auto found = study::solve_resized(fine, one, *better);
       scene::Problem cells = problem; // ours in pieces, on which both fields are smooth
       if (problem.lattice)
         cells = fine.problem;
@@ -44,30 +44,28 @@ namespace plumbline::audit
     }
   } // namespace
 
-  std::vector<Entry> audit(const scene::Scene &scene, const scene::Problem &problem,
-                           unsigned int case_index, const method::Method &method, unsigned int n,
+  std::vector<Entry> audit(const scene::Case &one, const method::Method &method, unsigned int n,
                            double &seconds)
   {
+    const scene::Problem &problem = one.problem;
     const analysis::Solution solution = analysis::solve(method, problem);
     seconds = solution.cost.seconds();
     const std::vector<double> zero(solution.averages.size());
     const double size = study::averages_l2(problem, solution.averages, zero);
-    const Truth truth = problem.solution
-                            ? against_solution(problem, solution)
-                            : against_finer(scene, problem, case_index, method, n, solution);
+    const Truth truth = problem.solution ? against_solution(problem, solution)
+                                         : against_finer(one, method, n, solution);
     std::vector<Entry> entries;
     const auto enter = [&](const std::string &way, const std::string &norm, double error,
                            double estimate, const study::ErrorEstimate &details)
     {
       if (error > round_off * size || error > estimate)
-        entries.push_back({scene.problem.case_names()[case_index] + way, method.name(), norm,
-                           problem.h, error, estimate, size, details.certified_digits, details});
+        entries.push_back({one.name() + way, method.name(), norm, problem.h, error, estimate, size,
+                           details.certified_digits, details});
     };
     for (const bool is_cheap : {false, true})
       if (!is_cheap || problem.mesh)
       {
-        const auto found =
-            study::estimate_error(scene, problem, case_index, method, solution, is_cheap);
+        const auto found = study::estimate_error(one, method, solution, is_cheap);
         const std::string way = is_cheap ? ", by 2 h" : "";
         enter(way, "averages", truth.averages, found.estimate, found);
         enter(way, "field", truth.field, found.field_estimate, found);

@@ -28,8 +28,7 @@ namespace plumbline::audit
   /// degree.
   /// @param seconds  out: of the solution [CPU s]
   /// @throws as Method::solve
-  std::vector<Entry> audit(const scene::Scene &scene, const scene::Problem &problem,
-                           unsigned int case_index, const method::Method &method, unsigned int n,
+  std::vector<Entry> audit(const scene::Case &one, const method::Method &method, unsigned int n,
                            double &seconds);
 
   /// The middle one of estimate / error.

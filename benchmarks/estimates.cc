@@ -89,10 +89,10 @@ namespace
         {
           if (seconds * growth > seconds_)
             return;
-          const scene::Problem problem = make_problem(scene, c, level);
-          if (!study::refusal(method, scene, problem, {}).empty())
+          const scene::Case one = make_case(scene, c, level);
+          if (!study::refusal(method, one, {}).empty())
             return;
-          for (const auto &entry : audit::audit(scene, problem, c, method, much_finer, seconds))
+          for (const auto &entry : audit::audit(one, method, much_finer, seconds))
             print(name + " " + series.name, entry);
         }
       }

@@ -59,15 +59,14 @@ namespace plumbline::benchmarks
     }
 
     GuardKernel family(const std::string &rule,
-                       meshfree::Recipe (*recipe)(const physics::Kernel<2> &))
+                       meshfree::QuadratureRule (*of)(const physics::Kernel<2> &))
     {
       return {
           "family " + rule, "family", 1, 8,
           [=]
           {
             const auto kernel = make_kernel("linear-decay", 3);
-            sink =
-                meshfree::lattice_bonds(recipe(kernel), kernel, 1, Backend::fast).family[0].weight;
+            sink = meshfree::lattice_bonds(of(kernel), kernel, 1, Backend::fast).family[0].weight;
           }};
     }
 
@@ -282,7 +281,7 @@ namespace plumbline::benchmarks
     kernels.push_back(ball_cell("ball-cell exact", Backend::cgal, 16, 4));
     kernels.push_back(polar_rule());
     for (const meshfree::Rule &rule : meshfree::rules())
-      kernels.push_back(family(rule.name, rule.recipe));
+      kernels.push_back(family(rule.name, rule.of));
     kernels.push_back(stencil_apply());
     kernels.push_back(row_apply());
     kernels.push_back(galerkin_entries());

@@ -56,3 +56,12 @@ function(plumbline_compile_options target)
   endif()
 endfunction()
 plumbline_compile_options(plumbline_precompiled)
+
+# plumbline_templates(<folder> <namespace>): its templates as templates.cc in the binary folder
+function(plumbline_templates folder namespace)
+  file(GLOB files CONFIGURE_DEPENDS ${folder}/*.mustache ${folder}/*.css)
+  set(script ${PROJECT_SOURCE_DIR}/cmake/templates.cmake)
+  add_custom_command(OUTPUT templates.cc DEPENDS ${files} ${script}
+    COMMAND ${CMAKE_COMMAND} -D FOLDER=${CMAKE_CURRENT_SOURCE_DIR}/${folder} -D NAMESPACE=${namespace}
+            -D OUT=${CMAKE_CURRENT_BINARY_DIR}/templates.cc -P ${script})
+endfunction()

@@ -56,7 +56,7 @@ namespace plumbline::meshfree
       method::StripState solve_strip(const method::RiceStrip &strip,
                                      const Kernel<2> &influence) const override
       {
-        return meshfree::solve_strip(strip, rule_.recipe(physics::deviatoric_kernel(influence, 1)),
+        return meshfree::solve_strip(strip, rule_.of(physics::deviatoric_kernel(influence, 1)),
                                      influence);
       }
 

@@ -2,13 +2,13 @@
 
 namespace plumbline::method
 {
-  Capabilities needs(const scene::Scene &scene, const scene::Problem &problem)
+  Capabilities needs(const scene::Case &one)
   {
-    Capabilities needed = scene::needs(scene);
-    if (problem.mesh)
-      needed.insert(problem.mesh->is_quads()       ? Capability::quadrilaterals
-                    : problem.mesh->is_triangles() ? Capability::triangles
-                                                   : Capability::mixed_cells);
+    Capabilities needed = scene::needs(one.scene);
+    if (const auto &mesh = one.problem.mesh)
+      needed.insert(mesh->is_quads()       ? Capability::quadrilaterals
+                    : mesh->is_triangles() ? Capability::triangles
+                                           : Capability::mixed_cells);
     return needed;
   }
 } // namespace plumbline::method

@@ -11,6 +11,6 @@ namespace plumbline::method
   using scene::Capability;
 
   /// What a scene needs, with the cells that its problem has.
-  /// @param problem  of any case and level
-  Capabilities needs(const scene::Scene &scene, const scene::Problem &problem);
+  /// @param one  of any case and level
+  Capabilities needs(const scene::Case &one);
 } // namespace plumbline::method

@@ -5,10 +5,10 @@
 #include "report/plot.h"
 #include "report/small_multiples.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -19,54 +19,18 @@ namespace plumbline::report
     /// Defects below this are rounding, and are drawn like it.
     constexpr double smallest_drawn = 1e-16;
 
-    std::string picture_of(const std::filesystem::path &dir)
+    std::string html(const CheckPage &check, const std::filesystem::path &dir)
     {
-      std::ifstream in(dir / "maps" / "defects.svg", std::ios::binary);
-      const std::string svg((std::istreambuf_iterator<char>(in)), {});
-      return "<figure class=\"large\">\n" +
-             (svg.empty()
-                  ? std::string("<p class=\"warning\">Not drawn; install gnuplot-nox and check "
-                                "again.</p>\n")
-                  : page::inline_svg(svg, "m-", "moment defects over the nodes")) +
-             "<figcaption>Picture: <code>maps/defects.svg</code>; the numbers: "
-             "<code>nodes.csv</code>, and on the cells <code>cells.vtu</code></figcaption>\n"
-             "</figure>\n";
-    }
-
-    std::string list_of(const std::vector<std::string> &items)
-    {
-      std::string text = "<ul>\n";
-      for (const std::string &item : items)
-        text += "<li>" + escape_html(item) + "</li>\n";
-      return text + "</ul>\n";
-    }
-
-    std::string html(const CheckPage &page, const std::filesystem::path &dir)
-    {
-      const std::string answer =
-          page.complaints.empty()
-              ? "<p class=\"answer yes\">✓ The weights are as required.</p>\n"
-              : "<div class=\"warning\"><b>✗ The weights are not as required.</b>\n" +
-                    list_of(page.complaints) + "</div>\n";
-      std::string text = page::section("verdicts", "Verdicts", answer + list_of(page.verdicts));
-      if (!page.defects.empty())
-        text += page::section(
-            "maps", "Where the moments are off",
-            page::paragraph("The defect of each free node. The same at all nodes: it is the "
-                            "rule's own, or all weights share a cause. A few nodes: their bonds "
-                            "are wrong. Random from node to node: the rule does not know where "
-                            "the nodes are.") +
-                picture_of(dir));
-      for (const CheckPage::Part &part : page.parts)
-        if (!part.table.rows.empty())
-          text += page::section(
-              part.id, part.head,
-              to_html(part.table) +
-                  (part.words.empty() ? ""
-                                      : "<p class=\"soft\">" + escape_html(part.words) + "</p>\n"));
-      return page::document(page.scene_name, "check",
-                            page::plain_header(page.scene_name, "check", page.purpose, page.facts),
-                            text);
+      Data data = page::begin("check", check.scene_name, check.purpose, check.facts);
+      data["complaints"] = check.complaints;
+      data["has_complaints"] = !check.complaints.empty();
+      data["verdicts"] = check.verdicts;
+      data["map"] = check.defects.empty()
+                        ? Data()
+                        : Data{{"svg", page::inline_svg(dir / "maps" / "defects.svg", "m-",
+                                                        "moment defects over the nodes")}};
+      data["parts"] = page::parts(page::with_rows(check.parts));
+      return fill("check", data);
     }
 
     /// Whole decades around all positive defects.

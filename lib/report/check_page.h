@@ -23,11 +23,6 @@ namespace plumbline::report
     std::vector<std::string> facts;      ///< short: how many nodes, which level
     std::vector<std::string> complaints; ///< what is wrong; empty: nothing
     std::vector<std::string> verdicts;   ///< everything else that is said
-    struct Part
-    {
-      std::string id, head, words;
-      Table table;
-    };
     std::vector<Part> parts;
     std::vector<std::array<double, 2>> nodes;
     std::vector<NodeField> defects; ///< at the nodes, each in a map on one colour scale

@@ -119,15 +119,14 @@ namespace plumbline::report
   {
     return {{"moments", "Where bonds are soft",
              "The part of each node's bonds that is soft or cut, on the body at rest, at six "
-             "times; above and below it the grips. As VTU with displacements: <code>frames</code> "
-             "(<code>Time/frames</code>)",
-             true},
-            {"tip", "Where the crack ends", "Data: <code>crack/samples.csv</code>"},
-            {"speed", "How fast it runs",
-             "Over a twentieth of the time. Data: <code>crack/samples.csv</code>"},
+             "times; above and below it the grips. As VTU with displacements (Time/frames).",
+             "frames", true},
+            {"tip", "Where the crack ends", "", "crack/samples.csv"},
+            {"speed", "How fast it runs", "Over a twentieth of the time.", "crack/samples.csv"},
             {"energies", "Energies",
              "Grips that stand still do no work: the sum stays as it is but for the error of the "
-             "time steps. Data: <code>crack/samples.csv</code>"}};
+             "time steps.",
+             "crack/samples.csv"}};
   }
 
   Table crack_samples_table(const CrackResults &results)

@@ -12,7 +12,8 @@ namespace plumbline::report
   /// One picture of a crack, crack/NAME.svg.
   struct CrackPicture
   {
-    std::string name, title, caption; ///< caption: HTML
+    std::string name, title, caption;
+    std::string file; ///< its data
     bool is_large = false;
   };
 

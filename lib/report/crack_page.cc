@@ -91,41 +91,25 @@ namespace plumbline::report
       return text + ".";
     }
 
-    std::string left_out()
-    {
-      std::string text;
-      for (const std::string &one : study::left_out_of_cracks())
-        text += "<li>" + escape_html(one) + "</li>\n";
-      return "<ul>\n" + text + "</ul>\n";
-    }
-
     std::string page_of(const CrackResults &results, const std::filesystem::path &dir)
     {
-      const std::string header = page::plain_header(
-          results.scene_name, "crack", results.purpose,
+      Data data = page::begin(
+          "crack", results.scene_name, results.purpose,
           {results.method + ", m = " + rounded(results.own.m()),
            "load " + rounded(results.crack.load) + " of the threshold",
            (results.is_as_expected() ? "✓ it " : "✗ it ") + base::word(results.motion.outcome)});
-      std::string large, small;
+      data["verdict"] = verdict(results);
+      data["pictures"] = Data::array();
+      data["charts"] = Data::array();
       for (const CrackPicture &picture : crack_pictures())
-        (picture.is_large ? large : small) +=
-            page::figure(dir / "crack" / (picture.name + ".svg"), picture.name + "-", picture.title,
-                         picture.caption, picture.is_large);
-      const auto table_section = [](const std::string &id, const std::string &head,
-                                    const Table &table, const std::string &words)
-      {
-        return page::section(id, head,
-                             to_html(table) + "<p class=\"soft\">" + escape_html(words) + "</p>\n");
-      };
-      return page::document(
-          results.scene_name, "crack", header,
-          page::section("picture", "What happens",
-                        "<p class=\"answer\">" + escape_html(verdict(results)) + "</p>\n" + large +
-                            "<div class=\"grid\">\n" + small + "</div>\n") +
-              table_section("numbers", "Numbers", facts_table(results), "") +
-              table_section("thresholds", "Thresholds", thresholds_table(results),
-                            thresholds_words) +
-              page::section("model", "What was left out of the model", left_out()));
+        data[picture.is_large ? "pictures" : "charts"].push_back(
+            page::figure({dir / "crack" / (picture.name + ".svg"), picture.name + "-",
+                          picture.title, picture.caption, "Data", picture.file, picture.is_large}));
+      data["parts"] =
+          page::parts({{"numbers", "Numbers", "", facts_table(results)},
+                       {"thresholds", "Thresholds", thresholds_words, thresholds_table(results)}});
+      data["left_out"] = study::left_out_of_cracks();
+      return fill("crack", data);
     }
 
     std::string markdown(const CrackResults &results)

@@ -17,23 +17,13 @@ namespace plumbline::report
     using study::DispersionResults;
     using Json = nlohmann::ordered_json;
 
-    struct Part
-    {
-      const char *id, *head, *words;
-      Table table;
-    };
-
     /// The tables that have rows, verdicts apart.
     std::vector<Part> parts(const DispersionResults &results)
     {
-      std::vector<Part> all = {
-          {"long", "Long waves", long_waves_words, long_waves_table(results)},
-          {"levels", "Over the sweep", wave_levels_words, wave_levels_table(results)},
-          {"missing", "Levels without waves", "", missing_waves_table(results)}};
-      all.erase(std::remove_if(all.begin(), all.end(),
-                               [](const Part &part) { return part.table.rows.empty(); }),
-                all.end());
-      return all;
+      return page::with_rows(
+          {{"long", "Long waves", long_waves_words, long_waves_table(results)},
+           {"levels", "Over the sweep", wave_levels_words, wave_levels_table(results)},
+           {"missing", "Levels without waves", "", missing_waves_table(results)}});
     }
 
     std::string question(const DispersionResults &results)
@@ -51,8 +41,7 @@ namespace plumbline::report
                          to_markdown(wave_verdicts_table(results)) + "\n" + question(results) +
                          "\n";
       for (const Part &part : parts(results))
-        text += std::string("\n## ") + part.head + "\n\n" + to_markdown(part.table) + "\n" +
-                part.words + "\n";
+        text += "\n## " + part.head + "\n\n" + to_markdown(part.table) + "\n" + part.words + "\n";
       return text;
     }
 
@@ -69,7 +58,7 @@ namespace plumbline::report
       }
     }
 
-    std::string header(const DispersionResults &results)
+    Data header(const DispersionResults &results)
     {
       const auto count = [&](const std::string &outcome)
       {
@@ -77,54 +66,39 @@ namespace plumbline::report
                                             [&](const study::Trend &t)
                                             { return outcome_class(t.outcome) == outcome; }));
       };
-      return page::plain_header(results.scene_name, "dispersion", results.purpose,
-                                {std::to_string(results.rows.size()) + " symbols",
-                                 "✓ " + count("converges") + " converge",
-                                 "? " + count("undecided") + " undecided",
-                                 "✗ " + count("stalls") + " do not"});
+      std::vector<std::string> facts{
+          std::to_string(results.rows.size()) + " symbols", "✓ " + count("converges") + " converge",
+          "? " + count("undecided") + " undecided", "✗ " + count("stalls") + " do not"};
+      if (!results.is_complete)
+        facts.emplace_back(page::interrupted);
+      return page::begin("dispersion", results.scene_name, results.purpose, facts);
     }
 
-    std::string verdicts(const DispersionResults &results)
+    Data verdicts(const DispersionResults &results)
     {
-      std::string text =
-          "<div class=\"wide\"><table class=\"verdicts\">\n<thead><tr><th></th><th>series</th>"
-          "<th>by waves</th><th>proven</th><th></th></tr></thead>\n<tbody>\n";
+      Data list = Data::array();
       for (const study::Trend &t : results.trends)
-        text += "<tr><th class=\"method\" scope=\"row\">" + escape_html(t.method) + "</th><td>" +
-                escape_html(t.series) + "</td><td class=\"" + outcome_class(t.outcome) + "\"><b>" +
-                escape_html(t.verdict) + "</b>" +
-                (t.values.empty() ? "" : "<small>" + rounded_error(t.values.back()) + "</small>") +
-                "</td><td>" + in_a_word(t.proof) + "</td><td style=\"max-width: 100ch\">" +
-                escape_html(t.reason) +
-                (t.proof.reason.empty() ? "" : "; proof: " + escape_html(t.proof.reason)) +
-                "</td></tr>\n";
-      return page::section("verdicts", "Verdicts",
-                           page::paragraph(question(results)) + text + "</tbody></table></div>\n");
+        list.push_back({{"method", t.method},
+                        {"series", t.series},
+                        {"look", outcome_class(t.outcome)},
+                        {"verdict", t.verdict},
+                        {"error", t.values.empty() ? "" : rounded_error(t.values.back())},
+                        {"proven", in_a_word(t.proof)},
+                        {"reason", t.reason},
+                        {"proof", t.proof.reason}});
+      return list;
     }
 
     std::string page_of(const DispersionResults &results, const std::vector<DataChart> &charts,
                         const std::filesystem::path &dir)
     {
-      std::string text = verdicts(results), pictures;
-      for (std::size_t i = 0; i < charts.size(); ++i)
-        pictures += page::figure(
-            dir / "dispersion" / charts[i].plot.file, "d" + std::to_string(i) + "-",
-            charts[i].plot.title,
-            "Data: <code>dispersion/" + escape_html(charts[i].name) + ".csv</code>", false);
-      if (!pictures.empty())
-        text += page::section(
-            "charts", "Charts",
-            page::paragraph(
-                "Speeds at the finest level of each series, over the local limit's. "
-                "Where h falls at a fixed ratio of horizon to h these curves stay as "
-                "they are, and a wave of a given length moves to the right along them: "
-                "a method is asymptotically compatible if its curve tends to 1 there.") +
-                "<div class=\"grid\">\n" + pictures + "</div>\n");
-      for (const Part &part : parts(results))
-        text += page::section(part.id, part.head,
-                              to_html(part.table) + "<p class=\"soft\">" + escape_html(part.words) +
-                                  "</p>\n");
-      return page::document(results.scene_name, "dispersion", header(results), text);
+      Data data = header(results);
+      data["question"] = question(results);
+      data["verdicts"] = verdicts(results);
+      data["curves"] =
+          charts.empty() ? Data() : Data{{"charts", page::charts(charts, dir, "dispersion")}};
+      data["parts"] = page::parts(parts(results));
+      return fill("dispersion", data);
     }
 
     Json known_number(double value)
@@ -176,17 +150,21 @@ namespace plumbline::report
   {
     std::string text = results.scene_name + "\n";
     for (const Part &part : parts(results))
-    {
-      const std::string words = part.words;
-      text += "\n" + to_text(part.table) + (words.empty() ? "" : wrapped(words, 120) + "\n");
-    }
+      text +=
+          "\n" + to_text(part.table) + (part.words.empty() ? "" : wrapped(part.words, 120) + "\n");
     return text + "\n" + to_text(wave_verdicts_table(results)) + wrapped(question(results), 120) +
            "\n";
+  }
+
+  std::string dispersion_line(const study::DispersionRow &row)
+  {
+    return level_json(row).dump() + "\n";
   }
 
   std::string dispersion_json(const DispersionResults &results)
   {
     Json json{{"scene", results.scene_name},
+              {"is_complete", results.is_complete},
               {"wavelength", results.study.wavelength},
               {"angles", results.study.angles},
               {"levels", Json::array()},

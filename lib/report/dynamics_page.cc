@@ -5,6 +5,8 @@
 #include "report/page_parts.h"
 #include "report/text_table.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 
 namespace plumbline::report
@@ -13,35 +15,35 @@ namespace plumbline::report
   {
     using study::DynamicResults;
 
-    struct Part
+    /// The tables that have rows: what a motion is asked for, on the terminal, too.
+    std::vector<Part> answers(const DynamicResults &results)
     {
-      const char *id, *head, *words;
-      Table table;
-      bool is_in_text; ///< for the terminal, too
-    };
+      return page::with_rows({{"rates", "Errors and rates over levels", motion_rates_words,
+                               motion_rates_table(results)},
+                              {"orders", "Orders in time", orders_words, orders_table(results)},
+                              {"estimates", "What Galerkin motions say of their own errors",
+                               motion_estimates_words, motion_estimates_table(results)},
+                              {"best", "The best pairs of h and time step", best_pairs_words,
+                               best_pairs_table(results)},
+                              {"failures", "Motions that did not come to their end", "",
+                               failed_motions_table(results)}});
+    }
 
-    /// The tables that have rows.
+    std::vector<Part> details(const DynamicResults &results)
+    {
+      return page::with_rows(
+          {{"runs", "All motions", motions_words, motions_table(results)},
+           {"reference", "The reference", torus_words, torus_table(results)},
+           {"model", "What moves", "", motion_facts_table(results)},
+           {"omissions", "What was left out of the model", "", motion_omissions_table(results)},
+           {"expectations", "Expectations", "", motion_expectations_table(results)}});
+    }
+
     std::vector<Part> parts(const DynamicResults &results)
     {
-      std::vector<Part> all = {
-          {"rates", "Errors and rates over levels", motion_rates_words, motion_rates_table(results),
-           true},
-          {"orders", "Orders in time", orders_words, orders_table(results), true},
-          {"estimates", "What Galerkin motions say of their own errors", motion_estimates_words,
-           motion_estimates_table(results), true},
-          {"best", "The best pairs of h and time step", best_pairs_words, best_pairs_table(results),
-           true},
-          {"failures", "Motions that did not come to their end", "", failed_motions_table(results),
-           true},
-          {"runs", "All motions", motions_words, motions_table(results), false},
-          {"reference", "The reference", torus_words, torus_table(results), false},
-          {"model", "What moves", "", motion_facts_table(results), false},
-          {"omissions", "What was left out of the model", "", motion_omissions_table(results),
-           false},
-          {"expectations", "Expectations", "", motion_expectations_table(results), false}};
-      all.erase(std::remove_if(all.begin(), all.end(),
-                               [](const Part &part) { return part.table.rows.empty(); }),
-                all.end());
+      std::vector<Part> all = answers(results);
+      for (Part &part : details(results))
+        all.push_back(std::move(part));
       return all;
     }
 
@@ -53,7 +55,7 @@ namespace plumbline::report
              " expectations hold";
     }
 
-    std::string header(const DynamicResults &results)
+    Data header(const DynamicResults &results)
     {
       std::vector<std::string> facts = {std::to_string(results.runs.size()) + " motions",
                                         "T = " + rounded(results.final_time),
@@ -62,47 +64,29 @@ namespace plumbline::report
         facts.push_back(expectations(results));
       if (!results.is_complete)
         facts.emplace_back(page::interrupted);
-      return page::plain_header(results.scene_name, "dynamics", results.purpose, facts);
+      return page::begin("dynamics", results.scene_name, results.purpose, facts);
     }
 
     std::string page_of(const DynamicResults &results, const std::vector<DataChart> &charts,
                         const std::filesystem::path &dir)
     {
-      const auto table = [](const Part &part)
-      {
-        return page::section(part.id, part.head,
-                             "<div class=\"wide\">" + to_html(part.table) + "</div>\n" +
-                                 (part.words[0] == '\0'
-                                      ? ""
-                                      : "<p class=\"soft\">" + escape_html(part.words) + "</p>\n"));
-      };
-      std::string text, pictures, rest;
-      for (const Part &part : parts(results))
-        (part.is_in_text ? text : rest) += table(part);
-      for (std::size_t i = 0; i < charts.size(); ++i)
-        pictures += page::figure(dir / "dynamics" / charts[i].plot.file,
-                                 "m" + std::to_string(i) + "-", charts[i].plot.title,
-                                 escape_html(charts[i].caption) + " Data: <code>dynamics/" +
-                                     escape_html(charts[i].name) + ".csv</code>",
-                                 false);
-      if (!pictures.empty())
-        text += page::section("charts", "Charts", "<div class=\"grid\">\n" + pictures + "</div>\n");
-      std::string origin;
+      Data data = header(results);
+      data["answers"] = page::parts(answers(results));
+      data["curves"] =
+          charts.empty() ? Data() : Data{{"charts", page::charts(charts, dir, "dynamics")}};
+      data["details"] = page::parts(details(results));
+      data["provenance"] = Data::array();
       for (const auto &[what, value] : results.provenance)
-        origin += page::paragraph(what + ": " + value);
-      rest += page::section(
-          "provenance", "Where the numbers come from",
-          origin + page::folded("The scene as read",
-                                "<pre>" + escape_html(results.scene_text) + "</pre>\n"));
-      return page::document(results.scene_name, "dynamics", header(results), text + rest);
+        data["provenance"].push_back(what + ": " + value);
+      data["scene_text"] = results.scene_text;
+      return fill("dynamics", data);
     }
 
     std::string markdown(const DynamicResults &results)
     {
       std::string text = "# Motion: " + results.scene_name + "\n\n" + results.purpose + "\n";
       for (const Part &part : parts(results))
-        text += std::string("\n## ") + part.head + "\n\n" + to_markdown(part.table) + "\n" +
-                part.words + "\n";
+        text += "\n## " + part.head + "\n\n" + to_markdown(part.table) + "\n" + part.words + "\n";
       return text;
     }
   } // namespace
@@ -110,19 +94,18 @@ namespace plumbline::report
   std::string dynamics_text(const DynamicResults &results)
   {
     std::string text = results.scene_name + ": " + results.purpose + "\n";
-    for (const Part &part : parts(results))
-      if (part.is_in_text)
-      {
-        Table table = part.table; // reasons are long
-        for (std::size_t c = table.columns.size(); c-- > 0;)
-          if (table.columns[c].head == reasons_head)
-          {
-            table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(c));
-            for (auto &row : table.rows)
-              row.erase(row.begin() + static_cast<std::ptrdiff_t>(c));
-          }
-        text += std::string("\n") + part.head + "\n" + to_text(table);
-      }
+    for (Part &part : answers(results))
+    {
+      Table &table = part.table; // reasons are long
+      for (std::size_t c = table.columns.size(); c-- > 0;)
+        if (table.columns[c].head == reasons_head)
+        {
+          table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(c));
+          for (auto &row : table.rows)
+            row.erase(row.begin() + static_cast<std::ptrdiff_t>(c));
+        }
+      text += "\n" + part.head + "\n" + to_text(table);
+    }
     for (const study::Expectation &one : results.expectations)
       if (!one.holds)
         text += "\nnot as expected: " + one.subject + ": expected " + one.expected + ", found " +
@@ -137,7 +120,7 @@ namespace plumbline::report
     write_file(dir / "dynamics.json", dynamics_json(results));
     write_file(dir / "dynamics.md", markdown(results));
     for (const Part &part : parts(results))
-      write_file(dir / "dynamics" / (std::string(part.id) + "_table.csv"), to_csv(part.table));
+      write_file(dir / "dynamics" / (part.id + "_table.csv"), to_csv(part.table));
     const std::vector<DataChart> charts = motion_charts(results);
     write_with_pictures(
         dir / "dynamics.html", [&] { write_charts(charts, dir / "dynamics"); },

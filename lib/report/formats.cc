@@ -324,25 +324,4 @@ namespace plumbline::report
     }
     return text + "\\bottomrule\n\\end{tabular}\n";
   }
-
-  std::string to_html(const Table &table)
-  {
-    std::string text = "<div class=\"wide\"><table>\n<thead><tr>";
-    for (std::size_t j = 0; j < table.columns.size(); ++j)
-    {
-      const bool is_number = !table.rows.empty() && table.rows.front()[j].is_number;
-      text += std::string("<th") + (is_number ? " class=\"n\">" : ">") +
-              escape_html(table.columns[j].head) + "</th>";
-    }
-    text += "</tr></thead>\n<tbody>\n";
-    for (const std::vector<Cell> &row : table.rows)
-    {
-      text += "<tr>";
-      for (const Cell &cell : row)
-        text += std::string("<td") + (cell.is_number ? " class=\"n\">" : ">") +
-                escape_html(cell.text) + "</td>";
-      text += "</tr>\n";
-    }
-    return text + "</tbody></table></div>\n";
-  }
 } // namespace plumbline::report

@@ -71,7 +71,7 @@ namespace plumbline::report
     std::vector<std::string> csv;
   };
 
-  /// CsrMatrix all have columns.size() cells.
+  /// Rows all have columns.size() cells.
   struct Table
   {
     std::string caption;
@@ -79,9 +79,14 @@ namespace plumbline::report
     std::vector<std::vector<Cell>> rows;
   };
 
+  /// A table under a heading, with words below it; `id` for links.
+  struct Part
+  {
+    std::string id, head, words;
+    Table table;
+  };
+
   std::string to_csv(const Table &table);      ///< unrounded, heads in the first line
   std::string to_markdown(const Table &table); ///< rounded, pipe table
   std::string to_latex(const Table &table);    ///< rounded, a tabular of the booktabs package
-  std::string
-  to_html(const Table &table); ///< rounded, a table element; the caption is left to the page
 } // namespace plumbline::report

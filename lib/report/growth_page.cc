@@ -131,14 +131,6 @@ namespace plumbline::report
       return text + ".";
     }
 
-    std::string left_out(const GrowthResults &r)
-    {
-      std::string text;
-      for (const std::string &one : study::left_out_of_growth(r.rules))
-        text += "<li>" + escape_html(one) + "</li>\n";
-      return "<ul>\n" + text + "</ul>\n";
-    }
-
     std::string phase_words(const GrowthResults &r)
     {
       const std::vector<double> phases = r.phases();
@@ -175,39 +167,31 @@ namespace plumbline::report
     std::string page_of(const GrowthResults &r, const std::vector<std::string> &faults,
                         const std::filesystem::path &dir)
     {
-      const std::string header = page::plain_header(
-          r.scene_name, "grow", r.purpose,
-          {r.method + ", m = " + rounded(r.horizon / r.h), base::word(r.rules.breaking),
-           (faults.empty() ? "✓ " : "✗ ") + base::word(r.growth.end)});
-      std::string small;
-      for (const DataChart &chart : growth_charts(r))
-        small +=
-            page::figure(dir / "grow" / chart.plot.file, chart.name + "-", chart.plot.title,
-                         chart.caption + " Data: <code>grow/" + chart.name + ".csv</code>", false);
-      std::string large;
+      Data data =
+          page::begin("grow", r.scene_name, r.purpose,
+                      {r.method + ", m = " + rounded(r.horizon / r.h), base::word(r.rules.breaking),
+                       (faults.empty() ? "✓ " : "✗ ") + base::word(r.growth.end)});
+      data["verdict"] = verdict(r, faults);
+      data["microstructure"] = Data();
       if (has_microstructure(r))
-        large = page::figure(
-            dir / "grow/microstructure.svg", "microstructure-", "The crack in its microstructure",
-            "Grey: G of the nodes, the tougher the darker. Sides between next neighbours that have "
-            "parted: of the crack orange, apart from it blue; of the notch black. Data: "
-            "<code>grow/sides.csv</code>",
-            true);
-      large += page::figure(
-          dir / "grow/moments.svg", "moments-", "Where bonds are broken",
-          "The part of each node's bonds that is broken or cut, on the body at rest, after even "
-          "parts of all broken bonds. Beside a straight crack at m = 3 it is 11/28, 6/28 and 1/28.",
-          true);
-      return page::document(
-          r.scene_name, "grow", header,
-          page::section("picture", "What happens",
-                        "<p class=\"answer\">" + escape_html(verdict(r, faults)) + "</p>\n" +
-                            large + "<div class=\"grid\">\n" + small + "</div>\n") +
-              page::section("numbers", "Numbers", to_html(facts_table(r))) +
-              page::section("model", "The model, and what was left out of it",
-                            page::paragraph(origin_words(r)) + left_out(r)) +
-              page::section(
-                  "scene", "The scene",
-                  page::folded("as read", "<pre>" + escape_html(r.scene_text) + "</pre>")));
+        data["microstructure"] = page::figure(
+            {dir / "grow/microstructure.svg", "microstructure-", "The crack in its microstructure",
+             "Grey: G of the nodes, the tougher the darker. Sides between next "
+             "neighbours that have parted: of the crack orange, apart from it blue; "
+             "of the notch black.",
+             "Data", "grow/sides.csv", true});
+      data["moments"] = page::figure(
+          {dir / "grow/moments.svg", "moments-", "Where bonds are broken",
+           "The part of each node's bonds that is broken or cut, on the body at rest, after even "
+           "parts of all broken bonds. Beside a straight crack at m = 3 it is 11/28, 6/28 and "
+           "1/28.",
+           "Picture", "grow/moments.svg", true});
+      data["charts"] = page::charts(growth_charts(r), dir, "grow");
+      data["table"] = page::table(facts_table(r));
+      data["model"] = origin_words(r);
+      data["left_out"] = study::left_out_of_growth(r.rules);
+      data["scene_text"] = r.scene_text;
+      return fill("grow", data);
     }
 
     std::string markdown(const GrowthResults &r, const std::vector<std::string> &faults)

@@ -1,12 +1,8 @@
 #include "report/journal.h"
 
-#include "base/error.h"
 #include "base/text_file.h"
-#include "report/formats.h"
 #include "report/json.h"
 
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -29,16 +25,6 @@ namespace plumbline::report
     {
       list.insert(list.end(), more.begin(), more.end());
     }
-
-    void append_line(const fs::path &file, const std::string &line)
-    {
-      errno = 0;
-      std::ofstream out(file, std::ios::app);
-      out << line << std::flush;
-      if (!out)
-        throw InputError("'" + file.string() + "' cannot be written (" + std::strerror(errno) +
-                         "); free some space, or give another folder with -o");
-    }
   } // namespace
 
   void Journal::append(const study::Results &results)
@@ -52,19 +38,13 @@ namespace plumbline::report
       more.estimates = beyond(written_.estimates, results.estimates);
       more.savings = beyond(written_.savings, results.savings);
       more.maps = beyond(written_.maps, results.maps);
-      append_line(file_, to_json(more) + "\n");
+      lines_.append(to_json(more) + "\n");
     }
     else
-      write_file(file_, to_json(results) + "\n");
+      lines_.append(to_json(results) + "\n");
     is_begun_ = true;
     written_ = {results.runs.size(),      results.left_out.size(), results.references.size(),
                 results.estimates.size(), results.savings.size(),  results.maps.size()};
-  }
-
-  void Journal::remove() const
-  {
-    std::error_code not_there;
-    fs::remove(file_, not_there);
   }
 
   fs::path results_file(const fs::path &folder)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "report/json_lines.h"
 #include "study/results.h"
 
 #include <cstddef>
@@ -8,13 +9,12 @@
 namespace plumbline::report
 {
   /// What is finished while a run is going on: results.jsonl, a line for each solve with what came
-  /// with it, in the form of results.json (schema.md). A run that is killed loses nothing, and n
-  /// solves cost O(n).
+  /// with it, in the form of results.json (schema.md).
   class Journal
   {
   public:
     /// @param folder  of the run; nothing is written yet
-    explicit Journal(const std::filesystem::path &folder) : file_(folder / "results.jsonl") {}
+    explicit Journal(const std::filesystem::path &folder) : lines_(folder / "results.jsonl") {}
 
     /// Append what results have beyond those of the last call. The first line holds the scene, too,
     /// and replaces a file that is there at once.
@@ -22,7 +22,7 @@ namespace plumbline::report
     void append(const study::Results &results);
 
     /// The run has ended, and results.json holds everything.
-    void remove() const;
+    void remove() const { lines_.remove(); }
 
   private:
     /// Of the lists that grow.
@@ -30,7 +30,7 @@ namespace plumbline::report
     {
       std::size_t runs = 0, left_out = 0, references = 0, estimates = 0, savings = 0, maps = 0;
     };
-    std::filesystem::path file_;
+    JsonLines lines_;
     Sizes written_;
     bool is_begun_ = false;
   };

@@ -1,7 +1,5 @@
 #include "report/motion_journal.h"
 
-#include "base/error.h"
-#include "report/formats.h"
 #include "report/motion_json.h"
 
 #include <fstream>
@@ -32,23 +30,8 @@ namespace plumbline::report
       text += torus_json(results.references[n_references_]).dump() + "\n";
     for (; n_runs_ < results.runs.size(); ++n_runs_)
       text += motion_json(results.runs[n_runs_]).dump() + "\n";
-    if (!is_begun_)
-      write_file(file_, head(results).dump() + "\n" + text); // at once
-    else
-    {
-      std::ofstream out(file_, std::ios::app);
-      out << text;
-      if (!out.flush())
-        throw InputError("'" + file_.string() +
-                         "' cannot be written; free some space, or give another folder with -o");
-    }
+    lines_.append(is_begun_ ? text : head(results).dump() + "\n" + text);
     is_begun_ = true;
-  }
-
-  void MotionJournal::remove() const
-  {
-    std::error_code not_there;
-    fs::remove(file_, not_there);
   }
 
   study::DynamicResults read_motions(const fs::path &folder, const study::DynamicResults &begun)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "report/json_lines.h"
 #include "study/dynamics.h"
 
 #include <cstddef>
@@ -13,7 +14,7 @@ namespace plumbline::report
   class MotionJournal
   {
   public:
-    explicit MotionJournal(const std::filesystem::path &folder) : file_(folder / "dynamics.jsonl")
+    explicit MotionJournal(const std::filesystem::path &folder) : lines_(folder / "dynamics.jsonl")
     {
     }
 
@@ -23,10 +24,10 @@ namespace plumbline::report
     void append(const study::DynamicResults &results);
 
     /// The run has come to its end, and dynamics.json holds everything.
-    void remove() const;
+    void remove() const { lines_.remove(); }
 
   private:
-    std::filesystem::path file_;
+    JsonLines lines_;
     std::size_t n_runs_ = 0, n_references_ = 0;
     bool is_begun_ = false;
   };

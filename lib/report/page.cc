@@ -1,15 +1,16 @@
 #include "report/page.h"
 
-#include "report/formats.h"
 #include "report/page_parts.h"
+#include "report/report_parts.h"
 #include "report/tables.h"
 #include "scene/choices.h"
 #include "study/trend.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
 #include <sstream>
 #include <utility>
@@ -44,43 +45,44 @@ namespace plumbline::report
         return names[static_cast<std::size_t>(outcome)];
       }
 
-      /// What is known apart from the field, where it says the same as the verdict or the contrary.
-      std::string proof_mark(const study::Trend &trend)
+      /// Between errors of the size of rounding a rate is noise.
+      bool is_round_off(const study::Trend &trend)
       {
-        using Answer = study::LimitProof::Answer;
-        const study::LimitProof &proof = trend.proof;
-        const bool is_good = trend.outcome == study::Outcome::converges;
-        const bool is_bad = trend.outcome == study::Outcome::stalls;
-        if ((is_good && proof.answer == Answer::compatible) ||
-            (is_bad && proof.answer == Answer::incompatible))
-          return "<small>proven</small>";
-        if (!proof.has_wrong_moments())
-          return "";
-        return "<small>moments off by " + rounded(100 * proof.defect) + " %</small>";
+        const std::size_t n = trend.values.size();
+        return n > 0 &&
+               std::max(trend.values[n - 1], trend.values[n < 2 ? 0 : n - 2]) < trend.round_off;
       }
 
-      std::string verdict_cell(const study::Trend *trend)
+      /// What is known apart from the field, where it says the same as the verdict.
+      bool is_proven(const study::Trend &trend)
+      {
+        using Answer = study::LimitProof::Answer;
+        const Answer answer = trend.proof.answer;
+        return (trend.outcome == study::Outcome::converges && answer == Answer::compatible) ||
+               (trend.outcome == study::Outcome::stalls && answer == Answer::incompatible);
+      }
+
+      Data verdict(const study::Trend *trend)
       {
         if (trend == nullptr)
-          return "<td class=\"absent\">not run</td>";
-        std::string text = "<td class=\"" + outcome_class(trend->outcome) + "\" title=\"" +
-                           escape_html(trend->reason) + "\"><b>" + outcome_symbol(trend->outcome) +
-                           " " + escape_html(verdict_words(*trend)) + "</b>";
-        if (!trend->values.empty())
-          text += "<small>" + rounded_error(trend->values.back()) + "</small>";
-        // Between errors of the size of rounding a rate is noise.
-        const std::size_t n = trend->values.size();
-        if (n > 0 &&
-            std::max(trend->values[n - 1], trend->values[n < 2 ? 0 : n - 2]) < trend->round_off)
-          text += "<small>round-off</small>";
-        else if (!trend->rates.empty() && std::isfinite(trend->rates.back()))
-        {
-          std::ostringstream rate;
-          rate.precision(2);
+          return {{"is_absent", true}};
+        const bool has_rate =
+            !is_round_off(*trend) && !trend->rates.empty() && std::isfinite(trend->rates.back());
+        std::ostringstream rate;
+        rate.precision(2);
+        if (has_rate)
           rate << std::fixed << trend->rates.back();
-          text += "<small>rate " + rate.str() + "</small>";
-        }
-        return text + proof_mark(*trend) + "</td>";
+        const bool has_defect = !is_proven(*trend) && trend->proof.has_wrong_moments();
+        return {{"is_absent", false},
+                {"look", outcome_class(trend->outcome)},
+                {"reason", trend->reason},
+                {"sign", outcome_symbol(trend->outcome)},
+                {"verdict", verdict_words(*trend)},
+                {"error", trend->values.empty() ? "" : rounded_error(trend->values.back())},
+                {"is_round_off", is_round_off(*trend)},
+                {"rate", rate.str()},
+                {"is_proven", is_proven(*trend)},
+                {"defect", has_defect ? rounded(100 * trend->proof.defect) : ""}};
       }
 
       /// Cases with those of one problem side by side.
@@ -95,203 +97,109 @@ namespace plumbline::report
         return columns;
       }
 
-      /// Two rows: problems, and below each its series.
-      std::string verdict_head(const std::vector<Case> &columns)
+      /// A row for each method, rules first; columns: problems, and below each its series.
+      Data verdict_matrix(const study::Results &results)
       {
-        std::string problems = "<tr><th></th>", series = "<tr><th>method</th>";
+        const std::vector<Case> columns = by_problem(cases(results));
+        if (columns.empty())
+          return {};
+        Data problems = Data::array(), series = Data::array(), rows = Data::array();
         for (auto one = columns.begin(); one != columns.end();)
         {
           const auto next = std::find_if(
               one, columns.end(), [&](const Case &other) { return other.problem != one->problem; });
-          problems += "<th class=\"problem\" colspan=\"" + std::to_string(next - one) + "\">" +
-                      escape_html(one->problem) + "</th>";
+          problems.push_back({{"name", one->problem}, {"n_series", next - one}});
           for (; one != next; ++one)
-            series += "<th>" + escape_html(one->series) + "</th>";
+            series.push_back(one->series);
         }
-        return "<thead>" + problems + "</tr>\n" + series + "</tr></thead>\n";
-      }
-
-      std::string verdict_matrix(const study::Results &results, const std::vector<Case> &columns)
-      {
         std::vector<MethodName> names = methods(results);
         const std::vector<MethodName> styles = names;
         std::stable_partition(names.begin(), names.end(),
                               [](const MethodName &m) { return !m.is_reference(); });
-        std::string text = "<div class=\"wide\"><table class=\"verdicts\">\n" +
-                           verdict_head(columns) + "<tbody>\n";
         for (const MethodName &method : names)
         {
-          text += "<tr><th class=\"method\" scope=\"row\">" +
-                  marker(style_of(styles, method.name)) + escape_html(method.name) + "</th>";
+          Data verdicts = Data::array();
           for (const Case &one : columns)
-            text += verdict_cell(decisive_trend(results, method.name, one));
-          text += "</tr>\n";
+            verdicts.push_back(verdict(decisive_trend(results, method.name, one)));
+          rows.push_back({{"name", method.name},
+                          {"marker", marker(style_of(styles, method.name))},
+                          {"verdicts", std::move(verdicts)}});
         }
-        return text + "</tbody></table></div>\n";
+        return {{"problems", problems}, {"series", series}, {"methods", rows}};
       }
 
-      /// What is behind the verdicts, and what has none.
-      std::string verdict_details(const study::Results &results)
+      /// The header's numbers.
+      void add_facts(const study::Results &results, Data &data)
       {
-        std::string text =
-            folded("Fitted rates and plateaus, with the reason of each verdict",
-                   to_html(verdict_table(results)) +
-                       "<p class=\"soft\">Data: <code>tables/verdicts.csv</code></p>\n");
-        const Table others = other_errors_table(results);
-        if (!others.rows.empty())
-          text += folded("Other errors", to_html(others));
-        if (!results.left_out.empty())
+        std::array<unsigned int, 5> n{};
+        for (const study::Trend &trend : results.trends)
+          if (trend.error == results.decisive_error)
+            ++n[static_cast<std::size_t>(trend.outcome)];
+        data["n_methods"] = methods(results).size();
+        data["n_runs"] = results.runs.size();
+        data["n_converge"] = n[0];
+        data["n_stall"] = n[1];
+        data["n_undecided"] = n[2];
+        data["n_failed"] = n[3];
+        data["n_field_only"] = n[4] == 0 ? Data() : Data(n[4]);
+      }
+
+      Data error_tables(const study::Results &results)
+      {
+        Data tables = Data::array();
+        for (const Case &one : cases(results))
         {
-          std::string list;
-          for (const std::string &solve : results.left_out)
-            list += "<li>" + escape_html(solve) + "</li>";
-          text += folded("Left out by the budget (" + std::to_string(results.left_out.size()) +
-                             " solves)",
-                         "<ul>" + list + "</ul>\n");
+          const Table errors = error_table(results, one);
+          Data data = table(errors);
+          data["caption"] = errors.caption;
+          data["file"] = "tables/errors_" + one.slug + ".csv";
+          data["is_open"] = tables.empty();
+          tables.push_back(std::move(data));
         }
-        const Table failures = failure_table(results);
-        if (!failures.rows.empty())
-          text += folded("Levels without a solution (" + std::to_string(failures.rows.size()) + ")",
-                         to_html(failures), true);
-        return text;
+        return tables;
+      }
+
+      Data provenance(const study::Results &results)
+      {
+        Table origin;
+        origin.columns = {"what", "value"};
+        for (const auto &[key, value] : results.provenance)
+          origin.rows.push_back({text_cell(key), text_cell(value)});
+        return table(origin);
+      }
+
+      Data data_of(const study::Results &results, const std::filesystem::path &dir)
+      {
+        Data data = begin("report", results.scene_name, results.purpose, {});
+        add_facts(results, data);
+        data["is_complete"] = results.is_complete;
+        data["warnings"] = results.warnings;
+        data["regime"] = regime_words(
+            results.regime, study::is_against(results.decisive_error, scene::Target::finest));
+        data["error"] = error_words(results.decisive_error);
+        data["advice"] = advice(results);
+        data["matrix"] = verdict_matrix(results);
+        data["fits"] = table(verdict_table(results));
+        data["other_errors"] = table(other_errors_table(results));
+        data["left_out"] = results.left_out;
+        data["n_left_out"] = results.left_out.empty() ? Data() : Data(results.left_out.size());
+        data["failures"] = table(failure_table(results));
+        data["expectations"] = expectations(results);
+        data["charts"] = chart_groups(results, dir);
+        data["error_tables"] = error_tables(results);
+        data["cost"] = table(cost_table(results));
+        data["reference"] = reference(results);
+        data["model"] = model(results);
+        data["diagnostics"] = table(diagnostics_table(results));
+        data["provenance"] = provenance(results);
+        data["scene_text"] = results.scene_text;
+        return data;
       }
     } // namespace
-
-    std::string section(const std::string &id, const std::string &head, const std::string &content)
-    {
-      return "<section id=\"" + id + "\">\n<h2>" + head + "</h2>\n" + content + "</section>\n";
-    }
-
-    std::string paragraph(const std::string &text)
-    {
-      return "<p>" + escape_html(text) + "</p>\n";
-    }
-
-    std::string folded(const std::string &summary, const std::string &content, bool is_open)
-    {
-      return std::string("<details") + (is_open ? " open" : "") + "><summary>" +
-             escape_html(summary) + "</summary>\n" + content + "</details>\n";
-    }
-
-    std::string header(const study::Results &results)
-    {
-      std::array<unsigned int, 5> n{};
-      for (const study::Trend &trend : results.trends)
-        if (trend.error == results.decisive_error)
-          ++n[static_cast<std::size_t>(trend.outcome)];
-      const auto n_hold = std::count_if(results.expectations.begin(), results.expectations.end(),
-                                        [](const study::Expectation &e) { return e.holds; });
-
-      std::string text = "<header>\n<div class=\"brand\">Plumbline report</div>\n<h1>" +
-                         escape_html(results.scene_name) + "</h1>\n";
-      if (!results.purpose.empty())
-        text += "<p class=\"purpose\">" + escape_html(results.purpose) + "</p>\n";
-      if (!results.is_complete)
-        text += "<p class=\"banner\"><b>This run is not complete.</b> What follows rests on the "
-                "levels that are finished; the same command on the same folder goes on from "
-                "here.</p>\n";
-      for (const std::string &warning : results.warnings)
-        text += "<p class=\"banner\"><b>Warning.</b> " + escape_html(warning) + ".</p>\n";
-      text += "<p class=\"soft\">" +
-              escape_html(regime_words(results.regime, study::is_against(results.decisive_error,
-                                                                         scene::Target::finest))) +
-              ". Verdicts rest on the error " + escape_html(error_words(results.decisive_error)) +
-              ".</p>\n<ul class=\"facts\">\n<li>" + std::to_string(methods(results).size()) +
-              " methods</li><li>" + std::to_string(results.runs.size()) + " runs</li><li>✓ " +
-              std::to_string(n[0]) + " converge</li><li>✗ " + std::to_string(n[1]) +
-              " stall</li><li>? " + std::to_string(n[2]) + " undecided</li><li>– " +
-              std::to_string(n[3]) + " failed</li>";
-      if (n[4] > 0)
-        text += "<li>✗ " + std::to_string(n[4]) + " for this field only</li>";
-      if (!results.expectations.empty())
-        text += "<li>expected: " + std::to_string(n_hold) + " of " +
-                std::to_string(results.expectations.size()) + " hold</li>";
-      return text +
-             "\n</ul>\n<nav><a href=\"#verdicts\">Verdicts</a><a href=\"#work\">Work and "
-             "precision</a><a href=\"#convergence\">Convergence</a>" +
-             (results.maps.empty() ? "" : "<a href=\"#maps\">Error maps</a>") +
-             "<a href=\"#numbers\">Tables</a><a href=\"#reference\">Reference</a><a "
-             "href=\"#model\">Model</a>"
-             "<a href=\"#diagnostics\">Diagnostics</a><a href=\"#provenance\">Provenance"
-             "</a></nav>\n</header>\n";
-    }
-
-    std::string verdicts(const study::Results &results)
-    {
-      const std::vector<Case> all = cases(results);
-      if (all.empty())
-        return section("verdicts", "Verdicts", paragraph("No run has been finished yet."));
-      const std::string legend =
-          "<p class=\"soft\">In each cell: the verdict, the error at the "
-          "finest level, and the rate over the last two levels. ✓&nbsp;converges: no plateau, rate "
-          "at least ¾. ✗&nbsp;stalls: a significant plateau, or a growing error; or for this field "
-          "only: it converges, but second moments say that other fields tend to a wrong limit. "
-          "?&nbsp;undecided: one finer level would help, or four levels are not there yet. "
-          "–&nbsp;failed: no solution at some level. Proven: what theory says of every smooth "
-          "field agrees with what is observed here (second moments of the weights; for Galerkin "
-          "spaces "
-          "Tian &amp; Du 2014, doi:10.1137/130942644).</p>\n";
-      return section("verdicts", "Verdicts",
-                     verdict_matrix(results, by_problem(all)) + legend + verdict_details(results));
-    }
-
-    std::string numbers(const study::Results &results)
-    {
-      std::string text;
-      bool is_first = true;
-      for (const Case &one : cases(results))
-      {
-        const Table table = error_table(results, one);
-        text += folded(table.caption,
-                       to_html(table) + "<p class=\"soft\">Data: <code>tables/errors_" +
-                           escape_html(one.slug) + ".csv</code></p>\n",
-                       is_first);
-        is_first = false;
-      }
-      text +=
-          "<p class=\"soft\">Nodal errors: at each method’s own nodes, which count alike in "
-          "L2, √(area · mean e²). Averages: of the solution over the comparison cells, each by its "
-          "area. In the collar every space takes the constraint at its nodes: DGQ0 and DGP0 at "
-          "cell centres, as one-point rules do, not its averages.</p>\n";
-      text +=
-          folded("Cost of each run",
-                 to_html(cost_table(results)) +
-                     "<p class=\"soft\">CPU seconds are summed over "
-                     "threads. Geometry, the mesh and for meshfree methods "
-                     "the cells of nodes, is in no cost. Data: <code>tables/cost.csv</code></p>\n");
-      return section("numbers", "Tables", text);
-    }
-
-    std::string diagnostics(const study::Results &results)
-    {
-      const Table table = diagnostics_table(results);
-      return section("diagnostics", "Diagnostics",
-                     table.rows.empty() ? paragraph("None yet.") : to_html(table));
-    }
-
-    std::string provenance(const study::Results &results)
-    {
-      Table table;
-      table.columns = {"what", "value"};
-      for (const auto &[key, value] : results.provenance)
-        table.rows.push_back({text_cell(key), text_cell(value)});
-      return section(
-          "provenance", "Provenance",
-          folded("Versions, libraries, machine", to_html(table)) +
-              folded("The scene as read", "<pre>" + escape_html(results.scene_text) + "</pre>\n") +
-              "<p class=\"soft\">All numbers: <code>results.json</code>, unrounded "
-              "tables in <code>tables/*.csv</code>, data of each chart beside it in "
-              "<code>charts/*.csv</code>.</p>\n");
-    }
-  } // namespace page
+  }   // namespace page
 
   void write_page(const study::Results &results, const std::filesystem::path &dir)
   {
-    const std::string html = page::document(
-        results.scene_name, "report", page::header(results),
-        page::advice(results) + page::verdicts(results) + page::expectations(results) +
-            page::charts(results, dir) + page::numbers(results) + page::reference(results) +
-            page::model(results) + page::diagnostics(results) + page::provenance(results));
-    write_file(dir / "report.html", html);
+    write_file(dir / "report.html", fill("report", page::data_of(results, dir)));
   }
 } // namespace plumbline::report

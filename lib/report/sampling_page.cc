@@ -5,6 +5,8 @@
 #include "report/text_table.h"
 #include "study/sampling_balance.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -96,14 +98,6 @@ namespace plumbline::report
       return text.empty() ? "All samples are there." : text;
     }
 
-    std::string list_of(const std::vector<std::string> &sentences)
-    {
-      std::string text;
-      for (const std::string &one : sentences)
-        text += "<li>" + escape_html(one) + "</li>\n";
-      return text.empty() ? "" : "<ul>\n" + text + "</ul>\n";
-    }
-
     /// A sentence for each method and level.
     std::vector<std::string> balance(const SamplingResults &r)
     {
@@ -122,10 +116,10 @@ namespace plumbline::report
     }
 
     /// Of each method at its finest level, folded.
-    std::string samples(const SamplingResults &r)
+    Data samples(const SamplingResults &r)
     {
       constexpr std::size_t most_rows = 100, most_variables = 10; // that a page has room for
-      std::string text;
+      Data list = Data::array();
       for (const CaseStatistics &one : r.cases)
       {
         if (!one.is_finest || one.samples.empty())
@@ -139,11 +133,12 @@ namespace plumbline::report
         if (r.variables.size() > most_variables)
           what += ", with the first " + std::to_string(most_variables) + " of " +
                   std::to_string(r.variables.size()) + " variables";
-        text +=
-            page::folded(what, to_html(sampling_samples_table(r, one, most_rows, most_variables)) +
-                                   page::paragraph("All: <code>" + samples_file(one) + "</code>"));
+        Data table = page::table(sampling_samples_table(r, one, most_rows, most_variables));
+        table["summary"] = what;
+        table["file"] = samples_file(one);
+        list.push_back(std::move(table));
       }
-      return text;
+      return list;
     }
 
     std::string page_of(const SamplingResults &r, const std::vector<std::string> &faults,
@@ -153,46 +148,32 @@ namespace plumbline::report
                                         std::to_string(r.n_samples) + " samples"};
       if (r.n_expected > 0)
         facts.push_back(faults.empty() ? "✓ as expected" : "✗ not as expected");
-      const std::string header = page::plain_header(r.scene_name, "sample", r.purpose, facts);
-      std::string pictures;
-      for (const DataChart &chart : sampling_charts(r))
-        pictures += page::figure(
-            dir / "sample" / chart.plot.file, chart.name + "-", chart.plot.title,
-            chart.caption + " Data: <code>sample/" + chart.name + ".csv</code>", false);
+      Data data = page::begin("sample", r.scene_name, r.purpose, facts);
+      data["verdict"] = verdict(r, faults);
+      data["findings"] = r.findings;
+      data["has_findings"] = !r.findings.empty();
+      data["charts"] = page::charts(sampling_charts(r), dir, "sample");
       if (has_damage_maps(r))
-        pictures += page::figure(dir / "sample/damage.svg", "damage-", "Where bonds are broken",
-                                 "Mean and deviation over the samples of the largest set, of the "
-                                 "part of each node's bonds that is broken or cut." +
-                                     std::string(best(r)->negative_part > 0
-                                                     ? " Where the variance is negative it has no "
-                                                       "root, and the deviation is drawn as 0."
-                                                     : ""),
-                                 false);
-      std::string numbers = is_own(r) ? page::paragraph(words_of_own) : "";
-      numbers += to_html(sampling_field_table(r));
-      if (!r.cheapest.empty())
-        numbers += page::paragraph("Pairs of h and samples that reach an error most cheaply.") +
-                   to_html(sampling_cheapest_table(r));
-      if (!r.balance.empty())
-        numbers += page::paragraph("What limits the error of the mean, samples or h:") +
-                   list_of(balance(r));
-      numbers +=
-          page::paragraph("Quantities at the finest level.") + to_html(sampling_quantity_table(r));
-      if (!r.failures.empty())
-        numbers += page::paragraph("Samples that failed; the others stand.") +
-                   to_html(sampling_failure_table(r));
-      return page::document(
-          r.scene_name, "sample", header,
-          page::section("picture", "What samples say",
-                        "<p class=\"answer\">" + escape_html(verdict(r, faults)) + "</p>\n" +
-                            list_of(r.findings) + "<div class=\"grid\">\n" + pictures +
-                            "</div>\n") +
-              page::section("numbers", "Numbers", numbers) +
-              page::section("rule", "Rule and samples",
-                            page::paragraph(rule_words(r)) + samples(r)) +
-              page::section(
-                  "scene", "The scene",
-                  page::folded("as read", "<pre>" + escape_html(r.scene_text) + "</pre>")));
+        data["charts"].push_back(page::figure(
+            {dir / "sample/damage.svg", "damage-", "Where bonds are broken",
+             "Mean and deviation over the samples of the largest set, of the part of each node's "
+             "bonds that is broken or cut." +
+                 std::string(best(r)->negative_part > 0
+                                 ? " Where the variance is negative it has no root, and the "
+                                   "deviation is drawn as 0."
+                                 : ""),
+             "Picture", "sample/damage.svg"}));
+      data["own"] = is_own(r) ? words_of_own : "";
+      data["fields"] = page::table(sampling_field_table(r));
+      data["cheapest"] = page::table(sampling_cheapest_table(r));
+      data["balance"] = balance(r);
+      data["has_balance"] = !r.balance.empty();
+      data["quantities"] = page::table(sampling_quantity_table(r));
+      data["failures"] = page::table(sampling_failure_table(r));
+      data["rule"] = rule_words(r);
+      data["samples"] = samples(r);
+      data["scene_text"] = r.scene_text;
+      return fill("sample", data);
     }
   } // namespace
 

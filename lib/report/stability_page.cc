@@ -19,30 +19,20 @@ namespace plumbline::report
     using study::StabilityResults;
     using Json = nlohmann::ordered_json;
 
-    struct Part
-    {
-      const char *id, *head, *words;
-      Table table;
-    };
-
     /// The tables that have rows, verdicts apart.
     std::vector<Part> parts(const StabilityResults &results)
     {
-      std::vector<Part> all = {
-          {"measures", "Measures", measures_words, measures_table(results)},
-          {"eigenvalues", "Eigenvalues where A is not symmetric", eigenvalues_words,
-           eigenvalues_table(results)},
-          {"time-steps", "Critical time steps", time_steps_words, time_steps_table(results)},
-          {"strains", "Where waves on strains begin to grow", strain_thresholds_words,
-           strain_thresholds_table(results.strains)},
-          {"growth", "How fast they grow", strain_growth_words,
-           strain_growth_table(results.strains)},
-          {"powers", "Over the sweep", powers_words, powers_table(results)},
-          {"missing", "Levels without an operator", "", missing_operators_table(results)}};
-      all.erase(std::remove_if(all.begin(), all.end(),
-                               [](const Part &part) { return part.table.rows.empty(); }),
-                all.end());
-      return all;
+      return page::with_rows(
+          {{"measures", "Measures", measures_words, measures_table(results)},
+           {"eigenvalues", "Eigenvalues where A is not symmetric", eigenvalues_words,
+            eigenvalues_table(results)},
+           {"time-steps", "Critical time steps", time_steps_words, time_steps_table(results)},
+           {"strains", "Where waves on strains begin to grow", strain_thresholds_words,
+            strain_thresholds_table(results.strains)},
+           {"growth", "How fast they grow", strain_growth_words,
+            strain_growth_table(results.strains)},
+           {"powers", "Over the sweep", powers_words, powers_table(results)},
+           {"missing", "Levels without an operator", "", missing_operators_table(results)}});
     }
 
     std::string markdown(const StabilityResults &results)
@@ -50,8 +40,7 @@ namespace plumbline::report
       std::string text = "# Stability: " + results.scene_name + "\n\n" +
                          to_markdown(stability_verdicts_table(results));
       for (const Part &part : parts(results))
-        text += std::string("\n## ") + part.head + "\n\n" + to_markdown(part.table) + "\n" +
-                part.words + "\n";
+        text += "\n## " + part.head + "\n\n" + to_markdown(part.table) + "\n" + part.words + "\n";
       return text;
     }
 
@@ -59,7 +48,7 @@ namespace plumbline::report
     constexpr std::array<std::pair<const char *, const char *>, 3> looks = {
         {{"✓", "converges"}, {"?", "undecided"}, {"✗", "stalls"}}};
 
-    std::string header(const StabilityResults &results)
+    Data header(const StabilityResults &results)
     {
       std::vector<std::string> facts{std::to_string(results.verdicts.size()) + " methods",
                                      std::to_string(results.rows.size()) + " operators"};
@@ -73,76 +62,47 @@ namespace plumbline::report
       }
       if (!results.is_complete)
         facts.emplace_back(page::interrupted);
-      return page::plain_header(results.scene_name, "stability", results.purpose, facts);
+      return page::begin("stability", results.scene_name, results.purpose, facts);
     }
 
-    std::string verdicts(const StabilityResults &results)
+    Data verdicts(const StabilityResults &results)
     {
-      std::string text = "<div class=\"wide\"><table class=\"verdicts\">\n<tbody>\n";
+      Data list = Data::array();
       for (const study::StabilityVerdict &v : results.verdicts)
-        text += "<tr><th class=\"method\" scope=\"row\">" + escape_html(v.method) +
-                "</th><td class=\"" + looks[static_cast<std::size_t>(v.verdict)].second + "\"><b>" +
-                base::word(v.verdict) + "</b>" +
-                (v.condition.empty() ? "" : "<small>" + escape_html(v.condition) + "</small>") +
-                "</td><td style=\"max-width: 100ch\">" + escape_html(v.explanation) +
-                "</td></tr>\n";
-      return page::section("verdicts", "Verdicts",
-                           text +
-                               "</tbody></table></div>\n<p class=\"soft\">stable: the symmetric "
-                               "part is positive definite at all levels with a constant that "
-                               "does not fall, no weight is negative, moments are independent, "
-                               "and bonds tie all nodes. conditionally stable: under the "
-                               "condition given. unstable: no condition on m = δ/h helps.</p>\n");
+        list.push_back({{"method", v.method},
+                        {"look", looks[static_cast<std::size_t>(v.verdict)].second},
+                        {"verdict", base::word(v.verdict)},
+                        {"condition", v.condition},
+                        {"explanation", v.explanation}});
+      return list;
     }
 
-    std::string pictures(const std::vector<StabilityPicture> &all, bool are_modes,
-                         const std::filesystem::path &dir)
+    /// Charts or modes, null where there are none.
+    Data pictures(const std::vector<StabilityPicture> &all, bool are_modes,
+                  const std::filesystem::path &dir)
     {
-      std::string text;
+      Data list = Data::array();
       for (std::size_t i = 0; i < all.size(); ++i)
-      {
-        if (all[i].is_mode != are_modes)
-          continue;
-        text += page::figure(
-            dir / "stability" / (all[i].name + ".svg"), "s" + std::to_string(i) + "-", all[i].title,
-            std::string(are_modes ? "Picture" : "Data") + ": <code>stability/" +
-                escape_html(all[i].name) + (are_modes ? ".svg" : ".csv") + "</code>",
-            are_modes);
-      }
-      return text;
+        if (all[i].is_mode == are_modes)
+          list.push_back(page::figure(
+              {dir / "stability" / (all[i].name + ".svg"), "s" + std::to_string(i) + "-",
+               all[i].title, "", are_modes ? "Picture" : "Data",
+               "stability/" + all[i].name + (are_modes ? ".svg" : ".csv"), are_modes}));
+      return list.empty() ? Data() : Data{{"charts", std::move(list)}};
     }
 
     std::string page_of(const StabilityResults &results, const std::filesystem::path &dir)
     {
       const std::vector<StabilityPicture> all = list_pictures(results);
-      std::string text = verdicts(results);
-      for (const Part &part : parts(results))
-        text += page::section(part.id, part.head,
-                              to_html(part.table) + "<p class=\"soft\">" + escape_html(part.words) +
-                                  "</p>\n");
-      if (const std::string charts = pictures(all, false, dir); !charts.empty())
-        text += page::section("charts", "Measures over the sweep",
-                              page::paragraph("Levels where a value is not positive, or not known, "
-                                              "have no point.") +
-                                  "<div class=\"grid\">\n" + charts + "</div>\n");
-      std::string growth;
-      unsigned int n_charts = 0;
-      for (const DataChart &chart : strain_charts(results.strains))
-        growth += page::figure(
-            dir / "strains" / chart.plot.file, "g" + std::to_string(n_charts++) + "-",
-            chart.caption, "Data: <code>strains/" + escape_html(chart.name) + ".csv</code>", false);
-      if (!growth.empty())
-        text += page::section("strain-charts", "Waves on uniform strains",
-                              "<div class=\"grid\">\n" + growth + "</div>\n");
-      if (const std::string modes = pictures(all, true, dir); !modes.empty())
-        text += page::section(
-            "modes", "Modes",
-            page::paragraph("The field that costs the least energy, or all that cost none (any "
-                            "basis of them), at the finest level with at most 1600 nodes. Smooth "
-                            "and spread over the domain is as it should be; what changes from "
-                            "node to node, or sits at a few nodes, is the method's own.") +
-                modes + "<p class=\"soft\">The finest level: <code>stability/*.vtu</code></p>\n");
-      return page::document(results.scene_name, "stability", header(results), text);
+      Data data = header(results);
+      data["verdicts"] = verdicts(results);
+      data["parts"] = page::parts(parts(results));
+      data["measures"] = pictures(all, false, dir);
+      const auto strains = strain_charts(results.strains);
+      data["strains"] =
+          strains.empty() ? Data() : Data{{"charts", page::charts(strains, dir, "strains")}};
+      data["modes"] = pictures(all, true, dir);
+      return fill("stability", data);
     }
 
     /// Null for 0: not known.
@@ -228,11 +188,14 @@ namespace plumbline::report
   {
     std::string text = results.scene_name + "\n";
     for (const Part &part : parts(results))
-    {
-      const std::string words = part.words;
-      text += "\n" + to_text(part.table) + (words.empty() ? "" : wrapped(words, 120) + "\n");
-    }
+      text +=
+          "\n" + to_text(part.table) + (part.words.empty() ? "" : wrapped(part.words, 120) + "\n");
     return text + "\n" + to_text(stability_verdicts_table(results));
+  }
+
+  std::string stability_line(const study::StabilityRow &row)
+  {
+    return level_json(row).dump() + "\n";
   }
 
   std::string stability_json(const StabilityResults &results)

@@ -313,26 +313,20 @@ namespace plumbline::report
     const auto charts = charts_of(results);
     const auto page = [&]
     {
-      std::string pictures;
-      for (const DataChart &chart : charts)
-        pictures += page::figure(
-            dir / "strip" / chart.plot.file, chart.name + "-", chart.plot.title,
-            escape_html(chart.caption) + " Data: <code>strip/" + chart.name + ".csv</code>", false);
-      return page::document(
-          results.scene_name, "strip",
-          page::plain_header(results.scene_name, "strip", results.purpose,
-                             {std::to_string(results.rows.size()) + " strips",
-                              !results.is_complete ? page::interrupted
-                              : faults.empty()     ? "✓ as expected"
-                                                   : "✗ not as expected"}),
-          page::section("picture", "What the tip costs",
-                        "<p class=\"answer\">" + escape_html(verdict(results, faults)) +
-                            "</p>\n<div class=\"grid\">\n" + pictures + "</div>\n") +
-              page::section("numbers", "Numbers",
-                            to_html(rows_table(results)) +
-                                (results.limits.empty() ? "" : to_html(limits_table(results))) +
-                                page::paragraph(meaning(results))) +
-              page::section("model", "The model", page::paragraph(model_words(results))));
+      Data data = page::begin("strip", results.scene_name, results.purpose,
+                              {std::to_string(results.rows.size()) + " strips",
+                               !results.is_complete ? page::interrupted
+                               : faults.empty()     ? "✓ as expected"
+                                                    : "✗ not as expected"});
+      data["verdict"] = verdict(results, faults);
+      data["charts"] = page::charts(charts, dir, "strip");
+      data["tables"] = Data::array();
+      data["tables"].push_back(page::table(rows_table(results)));
+      if (!results.limits.empty())
+        data["tables"].push_back(page::table(limits_table(results)));
+      data["meaning"] = meaning(results);
+      data["model"] = model_words(results);
+      return fill("strip", data);
     };
     write_with_pictures(
         dir / "strip.html", [&] { write_charts(charts, dir / "strip"); }, page);

@@ -123,9 +123,9 @@ namespace plumbline::scene
                                                                               : "scalar kernel";
       const auto check = [&](const std::string &key, const std::string &text)
       { check_components(key, text, n, needed_by, scene.names(1)); };
-      for (const Case &solution : problem.solutions)
+      for (const NamedExpression &solution : problem.solutions)
         check("Problem/solution", solution.expression);
-      for (const Case &load : problem.loads)
+      for (const NamedExpression &load : problem.loads)
         check("Problem/load", load.expression);
       if (problem.constraint)
         check("Problem/constraint", *problem.constraint);

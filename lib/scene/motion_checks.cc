@@ -34,7 +34,7 @@ namespace plumbline::scene
       constexpr int n_samples = 7;
       const geometry::Box &box = scene.domain.boxes.include.front();
       const dealii::Tensor<1, 2> side = box.upper - box.lower;
-      for (const Case &one : scene.problem.solutions)
+      for (const NamedExpression &one : scene.problem.solutions)
       {
         const physics::Expression u("Problem/solution", one.expression,
                                     scene.names(1, .3 * scene.time.final_time));
@@ -68,9 +68,9 @@ namespace plumbline::scene
       std::vector<std::pair<std::string, std::string>> given = {
           {"Time/initial displacement", time.initial_displacement},
           {"Time/initial velocity", time.initial_velocity}};
-      for (const Case &one : scene.problem.solutions)
+      for (const NamedExpression &one : scene.problem.solutions)
         given.emplace_back("Problem/solution", one.expression);
-      for (const Case &one : scene.problem.loads)
+      for (const NamedExpression &one : scene.problem.loads)
         given.emplace_back("Problem/load", one.expression);
       auto names = scene.names(1, .3 * time.final_time);
       names.constants["h"] = 1; // of the level

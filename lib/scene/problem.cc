@@ -263,9 +263,7 @@ namespace plumbline::scene
       problem.constraint = field("Problem/constraint", *scene.problem.constraint);
     else
       problem.constraint = problem.solution ? *problem.solution : nothing;
-    if (scene.problem.local_solution == LocalSolution::solution)
-      problem.local_solution = problem.solution;
-    else if (scene.problem.local_solution == LocalSolution::expression)
+    if (scene.problem.local_solution == LocalSolution::expression)
       problem.local_solution = field("Problem/local solution", scene.problem.local_expression);
 
     if (known_load != nullptr)
@@ -287,11 +285,16 @@ namespace plumbline::scene
     return problem;
   }
 
-  std::function<double(const Point<2> &, unsigned int)>
-  operator_on_solution(const Scene &scene, unsigned int case_index, const Problem &problem)
+  Case make_case(const Scene &scene, unsigned int case_index, const Level &level)
   {
-    const Expression u("Problem/solution", scene.problem.solutions[case_index].expression,
-                       scene.names(problem.horizon(), 0));
+    return {scene, case_index, make_problem(scene, case_index, level)};
+  }
+
+  std::function<double(const Point<2> &, unsigned int)> operator_on_solution(const Case &one)
+  {
+    const Problem &problem = one.problem;
+    const Expression u("Problem/solution", one.scene.problem.solutions[one.index].expression,
+                       one.scene.names(problem.horizon(), 0));
     return manufactured_load(problem, u,
                              problem.lattice ? extent(*problem.lattice) : extent(*problem.mesh));
   }

@@ -63,7 +63,7 @@ namespace plumbline::scene
     Field load;                          ///< b on Ω
     Field constraint;                    ///< u in the collar
     std::optional<Field> solution;       ///< the exact nonlocal solution, if known
-    std::optional<Field> local_solution; ///< the solution of the local limit, if known
+    std::optional<Field> local_solution; ///< of the local limit, if known and another
     bool is_load_given = false;          ///< else it is manufactured from the solution
     bool is_homogeneous = true;          ///< no constant of the material varies in space
     bool is_periodic = false;            ///< a torus
@@ -81,7 +81,7 @@ namespace plumbline::scene
     double horizon() const { return kernel.horizon(); }
   };
 
-  /// @param case_index  into Scene::case_names()
+  /// @param case_index  into ProblemSection::case_names()
   /// @param t           of a scene that moves: its state at this time, the load being the static
   /// one, -F(u) of a manufactured u
   /// @param known_load  of the same case, horizon and time on another level, dear to make again
@@ -93,9 +93,24 @@ namespace plumbline::scene
                        double t = 0, const Field *known_load = nullptr,
                        const Problem *same_place = nullptr);
 
+  /// A problem with the scene that poses it, for whatever makes it again: on other cells, by the
+  /// full model.
+  struct Case
+  {
+    const Scene &scene;     ///< outlives it
+    unsigned int index = 0; ///< into ProblemSection::case_names()
+    Problem problem;
+
+    std::string name() const { return scene.problem.case_names()[index]; }
+    Level level() const { return {problem.h, problem.horizon()}; }
+  };
+
+  /// @throws as make_problem
+  Case make_case(const Scene &scene, unsigned int case_index, const Level &level);
+
   /// L u of the scene's solution: what its load would be if it were not given.
-  /// @pre the case has a solution, and `problem` is of it
+  /// @pre the case has a solution
   /// @throws NumericalError  when called, as physics::ManufacturedLoad
   std::function<double(const dealii::Point<2> &, unsigned int component)>
-  operator_on_solution(const Scene &scene, unsigned int case_index, const Problem &problem);
+  operator_on_solution(const Case &one);
 } // namespace plumbline::scene

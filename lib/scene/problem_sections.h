@@ -69,7 +69,7 @@ namespace plumbline::scene
   };
 
   /// A named field to solve for, or a named load.
-  struct Case
+  struct NamedExpression
   {
     std::string name, expression;
   };
@@ -123,9 +123,9 @@ namespace plumbline::scene
 
   struct ProblemSection
   {
-    std::vector<Case> solutions;           ///< exact nonlocal solutions, empty if not known
-    std::vector<Case> loads;               ///< empty: manufactured from the solutions
-    std::optional<std::string> constraint; ///< an expression; empty: the solution
+    std::vector<NamedExpression> solutions; ///< exact nonlocal solutions, empty if not known
+    std::vector<NamedExpression> loads;     ///< empty: manufactured from the solutions
+    std::optional<std::string> constraint;  ///< an expression; empty: the solution
     LocalSolution local_solution = LocalSolution::solution;
     std::string local_expression;
 

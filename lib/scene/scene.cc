@@ -170,8 +170,8 @@ namespace plumbline::scene
   bool Scene::is_steady() const
   {
     std::vector<std::string> texts;
-    for (const std::vector<Case> &cases : {problem.solutions, problem.loads})
-      for (const Case &one : cases)
+    for (const std::vector<NamedExpression> &cases : {problem.solutions, problem.loads})
+      for (const NamedExpression &one : cases)
         texts.push_back(one.expression);
     if (problem.constraint)
       texts.push_back(*problem.constraint);

@@ -75,9 +75,9 @@ namespace plumbline::scene
     return names;
   }
 
-  std::vector<Case> to_cases(const std::string &text)
+  std::vector<NamedExpression> to_named_expressions(const std::string &text)
   {
-    std::vector<Case> cases;
+    std::vector<NamedExpression> cases;
     for (const std::string &part : split_outside_brackets(text, ';'))
     {
       if (part.empty())

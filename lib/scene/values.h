@@ -25,7 +25,7 @@ namespace plumbline::scene
   std::vector<std::string> to_methods(const std::string &text);
 
   /// "name: expression; ..." or a single expression, whose case is called "u".
-  std::vector<Case> to_cases(const std::string &text);
+  std::vector<NamedExpression> to_named_expressions(const std::string &text);
 
   /// A short decimal text, as in series names: 3, 0.4, 2.5.
   std::string short_number(double value);

@@ -61,18 +61,20 @@ namespace plumbline::study
       }
     };
 
-    void enter(std::map<std::string, double> &errors, const scene::Scene &scene, Quantity quantity,
+    using Norms = std::vector<scene::Norm>;
+
+    void enter(std::map<std::string, double> &errors, const Norms &norms, Quantity quantity,
                Target target, const Accumulator &sum)
     {
-      for (const scene::Norm norm : scene.study.norms)
+      for (const scene::Norm norm : norms)
         if (scene::quantity(norm) == quantity)
           errors[scene::DecisiveError{norm, target}.text()] =
               scene::is_largest(norm) ? sum.largest : std::sqrt(sum.squares);
     }
 
-    bool is_wanted(const scene::Scene &scene, Quantity quantity)
+    bool is_wanted(const Norms &norms, Quantity quantity)
     {
-      return std::any_of(scene.study.norms.begin(), scene.study.norms.end(),
+      return std::any_of(norms.begin(), norms.end(),
                          [quantity](scene::Norm norm)
                          { return scene::quantity(norm) == quantity; });
     }
@@ -282,8 +284,8 @@ namespace plumbline::study
     return std::sqrt(sum.squares);
   }
 
-  ErrorMap error_map(const scene::Scene &scene, const scene::Problem &problem,
-                     const Solution &solution, const std::vector<double> &reference)
+  ErrorMap error_map(scene::Norm decisive, const scene::Problem &problem, const Solution &solution,
+                     const std::vector<double> &reference)
   {
     ErrorMap map;
     const auto box = bounding_box(problem);
@@ -313,7 +315,7 @@ namespace plumbline::study
       value = std::fmax(value, std::abs(difference)); // takes the number where it is still NaN
     };
 
-    if (problem.solution && quantity(scene.study.decisive_error.norm) == scene::Quantity::nodal)
+    if (problem.solution && quantity(decisive) == scene::Quantity::nodal)
     {
       map.quantity = "nodal values";
       for (std::size_t i = 0; i < solution.nodes.size(); ++i)
@@ -331,29 +333,29 @@ namespace plumbline::study
     return map;
   }
 
-  std::map<std::string, double> errors(const scene::Scene &scene, const scene::Problem &problem,
+  std::map<std::string, double> errors(const Norms &norms, const scene::Problem &problem,
                                        const Solution &solution, const Targets &targets)
   {
     std::map<std::string, double> result;
     const auto compare = [&](Target target, const Field &field)
     {
-      if (is_wanted(scene, Quantity::nodal))
-        enter(result, scene, Quantity::nodal, target, nodal_difference(problem, solution, field));
-      if (is_wanted(scene, Quantity::averages))
-        enter(result, scene, Quantity::averages, target,
+      if (is_wanted(norms, Quantity::nodal))
+        enter(result, norms, Quantity::nodal, target, nodal_difference(problem, solution, field));
+      if (is_wanted(norms, Quantity::averages))
+        enter(result, norms, Quantity::averages, target,
               averages_difference(problem, solution.averages, cell_averages(field, problem)));
-      if (is_wanted(scene, Quantity::field))
-        enter(result, scene, Quantity::field, target, field_difference(problem, solution, field));
+      if (is_wanted(norms, Quantity::field))
+        enter(result, norms, Quantity::field, target, field_difference(problem, solution, field));
     };
     if (problem.solution)
       compare(Target::exact, *problem.solution);
-    if (problem.local_solution && scene.problem.local_solution != scene::LocalSolution::solution)
+    if (problem.local_solution)
       compare(Target::local, *problem.local_solution);
     if (!targets.local.empty())
-      enter(result, scene, Quantity::averages, Target::local,
+      enter(result, norms, Quantity::averages, Target::local,
             averages_difference(problem, solution.averages, targets.local));
     if (!targets.reference.empty())
-      enter(result, scene, Quantity::averages, Target::reference,
+      enter(result, norms, Quantity::averages, Target::reference,
             averages_difference(problem, solution.averages, targets.reference));
     return result;
   }

@@ -60,13 +60,15 @@ namespace plumbline::study
   /// The errors of nodal values, if the decisive error is nodal, or else of cell averages against
   /// the exact solution, or else other averages: the largest in each of at most 32 × 32 blocks of
   /// cells.
-  ErrorMap error_map(const scene::Scene &scene, const scene::Problem &problem,
-                     const Solution &solution, const std::vector<double> &target);
+  /// @param decisive  the norm
+  ErrorMap error_map(scene::Norm decisive, const scene::Problem &problem, const Solution &solution,
+                     const std::vector<double> &target);
 
-  /// The errors of a solution in the scene's norms against every target there is, by "norm |
+  /// The errors of a solution in these norms against every target there is, by "norm |
   /// target". Linf takes the largest component; nodal values are at the method's own nodes; field
   /// norms take 3 × 3 Gauss points on each quarter of a lattice cell, a rule of degree 9 on a cell
   /// of a mesh.
-  std::map<std::string, double> errors(const scene::Scene &scene, const scene::Problem &problem,
-                                       const Solution &solution, const Targets &targets);
+  std::map<std::string, double> errors(const std::vector<scene::Norm> &norms,
+                                       const scene::Problem &problem, const Solution &solution,
+                                       const Targets &targets);
 } // namespace plumbline::study

@@ -128,10 +128,9 @@ namespace plumbline::study
     return text.str();
   }
 
-  std::optional<Contradiction> measure_contradiction(const scene::Scene &scene,
-                                                     unsigned int case_index,
-                                                     const scene::Problem &problem)
+  std::optional<Contradiction> measure_contradiction(const scene::Case &one)
   {
+    const scene::Problem &problem = one.problem;
     if (!problem.is_load_given || !problem.solution || !problem.damage.outside.empty())
       return {};
     constexpr std::size_t n_points = 16;
@@ -144,7 +143,7 @@ namespace plumbline::study
       else if (d < .75 * horizon && is_of_bonds(problem, x))
         cut.push_back(x);
     const Values u = problem.solution->value;
-    const auto lu = scene::operator_on_solution(scene, case_index, problem);
+    const auto lu = scene::operator_on_solution(one);
     double size = 0;
     for (const Point<2> &x : comparison_points(problem))
       for (unsigned int c = 0; c < problem.n_components; ++c)

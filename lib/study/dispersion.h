@@ -85,5 +85,6 @@ namespace plumbline::study
     WaveStudy study;
     std::vector<DispersionRow> rows; ///< method by method, coarse to fine in each series
     std::vector<Trend> trends;
+    bool is_complete = true; ///< else it was interrupted
   };
 } // namespace plumbline::study

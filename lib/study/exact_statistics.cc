@@ -62,7 +62,9 @@ namespace plumbline::study
       {
         const scene::Problem problem = make_problem(at, static_cast<unsigned int>(case_index),
                                                     level, 0, &nothing, place.get());
-        return cell_averages(is_local ? *problem.local_solution : *problem.solution, *place);
+        return cell_averages(is_local && problem.local_solution ? *problem.local_solution
+                                                                : *problem.solution,
+                             *place);
       };
     }
 

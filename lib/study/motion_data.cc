@@ -12,11 +12,8 @@ namespace plumbline::study
     using analysis::TimeSeries;
     using analysis::Vector;
 
-    scene::Field given(const std::string &key, const std::string &text, const scene::Scene &scene,
-                       const scene::Problem &problem)
+    scene::Field given(const std::string &key, const std::string &text, const physics::Names &names)
     {
-      auto names = scene.names(problem.horizon());
-      names.constants["h"] = problem.h; // for averages over cells
       const physics::Expression u(key, text, names);
       return {[u](const dealii::Point<2> &x, unsigned int c) { return u(x, c); }, {}};
     }
@@ -82,14 +79,16 @@ namespace plumbline::study
       data.exact = series("Problem/solution", [&](const scene::Problem &instant)
                           { return equation.state(*instant.solution); });
 
-    data.start.u = !time.initial_displacement.empty()
-                       ? equation.state(given("Time/initial displacement",
-                                              time.initial_displacement, scene, first))
-                   : data.exact ? data.exact->at(0)
-                                : Vector(equation.size());
+    physics::Names names = scene.names(first.horizon());
+    names.constants["h"] = first.h; // for averages over cells
+    data.start.u =
+        !time.initial_displacement.empty()
+            ? equation.state(given("Time/initial displacement", time.initial_displacement, names))
+        : data.exact ? data.exact->at(0)
+                     : Vector(equation.size());
     data.start.v =
         !time.initial_velocity.empty()
-            ? equation.state(given("Time/initial velocity", time.initial_velocity, scene, first))
+            ? equation.state(given("Time/initial velocity", time.initial_velocity, names))
         : data.exact && !is_steady ? data.exact->derivative().at(0)
                                    : Vector(equation.size());
     return data;

@@ -58,10 +58,9 @@ namespace plumbline::study
            (scene.reference.estimate == scene::Estimate::automatic && !is_known);
   }
 
-  void settle_quadrature(const scene::Scene &scene, method::Discretisation &discretisation,
-                         const scene::Problem &first)
+  void settle_quadrature(method::Discretisation &discretisation, const scene::Problem &first)
   {
-    if (scene.domain.is_floating)
+    if (first.is_floating)
       return;
     scene::Problem pulled = first;
     pulled.load = {[](const dealii::Point<2> &, unsigned int) { return 1.; }, {}};
@@ -104,7 +103,7 @@ namespace plumbline::study
       double change_to(const Method &method, ProblemsInTime &problems) const
       {
         const auto other = method.discretise(problems.at(0), base::Communicator::alone());
-        settle_quadrature(scene_, *other, problems.at(0));
+        settle_quadrature(*other, problems.at(0));
         return change_to(*other->motion(scene_.time.is_lumped), problems);
       }
 

@@ -136,7 +136,7 @@ namespace plumbline::study
           const scene::Problem &first = problems.at(0);
           area_ = area_of(first);
           const auto discretisation = method.discretise(first, base::Communicator::alone());
-          settle_quadrature(scene_, *discretisation, first);
+          settle_quadrature(*discretisation, first);
           const auto equation = discretisation->motion(scene_.time.is_lumped);
           if (!equation)
             throw NumericalError("its motion is not there");

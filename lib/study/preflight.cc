@@ -50,10 +50,9 @@ namespace plumbline::study
       throw InputError("scene '" + scene.name +
                        "': Strip/length is for 'plumbline strip', whose crack stands; write that, "
                        "or 0");
-    const scene::Problem problem =
-        make_problem(scene, 0, scene.study.series.front().levels.front());
+    const scene::Case first = make_case(scene, 0, scene.study.series.front().levels.front());
     const auto reason_against = [&](const Method &method)
-    { return refusal(method, scene, problem, available); };
+    { return refusal(method, first, available); };
     Methods chosen = named_methods(
         scene, available, [&](const Method &method) { return reason_against(method).empty(); });
     for (const auto &method : chosen)
@@ -66,8 +65,7 @@ namespace plumbline::study
         throw InputError("Reference/method: '" + *scene.reference.method +
                          "' is no Galerkin method, so nothing is known of its error; choose Q2, P2 "
                          "or another ('plumbline list methods')");
-      if (const std::string reason = refusal(*reference, scene, problem, available);
-          !reason.empty())
+      if (const std::string reason = refusal(*reference, first, available); !reason.empty())
         throw InputError("Reference/method: '" + *scene.reference.method +
                          "' cannot do this scene: " + reason);
     }

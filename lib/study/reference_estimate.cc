@@ -53,16 +53,15 @@ namespace plumbline::study
     class Estimator
     {
     public:
-      Estimator(const scene::Scene &scene, const scene::Problem &problem, unsigned int case_index,
-                const Method &method, const Solution &solution)
-          : scene_(scene), problem_(problem), case_index_(case_index),
+      Estimator(const scene::Case &one, const Method &method, const Solution &solution)
+          : case_(one), problem_(one.problem),
             method_(method), solution_{solution.averages, solution.value}
       {
         estimate_.method = method.name();
-        estimate_.h = problem.h;
-        estimate_.horizon = problem.horizon();
+        estimate_.h = problem_.h;
+        estimate_.horizon = problem_.horizon();
         estimate_.outer_change = solution.diagnostics.outer_change *
-                                 averages_l2(problem, solution.averages, zero().averages);
+                                 averages_l2(problem_, solution.averages, zero().averages);
       }
 
       /// What the solution itself says, without solving again.
@@ -70,21 +69,21 @@ namespace plumbline::study
 
       ErrorEstimate by_changes(bool is_cheap, const Diagnostics &diagnostics)
       {
-        auto coarse = coarser(scene_, problem_, case_index_, 2);
+        auto coarse = coarser(case_, 2);
         std::optional<ResizedSolution> on_coarse;
         if (coarse)
           on_coarse = solved(*coarse);
         std::optional<ResizedSolution> on_coarsest;
         const bool is_by_coarse = is_cheap && on_coarse && !has_few_cells();
         if (is_by_coarse)
-          if (const auto coarsest = coarser(scene_, problem_, case_index_, 4))
+          if (const auto coarsest = coarser(case_, 4))
             on_coarsest = solved(*coarsest);
         if (is_by_coarse)
           from_coarse(*coarse, *on_coarse, on_coarsest);
         else
           from_fine(on_coarse);
         const Norms size = distance(problem_, solution_, zero());
-        const double solver = solver_share * scene_.solver.tolerance;
+        const double solver = solver_share * problem_.settings.solver.tolerance;
         estimate_.estimate = std::max(by_h_.averages, safety * estimate_.p_change) +
                              estimate_.outer_change + solver * size.averages;
         estimate_.field_estimate = std::max(by_h_.field, safety * estimate_.field_p_change) +
@@ -100,7 +99,7 @@ namespace plumbline::study
       {
         try
         {
-          return solve_resized(resized, scene_, problem_, method_);
+          return solve_resized(resized, case_, method_);
         }
         catch (const NumericalError &)
         {
@@ -132,7 +131,7 @@ namespace plumbline::study
       /// By how much the error of a smooth solution falls as h halves, at least.
       double expected_contraction() const
       {
-        const unsigned int geometry = geometry_order(scene_);
+        const unsigned int geometry = geometry_order(case_.scene);
         const unsigned int order =
             geometry == 0 ? method_.order() : std::min(geometry, method_.order());
         return std::pow(.5, order);
@@ -167,22 +166,21 @@ namespace plumbline::study
       /// By h/2: the error is the change over 1 - q.
       void from_fine(const std::optional<ResizedSolution> &on_coarse)
       {
-        const Resized fine = finer(scene_, problem_, case_index_, 2);
+        const Resized fine = finer(case_, 2);
         // parts of the coarse cells, on which both fields are smooth; of a mesh made anew, ours
         scene::Problem cells = problem_;
         if (fine.problem.lattice)
           cells = fine.problem;
         else
           cells.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem_.mesh));
-        const Norms change =
-            distance(cells, solution_, solve_resized(fine, scene_, problem_, method_));
+        const Norms change = distance(cells, solution_, solve_resized(fine, case_, method_));
         const Norms before = on_coarse ? distance(problem_, solution_, *on_coarse) : Norms{};
         const Norms q = contraction(before, change);
         enter_changes(change, before);
         enter_rates(q);
         by_h_ = {safety * change.averages / (1 - q.averages),
                  safety * change.field / (1 - q.field)};
-        estimate_.is_of_polygon = fine.is_cut && geometry_order(scene_) > 0;
+        estimate_.is_of_polygon = fine.is_cut && geometry_order(case_.scene) > 0;
         if (const auto higher = higher_degree())
         {
           const Solution other = analysis::solve(*higher, problem_);
@@ -203,8 +201,7 @@ namespace plumbline::study
                  safety_of_coarse * change.field * q.field / (1 - q.field)};
         estimate_.is_of_polygon = false; // the mesh of 2 h was made anew
         if (const auto higher = higher_degree())
-          enter_p_change(
-              distance(problem_, solution_, solve_resized(coarse, scene_, problem_, *higher)));
+          enter_p_change(distance(problem_, solution_, solve_resized(coarse, case_, *higher)));
       }
 
       /// Nothing where cells do not take it.
@@ -220,9 +217,8 @@ namespace plumbline::study
         estimate_.field_p_change = change.field;
       }
 
-      const scene::Scene &scene_;
+      const scene::Case &case_;
       const scene::Problem &problem_;
-      unsigned int case_index_;
       const Method &method_;
       ResizedSolution solution_;
       Norms by_h_;
@@ -230,34 +226,32 @@ namespace plumbline::study
     };
   } // namespace
 
-  ErrorEstimate estimate_error(const scene::Scene &scene, const scene::Problem &problem,
-                               unsigned int case_index, const Method &method,
+  ErrorEstimate estimate_error(const scene::Case &one, const Method &method,
                                const Solution &solution, bool is_cheap)
   {
-    return Estimator(scene, problem, case_index, method, solution)
-        .by_changes(is_cheap, solution.diagnostics);
+    return Estimator(one, method, solution).by_changes(is_cheap, solution.diagnostics);
   }
 
-  ReferenceAverages solve_reference(const scene::Scene &scene, const scene::Problem &problem,
-                                    unsigned int case_index, const Method &method)
+  ReferenceAverages solve_reference(const scene::Case &one, const Method &method)
   {
+    const scene::ReferenceSection &wanted = one.scene.reference;
+    const scene::Problem &problem = one.problem;
     const Solution solution = analysis::solve(method, problem);
     ReferenceAverages result{solution.averages, {}};
-    result.estimate = scene.reference.estimate == scene::Estimate::none
-                          ? Estimator(scene, problem, case_index, method, solution).outer()
-                          : estimate_error(scene, problem, case_index, method, solution, false);
+    result.estimate = wanted.estimate == scene::Estimate::none
+                          ? Estimator(one, method, solution).outer()
+                          : estimate_error(one, method, solution, false);
     result.estimate.n_geometry_checks = solution.diagnostics.n_geometry_checks;
     result.estimate.geometry_difference = solution.diagnostics.geometry_difference;
     const double size = averages_l2(problem, solution.averages,
                                     std::vector<double>(solution.averages.size())),
                  estimate = result.estimate.estimate;
-    if (scene.reference.tolerance > 0 && !(estimate <= scene.reference.tolerance * size))
+    if (wanted.tolerance > 0 && !(estimate <= wanted.tolerance * size))
     {
       std::ostringstream message;
       message << "the reference " << method.name() << " at h = " << problem.h
               << " has an estimated error of " << estimate / size
-              << " relative to the solution, more than Reference/tolerance = "
-              << scene.reference.tolerance
+              << " relative to the solution, more than Reference/tolerance = " << wanted.tolerance
               << "; take a higher degree (Reference/method), a smaller h, or a larger tolerance";
       throw NumericalError(message.str());
     }

@@ -22,8 +22,7 @@ namespace plumbline::study
   /// @param is_cheap  on meshes of 500 cells or more, compare with degrees p and p + 1 on a mesh of
   /// 2 h and with 4 h instead, where the scene has these: e = d' q / (1 - q), and 2 of that for
   /// 3/2. Cost: about that of the solution itself; else 17 times as much and more.
-  ErrorEstimate estimate_error(const scene::Scene &scene, const scene::Problem &problem,
-                               unsigned int case_index, const Method &method,
+  ErrorEstimate estimate_error(const scene::Case &one, const Method &method,
                                const Solution &solution, bool is_cheap);
 
   /// A reference solution's averages with their estimate.
@@ -34,6 +33,5 @@ namespace plumbline::study
   };
 
   /// @throws NumericalError  the estimate is larger than the scene's Reference/tolerance
-  ReferenceAverages solve_reference(const scene::Scene &scene, const scene::Problem &problem,
-                                    unsigned int case_index, const Method &method);
+  ReferenceAverages solve_reference(const scene::Case &one, const Method &method);
 } // namespace plumbline::study

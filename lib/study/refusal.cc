@@ -37,13 +37,12 @@ namespace plumbline::study
     }
   } // namespace
 
-  std::string refusal(const Method &method, const scene::Scene &scene,
-                      const scene::Problem &problem, const Methods &available)
+  std::string refusal(const Method &method, const scene::Case &one, const Methods &available)
   {
-    const Capabilities needed = method::needs(scene, problem);
+    const Capabilities needed = method::needs(one);
     const std::string why =
-        scene::refusal(scene, needed, method.can(), others(method, needed, available));
-    return why.empty() ? method.why_not(problem) : why;
+        scene::refusal(one.scene, needed, method.can(), others(method, needed, available));
+    return why.empty() ? method.why_not(one.problem) : why;
   }
 
   std::string capability_table(const Methods &methods)

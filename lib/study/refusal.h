@@ -8,10 +8,9 @@ namespace plumbline::study
   using method::Methods;
 
   /// Why a method cannot do a scene, which others can, and what to write instead; empty: it can.
-  /// @param problem    of any case and level
+  /// @param one        of any case and level
   /// @param available  the others are among them
-  std::string refusal(const Method &method, const scene::Scene &scene,
-                      const scene::Problem &problem, const Methods &available);
+  std::string refusal(const Method &method, const scene::Case &one, const Methods &available);
 
   /// Methods by capabilities, as a table in Markdown; methods that can do the same share a row.
   std::string capability_table(const Methods &methods);

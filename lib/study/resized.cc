@@ -40,14 +40,14 @@ namespace plumbline::study
 
     /// The scene's own problem at another h, compared on the cells of the first one; nothing where
     /// it has none, or its mesh takes no notice of h.
-    std::optional<Resized> made_anew(const scene::Scene &scene, const scene::Problem &problem,
-                                     unsigned int case_index, double h)
+    std::optional<Resized> made_anew(const scene::Case &one, double h)
     {
+      const scene::Problem &problem = one.problem;
       // meshes of one description at two sizes are alike to that
       constexpr double like = 1.5;
       try
       {
-        Resized result{scene::make_problem(centred(scene), case_index, {h, problem.horizon()})};
+        Resized result{scene::make_problem(centred(one.scene), one.index, {h, problem.horizon()})};
         if (result.problem.mesh)
         {
           const double ratio = mean_size(*result.problem.mesh) / mean_size(*problem.mesh);
@@ -82,9 +82,10 @@ namespace plumbline::study
     }
 
     /// Averages over the cells of a finer lattice, halving by halving over those of the problem.
-    std::vector<double> coarsened(std::vector<double> averages, const scene::Scene &scene, double h,
-                                  const scene::Problem &problem)
+    std::vector<double> coarsened(std::vector<double> averages, const scene::Case &one, double h)
     {
+      const scene::Scene &scene = one.scene;
+      const scene::Problem &problem = one.problem;
       const unsigned int n = problem.n_components;
       const auto is_last = [&] { return 2 * h > .75 * problem.h; };
       for (; !is_last(); h *= 2)
@@ -102,39 +103,40 @@ namespace plumbline::study
     return scene.domain.mesh.inside.empty() ? 2 : 1;
   }
 
-  Resized finer(const scene::Scene &scene, const scene::Problem &problem, unsigned int case_index,
-                unsigned int n)
+  Resized finer(const scene::Case &one, unsigned int n)
   {
+    const scene::Problem &problem = one.problem;
     if (problem.lattice)
-      return {scene::make_problem(centred(scene), case_index, {problem.h / n, problem.horizon()})};
+      return {
+          scene::make_problem(centred(one.scene), one.index, {problem.h / n, problem.horizon()})};
     // beyond the free boundary of a body no field has values: its polygon stays as it is
-    if (geometry_order(scene) > 0 && !problem.body)
-      if (auto result = made_anew(scene, problem, case_index, problem.h / n))
+    if (geometry_order(one.scene) > 0 && !problem.body)
+      if (auto result = made_anew(one, problem.h / n))
         return std::move(*result);
     return cut(problem, n);
   }
 
-  std::optional<Resized> coarser(const scene::Scene &scene, const scene::Problem &problem,
-                                 unsigned int case_index, unsigned int n)
+  std::optional<Resized> coarser(const scene::Case &one, unsigned int n)
   {
     // parts of a body are fixed by the centroids of cells: larger cells may fix another part
     constexpr double same = 1e-9;
-    auto result = made_anew(scene, problem, case_index, problem.h * n);
+    const scene::Problem &problem = one.problem;
+    auto result = made_anew(one, problem.h * n);
     if (result && problem.body &&
         std::abs(area(*result->problem.mesh) / area(*problem.mesh) - 1) > same)
       return {};
     return result;
   }
 
-  ResizedSolution solve_resized(const Resized &resized, const scene::Scene &scene,
-                                const scene::Problem &problem, const Method &method)
+  ResizedSolution solve_resized(const Resized &resized, const scene::Case &one,
+                                const Method &method)
   {
+    const scene::Problem &problem = one.problem;
     Solution solution = analysis::solve(method, resized.problem);
     if (problem.lattice)
-      solution.averages =
-          resized.problem.h < problem.h
-              ? coarsened(std::move(solution.averages), scene, resized.problem.h, problem)
-              : cell_averages(scene::Field{solution.value, std::nullopt}, problem);
+      solution.averages = resized.problem.h < problem.h
+                              ? coarsened(std::move(solution.averages), one, resized.problem.h)
+                              : cell_averages(scene::Field{solution.value, std::nullopt}, problem);
     return {std::move(solution.averages), std::move(solution.value)};
   }
 } // namespace plumbline::study

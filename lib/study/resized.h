@@ -15,14 +15,12 @@ namespace plumbline::study
     bool is_cut = false;
   };
 
-  /// The problem with cells of h / n, n = 2, 4, ... Meshes that a scene makes to measure (a .geo
+  /// Its problem with cells of h / n, n = 2, 4, ... Meshes that a scene makes to measure (a .geo
   /// file, a generator, a map) are made anew and so follow curved boundaries; others are cut.
-  Resized finer(const scene::Scene &scene, const scene::Problem &problem, unsigned int case_index,
-                unsigned int n);
+  Resized finer(const scene::Case &one, unsigned int n);
 
-  /// The problem with cells of n h, n = 2, 4, ...; nothing where the domain or the file has none.
-  std::optional<Resized> coarser(const scene::Scene &scene, const scene::Problem &problem,
-                                 unsigned int case_index, unsigned int n);
+  /// Its problem with cells of n h, n = 2, 4, ...; nothing where the domain or the file has none.
+  std::optional<Resized> coarser(const scene::Case &one, unsigned int n);
 
   /// A solution of a resized problem.
   struct ResizedSolution
@@ -31,9 +29,10 @@ namespace plumbline::study
     Values value;
   };
 
+  /// @param one  the case whose problem was resized
   /// @throws as Method::solve
-  ResizedSolution solve_resized(const Resized &resized, const scene::Scene &scene,
-                                const scene::Problem &problem, const Method &method);
+  ResizedSolution solve_resized(const Resized &resized, const scene::Case &one,
+                                const Method &method);
 
   /// Whether a scene makes its mesh anew for each h from a description that may be curved, and how
   /// fast the domain's cells tend to what they stand for: a polygon's sides to its curve like h²,

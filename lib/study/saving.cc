@@ -54,17 +54,17 @@ namespace plumbline::study
            (scene.domain.is_free_body ? drops_dilatation : scene.domain.mesh.is_lattice());
   }
 
-  std::optional<Saving> measure_saving(const scene::Scene &scene, unsigned int case_index,
-                                       const scene::Level &level, const Method &method,
+  std::optional<Saving> measure_saving(const scene::Case &one, const Method &method,
                                        const Solution &solution)
   {
-    const scene::Scene full = scene::full_model(scene);
-    const scene::Problem problem = make_problem(full, case_index, level);
-    if (!refusal(method, full, problem, {}).empty())
+    const scene::Scene full = scene::full_model(one.scene);
+    const scene::Level level = one.level();
+    const scene::Case fuller = make_case(full, one.index, level);
+    if (!refusal(method, fuller, {}).empty())
       return {};
     try
     {
-      const Solution whole = analysis::solve(method, problem);
+      const Solution whole = analysis::solve(method, fuller.problem);
       return Saving{method.name(), level.h,    level.horizon,
                     solution.cost, whole.cost, difference(solution, whole, level.h)};
     }

@@ -18,7 +18,6 @@ namespace plumbline::study
   /// @param solution  by the smallest model, and its cost
   /// Nothing if the method cannot solve the full model.
   /// Cost: that of the full model, tens to hundreds of times the smallest one's.
-  std::optional<Saving> measure_saving(const scene::Scene &scene, unsigned int case_index,
-                                       const scene::Level &level, const Method &method,
+  std::optional<Saving> measure_saving(const scene::Case &one, const Method &method,
                                        const Solution &solution);
 } // namespace plumbline::study

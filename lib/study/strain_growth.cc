@@ -145,11 +145,10 @@ namespace plumbline::study
     return growths;
   }
 
-  void add_growth(const method::Method &method, const scene::Scene &scene,
-                  const scene::Problem &problem, std::vector<StrainGrowth> &growths)
+  void add_growth(const method::Method &method, const scene::Problem &problem, double density,
+                  std::vector<StrainGrowth> &growths)
   {
     constexpr double longest_time = 400; // in horizons over the speed of a bond, √(p/ρ)
-    const physics::DoubleWell law = make_double_well(scene, problem.horizon());
     MethodGrowth result{method.name(), method.side(), {}, {}, {}};
     std::unique_ptr<method::Discretisation> discretisation;
     try
@@ -163,7 +162,6 @@ namespace plumbline::study
         growth.methods.push_back(result);
       return;
     }
-    const double density = scene.time.density;
     for (std::size_t d = 0; d < growths.size(); ++d)
     {
       StrainGrowth &growth = growths[d];
@@ -184,7 +182,8 @@ namespace plumbline::study
         {
           const auto found = analysis::observe_growth(
               *equation, transient, equation->state(stretched), sample.wave, growth.horizon,
-              longest_time * growth.horizon * std::sqrt(density / law.stiffness()));
+              longest_time * growth.horizon *
+                  std::sqrt(density / problem.double_well->stiffness()));
           one.linear.push_back(found.linear);
           one.observed.push_back(found.observed);
         }

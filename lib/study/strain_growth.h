@@ -57,8 +57,9 @@ namespace plumbline::study
 
   /// Move every sample's wave by a method. Those without a motion about strains (Galerkin) are left
   /// out.
-  void add_growth(const method::Method &method, const scene::Scene &scene,
-                  const scene::Problem &problem, std::vector<StrainGrowth> &growths);
+  /// @param problem  of double wells
+  void add_growth(const method::Method &method, const scene::Problem &problem, double density,
+                  std::vector<StrainGrowth> &growths);
 
   /// Expected/strain growth: the largest difference() of a method over all series and directions.
   std::vector<Expectation> check_growth(const scene::Scene &scene,

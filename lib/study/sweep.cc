@@ -60,11 +60,9 @@ namespace plumbline::study
 
     private:
       /// A case of the level that is being solved.
-      struct Case
+      struct OpenCase : scene::Case
       {
-        unsigned int index = 0; ///< into the scene's
         Methods due;
-        scene::Problem problem;
         Targets targets = {};
       };
 
@@ -131,7 +129,7 @@ namespace plumbline::study
 
       void run_level(const scene::Series &series, unsigned int level)
       {
-        std::vector<Case> open;
+        std::vector<OpenCase> open;
         const std::size_t n_before = n_done_;
         for (unsigned int c = 0; c < cases_.size(); ++c)
         {
@@ -139,7 +137,7 @@ namespace plumbline::study
           if (take_earlier(due, cases_[c], series, level))
             continue;
           say(cases_[c], series, level, "load and reference");
-          open.push_back({c, std::move(due), make_problem(scene_, c, series.levels[level])});
+          open.push_back({make_case(scene_, c, series.levels[level]), std::move(due)});
         }
         warn(open, series, level);
         solve_targets(open, series, level);
@@ -154,15 +152,14 @@ namespace plumbline::study
       }
 
       /// Of the finest level, where the horizon is the shortest and limits are near.
-      void warn(const std::vector<Case> &open, const scene::Series &series, unsigned int level)
+      void warn(const std::vector<OpenCase> &open, const scene::Series &series, unsigned int level)
       {
         if (level + 1 < n_levels(series) || series.name != scene_.study.series.front().name)
           return;
         if (const auto spectrum = field_spectrum(scene_.random); spectrum && spectrum->is_grey())
           results_.warnings.push_back("Random/modes: " + words_of(*spectrum));
-        for (const Case &one : open)
-          if (const auto found = measure_contradiction(scene_, one.index, one.problem);
-              found && found->is_clear())
+        for (const OpenCase &one : open)
+          if (const auto found = measure_contradiction(one); found && found->is_clear())
             results_.warnings.push_back(cases_[one.index] + ": " + found->text());
       }
 
@@ -175,15 +172,15 @@ namespace plumbline::study
                                static_cast<double>(n_done_) / static_cast<double>(n_all_));
       }
 
-      void solve_targets(std::vector<Case> &open, const scene::Series &series, unsigned int level)
+      void solve_targets(std::vector<OpenCase> &open, const scene::Series &series,
+                         unsigned int level)
       {
-        for (Case &one : open)
+        for (OpenCase &one : open)
         {
           if (scene_.reference.method)
           {
             ReferenceAverages reference = solve_reference(
-                scene_, one.problem, one.index,
-                *find_method(available_, *scene_.reference.method, "Reference/method"));
+                one, *find_method(available_, *scene_.reference.method, "Reference/method"));
             results_.references.push_back(
                 placed(reference.estimate, cases_[one.index], series, level));
             one.targets.reference = std::move(reference.averages);
@@ -194,11 +191,11 @@ namespace plumbline::study
       }
 
       /// All cases by one discretisation; on several ranks, where all must fail alike, one by one.
-      void run_method(const Method &method, std::vector<Case> &open, const scene::Series &series,
-                      unsigned int level)
+      void run_method(const Method &method, std::vector<OpenCase> &open,
+                      const scene::Series &series, unsigned int level)
       {
-        std::vector<const Case *> due;
-        for (const Case &one : open)
+        std::vector<const OpenCase *> due;
+        for (const OpenCase &one : open)
           if (std::any_of(one.due.begin(), one.due.end(),
                           [&](const auto &other) { return other.get() == &method; }))
             due.push_back(&one);
@@ -269,7 +266,7 @@ namespace plumbline::study
                             [&](const Run &other) { return other.side == method.side(); });
       }
 
-      Run empty_run(const Method &method, const Case &one, const scene::Series &series,
+      Run empty_run(const Method &method, const OpenCase &one, const scene::Series &series,
                     unsigned int level) const
       {
         Run run;
@@ -286,7 +283,7 @@ namespace plumbline::study
       }
 
       /// Everything that is known of a solution.
-      void evaluate(const Method &method, const Case &one, const Solution &solution,
+      void evaluate(const Method &method, const OpenCase &one, const Solution &solution,
                     const scene::Series &series, Run &run)
       {
         const scene::Problem &problem = one.problem;
@@ -294,7 +291,7 @@ namespace plumbline::study
         run.size = variation(problem, solution);
         run.round_off = round_off_error(problem, solution);
         run.diagnostics = solution.diagnostics;
-        run.errors = errors(scene_, problem, solution, one.targets);
+        run.errors = errors(scene_.study.norms, problem, solution, one.targets);
         if (control_.on_solution)
           control_.on_solution(problem, solution, run);
         if (is_against_own())
@@ -304,11 +301,9 @@ namespace plumbline::study
             throw NumericalError("the error " + error + " is not a finite number");
         if (is_estimated(method, problem))
           results_.estimates.push_back(
-              placed(estimate_error(scene_, problem, one.index, method, solution, true),
-                     run.problem, series, run.level));
+              placed(estimate_error(one, method, solution, true), run.problem, series, run.level));
         if (is_saving_due(method, run))
-          if (const auto saving =
-                  measure_saving(scene_, one.index, series.levels[run.level], method, solution))
+          if (const auto saving = measure_saving(one, method, solution))
             results_.savings.push_back(*saving);
         if (run.level + 1 == n_levels(series))
           finish_series(solution, run, problem,
@@ -326,10 +321,10 @@ namespace plumbline::study
 
       /// Of the cases by one discretisation, and what each costs.
       std::vector<analysis::Outcome> solve_cases(const Method &method,
-                                                 const std::vector<const Case *> &cases) const
+                                                 const std::vector<const OpenCase *> &cases) const
       {
         std::vector<const scene::Problem *> problems;
-        for (const Case *one : cases)
+        for (const OpenCase *one : cases)
           problems.push_back(&one->problem);
         return solve_and_time(
             [&] {
@@ -367,7 +362,7 @@ namespace plumbline::study
         if (run.problem != cases_.back() || run.series != scene_.study.series.front().name ||
             (!problem.solution && target.empty()))
           return;
-        ErrorMap map = error_map(scene_, problem, solution, target);
+        ErrorMap map = error_map(scene_.study.decisive_error.norm, problem, solution, target);
         map.method = run.method;
         map.problem = run.problem;
         map.series = run.series;

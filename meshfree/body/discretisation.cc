@@ -184,7 +184,7 @@ namespace plumbline::meshfree
   std::unique_ptr<method::Discretisation> discretise_on_body(const Rule &rule,
                                                              const scene::Problem &problem)
   {
-    const Bonds bonds = lattice_bonds(rule.recipe(problem.kernel), problem.kernel, problem.body->h,
+    const Bonds bonds = lattice_bonds(rule.of(problem.kernel), problem.kernel, problem.body->h,
                                       problem.settings.geometry.backend);
     return std::make_unique<RuleOnBody>(problem, bonds);
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshfree/rules/recipe.h"
+#include "meshfree/rules/quadrature_rule.h"
 
 namespace plumbline::meshfree
 {

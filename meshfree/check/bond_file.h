@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/node_cells.h"
-#include "meshfree/rules/recipe.h"
+#include "meshfree/rules/quadrature_rule.h"
 
 #include <cstdint>
 

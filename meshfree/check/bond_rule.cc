@@ -73,7 +73,7 @@ namespace plumbline::meshfree
     {
       geometry::NodeCells cells = given.cells;
       cells.area = given.volumes;
-      const Families families(rule.recipe(given.kernel), given.kernel, cells, Backend::fast);
+      const Families families(rule.of(given.kernel), given.kernel, cells, Backend::fast);
       std::vector<Family> result(families.size());
       for (std::size_t i = 0; i < families.size(); ++i)
         families.make(i, result[i]);
@@ -92,8 +92,7 @@ namespace plumbline::meshfree
   bool Recognised::is_full_area() const
   {
     return std::any_of(rules().begin(), rules().end(),
-                       [this](const Rule &one)
-                       { return one.name == rule && one.recipe == full_area; });
+                       [this](const Rule &one) { return one.name == rule && one.of == full_area; });
   }
 
   std::optional<Recognised> recognise(const GivenBonds &given)

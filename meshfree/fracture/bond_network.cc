@@ -27,10 +27,10 @@ namespace plumbline::meshfree
       double weight = 0; ///< w K
     };
 
-    std::vector<Half> half_family(const Recipe &recipe, const Kernel<2> &influence, double h,
+    std::vector<Half> half_family(const QuadratureRule &rule, const Kernel<2> &influence, double h,
                                   Backend backend)
     {
-      const Bonds all = lattice_bonds(recipe, physics::deviatoric_kernel(influence, 1), h, backend);
+      const Bonds all = lattice_bonds(rule, physics::deviatoric_kernel(influence, 1), h, backend);
       std::vector<Half> result;
       for (const Bond &bond : all.family)
       {
@@ -179,7 +179,7 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  BondNetwork make_bond_network(const BreakingSolid &solid, const Recipe &recipe,
+  BondNetwork make_bond_network(const BreakingSolid &solid, const QuadratureRule &rule,
                                 const Kernel<2> &influence, double h, Backend backend)
   {
     BondNetwork network;
@@ -190,7 +190,7 @@ namespace plumbline::meshfree
     const Materials materials(solid, network.nodes);
     network.dilatation = dilatations(materials.lame, h * h);
     Notch notch(solid, network);
-    const std::vector<Half> family = half_family(recipe, influence, h, backend);
+    const std::vector<Half> family = half_family(rule, influence, h, backend);
     const auto [n1, n2] = lattice.n_cells();
     const auto node_at = [&](int i, int j)
     {
@@ -267,14 +267,14 @@ namespace plumbline::meshfree
     return lost;
   }
 
-  double lattice_toughness(const Recipe &recipe, const Kernel<2> &influence, double h,
+  double lattice_toughness(const QuadratureRule &rule, const Kernel<2> &influence, double h,
                            Backend backend, std::array<int, 2> along)
   {
     const double steps = std::hypot(along[0], along[1]);
     Assert(steps > 0, dealii::ExcMessage("a line without a direction"));
     // for λ = μ = 1 and s0² = 1/(8β); of each kind of bond |k x along| cross the line in h |along|
     double sum = 0;
-    for (const Half &half : half_family(recipe, influence, h, backend))
+    for (const Half &half : half_family(rule, influence, h, backend))
     {
       const double stretch = (half.way * half.xi) * (half.way * half.xi) / (8 * beta(influence)),
                    n_across = std::abs(half.k[0] * along[1] - half.k[1] * along[0]) / (h * steps);

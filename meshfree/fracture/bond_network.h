@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/cracks.h"
-#include "meshfree/rules/recipe.h"
+#include "meshfree/rules/quadrature_rule.h"
 #include "physics/state_based.h"
 
 #include <array>
@@ -73,18 +73,18 @@ namespace plumbline::meshfree
   /// across a straight cut of a continuum is G where dilatations are twice the stretch, which is
   /// exact for bonds (λ = μ). On the lattice itself it is .9158 G for m = 3, see lattice_toughness.
   /// Bonds between two materials have harmonic means of λ and μ, and the mean of G.
-  /// @param recipe     of a rule, with the deviatoric kernel of μ = 1
+  /// @param rule     of a rule, with the deviatoric kernel of μ = 1
   /// @param influence  1/r, ∫K|ξ|² = 2
   /// @throws InputError  h that does not fit the boxes; grips that hold no node, or one grip alone;
   /// G <= 0 at a bond; a notch through a node, or that cuts no bond
   /// Source: Fan et al. 2022, eqs. (2.24)-(2.26); Silling & Askari 2005 for λ = μ,
   /// doi:10.1016/j.compstruc.2004.11.026.
-  BondNetwork make_bond_network(const BreakingSolid &solid, const Recipe &recipe,
+  BondNetwork make_bond_network(const BreakingSolid &solid, const QuadratureRule &rule,
                                 const Kernel<2> &influence, double h, Backend backend);
 
   /// Energy of all bonds across an endless straight line that meets no node, each at its limit s0
   /// of G = 1, on a homogeneous lattice with λ = μ, per length: what a crack along it breaks.
   /// @param along  the line's direction in steps of the lattice, not (0, 0)
-  double lattice_toughness(const Recipe &recipe, const Kernel<2> &influence, double h,
+  double lattice_toughness(const QuadratureRule &rule, const Kernel<2> &influence, double h,
                            Backend backend, std::array<int, 2> along = {1, 0});
 } // namespace plumbline::meshfree

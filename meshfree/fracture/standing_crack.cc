@@ -80,13 +80,13 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  method::StripState solve_strip(const RiceStrip &strip, const Recipe &recipe,
+  method::StripState solve_strip(const RiceStrip &strip, const QuadratureRule &rule,
                                  const Kernel<2> &influence)
   {
     // partial areas reach a cell farther
     const int reach = static_cast<int>(std::ceil(influence.horizon() / strip.h - 1e-9)) + 1;
     BondNetwork network =
-        make_bond_network(make_solid(strip, reach), recipe, influence, strip.h, Backend::fast);
+        make_bond_network(make_solid(strip, reach), rule, influence, strip.h, Backend::fast);
     method::StripState state;
     if (strip.K_tip)
       state.intact = physics::crack_release({1, 1});

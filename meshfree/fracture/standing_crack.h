@@ -1,13 +1,13 @@
 #pragma once
 
-#include "meshfree/rules/recipe.h"
+#include "meshfree/rules/quadrature_rule.h"
 #include "method/rice_strip.h"
 
 namespace plumbline::meshfree
 {
   /// Of a solid with λ = μ = 1, whose bonds are all of it; those that cross the crack are broken.
-  /// @param recipe     of a rule, with the deviatoric kernel of μ = 1
+  /// @param rule     of a rule, with the deviatoric kernel of μ = 1
   /// @param influence  1/r, ∫K|ξ|² = 2
-  method::StripState solve_strip(const method::RiceStrip &strip, const Recipe &recipe,
+  method::StripState solve_strip(const method::RiceStrip &strip, const QuadratureRule &rule,
                                  const Kernel<2> &influence);
 } // namespace plumbline::meshfree

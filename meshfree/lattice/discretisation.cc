@@ -138,7 +138,7 @@ namespace plumbline::meshfree
                                                                 const scene::Problem &problem)
   {
     return std::make_unique<RuleOnLattice>(
-        problem, lattice_bonds(rule.recipe(problem.kernel), problem.kernel, problem.lattice->h(),
+        problem, lattice_bonds(rule.of(problem.kernel), problem.kernel, problem.lattice->h(),
                                problem.settings.geometry.backend));
   }
 } // namespace plumbline::meshfree

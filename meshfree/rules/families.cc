@@ -14,9 +14,9 @@ namespace plumbline::meshfree
     return boxes;
   }
 
-  Families::Families(Recipe recipe, const Kernel<2> &kernel, const geometry::NodeCells &cells,
+  Families::Families(QuadratureRule rule, const Kernel<2> &kernel, const geometry::NodeCells &cells,
                      Backend backend)
-      : recipe_(std::move(recipe)), kernel_(kernel), cells_(&cells), backend_(backend),
+      : rule_(std::move(rule)), kernel_(kernel), cells_(&cells), backend_(backend),
         pieces_(cells.pieces.begin(), cells.pieces.end()),
         search_(bounding_boxes(cells, cells.size())),
         // ramps reach half a cell beyond the horizon
@@ -41,11 +41,11 @@ namespace plumbline::meshfree
                                 Point<2>(cells_->nodes[j] - x),
                                 cells_->area[j],
                                 {pieces_.data() + first, cells_->first_piece[j + 1] - first}};
-      if (j != node && add_bond(recipe_, kernel_, candidate, family))
+      if (j != node && add_bond(rule_, kernel_, candidate, family))
         family.neighbours[n++] = j;
     }
     family.neighbours.resize(n);
-    finish(recipe_, family,
+    finish(rule_, family,
            [&]
            {
              std::ostringstream place;

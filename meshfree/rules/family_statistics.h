@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/communicator.h"
-#include "meshfree/rules/recipe.h"
+#include "meshfree/rules/quadrature_rule.h"
 #include "method/diagnostics.h"
 
 namespace plumbline::meshfree

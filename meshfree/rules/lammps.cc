@@ -12,7 +12,7 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  Recipe lammps(const Kernel<2> &)
+  QuadratureRule lammps(const Kernel<2> &)
   {
     return {bond};
   }

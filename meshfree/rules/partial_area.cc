@@ -30,12 +30,12 @@ namespace plumbline::meshfree
     return result;
   }
 
-  Recipe partial_area(const Kernel<2> &)
+  QuadratureRule partial_area(const Kernel<2> &)
   {
     return {partial_area_bond};
   }
 
-  Recipe improved_partial_area(const Kernel<2> &)
+  QuadratureRule improved_partial_area(const Kernel<2> &)
   {
     return {centroid_bond};
   }

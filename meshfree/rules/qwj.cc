@@ -12,7 +12,7 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  Recipe qwj(const Kernel<2> &)
+  QuadratureRule qwj(const Kernel<2> &)
   {
     return {bond};
   }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/cracks.h"
-#include "meshfree/rules/recipe.h"
+#include "meshfree/rules/quadrature_rule.h"
 
 namespace plumbline::meshfree
 {

@@ -169,7 +169,7 @@ namespace plumbline::meshfree
 
     Families families_of(const Rule &rule, const scene::Problem &problem)
     {
-      return {rule.recipe(problem.kernel), problem.kernel, *problem.cells,
+      return {rule.of(problem.kernel), problem.kernel, *problem.cells,
               problem.settings.geometry.backend};
     }
 

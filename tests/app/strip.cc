@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <sstream>
+
 namespace
 {
   using namespace plumbline::app;
@@ -44,6 +46,33 @@ TEST(StripCommand, interrupted_keeps_what_is_finished)
   EXPECT_FALSE(json["is_complete"]);
   EXPECT_LT(json["levels"].size(), 4u);
   expect_found(read(folder / "strip.html"), "interrupted: what was finished");
+}
+
+TEST(StripCommand, killed_goes_on_from_what_is_finished)
+{
+  const fs::path folder = temporary("strip"), whole = temporary("strip_whole");
+  const std::string command = "strip " + scene() + " --methods PA-AC,Q1 --levels 2 --quiet -o ";
+  ASSERT_EQ(run(command + whole.string()).exit_code, 0);
+  EXPECT_FALSE(fs::exists(whole / "strip.jsonl"));
+  ASSERT_TRUE(kill_at(command + folder.string(), folder / "strip.jsonl"));
+  const std::string finished = read(folder / "strip.jsonl");
+  EXPECT_FALSE(fs::exists(folder / "strip.json"));
+  ASSERT_EQ(run(command + folder.string()).exit_code, 0);
+  auto levels = nlohmann::json::parse(read(folder / "strip.json"))["levels"],
+       others = nlohmann::json::parse(read(whole / "strip.json"))["levels"];
+  ASSERT_EQ(levels.size(), others.size());
+  // what was finished was taken over, its time too
+  std::istringstream lines(finished);
+  std::string line;
+  std::getline(lines, line); // the scene
+  std::getline(lines, line);
+  EXPECT_EQ(nlohmann::json::parse(line)["seconds"], levels[0]["seconds"]);
+  for (auto *list : {&levels, &others})
+    for (auto &level : *list)
+      level.erase("seconds");
+  EXPECT_EQ(levels, others); // to the last bit
+  fs::remove_all(folder);
+  fs::remove_all(whole);
 }
 
 TEST(StripCommand, charts_a_crack_in_its_own_field)

@@ -29,9 +29,9 @@ namespace
   }
 
   /// The families of all free nodes.
-  std::vector<Family> all(const Recipe &recipe, const scene::Problem &problem)
+  std::vector<Family> all(const QuadratureRule &rule, const scene::Problem &problem)
   {
-    const Families families(recipe, problem.kernel, *problem.cells, Backend::fast);
+    const Families families(rule, problem.kernel, *problem.cells, Backend::fast);
     std::vector<Family> result(families.size());
     for (std::size_t i = 0; i < families.size(); ++i)
       families.make(i, result[i]);

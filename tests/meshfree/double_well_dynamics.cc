@@ -50,7 +50,7 @@ namespace
     const auto kernel = law.linear_kernel();
     for (const Rule &rule : rules())
       if (rule.name == name)
-        return {well_bonds(law, lattice_bonds(rule.recipe(kernel), kernel, 1. / n, Backend::fast)),
+        return {well_bonds(law, lattice_bonds(rule.of(kernel), kernel, 1. / n, Backend::fast)),
                 1. / n,
                 {n, n},
                 Exterior::periodic};

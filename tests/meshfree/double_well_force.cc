@@ -30,7 +30,7 @@ namespace
     const auto kernel = law.linear_kernel();
     for (const Rule &rule : rules())
       if (rule.name == name)
-        return lattice_bonds(rule.recipe(kernel), kernel, h, Backend::fast);
+        return lattice_bonds(rule.of(kernel), kernel, h, Backend::fast);
     throw std::logic_error(name);
   }
 

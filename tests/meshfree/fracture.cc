@@ -265,17 +265,17 @@ TEST(Fracture, toughness_of_lattices_tends_to_that_of_the_law)
   for (const auto &[m, value] : expected)
   {
     const auto K = influence(m * h);
-    const auto recipe = meshfree::optimisation_based(physics::deviatoric_kernel(K, 1));
-    EXPECT_NEAR(lattice_toughness(recipe, K, h, geometry::Backend::fast), value, 5e-5) << m;
+    const auto rule = meshfree::optimisation_based(physics::deviatoric_kernel(K, 1));
+    EXPECT_NEAR(lattice_toughness(rule, K, h, geometry::Backend::fast), value, 5e-5) << m;
   }
 }
 
 TEST(Fracture, toughness_of_a_lattice_depends_on_the_direction_of_a_cut)
 {
   const auto K = influence(3 * h);
-  const auto recipe = meshfree::optimisation_based(physics::deviatoric_kernel(K, 1));
+  const auto rule = meshfree::optimisation_based(physics::deviatoric_kernel(K, 1));
   const auto along = [&](int p, int q) {
-    return lattice_toughness(recipe, K, h, geometry::Backend::fast, {p, q});
+    return lattice_toughness(rule, K, h, geometry::Backend::fast, {p, q});
   };
   EXPECT_NEAR(along(3, 1), .9551, 5e-5); // 18.4 degrees
   EXPECT_NEAR(along(2, 1), .9411, 5e-5); // 26.6
@@ -283,7 +283,7 @@ TEST(Fracture, toughness_of_a_lattice_depends_on_the_direction_of_a_cut)
   // a line is that of any of its steps and of its mirror images
   EXPECT_NEAR(along(4, -2), along(2, 1), 1e-14);
   EXPECT_NEAR(along(-1, 2), along(2, 1), 1e-14);
-  EXPECT_NEAR(along(0, 1), lattice_toughness(recipe, K, h, geometry::Backend::fast), 1e-14);
+  EXPECT_NEAR(along(0, 1), lattice_toughness(rule, K, h, geometry::Backend::fast), 1e-14);
 }
 
 TEST(Fracture, finite_stretches_reach_their_limits_at_critical_loads)

@@ -27,9 +27,9 @@ namespace
     return Kernel<2>::with_bulk_modulus(physics::kernel_type("bond-tensor").profile, m * h, 1);
   }
 
-  Bonds make(const Recipe &recipe, const Kernel<2> &kernel, Backend backend = Backend::fast)
+  Bonds make(const QuadratureRule &rule, const Kernel<2> &kernel, Backend backend = Backend::fast)
   {
-    return lattice_bonds(recipe, kernel, h, backend);
+    return lattice_bonds(rule, kernel, h, backend);
   }
 
   /// Σ C_ab(point) w ξ^α.
@@ -113,7 +113,7 @@ TEST(ImprovedPartialArea, error_has_its_closed_form)
     double found = 0;
     for (const auto &method : methods())
       if (method->name() == "IPA-AC")
-        found = study::errors(scene, problem, analysis::solve(*method, problem), {})
+        found = study::errors(scene.study.norms, problem, analysis::solve(*method, problem), {})
                     .at("nodal Linf | exact");
 
     const auto bonds = lattice_bonds(improved_partial_area(problem.kernel), problem.kernel, level.h,
@@ -273,7 +273,7 @@ TEST(FullArea, counts_nodes_on_the_circle_and_jitters_with_the_ratio)
   // (3, 4, 5): 80 nodes of the disc of radius 5, ties included
   EXPECT_EQ(make(full_area(scalar_kernel(5)), scalar_kernel(5)).family.size(), 80u);
   // as m grows, the moment of the full area rule jumps with every node that enters the ball
-  const auto variation = [](Recipe (*rule)(const Kernel<2> &))
+  const auto variation = [](QuadratureRule (*rule)(const Kernel<2> &))
   {
     double total = 0, last = NAN;
     for (double m = 3; m <= 12; m += .125)
@@ -339,7 +339,7 @@ TEST(LatticeMethods, fields_converge_at_rate_1_up_to_the_boundary)
           const auto error = [&](double size)
           {
             const auto problem = make_problem(scene, 0, {size, 3 * size});
-            return study::errors(scene, problem, analysis::solve(*method, problem), {})
+            return study::errors(scene.study.norms, problem, analysis::solve(*method, problem), {})
                 .at("field Linf | exact");
           };
           EXPECT_NEAR(std::log2(error(.0625) / error(.03125)), 1, .1) << nodes << ' ' << holes;
@@ -369,7 +369,7 @@ TEST(LatticeMethods, vertex_nodes_have_the_boundary_among_the_data)
             static_cast<std::size_t>(std::lround(1 / size)) - (nodes == "vertices" ? 1 : 0);
         EXPECT_EQ(solution.nodes.size(), n * n);
         errors[nodes].push_back(
-            study::errors(scene, problem, solution, {}).at("nodal Linf | exact"));
+            study::errors(scene.study.norms, problem, solution, {}).at("nodal Linf | exact"));
       }
     // the same rule, the same truncation error: much the same error
     for (unsigned int i = 0; i < 2 && method->name() != "IPA-AC-R4"; ++i)

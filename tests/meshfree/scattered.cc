@@ -46,7 +46,7 @@ namespace
 
   Families make_families(const std::string &name, const scene::Problem &problem)
   {
-    return {rule(name).recipe(problem.kernel), problem.kernel, *problem.cells, Backend::fast};
+    return {rule(name).of(problem.kernel), problem.kernel, *problem.cells, Backend::fast};
   }
 
   /// The largest |Σ C_ab w ξ^α - ∫ C_ab ξ^α| over all families, |α| <= degree, relative to
@@ -105,7 +105,8 @@ namespace
   double nodal_error(const std::string &name, const scene::Scene &scene, const scene::Level &level)
   {
     const auto problem = scene::make_problem(scene, 0, level);
-    return study::errors(scene, problem, solve(name, problem), {}).at("nodal Linf | exact");
+    return study::errors(scene.study.norms, problem, solve(name, problem), {})
+        .at("nodal Linf | exact");
   }
 } // namespace
 
@@ -119,7 +120,7 @@ TEST(Families, are_the_lattices_where_nodes_are_not_moved)
       for (const Rule &rule : rules())
       {
         const auto lattice =
-            lattice_bonds(rule.recipe(problem.kernel), problem.kernel, h, Backend::fast).family;
+            lattice_bonds(rule.of(problem.kernel), problem.kernel, h, Backend::fast).family;
         const auto families = make_families(rule.name, problem);
         Family family;
         for (const std::size_t node : {0, 9, 36, 63})

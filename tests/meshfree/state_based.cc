@@ -37,7 +37,7 @@ namespace
       quadratic({1, 0, 0}, {}), quadratic({0, 1, 0}, {}), quadratic({0, 0, 1}, {}),
       quadratic({}, {1, 0, 0}), quadratic({.3, 2, -1}, {0, 1, 1})};
 
-  Recipe recalibrated_2(const Kernel<2> &kernel)
+  QuadratureRule recalibrated_2(const Kernel<2> &kernel)
   {
     return recalibrated(kernel, 2);
   }
@@ -84,7 +84,7 @@ namespace
   }
 
   /// |L u - b| of a problem's own field on a lattice, relative to the load.
-  double stencil_defect(const StateBasedProblem &problem, Recipe (*rule)(const Kernel<2> &))
+  double stencil_defect(const StateBasedProblem &problem, QuadratureRule (*rule)(const Kernel<2> &))
   {
     const Square square(.1, .1, 0);
     const StateBasedCase one(problem, square, rule);
@@ -189,7 +189,7 @@ TEST(StateBasedStencil, is_symmetric_and_reaches_twice_as_far)
   for (const Rule &rule : rules())
   {
     const auto bonds =
-        lattice_bonds(rule.recipe(one.deviatoric()), one.deviatoric(), square.h, Backend::fast);
+        lattice_bonds(rule.of(one.deviatoric()), one.deviatoric(), square.h, Backend::fast);
     const auto stencil = state_based_stencil(one.body.dilatation, bonds);
     EXPECT_TRUE(stencil.is_even()) << rule.name;
     EXPECT_LT(stencil.symmetry_defect(), 1e-14) << rule.name;
@@ -205,10 +205,10 @@ TEST(StateBasedOperator, is_the_stencil_where_nodes_are_a_lattice)
     const StateBasedCase sample(quadratics[0], square);
     for (const Rule &rule : rules())
     {
-      const StateBasedCase one(quadratics[0], square, rule.recipe);
+      const StateBasedCase one(quadratics[0], square, rule.of);
       const auto stencil = state_based_stencil(
           one.body.dilatation,
-          lattice_bonds(rule.recipe(one.deviatoric()), one.deviatoric(), square.h, Backend::fast));
+          lattice_bonds(rule.of(one.deviatoric()), one.deviatoric(), square.h, Backend::fast));
       const auto rows = one.system().rows;
       const auto cell = [&](std::size_t node, unsigned int axis)
       {

@@ -139,7 +139,7 @@ namespace plumbline::meshfree
     Families families;
 
     StateBasedCase(const StateBasedProblem &problem, const Square &square,
-                   Recipe (*rule)(const Kernel<2> &) = optimisation_based)
+                   QuadratureRule (*rule)(const Kernel<2> &) = optimisation_based)
         : problem(problem),
           square(square), body{&square.cells,
                                {physics::influence_function({{1, -1}}, square.horizon),

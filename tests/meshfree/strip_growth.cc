@@ -24,14 +24,14 @@ namespace
   struct Strip
   {
     physics::Kernel<2> K;
-    meshfree::Recipe recipe;
+    meshfree::QuadratureRule rule;
     int height = 0, length = 0;
     physics::Lame lame{1, 1};
     bool has_surface_terms = false;
 
     Strip(int m, int n_height, int n_length)
         : K(physics::influence_function(physics::kernel_type("1/r").profile, m * h)),
-          recipe(meshfree::optimisation_based(physics::deviatoric_kernel(K, 1))), height(n_height),
+          rule(meshfree::optimisation_based(physics::deviatoric_kernel(K, 1))), height(n_height),
           length(n_length)
     {
     }
@@ -41,7 +41,7 @@ namespace
       BreakingSolid solid = meshfree::make_strip({height, length, n_crack, h}, lame, K.horizon());
       solid.has_surface_terms = has_surface_terms;
       solid.toughness = [toughness](const Point<2> &) { return toughness; };
-      return {make_bond_network(solid, recipe, K, h, geometry::Backend::fast),
+      return {make_bond_network(solid, rule, K, h, geometry::Backend::fast),
               scene::Stretch::linear};
     }
 
@@ -119,7 +119,7 @@ TEST(StripGrowth, breaks_no_more_than_the_bonds_across_a_line)
     const study::StripGrowth growth = strip.growth(2 * height);
     EXPECT_NEAR(growth.peak, known.peak, .04 * known.peak) << known.m;
     EXPECT_NEAR(growth.released, known.released, .04 * known.released) << known.m;
-    const double across = lattice_toughness(strip.recipe, strip.K, h, geometry::Backend::fast);
+    const double across = lattice_toughness(strip.rule, strip.K, h, geometry::Backend::fast);
     EXPECT_NEAR(growth.bonds, across, known.m == 2 ? 1e-9 : .05 * across);
     EXPECT_LE(growth.bonds, across + 1e-9);   // behind the tip the most inclined stay whole
     EXPECT_GT(growth.released, growth.bonds); // the rest is what the jumps waste

@@ -1,6 +1,6 @@
 #include "base/error.h"
 #include "meshfree/body/operator.h"
-#include "meshfree/rules/recipe.h"
+#include "meshfree/rules/quadrature_rule.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 

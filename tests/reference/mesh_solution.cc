@@ -50,7 +50,8 @@ namespace
                const std::string &norm = "field L2")
   {
     const auto problem = make_problem(scene, 0, {h, horizon});
-    return study::errors(scene, problem, analysis::solve(*method_named(name), problem), {})
+    return study::errors(scene.study.norms, problem, analysis::solve(*method_named(name), problem),
+                         {})
         .at(norm + " | exact");
   }
 } // namespace
@@ -97,8 +98,8 @@ TEST(MeshGalerkin, MovesTwoBodiesWithACrackBetweenThemEachAsItsOwn)
     const bool is_told =
         std::any_of(notes.begin(), notes.end(),
                     [](const std::string &note) { return note.find("cracks run through") == 0; });
-    return std::pair(study::errors(scene, problem, solution, {}).at("averages L2 | exact"),
-                     is_told);
+    return std::pair(
+        study::errors(scene.study.norms, problem, solution, {}).at("averages L2 | exact"), is_told);
   };
   for (const auto &[mesh, name] : {std::pair("squares", "DGQ0"),
                                    {"squares", "DGQ1"},
@@ -186,7 +187,7 @@ TEST(MeshGalerkin, ContinuousAndDiscontinuousSolutionsAgreeWithinTheirEstimatedE
   double sum = 0;
   for (const std::string name : {"P2", "DGP2"})
   {
-    const auto found = study::solve_reference(scene, problem, 0, *method_named(name));
+    const auto found = study::solve_reference({scene, 0, problem}, *method_named(name));
     const double error = study::averages_l2(problem, found.averages, exact);
     EXPECT_GE(found.estimate.estimate, error) << name;
     EXPECT_LT(found.estimate.estimate, 3 * error) << name;
@@ -261,7 +262,7 @@ TEST(LocalLimit, IsTheSolutionOfPoissonsAndNaviersEquation)
     {
       const auto problem = make_problem(scene, 0, {h, h});
       const auto solution = analysis::solve(*method_named("LOCAL"), problem);
-      return study::errors(scene, problem, solution, {}).at("field L2 | exact");
+      return study::errors(scene.study.norms, problem, solution, {}).at("field L2 | exact");
     };
     return std::log2(local_error(.125) / local_error(.0625));
   };
@@ -297,7 +298,8 @@ TEST(LocalLimit, HasTheDilatationOfASolid)
   {
     const auto problem = make_problem(scene, 0, {h, h});
     const auto solution = analysis::solve(*method_named("LOCAL"), problem);
-    errors.push_back(study::errors(scene, problem, solution, {}).at("field L2 | exact"));
+    errors.push_back(
+        study::errors(scene.study.norms, problem, solution, {}).at("field L2 | exact"));
   }
   EXPECT_NEAR(std::log2(errors[0] / errors[1]), 3, .2);
 }
@@ -306,10 +308,10 @@ TEST(MeshMethods, SayWhyTheyCannotDoAMesh)
 {
   const auto scene = make_scene("triangles", wave);
   const auto problem = make_problem(scene, 0, {.25, .25});
-  EXPECT_EQ(study::refusal(*method_named("P1"), scene, problem, reference::methods()), "");
-  EXPECT_NE(
-      study::refusal(*method_named("Q1"), scene, problem, reference::methods()).find("take P1"),
-      std::string::npos);
+  EXPECT_EQ(study::refusal(*method_named("P1"), {scene, 0, problem}, reference::methods()), "");
+  EXPECT_NE(study::refusal(*method_named("Q1"), {scene, 0, problem}, reference::methods())
+                .find("take P1"),
+            std::string::npos);
 }
 
 TEST(MeshMethods, WriteFieldsForEveryDegree)

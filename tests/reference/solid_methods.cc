@@ -77,7 +77,8 @@ namespace
   /// Of the field, against the exact solution.
   double l2_error(const Scene &scene, const Problem &problem, const std::string &name)
   {
-    return study::errors(scene, problem, solve(problem, name), {}).at("field L2 | exact");
+    return study::errors(scene.study.norms, problem, solve(problem, name), {})
+        .at("field L2 | exact");
   }
 
   /// The L2 norm of cell averages.

@@ -40,7 +40,8 @@ namespace
                double h, double horizon)
   {
     const auto problem = make_problem(scene, 0, {h, horizon});
-    return study::errors(scene, problem, analysis::solve(*method_named(name), problem), {})
+    return study::errors(scene.study.norms, problem, analysis::solve(*method_named(name), problem),
+                         {})
         .at(norm + " | exact");
   }
 

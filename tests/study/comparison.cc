@@ -121,7 +121,7 @@ TEST(Errors, are_those_put_in)
   const auto problem = make_problem(scene, 0, {.1, .3});
   const auto solution = analysis::solve(FakeMethod(2), problem);
   const auto reference = std::vector<double>(solution.averages.size(), 0.);
-  const auto found = errors(scene, problem, solution, {reference, {}});
+  const auto found = errors(scene.study.norms, problem, solution, {reference, {}});
   for (const std::string norm :
        {"nodal Linf", "nodal L2", "averages Linf", "averages L2", "field Linf", "field L2"})
     EXPECT_NEAR(found.at(norm + " | exact"), .01, 1e-13) << norm;
@@ -142,7 +142,7 @@ TEST(Errors, of_vectors_are_of_each_component)
   Solution solution;
   solution.nodes = {{.25, .5}, {.75, .5}};
   solution.nodal = {1.25, .25 + .3, 1.75 - .4, .25};
-  const auto found = errors(scene, problem, solution, {});
+  const auto found = errors(scene.study.norms, problem, solution, {});
   EXPECT_NEAR(found.at("nodal Linf | exact"), .4, 1e-14);
   EXPECT_NEAR(found.at("nodal L2 | exact"), .1 * std::hypot(.3, .4), 1e-14); // h² a node
 }
@@ -162,7 +162,7 @@ TEST(Errors, of_fields_are_of_the_domain_alone)
     const bool is_inside = x[0] >= 0 && x[0] <= 1 && x[1] >= 0 && x[1] <= 1;
     return x[0] * x[1] + (is_inside ? .01 : 7);
   };
-  const auto found = errors(scene, problem, solution, {});
+  const auto found = errors(scene.study.norms, problem, solution, {});
   EXPECT_NEAR(found.at("field Linf | exact"), .01, 1e-14);
   EXPECT_NEAR(found.at("field L2 | exact"), .01, 1e-13);
 }
@@ -178,7 +178,7 @@ TEST(ErrorMap, shows_each_error_in_its_block_and_nothing_outside)
     auto solution = analysis::solve(FakeMethod(2), problem);
     const bool is_nodal = decisive[0] == 'n';
     (is_nodal ? solution.nodal : solution.averages)[8 + 2] += 7; // cell (2, 1)
-    const auto map = error_map(scene, problem, solution, {});
+    const auto map = error_map(scene.study.decisive_error.norm, problem, solution, {});
     EXPECT_EQ(map.quantity, is_nodal ? "nodal values" : "cell averages");
     ASSERT_EQ(map.n_x, 8u);
     ASSERT_EQ(map.values.size(), 64u);

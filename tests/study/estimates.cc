@@ -74,7 +74,7 @@ namespace
     double seconds = 0;
     const auto problem = make_problem(scene, 0, level);
     const unsigned int much_finer = problem.lattice ? 8 : 4; // meshes are dear
-    return audit::audit(scene, problem, 0, *galerkin(method), much_finer, seconds);
+    return audit::audit({scene, 0, problem}, *galerkin(method), much_finer, seconds);
   }
 
   /// Floor of the digits that an error leaves.
@@ -229,11 +229,11 @@ TEST(Estimates, of_a_mesh_file_hold_for_its_polygon_and_say_so)
   const auto problem = make_problem(scene, 0, {.25, .25});
   const auto method = galerkin("DGQ0");
   const Solution solution = analysis::solve(*method, problem);
-  EXPECT_TRUE(estimate_error(scene, problem, 0, *method, solution, false).is_of_polygon);
+  EXPECT_TRUE(estimate_error({scene, 0, problem}, *method, solution, false).is_of_polygon);
   const auto boxes = make_scene(with(rough, {{"Domain/mesh", "squares"}}));
   const auto same = make_problem(boxes, 0, {.25, .25});
-  EXPECT_FALSE(
-      estimate_error(boxes, same, 0, *method, analysis::solve(*method, same), false).is_of_polygon);
+  EXPECT_FALSE(estimate_error({boxes, 0, same}, *method, analysis::solve(*method, same), false)
+                   .is_of_polygon);
   std::filesystem::remove(file);
 }
 
@@ -316,7 +316,7 @@ TEST(Estimates, include_what_outer_quadrature_errs_whatever_the_size_of_the_solu
     const Solution solution = analysis::solve(method, problem);
     const auto exact = cell_averages(*problem.solution, problem);
     const double error = averages_l2(problem, solution.averages, exact);
-    const auto found = estimate_error(scene, problem, 0, method, solution, false);
+    const auto found = estimate_error({scene, 0, problem}, method, solution, false);
     EXPECT_LE(error * (1 - 1e-10), found.estimate) << size;
     EXPECT_LE(found.estimate, factor * error) << size;
     EXPECT_NEAR(found.outer_change, error, 2 * part * error) << size;
@@ -369,7 +369,8 @@ TEST(Norms, of_fields_are_exact_for_quartics_on_a_mesh)
   solution.value = [&](const dealii::Point<2> &x, unsigned int c)
   { return problem.solution->value(x, c) + std::pow(x[0], 4); };
   constexpr double rounding = 1e-12;
-  EXPECT_NEAR(errors(scene, problem, solution, {}).at("field L2 | exact"), 1. / 3, rounding);
+  EXPECT_NEAR(errors(scene.study.norms, problem, solution, {}).at("field L2 | exact"), 1. / 3,
+              rounding);
 }
 
 TEST(Estimates, of_the_reference_are_held_to_a_tolerance_relative_to_the_solution)
@@ -380,7 +381,7 @@ TEST(Estimates, of_the_reference_are_held_to_a_tolerance_relative_to_the_solutio
                                                {"Reference/method", "DGQ1"},
                                                {"Reference/tolerance", tolerance}}));
     const auto problem = make_problem(scene, 0, {.125, .25});
-    return solve_reference(scene, problem, 0, *galerkin("DGQ1"));
+    return solve_reference({scene, 0, problem}, *galerkin("DGQ1"));
   };
   EXPECT_NO_THROW(solve("1e6", "0.5")); // whatever the unit of u
   EXPECT_THROW(solve("1e6", "1e-9"), NumericalError);

@@ -106,7 +106,7 @@ namespace
   std::optional<Contradiction> contradiction(const std::string &text, double h = .05)
   {
     const scene::Scene scene = scene::parse_scene("test.prm", text);
-    return measure_contradiction(scene, 0, make_problem(scene, 0, {h, 3 * h}));
+    return measure_contradiction(make_case(scene, 0, {h, 3 * h}));
   }
 
   std::string problem_section(const std::string &solution, const std::string &load)

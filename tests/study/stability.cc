@@ -18,9 +18,9 @@ using namespace plumbline::study;
 namespace
 {
   /// A tensor rule with exact moments of degree 2, n_a n_b ξ^α among them, from bonds as given.
-  meshfree::Recipe tensor_rule(const physics::Kernel<2> &kernel,
-                               meshfree::Bond (*bond)(const physics::Kernel<2> &,
-                                                      const meshfree::Candidate &))
+  meshfree::QuadratureRule tensor_rule(const physics::Kernel<2> &kernel,
+                                       meshfree::Bond (*bond)(const physics::Kernel<2> &,
+                                                              const meshfree::Candidate &))
   {
     // entries C_ab taken at the kernel point q, the field at the node: q_a q_b ξ^α / |q|²
     const std::vector<std::array<int, 4>> which = {
@@ -51,9 +51,10 @@ namespace
             }};
   }
 
-  Stability measure_rule(const meshfree::Recipe &recipe, const physics::Kernel<2> &kernel, double h)
+  Stability measure_rule(const meshfree::QuadratureRule &rule, const physics::Kernel<2> &kernel,
+                         double h)
   {
-    const auto bonds = meshfree::lattice_bonds(recipe, kernel, h, geometry::Backend::fast);
+    const auto bonds = meshfree::lattice_bonds(rule, kernel, h, geometry::Backend::fast);
     const geometry::Lattice lattice({{{{0, 0}, {1, 1}}}, {}}, h);
     const auto nodes = free_nodes(lattice, {{.5, false, 0}}, kernel.n_components());
     Stability found =

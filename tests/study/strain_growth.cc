@@ -37,7 +37,7 @@ namespace
     auto growths = strain_growths(scene, "s", level);
     const scene::Problem problem = scene::make_problem(scene, 0, level);
     for (const auto &method : methods_of(scene))
-      add_growth(*method, scene, problem, growths);
+      add_growth(*method, problem, scene.time.density, growths);
     return growths;
   }
 } // namespace

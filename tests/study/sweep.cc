@@ -148,8 +148,9 @@ TEST(SweepSavings, compare_values_at_the_same_place_in_whatever_order_nodes_come
   for (const double defect : {0., .5})
   {
     const BackwardMethod method(defect);
-    const Solution solution = analysis::solve(method, scene::make_problem(scene, 0, level));
-    const auto saving = measure_saving(scene, 0, level, method, solution);
+    const scene::Case one = scene::make_case(scene, 0, level);
+    const Solution solution = analysis::solve(method, one.problem);
+    const auto saving = measure_saving(one, method, solution);
     ASSERT_TRUE(saving);
     EXPECT_EQ(saving->difference, defect / 4);
   }

@@ -53,7 +53,7 @@ namespace plumbline::scene
         [this](const std::string &text)
         {
           materials.clear();
-          for (const Case &one : to_cases(text))
+          for (const NamedExpression &one : to_named_expressions(text))
             materials.push_back({one.name, to_number(one.expression)});
         },
         "The same by the physical surfaces of a gmsh file: 'omega_steel: 5; omega_resin: 1; "

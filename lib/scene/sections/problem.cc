@@ -8,7 +8,8 @@ namespace plumbline::scene
   {
     const std::string manufactured = "manufactured", solution = "solution";
     keys.add(
-        "solution", "", any_text(), [this](const std::string &text) { solutions = to_cases(text); },
+        "solution", "", any_text(),
+        [this](const std::string &text) { solutions = to_named_expressions(text); },
         "The exact nonlocal solution: a muParser expression in x, y and delta (the horizon), "
         "and t where the scene moves (Time/final time), components separated by ','; several cases "
         "as 'name: expression; name: expression'. weierstrass(x, gamma, n) is a sum of n + 1 waves "
@@ -16,8 +17,10 @@ namespace plumbline::scene
         "Empty: not known.");
     keys.add(
         "load", manufactured, any_text(),
-        [this, manufactured](const std::string &text)
-        { loads = text == manufactured ? std::vector<Case>() : to_cases(text); },
+        [this, manufactured](const std::string &text) {
+          loads =
+              text == manufactured ? std::vector<NamedExpression>() : to_named_expressions(text);
+        },
         "The body load b: manufactured (the nonlocal operator applied to the solution), or "
         "expressions written like the solution.");
     keys.add(
@@ -44,7 +47,7 @@ namespace plumbline::scene
   std::vector<std::string> ProblemSection::case_names() const
   {
     std::vector<std::string> names;
-    for (const Case &one : solutions.empty() ? loads : solutions)
+    for (const NamedExpression &one : solutions.empty() ? loads : solutions)
       names.push_back(one.name);
     return names.empty() ? std::vector<std::string>{"u"} : names;
   }

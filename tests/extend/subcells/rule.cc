@@ -47,7 +47,7 @@ namespace subcells
     }
   } // namespace
 
-  meshfree::Recipe rule(const physics::Kernel<2> &)
+  meshfree::QuadratureRule rule(const physics::Kernel<2> &)
   {
     return {bond};
   }

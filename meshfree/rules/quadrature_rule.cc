@@ -1,4 +1,4 @@
-#include "meshfree/rules/recipe.h"
+#include "meshfree/rules/quadrature_rule.h"
 
 #include "base/error.h"
 
@@ -22,10 +22,10 @@ namespace plumbline::meshfree
     return std::min(1., (kernel.horizon() - candidate.xi.norm()) / size + .5);
   }
 
-  bool add_bond(const Recipe &recipe, const Kernel<2> &kernel, const Candidate &candidate,
+  bool add_bond(const QuadratureRule &rule, const Kernel<2> &kernel, const Candidate &candidate,
                 Family &family)
   {
-    const Bond bond = recipe.bond(kernel, candidate);
+    const Bond bond = rule.bond(kernel, candidate);
     if (bond.weight == 0)
       return false;
     const double r = bond.kernel_point.norm();
@@ -35,13 +35,13 @@ namespace plumbline::meshfree
     return true;
   }
 
-  void finish(const Recipe &recipe, Family &family, const std::function<std::string()> &where)
+  void finish(const QuadratureRule &rule, Family &family, const std::function<std::string()> &where)
   {
     if (family.bonds.empty())
       throw NumericalError("there are no neighbours " + where() + remedy);
-    if (!recipe.adjust)
+    if (!rule.adjust)
       return;
-    recipe.adjust(family);
+    rule.adjust(family);
     const Fit &fit = family.fit;
     if (fit.residual < moment_tolerance)
       return;
@@ -54,7 +54,8 @@ namespace plumbline::meshfree
     throw NumericalError(message.str());
   }
 
-  Bonds lattice_bonds(const Recipe &recipe, const Kernel<2> &kernel, double h, Backend backend)
+  Bonds lattice_bonds(const QuadratureRule &rule, const Kernel<2> &kernel, double h,
+                      Backend backend)
   {
     const double horizon = kernel.horizon();
     const int n = static_cast<int>(horizon / h + .5 + tie_tolerance);
@@ -65,11 +66,11 @@ namespace plumbline::meshfree
         {
           const auto square = geometry::square(Point<2>((k1 - .5) * h, (k2 - .5) * h), h);
           const geometry::ConvexCell cell(geometry::view(square));
-          add_bond(recipe, kernel,
+          add_bond(rule, kernel,
                    {{Point<2>(), horizon}, backend, Point<2>(k1 * h, k2 * h), h * h, {&cell, 1}},
                    family);
         }
-    finish(recipe, family,
+    finish(rule, family,
            [&]
            {
              std::ostringstream place;

@@ -1,0 +1,33 @@
+#include "report/json_lines.h"
+
+#include "base/error.h"
+#include "report/formats.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace plumbline::report
+{
+  void JsonLines::append(const std::string &lines)
+  {
+    if (!is_begun_)
+    {
+      write_file(file_, lines);
+      is_begun_ = true;
+      return;
+    }
+    errno = 0;
+    std::ofstream out(file_, std::ios::app);
+    out << lines << std::flush;
+    if (!out)
+      throw InputError("'" + file_.string() + "' cannot be written (" + std::strerror(errno) +
+                       "); free some space, or give another folder with -o");
+  }
+
+  void JsonLines::remove() const
+  {
+    std::error_code not_there;
+    std::filesystem::remove(file_, not_there);
+  }
+} // namespace plumbline::report
