@@ -85,3 +85,17 @@ TEST(DispersionCommand, refuses_what_has_no_waves)
                   "Study/h = 0.1 carries no wave as long as the domain");
   expect_no_waves(diffusion + " --set Kernel/limit=none --set Kernel/constant=-1", "positive");
 }
+
+TEST(DispersionCommand, interrupted_keeps_what_is_finished)
+{
+  const fs::path folder = temporary("dispersion");
+  ASSERT_EQ(interrupt_at("dispersion " + scene("diffusion") + " --quiet -o " + folder.string(),
+                         folder / "dispersion.jsonl"),
+            130);
+  const auto json = nlohmann::json::parse(read(folder / "dispersion.json"));
+  EXPECT_FALSE(json["is_complete"]);
+  EXPECT_GE(json["levels"].size(), 1u);
+  EXPECT_FALSE(fs::exists(folder / "dispersion.jsonl"));
+  expect_found(read(folder / "dispersion.html"), "interrupted: what was finished");
+  fs::remove_all(folder);
+}
