@@ -61,13 +61,13 @@ namespace plumbline::benchmarks
     GuardKernel family(const std::string &rule,
                        meshfree::QuadratureRule (*of)(const physics::Kernel<2> &))
     {
-      return {
-          "family " + rule, "family", 1, 8,
-          [=]
-          {
-            const auto kernel = make_kernel("linear-decay", 3);
-            sink = meshfree::lattice_bonds(of(kernel), kernel, 1, Backend::fast).family[0].weight;
-          }};
+      return {"family " + rule, "family", 1, 8,
+              [=]
+              {
+                const auto kernel = make_kernel("linear-decay", 3);
+                sink =
+                    meshfree::lattice_bonds(of(kernel), kernel, 1, Backend::fast).family[0].weight;
+              }};
     }
 
     /// One operator on 64 × 64 nodes, m = 3.
