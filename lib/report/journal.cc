@@ -3,7 +3,6 @@
 #include "base/text_file.h"
 #include "report/json.h"
 
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -58,13 +57,11 @@ namespace plumbline::report
     const fs::path file = results_file(folder);
     if (base::has_ending(file.string(), ".json"))
       return read_json(file);
-    std::ifstream in(file);
-    std::string line;
-    std::getline(in, line);
-    study::Results results = from_json(line, file.string());
-    while (std::getline(in, line) && !in.eof()) // what ends without a line break was cut off
+    const std::vector<std::string> lines = read_lines(file);
+    study::Results results = from_json(lines.empty() ? "" : lines.front(), file.string());
+    for (std::size_t i = 1; i < lines.size(); ++i)
     {
-      const study::Results more = from_json(line, file.string());
+      const study::Results more = from_json(lines[i], file.string());
       add(results.runs, more.runs);
       add(results.left_out, more.left_out);
       add(results.references, more.references);

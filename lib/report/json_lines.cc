@@ -30,4 +30,13 @@ namespace plumbline::report
     std::error_code not_there;
     std::filesystem::remove(file_, not_there);
   }
+
+  std::vector<std::string> read_lines(const std::filesystem::path &file)
+  {
+    std::ifstream in(file);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line) && !in.eof();)
+      lines.push_back(line);
+    return lines;
+  }
 } // namespace plumbline::report

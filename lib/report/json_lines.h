@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace plumbline::report
 {
@@ -26,4 +28,8 @@ namespace plumbline::report
     std::filesystem::path file_;
     bool is_begun_ = false;
   };
+
+  /// The lines of such a file, none if it is not there. What ends without a line break was cut off
+  /// and is left out.
+  std::vector<std::string> read_lines(const std::filesystem::path &file);
 } // namespace plumbline::report

@@ -2,7 +2,6 @@
 
 #include "report/motion_json.h"
 
-#include <fstream>
 #include <string>
 
 namespace plumbline::report
@@ -37,15 +36,14 @@ namespace plumbline::report
   study::DynamicResults read_motions(const fs::path &folder, const study::DynamicResults &begun)
   {
     study::DynamicResults results = begun;
-    std::ifstream in(folder / "dynamics.jsonl");
-    std::string line;
+    const std::vector<std::string> lines = read_lines(folder / "dynamics.jsonl");
     try
     {
-      if (!std::getline(in, line) || Json::parse(line) != head(begun))
+      if (lines.empty() || Json::parse(lines.front()) != head(begun))
         return begun;
-      while (std::getline(in, line) && !in.eof()) // what ends without a line break was cut off
+      for (std::size_t i = 1; i < lines.size(); ++i)
       {
-        const Json json = Json::parse(line);
+        const Json json = Json::parse(lines[i]);
         if (json.contains("method"))
           results.runs.push_back(motion_from(json));
         else

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <fstream>
+#include <utility>
 
 namespace plumbline::report
 {
@@ -66,14 +66,13 @@ namespace plumbline::report
       : lines_(folder / "strip.jsonl"),
         head_(Json{{"version", version}, {"scene_text", scene_text}}.dump() + "\n")
   {
-    std::ifstream in(lines_.file());
-    std::string line;
+    const std::vector<std::string> lines = read_lines(lines_.file());
+    if (lines.empty() || lines.front() + "\n" != head_)
+      return;
     try
     {
-      if (!std::getline(in, line) || line + "\n" != head_)
-        return;
-      while (std::getline(in, line) && !in.eof()) // what ends without a line break was cut off
-        earlier_.push_back(row_from(Json::parse(line)));
+      for (std::size_t i = 1; i < lines.size(); ++i)
+        earlier_.push_back(row_from(Json::parse(lines[i])));
     }
     catch (const std::exception &)
     {

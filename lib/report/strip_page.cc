@@ -320,10 +320,8 @@ namespace plumbline::report
                                                     : "✗ not as expected"});
       data["verdict"] = verdict(results, faults);
       data["charts"] = page::charts(charts, dir, "strip");
-      data["tables"] = Data::array();
-      data["tables"].push_back(page::table(rows_table(results)));
-      if (!results.limits.empty())
-        data["tables"].push_back(page::table(limits_table(results)));
+      data["strips"] = page::table(rows_table(results));
+      data["limits"] = page::table(limits_table(results));
       data["meaning"] = meaning(results);
       data["model"] = model_words(results);
       return fill("strip", data);

@@ -73,7 +73,7 @@ namespace plumbline::meshfree
   /// across a straight cut of a continuum is G where dilatations are twice the stretch, which is
   /// exact for bonds (λ = μ). On the lattice itself it is .9158 G for m = 3, see lattice_toughness.
   /// Bonds between two materials have harmonic means of λ and μ, and the mean of G.
-  /// @param rule     of a rule, with the deviatoric kernel of μ = 1
+  /// @param rule       with the deviatoric kernel of μ = 1
   /// @param influence  1/r, ∫K|ξ|² = 2
   /// @throws InputError  h that does not fit the boxes; grips that hold no node, or one grip alone;
   /// G <= 0 at a bond; a notch through a node, or that cuts no bond

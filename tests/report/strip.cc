@@ -1,4 +1,5 @@
 #include "report/strip_journal.h"
+#include "report/strip_page.h"
 
 #include "tests/report/fixture.h"
 
@@ -89,5 +90,21 @@ namespace plumbline::report
     EXPECT_EQ(StripJournal(folder.path(), "scene").earlier().size(), 1u);
     std::ofstream(file, std::ios::app) << "ff\"}\n"; // whole, but no strip
     EXPECT_TRUE(StripJournal(folder.path(), "scene").earlier().empty());
+  }
+
+  TEST(StripPage, StandsWhereNothingIsFinishedYet)
+  {
+    const fixture::Folder folder;
+    study::StripResults results;
+    results.scene_name = "strip <1>";
+    results.is_complete = false;
+    write_strip(results, {}, folder.path());
+    const std::string page = fixture::read(folder.path() / "strip.html");
+    EXPECT_NE(page.find("strip &lt;1&gt;"), std::string::npos);
+    EXPECT_NE(page.find("interrupted: what was finished"), std::string::npos);
+    EXPECT_EQ(page.find("<table>"), std::string::npos);
+    results.rows = {strip("Q1", 1)};
+    write_strip(results, {}, folder.path());
+    EXPECT_EQ(fixture::count(fixture::read(folder.path() / "strip.html"), "<table>"), 1u);
   }
 } // namespace plumbline::report
