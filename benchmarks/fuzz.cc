@@ -121,7 +121,7 @@ namespace
       (void)report::read_json(file());
       break;
     case Reader::script:
-      (void)geometry::check_script(file());
+      geometry::check_script(file());
       break;
     }
   }

@@ -56,8 +56,8 @@ namespace plumbline::geometry
     {
     public:
       /// @param parents  the files that are being read, each including the next
-      Script(const std::string &file, std::vector<fs::path> parents, std::string &all)
-          : file_(file), parents_(std::move(parents)), all_(all)
+      Script(const std::string &file, std::vector<fs::path> parents)
+          : file_(file), parents_(std::move(parents))
       {
         std::error_code error;
         parents_.push_back(fs::weakly_canonical(file, error));
@@ -68,7 +68,6 @@ namespace plumbline::geometry
           fail(
               "is longer than 50 MB, which is no script; mesh it with gmsh and name the .msh file");
         text_.assign(std::istreambuf_iterator<char>(in), {});
-        all_ += file_ + '\n' + text_ + '\n';
       }
 
       void check()
@@ -222,30 +221,23 @@ namespace plumbline::geometry
         constexpr std::array shapes = {".stl", ".step", ".stp", ".brep", ".iges", ".igs"};
         std::ifstream in(path, std::ios::binary);
         if (is_one_of(shapes, ending) || in.peek() == '$')
-        {
-          all_ += path.string() + '\n' +
-                  std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
           return;
-        }
         if (const fs::path whole = fs::weakly_canonical(path, error);
             std::find(parents_.begin(), parents_.end(), whole) != parents_.end())
           fail("'" + name +
                "' is being read already, so that it would include itself; take the "
                "line out");
-        Script(path.string(), parents_, all_).check();
+        Script(path.string(), parents_).check();
       }
 
       std::string file_, text_;
       std::vector<fs::path> parents_;
-      std::string &all_;
       std::size_t at_ = 0, line_ = 1;
     };
   } // namespace
 
-  std::string check_script(const std::string &file)
+  void check_script(const std::string &file)
   {
-    std::string all;
-    Script(file, {}, all).check();
-    return all;
+    Script(file, {}).check();
   }
 } // namespace plumbline::geometry

@@ -1,18 +1,16 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 namespace plumbline::geometry
 {
-  /// What a gmsh script consists of: its own text and those of the files that it includes and
-  /// merges, in the order in which they are met, one string.
+  /// Whether a gmsh script, with the files that it includes and merges, draws and does no more.
   /// @throws InputError  naming file, line and remedy: a file that cannot be read or that includes
   /// itself; a command that would start a program or write a file (SystemCall, OnelabRun,
   /// ExternalProcess, Save, Print, Plugin, ...); a file to include or merge whose name is not
   /// written out; text that gmsh and we could read differently: other control characters than
   /// blanks, quotes that do not end on their line, command words or marks of comments within
   /// quotes, which gmsh finds there where it skips a branch.
-  /// Limits: files that fields and lists read (FileName, ListFromFile) are not among the text.
-  std::string check_script(const std::string &file);
+  /// Limits: files that fields and lists read (FileName, ListFromFile) are not looked at.
+  void check_script(const std::string &file);
 } // namespace plumbline::geometry

@@ -14,10 +14,8 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <deque>
 #include <filesystem>
 #include <fstream>
-#include <mutex>
 #include <sstream>
 #include <stdexcept>
 
@@ -60,7 +58,6 @@ namespace plumbline::geometry
       mesh.vertices = std::move(used);
     }
 
-    /// The mesh without vertices that no cell uses, checked; `source` opens the message.
     /// Axis-aligned rectangles begin at their lower left corner, as those of a lattice do.
     void turn_rectangles(Mesh &mesh)
     {
@@ -74,6 +71,7 @@ namespace plumbline::geometry
         }
     }
 
+    /// The mesh without vertices that no cell uses, checked; `source` opens the message.
     Mesh finish(Mesh mesh, const std::string &source)
     {
       drop_unused_vertices(mesh);
@@ -165,30 +163,6 @@ namespace plumbline::geometry
     {
       return word.size() >= end.size() &&
              word.compare(word.size() - end.size(), end.size(), end) == 0;
-    }
-
-    /// A .geo script as a .msh text. The cases of a scene ask for the same mesh at the same levels:
-    /// the last few texts are kept, each under all that it was made from.
-    std::string mesh_script(const std::string &file, double h, double delta, unsigned int order,
-                            const std::string &source)
-    {
-      constexpr std::size_t n_kept = 8, longest_kept = 20'000'000;
-      static std::mutex mutex;
-      static std::deque<std::pair<std::string, std::string>> kept;
-
-      const std::string script = base::to_text(h, 17) + ' ' + base::to_text(delta, 17) + ' ' +
-                                 std::to_string(order) + ' ' + file + '\n' + check_script(file);
-      const std::lock_guard<std::mutex> lock(mutex);
-      for (const auto &[key, mesh] : kept)
-        if (key == script)
-          return mesh;
-      std::string mesh =
-          mesh_by_gmsh(file, h, delta, GmshLimits::from_environment(), source, order);
-      if (mesh.size() < longest_kept)
-        kept.emplace_front(script, mesh);
-      if (kept.size() > n_kept)
-        kept.pop_back();
-      return mesh;
     }
 
     /// Of triangles whose points between corners tell the curves: more than four would add nothing
@@ -287,7 +261,11 @@ namespace plumbline::geometry
                        " and delta = " + base::to_text(delta, 6) + " must be lengths");
     std::string msh;
     if (is_script)
-      msh = mesh_script(file, h, delta, is_curved ? order_of_curves : 0, source);
+    {
+      check_script(file);
+      msh = mesh_by_gmsh(file, h, delta, GmshLimits::from_environment(), source,
+                         is_curved ? order_of_curves : 0);
+    }
     else
     {
       std::ifstream in(file, std::ios::binary);

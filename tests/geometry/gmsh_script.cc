@@ -95,10 +95,10 @@ TEST_F(GmshScript, is_followed_into_what_it_reads)
         << name;
 }
 
-TEST_F(GmshScript, yields_the_text_of_all_files)
+TEST_F(GmshScript, is_read_with_all_files_that_it_includes)
 {
   write("b.geo", "b = 1;");
-  const std::string all = check_script(write("a.geo", "Include 'b.geo';"));
-  EXPECT_NE(all.find("Include 'b.geo';"), std::string::npos);
-  EXPECT_NE(all.find("b = 1;"), std::string::npos);
+  EXPECT_EQ(fault("Include 'b.geo';"), "no error");
+  write("b.geo", "b = 1;\nSave 'x.msh';");
+  EXPECT_TRUE(says(fault("Include 'b.geo';"), "b.geo', line 2: Save would write a file"));
 }

@@ -372,7 +372,7 @@ TEST_F(MeshFile, whose_script_does_not_end_is_ended)
   std::filesystem::remove(large);
 }
 
-TEST_F(MeshFile, is_meshed_once_for_what_it_was_made_from)
+TEST_F(MeshFile, is_meshed_as_h_delta_and_the_text_ask)
 {
   const Mesh coarse = read("disc.geo", disc, .4), fine = read("disc.geo", disc, .2);
   EXPECT_EQ(read("disc.geo", disc, .4).vertices, coarse.vertices);
