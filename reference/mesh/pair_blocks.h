@@ -12,6 +12,13 @@ namespace plumbline::reference
   {
     std::vector<double> outer, cross, inner;
 
+    void resize(unsigned int n, unsigned int n_entries)
+    {
+      for (auto *block : {&outer, &cross, &inner})
+        block->resize(static_cast<std::size_t>(n) * n * n_entries);
+    }
+
+    /// All zero.
     void reset(unsigned int n, unsigned int n_entries)
     {
       for (auto *block : {&outer, &cross, &inner})

@@ -68,9 +68,9 @@ namespace plumbline::reference
   template <int n_entries, int n_shapes>
   void PairQuadrature::integrate_as(std::size_t outer, std::size_t inner, PairBlocks &blocks)
   {
-    blocks.reset(n_, n_entries);
     if (between_.empty() && is_product(outer, inner))
       return integrate_constant(outer, inner, blocks);
+    blocks.reset(n_, n_entries);
     const double between = cells_.centroid(outer).distance(cells_.centroid(inner));
     const bool is_smooth =
         between_.empty() && !is_cut(between, outer, inner) && !profile_.is_function() &&
@@ -212,6 +212,7 @@ namespace plumbline::reference
                                           PairBlocks &blocks) const
   {
     const double c = profile_.constant() * cells_.area(outer) * cells_.area(inner);
+    blocks.resize(n_, 1);
     for (unsigned int a = 0; a < n_; ++a)
       for (unsigned int b = 0; b < n_; ++b)
       {
