@@ -6,8 +6,10 @@ include(${DEAL_II_TARGET_CONFIG})
 add_library(plumbline_dealii INTERFACE)
 set_target_properties(plumbline_dealii PROPERTIES EXPORT_NAME dealii)
 target_include_directories(plumbline_dealii SYSTEM INTERFACE ${DEAL_II_INCLUDE_DIRS})
+target_include_directories(plumbline_dealii BEFORE INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/cmake/without>)
 target_compile_definitions(plumbline_dealii INTERFACE ${DEAL_II_USER_DEFINITIONS}
-  $<$<CONFIG:Debug>:${DEAL_II_USER_DEFINITIONS_DEBUG}>)
+  $<$<CONFIG:Debug>:${DEAL_II_USER_DEFINITIONS_DEBUG}>
+  OMPI_SKIP_MPICXX) # MPI's C++ of old, which each file would compile anew
 target_link_libraries(plumbline_dealii INTERFACE
   $<IF:$<CONFIG:Debug>,${DEAL_II_TARGET_DEBUG},${DEAL_II_TARGET_RELEASE}>)
 target_link_options(plumbline_dealii INTERFACE -fuse-ld=gold)
