@@ -56,6 +56,15 @@ namespace plumbline::algebra
       }
     };
 
+    void require_numbers(const CsrMatrix &rows)
+    {
+      if (!std::all_of(rows.value.begin(), rows.value.end(),
+                       [](double value) { return std::isfinite(value); }))
+        throw NumericalError("a matrix of " + std::to_string(rows.n_rows()) +
+                             " unknowns has entries that are no numbers, so that it has no "
+                             "eigenvalues; look at its kernel and material");
+    }
+
     /// Separators of a lattice of n nodes whose rows have k entries have √(n k / π) nodes, so their
     /// dense blocks sum up to n k log₂(n / k) entries; UMFPACK's peak, measured for n = 400 to
     /// 28,800 and horizons of 1.5 h to 6 h, is 7 to 18 bytes of each.
@@ -79,6 +88,7 @@ namespace plumbline::algebra
       Inverse(const CsrMatrix &rows, double shift)
       {
         const auto n = static_cast<unsigned int>(rows.n_rows());
+        require_numbers(rows);
         require_factors(rows);
         dealii::DynamicSparsityPattern places(n);
         for (unsigned int i = 0; i < n; ++i)
