@@ -115,7 +115,7 @@ namespace plumbline::meshfree
 
       void acceleration(const State &u, const std::vector<double> &g, State &a) const override
       {
-        spread(u, &g[size()], all_);
+        spread(u, g.data() + size(), all_);
         force_.force(all_, other_);
         gather(other_, a);
         for (std::size_t i = 0; i < a.size(); ++i)
@@ -126,7 +126,7 @@ namespace plumbline::meshfree
                    State &out) const override
       {
         State direction(dim * n_all_);
-        spread(u, &g[size()], all_);
+        spread(u, g.data() + size(), all_);
         spread(v, nullptr, direction);
         force_.tangent(all_, direction, other_);
         gather(other_, out);
@@ -142,7 +142,7 @@ namespace plumbline::meshfree
 
       double energy(const State &u, const std::vector<double> &g) const override
       {
-        spread(u, &g[size()], all_);
+        spread(u, g.data() + size(), all_);
         return force_.energy(all_);
       }
 
@@ -152,7 +152,7 @@ namespace plumbline::meshfree
         double sum = product({g.begin(), g.begin() + static_cast<std::ptrdiff_t>(size())}, v);
         if (held_.empty())
           return sum;
-        spread(u, &g[size()], all_);
+        spread(u, g.data() + size(), all_);
         force_.force(all_, other_);
         for (unsigned int c = 0; c < dim; ++c)
           for (std::size_t k = 0; k < held_.size(); ++k)
