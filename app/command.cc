@@ -15,6 +15,7 @@
 #include "strip.h"
 #include "unexpected.h"
 
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/multithread_info.h>
 
@@ -312,6 +313,8 @@ int plumbline::app::command(int argc, char **argv)
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   if (getenv("OMPI_COMM_WORLD_SIZE") == nullptr)
     setenv("OMPI_MCA_orte_create_session_dirs", "false", 0);
+  // what deal.II's debug build finds is an error that is told, as of other builds
+  dealii::deal_II_exceptions::disable_abort_on_exception();
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(
       argc, argv,
       request.n_threads == 0 ? dealii::numbers::invalid_unsigned_int : request.n_threads);

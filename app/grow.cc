@@ -49,6 +49,20 @@ namespace plumbline::app
       return solid;
     }
 
+    /// @param is_bonds  no node has a dilatation
+    std::string model_words(const scene::Scene &scene, bool is_bonds)
+    {
+      if (is_bonds)
+        return scene.fracture.has_surface_terms
+                   ? "bonds (lambda = mu) with surface terms (Fan et al. 2022, eq. (3.19))"
+                   : "bond-based, for lambda = mu leaves the solid its bonds alone";
+      return std::string("LPS ") +
+             (scene.fracture.has_surface_terms ? "with surface terms (Fan et al. 2022, eq. (3.19))"
+                                               : "without surface terms") +
+             (scene.material.is_homogeneous ? ""
+                                            : ", each node's dilatation with its own constants");
+    }
+
     /// By what G is to be divided for a crack to go on at G in this lattice: the largest energy,
     /// over G, that one needs in a strip whose height is eight horizons.
     double find_trapping(const scene::Scene &scene, const meshfree::QuadratureRule &rule,
@@ -175,23 +189,6 @@ namespace plumbline::app
         n_jobs);
     return size;
   }
-
-  namespace
-  {
-    /// @param is_bonds  no node has a dilatation
-    std::string model_words(const scene::Scene &scene, bool is_bonds)
-    {
-      if (is_bonds)
-        return scene.fracture.has_surface_terms
-                   ? "bonds (lambda = mu) with surface terms (Fan et al. 2022, eq. (3.19))"
-                   : "bond-based, for lambda = mu leaves the solid its bonds alone";
-      return std::string("LPS ") +
-             (scene.fracture.has_surface_terms ? "with surface terms (Fan et al. 2022, eq. (3.19))"
-                                               : "without surface terms") +
-             (scene.material.is_homogeneous ? ""
-                                            : ", each node's dilatation with its own constants");
-    }
-  } // namespace
 
   study::GrowthResults grow_body(const scene::Scene &scene, const fs::path &checkpoint,
                                  const std::function<void()> &before_it_grows)

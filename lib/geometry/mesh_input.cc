@@ -291,7 +291,6 @@ namespace plumbline::geometry
     const std::string source = "mesh generator " + generator + " (" + arguments + ")";
     check_counts(generator, arguments, source);
     dealii::Triangulation<2> triangulation;
-    dealii::deal_II_exceptions::disable_abort_on_exception(); // debug builds: refuse as others do
     try
     {
       dealii::GridGenerator::generate_from_name_and_arguments(triangulation, generator, arguments);

@@ -26,7 +26,8 @@ namespace plumbline::geometry
   /// refined until no side is longer than h, vertices on curved boundaries, sides straight. Ω: the
   /// cells whose centre, the mean of their vertices, satisfies is_inside.
   /// @throws InputError  unknown generator or arguments, with deal.II's words, h <= 0 or so small
-  /// that there are more than 1e7 cells, and as `check`
+  /// that there are more than 1e7 cells, and as `check`. deal.II's debug build ends the program at
+  /// arguments out of range, unless its disable_abort_on_exception was called, as `plumbline` does.
   Mesh generate_mesh(const std::string &generator, const std::string &arguments, double h,
                      const std::function<bool(const Point<2> &)> &is_inside);
 

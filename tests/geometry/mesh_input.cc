@@ -3,6 +3,8 @@
 #include "geometry/gmsh_process.h"
 #include "meshes.h"
 
+#include <deal.II/base/exceptions.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -164,6 +166,7 @@ TEST(GenerateMesh, refines_until_no_side_is_longer_than_h)
 
 TEST(GenerateMesh, says_what_is_wrong)
 {
+  dealii::deal_II_exceptions::disable_abort_on_exception(); // as the command does
   const auto fault = [](const std::string &generator, const std::string &arguments, double h = .3)
   {
     return error_of(
