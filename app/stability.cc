@@ -3,6 +3,7 @@
 #include "base/cost.h"
 #include "base/error.h"
 #include "meshfree/vtu.h"
+#include "method/discretisation.h"
 #include "methods.h"
 #include "report/formats.h"
 #include "report/json_lines.h"

@@ -6,6 +6,8 @@
 #include "parts.h"
 #include "summary.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <cmath>
 
 namespace plumbline::benchmarks

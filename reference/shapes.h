@@ -2,10 +2,14 @@
 
 #include "geometry/lattice.h"
 
-#include <deal.II/fe/fe.h>
-
 #include <memory>
 #include <vector>
+
+namespace dealii
+{
+  template <int dim, int spacedim>
+  class FiniteElement;
+}
 
 namespace plumbline::reference
 {
@@ -46,7 +50,7 @@ namespace plumbline::reference
   private:
     bool is_continuous_;
     unsigned int degree_;
-    std::shared_ptr<const dealii::FiniteElement<1>> element_;
+    std::shared_ptr<const dealii::FiniteElement<1, 1>> element_;
     std::vector<unsigned int> deal_index_; ///< of local function a, from left to right
     std::vector<double> support_points_;
     std::vector<geometry::AxisSpecies> families_;

@@ -3,6 +3,8 @@
 #include "algebra/solve.h"
 #include "base/error.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <algorithm>
 #include <sstream>
 #include <utility>

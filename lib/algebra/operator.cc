@@ -5,6 +5,8 @@
 #include "algebra/sparse.h"
 #include "base/error.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <algorithm>
 
 namespace plumbline::algebra

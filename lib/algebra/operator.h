@@ -3,10 +3,14 @@
 #include "algebra/stencil.h"
 #include "base/solver_choices.h"
 
-#include <deal.II/lac/vector.h>
-
 #include <memory>
 #include <string>
+
+namespace dealii
+{
+  template <typename Number>
+  class Vector; // <deal.II/lac/vector.h> is large; sources that look into vectors include it
+}
 
 namespace plumbline::algebra
 {

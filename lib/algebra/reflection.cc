@@ -4,6 +4,8 @@
 #include "base/error.h"
 #include "base/fftw.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <Eigen/Dense>
 
 #include <cmath>

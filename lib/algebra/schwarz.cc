@@ -1,5 +1,7 @@
 #include "algebra/schwarz.h"
 
+#include <deal.II/lac/vector.h>
+
 namespace plumbline::algebra
 {
   SchwarzPreconditioner::SchwarzPreconditioner(const Stencil &stencil,

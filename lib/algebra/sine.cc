@@ -5,6 +5,8 @@
 #include "base/error.h"
 #include "base/fftw.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <Eigen/Core>
 
 #include <cmath>

@@ -1,11 +1,12 @@
 #include "algebra/spectrum.h"
 
 #include "base/error.h"
+#include "base/symmetric_eigen.h"
 
 #include <deal.II/lac/arpack_solver.h>
 #include <deal.II/lac/identity_matrix.h>
+#include <deal.II/lac/vector.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
@@ -53,8 +54,8 @@ namespace plumbline::algebra
         matrix.col(i) = VectorXd::Map(y.data(), n);
         x[i] = 0;
       }
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
-      return {solver.eigenvalues()[n - 1], solver.eigenvectors().col(n - 1)};
+      const auto eigen = base::symmetric_eigen(matrix);
+      return {eigen.values[n - 1], eigen.vectors.col(n - 1)};
     }
 
     struct Product

@@ -23,13 +23,13 @@ namespace plumbline::algebra
     using Direction = std::array<double, 2>;
 
     /// Sums over a stencil's offsets d [cells] along a direction n: Σ A f(n·d), block by block.
-    template <typename Result, typename Factor>
-    Result sum_over(const WaveOperator &waves, const Stencil &stencil, const Direction &n,
+    template <typename Factor>
+    Matrix sum_over(const WaveOperator &waves, const Stencil &stencil, const Direction &n,
                     const Factor &factor)
     {
       const auto n_blocks = stencil.n_blocks();
       const int reach = stencil.reach();
-      Result result = Result::Zero(n_blocks, n_blocks);
+      Matrix result = Matrix::Zero(n_blocks, n_blocks);
       for (unsigned int s = 0; s < n_blocks; ++s)
         for (unsigned int t = 0; t < n_blocks; ++t)
         {
@@ -44,10 +44,10 @@ namespace plumbline::algebra
     }
 
     /// Values at the nodes of plane waves, along the direction and across it: (n_blocks, n_waves).
-    Real polarisations(const WaveOperator &waves, const Direction &n)
+    Matrix polarisations(const WaveOperator &waves, const Direction &n)
     {
       const auto n_families = waves.n_families();
-      Real result = Real::Zero(waves.n_components * n_families, waves.n_components);
+      Matrix result = Matrix::Zero(waves.n_components * n_families, waves.n_components);
       const bool is_scalar = waves.n_components == 1;
       for (unsigned int s = 0; s < n_families; ++s)
         if (is_scalar)
@@ -79,11 +79,10 @@ namespace plumbline::algebra
       return chosen;
     }
 
-    template <typename SomeMatrix>
-    Eigen::GeneralizedSelfAdjointEigenSolver<SomeMatrix>
-    solve(const SomeMatrix &stiffness, const SomeMatrix &mass, bool has_vectors)
+    Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solve(const Matrix &stiffness,
+                                                           const Matrix &mass, bool has_vectors)
     {
-      Eigen::GeneralizedSelfAdjointEigenSolver<SomeMatrix> solver(
+      Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(
           stiffness, mass,
           (has_vectors ? Eigen::ComputeEigenvectors : Eigen::EigenvaluesOnly) | Eigen::Ax_lBx);
       if (solver.info() != Eigen::Success || !solver.eigenvalues().allFinite())
@@ -109,9 +108,9 @@ namespace plumbline::algebra
     const auto value = [kh](double d) { return Complex(std::cos(kh * d), std::sin(kh * d)); };
     const auto slope = [&](double d) { return Complex(0, waves_.h * d) * value(d); };
     const auto sum = [&](const Stencil &stencil, const auto &factor)
-    { return sum_over<Matrix>(waves_, stencil, n, factor); };
+    { return sum_over(waves_, stencil, n, factor); };
     const Matrix mass = sum(waves_.mass, value);
-    const auto solver = solve<Matrix>(sum(waves_.stiffness, value), mass, true);
+    const auto solver = solve(sum(waves_.stiffness, value), mass, true);
     const Matrix stiffness_slope = sum(waves_.stiffness, slope),
                  mass_slope = sum(waves_.mass, slope);
     const auto &vectors = solver.eigenvectors();
@@ -131,28 +130,28 @@ namespace plumbline::algebra
     constexpr double zero = 1e-10;
     const Direction n{std::cos(angle), std::sin(angle)};
     const auto sum = [&](const Stencil &stencil, const auto &factor)
-    { return sum_over<Real>(waves_, stencil, n, factor); };
+    { return sum_over(waves_, stencil, n, factor); };
     const auto one = [](double) { return 1.; };
-    const Real constants = polarisations(waves_, n);
-    const Real at_zero = sum(waves_.stiffness, one);
+    const Matrix constants = polarisations(waves_, n);
+    const Matrix at_zero = sum(waves_.stiffness, one);
     // A(k) = A(0) + i kh X - (kh)²/2 Y
-    const Real x = sum(waves_.stiffness, [](double d) { return d; }) * constants,
-               y = sum(waves_.stiffness, [](double d) { return d * d; }) * constants;
-    const Eigen::SelfAdjointEigenSolver<Real> spectrum(at_zero);
+    const Matrix x = sum(waves_.stiffness, [](double d) { return d; }) * constants,
+                 y = sum(waves_.stiffness, [](double d) { return d * d; }) * constants;
+    const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(at_zero);
     double scale = 0;
     for (unsigned int s = 0; s < waves_.stiffness.n_blocks(); ++s)
       scale = std::max(scale, std::abs(waves_.stiffness(s, s, 0, 0)));
-    Real second = -.5 * constants.transpose() * y;
+    Matrix second = -.5 * constants.adjoint() * y;
     for (Index i = 0; i < at_zero.rows(); ++i)
       if (spectrum.eigenvalues()[i] > zero * scale)
       {
-        const Real part = spectrum.eigenvectors().col(i).transpose() * x;
-        second -= part.transpose() * part / spectrum.eigenvalues()[i];
+        const Matrix part = spectrum.eigenvectors().col(i).adjoint() * x;
+        second -= part.adjoint() * part / spectrum.eigenvalues()[i];
       }
-    const Real mass = constants.transpose() * sum(waves_.mass, one) * constants;
-    const auto solver = solve<Real>(.5 * (second + second.transpose()), mass, true);
+    const Matrix mass = constants.adjoint() * sum(waves_.mass, one) * constants;
+    const auto solver = solve(.5 * (second + second.adjoint()), mass, true);
     std::vector<double> result;
-    for (const Index i : nearest((solver.eigenvectors().transpose() * mass).cwiseAbs()))
+    for (const Index i : nearest((solver.eigenvectors().adjoint() * mass).cwiseAbs()))
       result.push_back(waves_.h * waves_.h * solver.eigenvalues()[i]);
     return result;
   }
@@ -291,7 +290,7 @@ namespace plumbline::algebra
   {
     const int n = std::max(24, 4 * waves_.stiffness.reach());
     const auto eigenvalues = [](const Matrix &stiffness, const Matrix &mass) -> Eigen::VectorXd
-    { return solve<Matrix>(stiffness, mass, false).eigenvalues(); };
+    { return solve(stiffness, mass, false).eigenvalues(); };
     Grid largest{n, {}};
     double least = std::numeric_limits<double>::infinity();
     for (int i2 = 0; i2 <= 2 * n; ++i2)

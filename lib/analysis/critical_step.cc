@@ -1,8 +1,7 @@
 #include "analysis/critical_step.h"
 
 #include "base/error.h"
-
-#include <Eigen/Eigenvalues>
+#include "base/symmetric_eigen.h"
 
 #include <cmath>
 #include <limits>
@@ -18,10 +17,9 @@ namespace plumbline::analysis
     std::pair<double, double> ritz(const Vector &alpha, const Vector &beta, double next)
     {
       const auto k = static_cast<Eigen::Index>(alpha.size());
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-      solver.computeFromTridiagonal(Eigen::VectorXd::Map(alpha.data(), k),
-                                    Eigen::VectorXd::Map(beta.data(), k - 1));
-      return {solver.eigenvalues()[k - 1], next * std::abs(solver.eigenvectors()(k - 1, k - 1))};
+      const auto eigen = base::tridiagonal_eigen(Eigen::VectorXd::Map(alpha.data(), k),
+                                                 Eigen::VectorXd::Map(beta.data(), k - 1));
+      return {eigen.values[k - 1], next * std::abs(eigen.vectors(k - 1, k - 1))};
     }
   } // namespace
 

@@ -2,6 +2,7 @@
 
 #include "algebra/sparse_system.h"
 #include "base/error.h"
+#include "method/discretisation.h"
 #include "physics/load.h"
 
 #include <algorithm>

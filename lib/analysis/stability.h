@@ -1,7 +1,14 @@
 #pragma once
 
 #include "algebra/eigenvalues.h"
-#include "method/discretisation.h"
+#include "algebra/spectrum.h"
+#include "method/diagnostics.h"
+#include "scene/problem.h"
+
+namespace plumbline::method
+{
+  struct DiscreteOperator;
+}
 
 namespace plumbline::analysis
 {

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "method/discretisation.h"
 
 #include <algorithm>
 #include <new>

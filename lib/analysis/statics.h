@@ -1,6 +1,8 @@
 #pragma once
 
 #include "base/cost.h"
+#include "method/diagnostics.h"
+#include "method/field.h"
 #include "method/method.h"
 
 #include <exception>

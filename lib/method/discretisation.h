@@ -5,7 +5,10 @@
 #include "algebra/symbol.h"
 #include "method/diagnostics.h"
 #include "method/equation_of_motion.h"
+#include "method/field.h"
 #include "scene/problem.h"
+
+#include <deal.II/lac/vector.h>
 
 #include <functional>
 #include <memory>
@@ -16,16 +19,6 @@
 namespace plumbline::method
 {
   using algebra::Vector;
-
-  /// A solution, the same view for both sides, so that they can be compared.
-  struct Field
-  {
-    std::vector<dealii::Point<2>> nodes; ///< the method's own free nodes in Ω
-    std::vector<double> nodal;           ///< values there, shape (n_nodes, n_components)
-    std::vector<double> averages; ///< over the comparison cells, shape (n_cells, n_components)
-    std::function<double(const dealii::Point<2> &, unsigned int component)> value; ///< in Ω
-    std::function<void(const std::string &file)> write_vtu;
-  };
 
   /// What one case brings to a discretisation: its load, and the constraint around the unknowns.
   struct CaseData

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "method/discretisation.h"
 #include "method/method.h"
 
 namespace plumbline::method

@@ -4,6 +4,8 @@
 #include "method/lattice_discretisation.h"
 #include "method/linear_motion.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <algorithm>
 #include <memory>
 #include <utility>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/communicator.h"
 #include "method/capabilities.h"
-#include "method/discretisation.h"
 #include "method/rice_strip.h"
 #include "method/side.h"
 
@@ -12,6 +12,8 @@
 
 namespace plumbline::method
 {
+  class Discretisation;
+
   /// How large a problem is, which can be known before anything of it is made.
   struct ProblemSize
   {

@@ -3,6 +3,7 @@
 #include "algebra/spectrum.h"
 
 #include <deal.II/base/parallel.h>
+#include <deal.II/lac/vector.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/symmetric_eigen.h"
 #include "random/generator.h"
 
 #include <deal.II/base/exceptions.h>
@@ -16,10 +17,10 @@ namespace plumbline::random
 {
   namespace
   {
+    using base::SymmetricEigen;
     using Eigen::Index;
     using Eigen::MatrixXd;
     using Eigen::VectorXd;
-    using Solver = Eigen::SelfAdjointEigenSolver<MatrixXd>;
 
     /// An orthonormal basis that grows by blocks, and the matrix seen in it.
     class Basis
@@ -50,27 +51,30 @@ namespace plumbline::random
         seen_.block(old, 0, b, n_) = seen_.block(0, old, n_, b).transpose().eval();
       }
 
-      /// Eigenvalues, ascending, of what is seen.
-      Solver decompose() const { return Solver(seen_.topLeftCorner(n_, n_)); }
+      /// Of what is seen.
+      SymmetricEigen decompose() const
+      {
+        return base::symmetric_eigen(seen_.topLeftCorner(n_, n_));
+      }
 
       /// ‖A v - λ v‖ of the eigenvector in column k.
-      double residual(const Solver &solver, Index k) const
+      double residual(const SymmetricEigen &eigen, Index k) const
       {
-        return (coupling_ * solver.eigenvectors().col(k).tail(block())).norm();
+        return (coupling_ * eigen.vectors.col(k).tail(block())).norm();
       }
 
       /// Keep the best eigenvectors alone, the largest first.
-      void restart(const Solver &solver, Index n_kept)
+      void restart(const SymmetricEigen &eigen, Index n_kept)
       {
         constexpr Index strip = 1024; // rows at a time, to spare memory
-        const MatrixXd best = solver.eigenvectors().rightCols(n_kept).rowwise().reverse();
+        const MatrixXd best = eigen.vectors.rightCols(n_kept).rowwise().reverse();
         for (Index row = 0; row < vectors_.rows(); row += strip)
         {
           auto rows = vectors_.middleRows(row, std::min(strip, vectors_.rows() - row));
           rows.leftCols(n_kept) = (rows.leftCols(n_) * best).eval();
         }
         seen_.setZero();
-        seen_.diagonal().head(n_kept) = solver.eigenvalues().tail(n_kept).reverse();
+        seen_.diagonal().head(n_kept) = eigen.values.tail(n_kept).reverse();
         n_ = n_kept;
       }
 
@@ -160,17 +164,17 @@ namespace plumbline::random
       product(identity.data(), matrix.data(), static_cast<unsigned int>(size));
       if (!matrix.allFinite())
         throw NumericalError("the modes of a random field: a covariance is not a finite number");
-      const Solver solver((matrix + matrix.transpose()) / 2);
+      const SymmetricEigen eigen = base::symmetric_eigen((matrix + matrix.transpose()) / 2);
       LargestModes modes;
       for (Index k = 0; k < n_modes; ++k)
       {
-        const VectorXd vector = solver.eigenvectors().col(size - 1 - k);
-        modes.eigenvalue.push_back(solver.eigenvalues()[size - 1 - k]);
+        const VectorXd vector = eigen.vectors.col(size - 1 - k);
+        modes.eigenvalue.push_back(eigen.values[size - 1 - k]);
         modes.vector.emplace_back(vector.begin(), vector.end());
         modes.residual.push_back((matrix * vector - modes.eigenvalue.back() * vector).norm());
       }
       modes.n_products = 1;
-      modes.sum_so_far.push_back(solver.eigenvalues().tail(n_modes).sum());
+      modes.sum_so_far.push_back(eigen.values.tail(n_modes).sum());
       modes.is_settled = true;
       return modes;
     }
@@ -187,20 +191,20 @@ namespace plumbline::random
         ++modes.n_products;
         if (basis.n() < n_modes)
           continue;
-        const Solver solver = basis.decompose();
+        const SymmetricEigen eigen = basis.decompose();
         const Index last = basis.n() - 1;
-        const double most = search.tolerance * solver.eigenvalues()[last];
-        modes.sum_so_far.push_back(solver.eigenvalues().tail(n_modes).sum());
+        const double most = search.tolerance * eigen.values[last];
+        modes.sum_so_far.push_back(eigen.values.tail(n_modes).sum());
         modes.residual.clear();
         for (Index k = 0; k < n_modes; ++k)
-          modes.residual.push_back(basis.residual(solver, last - k));
+          modes.residual.push_back(basis.residual(eigen, last - k));
         modes.is_settled = *std::max_element(modes.residual.begin(), modes.residual.end()) <= most;
         if (modes.is_settled || modes.n_products >= search.most_products)
         {
-          basis.restart(solver, n_modes);
+          basis.restart(eigen, n_modes);
           for (Index k = 0; k < n_modes; ++k)
           {
-            modes.eigenvalue.push_back(solver.eigenvalues()[last - k]);
+            modes.eigenvalue.push_back(eigen.values[last - k]);
             auto &vector = modes.vector.emplace_back(static_cast<std::size_t>(size));
             for (Index row = 0; row < size; ++row)
               vector[static_cast<std::size_t>(row)] = basis.entry(row, k);
@@ -208,7 +212,7 @@ namespace plumbline::random
           return modes;
         }
         if (basis.n() + basis.block() > room)
-          basis.restart(solver, n_modes + basis.block());
+          basis.restart(eigen, n_modes + basis.block());
       }
     }
   } // namespace

@@ -1,5 +1,7 @@
 #include "random/line_rule.h"
 
+#include "base/symmetric_eigen.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
@@ -120,17 +122,15 @@ namespace plumbline::random
   LineRule gauss_rule(Law law, unsigned int n)
   {
     // off the diagonal of the polynomials' recurrence
-    Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n), beside(n > 0 ? n - 1 : 0);
+    Eigen::VectorXd beside(n > 0 ? n - 1 : 0);
     for (unsigned int k = 1; k < n; ++k)
       beside[k - 1] = law == Law::normal ? std::sqrt(k) : k / std::sqrt(4. * k * k - 1);
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> jacobi;
-    jacobi.computeFromTridiagonal(diagonal, beside);
+    const auto jacobi = base::tridiagonal_eigen(Eigen::VectorXd::Zero(n), beside);
     LineRule rule;
     for (unsigned int i = 0; i < n; ++i)
     {
-      const double first = jacobi.eigenvectors()(0, i);
-      rule.nodes.push_back(jacobi.eigenvalues()[i]);
-      rule.weights.push_back(first * first);
+      rule.nodes.push_back(jacobi.values[i]);
+      rule.weights.push_back(jacobi.vectors(0, i) * jacobi.vectors(0, i));
     }
     symmetrise(rule);
     return rule;

@@ -4,6 +4,9 @@
 #include "base/text_file.h"
 #include "scene/values.h"
 
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -152,19 +155,39 @@ namespace plumbline::scene
     return result;
   }
 
+  Keys::Keys() : parameters_(std::make_unique<dealii::ParameterHandler>()) {}
+  Keys::~Keys() = default;
+
   void Keys::enter(const std::string &section)
   {
     if (!section_.empty())
-      parameters_.leave_subsection();
+      parameters_->leave_subsection();
     if (!section.empty())
-      parameters_.enter_subsection(section);
+      parameters_->enter_subsection(section);
     section_ = section;
   }
 
   void Keys::remember(const std::string &name, const Allowed &allowed, const std::string &help)
   {
-    keys_.push_back({section_, name, parameters_.get(name), allowed, help});
+    keys_.push_back({section_, name, parameters_->get(name), allowed, help});
   }
+
+  template <class T>
+  void Keys::add(const std::string &name, T &member, const Allowed &allowed,
+                 const std::string &help)
+  {
+    parameters_->add_parameter(name, member, help, *allowed);
+    remember(name, allowed, help);
+  }
+
+  template void Keys::add(const std::string &, double &, const Allowed &, const std::string &);
+  template void Keys::add(const std::string &, bool &, const Allowed &, const std::string &);
+  template void Keys::add(const std::string &, int &, const Allowed &, const std::string &);
+  template void Keys::add(const std::string &, unsigned int &, const Allowed &,
+                          const std::string &);
+  template void Keys::add(const std::string &, std::string &, const Allowed &, const std::string &);
+  template void Keys::add(const std::string &, std::vector<double> &, const Allowed &,
+                          const std::string &);
 
   void Keys::add(const std::string &name, std::string &member, const std::string &help)
   {
@@ -183,8 +206,8 @@ namespace plumbline::scene
   void Keys::add(const std::string &name, const std::string &by_default, const Allowed &allowed,
                  const Read &read, const std::string &help)
   {
-    parameters_.declare_entry(name, by_default, *allowed, help);
-    parameters_.add_action(name, read);
+    parameters_->declare_entry(name, by_default, *allowed, help);
+    parameters_->add_action(name, read);
     remember(name, allowed, help);
   }
 
@@ -224,7 +247,7 @@ namespace plumbline::scene
     enter(key.section);
     try
     {
-      parameters_.set(key.name, value);
+      parameters_->set(key.name, value);
     }
     catch (const InputError &error)
     {
@@ -252,8 +275,8 @@ namespace plumbline::scene
   {
     enter("");
     std::ostringstream text;
-    parameters_.print_parameters(text, has_help ? dealii::ParameterHandler::PRM
-                                                : dealii::ParameterHandler::ShortText);
+    parameters_->print_parameters(text, has_help ? dealii::ParameterHandler::PRM
+                                                 : dealii::ParameterHandler::ShortText);
     return text.str();
   }
 } // namespace plumbline::scene

@@ -3,7 +3,6 @@
 #include "base/choice.h"
 #include "geometry/lattice.h"
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 
 #include <functional>
@@ -12,6 +11,15 @@
 #include <string>
 #include <type_traits>
 #include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+  namespace Patterns
+  {
+    class PatternBase;
+  }
+} // namespace dealii
 
 namespace plumbline::scene
 {
@@ -41,10 +49,14 @@ namespace plumbline::scene
   class Keys
   {
   public:
+    Keys();
+    ~Keys();
+
     /// Keys that are added now belong to this section; "": to none.
     void enter(const std::string &section);
 
     /// A key that a member takes; its default is what the member holds.
+    /// @tparam T  bool, int, unsigned int, double, std::vector<double>
     template <class T>
     void add(const std::string &name, T &member, const Allowed &allowed, const std::string &help);
     void add(const std::string &name, std::string &member, const std::string &help);
@@ -89,16 +101,8 @@ namespace plumbline::scene
 
     std::string section_; ///< that parameters_ is in
     std::vector<Key> keys_;
-    dealii::ParameterHandler parameters_;
+    std::unique_ptr<dealii::ParameterHandler> parameters_;
   };
-
-  template <class T>
-  void Keys::add(const std::string &name, T &member, const Allowed &allowed,
-                 const std::string &help)
-  {
-    parameters_.add_parameter(name, member, help, *allowed);
-    remember(name, allowed, help);
-  }
 
   template <class Enum>
   std::enable_if_t<std::is_enum_v<Enum>> Keys::add(const std::string &name, Enum &member,

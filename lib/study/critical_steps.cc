@@ -1,4 +1,5 @@
 #include "analysis/transient.h"
+#include "method/discretisation.h"
 #include "study/stability.h"
 
 namespace plumbline::study

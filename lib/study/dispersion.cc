@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "method/discretisation.h"
 #include "study/trend.h"
 
 #include <algorithm>

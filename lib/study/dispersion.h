@@ -1,5 +1,6 @@
 #pragma once
 
+#include "algebra/symbol.h"
 #include "method/method.h"
 #include "physics/waves.h"
 #include "study/results.h"

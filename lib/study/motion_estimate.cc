@@ -2,6 +2,7 @@
 
 #include "analysis/statics.h"
 #include "base/error.h"
+#include "method/discretisation.h"
 #include "study/motion_norms.h"
 
 #include <algorithm>

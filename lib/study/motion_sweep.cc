@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "base/number_text.h"
+#include "method/discretisation.h"
 #include "study/dynamics.h"
 #include "study/motion_data.h"
 #include "study/motion_estimate.h"
@@ -370,7 +371,6 @@ namespace plumbline::study
       std::vector<dealii::Point<2>> torus_nodes_; ///< that it was asked for last
       Vector torus_u_, torus_v_;
     };
-
   } // namespace
 
   DynamicResults begin_results(const scene::Scene &scene, unsigned int n_levels)

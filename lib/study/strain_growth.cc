@@ -3,6 +3,7 @@
 #include "analysis/wave_growth.h"
 #include "base/error.h"
 #include "base/number_text.h"
+#include "method/discretisation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,6 +4,8 @@
 #include "meshfree/scattered/field.h"
 #include "method/linear_motion.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <sstream>
 
 namespace plumbline::meshfree

@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>

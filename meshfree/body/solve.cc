@@ -1,5 +1,7 @@
 #include "meshfree/body/operator.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -7,6 +7,8 @@
 #include "method/limit_proof.h"
 #include "method/line_discretisation.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <utility>
 
 namespace plumbline::meshfree

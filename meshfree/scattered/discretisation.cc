@@ -6,6 +6,8 @@
 #include "method/sparse_motion.h"
 #include "scene/damage.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <cmath>
 #include <utility>
 

@@ -11,6 +11,7 @@
 #include "reference/lattice/stencil.h"
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/lac/vector.h>
 
 #include <cmath>
 #include <utility>

@@ -1,6 +1,7 @@
 #include "reference/lattice/double_well_galerkin.h"
 
 #include "base/error.h"
+#include "base/symmetric_eigen.h"
 #include "geometry/ball_cell.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -100,12 +101,12 @@ namespace plumbline::reference
       Eigen::MatrixXd mass = axis_mass(shapes_, h, n[axis]);
       if (is_lumped)
         mass = Eigen::MatrixXd((mass.diagonal() * (n[axis] * h / mass.trace())).asDiagonal());
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(mass);
-      const auto &vectors = solver.eigenvectors();
+      const auto eigen = base::symmetric_eigen(mass);
       for (const double power : {1., -1., .5, -.5})
       {
-        const Eigen::VectorXd values = solver.eigenvalues().array().pow(power).matrix();
-        const Eigen::MatrixXd matrix = vectors * values.asDiagonal() * vectors.transpose();
+        const Eigen::VectorXd values = eigen.values.array().pow(power).matrix();
+        const Eigen::MatrixXd matrix =
+            eigen.vectors * values.asDiagonal() * eigen.vectors.transpose();
         mass_[axis][power] = {matrix.data(), matrix.data() + matrix.size()};
       }
     }

@@ -15,6 +15,7 @@
 #include "reference/mesh/weighted_volume.h"
 
 #include <deal.II/base/parallel.h>
+#include <deal.II/lac/vector.h>
 
 #include <algorithm>
 #include <cmath>

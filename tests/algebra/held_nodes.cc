@@ -4,6 +4,8 @@
 #include "algebra/schwarz.h"
 #include "algebra/solve.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <Eigen/Dense>
 
 #include <gtest/gtest.h>

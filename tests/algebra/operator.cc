@@ -5,6 +5,7 @@
 #include "base/error.h"
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/vector.h>
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,8 @@
 #include "algebra/sparse.h"
 #include "base/error.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "meshfree/lattice/stencil.h"
 #include "meshfree/method.h"
+#include "method/discretisation.h"
 #include "study/comparison.h"
 
 #include <gtest/gtest.h>

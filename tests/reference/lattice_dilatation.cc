@@ -1,6 +1,7 @@
 #include "reference/lattice/dilatation.h"
 
 #include "algebra/solve.h"
+#include "method/discretisation.h"
 #include "physics/state_based.h"
 #include "reference/lattice/stencil.h"
 

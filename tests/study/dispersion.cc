@@ -2,6 +2,7 @@
 // for them.
 #include "study/dispersion.h"
 #include "base/error.h"
+#include "method/discretisation.h"
 #include "study/trend.h"
 #include "tests/study/operators.h"
 

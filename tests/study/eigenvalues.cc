@@ -1,5 +1,6 @@
 // Eigenvalues of operators against closed forms and dense solvers, by every backend.
 #include "meshfree/rules/bonds.h"
+#include "method/discretisation.h"
 #include "reference/lattice/stencil.h"
 #include "tests/study/operators.h"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "method/discretisation.h"
 #include "study/sweep.h"
 
 /// Methods that solve nothing, for what is done with solutions.

@@ -2,6 +2,7 @@
 
 #include "analysis/transient.h"
 #include "meshfree/method.h"
+#include "method/discretisation.h"
 #include "reference/method.h"
 #include "study/dynamics.h"
 #include "study/motion_data.h"

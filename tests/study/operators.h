@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshfree/method.h"
+#include "method/discretisation.h"
 #include "reference/method.h"
 #include "study/stability.h"
 

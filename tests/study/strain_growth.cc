@@ -1,6 +1,7 @@
 // Waves on strained double wells: the symbol, the local criterion and motions; critical time steps.
 
 #include "study/strain_growth.h"
+#include "method/discretisation.h"
 
 #include "meshfree/method.h"
 #include "reference/method.h"
