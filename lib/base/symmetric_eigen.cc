@@ -4,6 +4,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
+
 namespace plumbline::base
 {
   namespace
@@ -25,8 +27,17 @@ namespace plumbline::base
 
   SymmetricEigen tridiagonal_eigen(const Eigen::VectorXd &diagonal, const Eigen::VectorXd &beside)
   {
+    // Eigen 3.4.0 scales whole matrices, but not these, and takes entries beside the diagonal for
+    // zero by a bound that is not of their unit: at 1000 it finds no end
+    double scale = diagonal.cwiseAbs().maxCoeff();
+    if (beside.size() > 0)
+      scale = std::max(scale, beside.cwiseAbs().maxCoeff());
+    if (scale == 0)
+      scale = 1;
     Solver solver;
-    solver.computeFromTridiagonal(diagonal, beside);
-    return checked(solver);
+    solver.computeFromTridiagonal(diagonal / scale, beside / scale);
+    auto result = checked(solver);
+    result.values *= scale;
+    return result;
   }
 } // namespace plumbline::base

@@ -30,6 +30,25 @@ TEST(SymmetricEigen, a_chain_has_the_eigenvalues_of_its_waves)
   }
 }
 
+TEST(SymmetricEigen, scale_with_their_matrix)
+{
+  constexpr int n = 300;
+  VectorXd diagonal(n), beside(n - 1); // of a size, and without order, as Lanczos leaves them
+  for (int i = 0; i < n; ++i)
+    diagonal[i] = 1 + .3 * std::sin(1. + i * i);
+  for (int i = 0; i + 1 < n; ++i)
+    beside[i] = .3 + .1 * std::cos(2. + i * i);
+  const auto one = base::tridiagonal_eigen(diagonal, beside);
+  for (const double scale : {1e-200, 1e-6, 1e3, 1e12, 1e200})
+  {
+    const auto scaled = base::tridiagonal_eigen(scale * diagonal, scale * beside);
+    EXPECT_LT((scaled.values / scale - one.values).cwiseAbs().maxCoeff(), 1e-13) << scale;
+    for (int k = 0; k + 1 < n; ++k)
+      EXPECT_LE(scaled.values[k], scaled.values[k + 1]);
+  }
+  EXPECT_EQ(base::tridiagonal_eigen(VectorXd::Zero(3), VectorXd::Zero(2)).values.norm(), 0);
+}
+
 TEST(SymmetricEigen, entries_that_are_no_numbers_are_an_error)
 {
   for (const double bad :
