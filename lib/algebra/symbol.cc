@@ -137,7 +137,7 @@ namespace plumbline::algebra
     // A(k) = A(0) + i kh X - (kh)²/2 Y
     const Matrix x = sum(waves_.stiffness, [](double d) { return d; }) * constants,
                  y = sum(waves_.stiffness, [](double d) { return d * d; }) * constants;
-    const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(at_zero);
+    const auto spectrum = solve(at_zero, Matrix::Identity(at_zero.rows(), at_zero.cols()), true);
     double scale = 0;
     for (unsigned int s = 0; s < waves_.stiffness.n_blocks(); ++s)
       scale = std::max(scale, std::abs(waves_.stiffness(s, s, 0, 0)));

@@ -8,36 +8,29 @@
 
 namespace plumbline::base
 {
-  namespace
-  {
-    using Solver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>; // takes seconds to compile
-
-    SymmetricEigen checked(const Solver &solver)
-    {
-      if (solver.info() != Eigen::Success || !solver.eigenvalues().allFinite())
-        throw NumericalError("a symmetric matrix has no eigenvalues: an entry is not finite");
-      return {solver.eigenvalues(), solver.eigenvectors()};
-    }
-  } // namespace
-
+  // Eigen 3.4.0 takes entries beside the diagonal for zero by a bound that is not of their unit:
+  // where eigenvalues are some 10 times above the largest entry, to which it scales, or matrices
+  // are tridiagonal, which it does not scale, it may end before they are found, with any order. Up
+  // to eigenvalues of 1 the bound is sound.
   SymmetricEigen symmetric_eigen(const Eigen::MatrixXd &matrix)
   {
-    return checked(Solver(matrix));
+    const double largest = matrix.cwiseAbs().maxCoeff(), scale = largest > 0 ? largest : 1;
+    const Eigen::Tridiagonalization<Eigen::MatrixXd> form(matrix / scale);
+    SymmetricEigen result = tridiagonal_eigen(form.diagonal(), form.subDiagonal());
+    result.values *= scale;
+    result.vectors = form.matrixQ() * result.vectors;
+    return result;
   }
 
   SymmetricEigen tridiagonal_eigen(const Eigen::VectorXd &diagonal, const Eigen::VectorXd &beside)
   {
-    // Eigen 3.4.0 scales whole matrices, but not these, and takes entries beside the diagonal for
-    // zero by a bound that is not of their unit: at 1000 it finds no end
-    double scale = diagonal.cwiseAbs().maxCoeff();
-    if (beside.size() > 0)
-      scale = std::max(scale, beside.cwiseAbs().maxCoeff());
-    if (scale == 0)
-      scale = 1;
-    Solver solver;
+    const double largest = std::max(diagonal.cwiseAbs().maxCoeff(),
+                                    beside.size() > 0 ? beside.cwiseAbs().maxCoeff() : 0),
+                 scale = largest > 0 ? 3 * largest : 1;    // no eigenvalue is above (Gershgorin)
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver; // takes seconds to compile: here alone
     solver.computeFromTridiagonal(diagonal / scale, beside / scale);
-    auto result = checked(solver);
-    result.values *= scale;
-    return result;
+    if (solver.info() != Eigen::Success || !solver.eigenvalues().allFinite())
+      throw NumericalError("a symmetric matrix has no eigenvalues: an entry is not finite");
+    return {scale * solver.eigenvalues(), solver.eigenvectors()};
   }
 } // namespace plumbline::base

@@ -60,13 +60,14 @@ namespace plumbline::random
     RealVector extension(Eigen::Index m, const std::vector<Real> &nodes)
     {
       const auto n_gauss = static_cast<Eigen::Index>(nodes.size()) + m; // exact where it must be
-      Eigen::SelfAdjointEigenSolver<RealMatrix> jacobi;
-      jacobi.computeFromTridiagonal(RealVector::Zero(n_gauss), hermite_recurrence(n_gauss));
+      const Real scale = 2 * std::sqrt(static_cast<Real>(n_gauss));     // above all nodes
+      Eigen::SelfAdjointEigenSolver<RealMatrix> jacobi; // see base/symmetric_eigen.cc
+      jacobi.computeFromTridiagonal(RealVector::Zero(n_gauss), hermite_recurrence(n_gauss) / scale);
       RealMatrix A = RealMatrix::Zero(m / 2, m / 2); // odd degrees against even ones
       RealVector b = RealVector::Zero(m / 2);
       for (Eigen::Index g = 0; g < n_gauss; ++g)
       {
-        const Real x = jacobi.eigenvalues()[g], first = jacobi.eigenvectors()(0, g);
+        const Real x = scale * jacobi.eigenvalues()[g], first = jacobi.eigenvectors()(0, g);
         Real P = first * first; // with the weight
         for (std::size_t i = 0; i < nodes.size(); ++i)
           P *= (x - nodes[i]) / std::sqrt(static_cast<Real>(i + 1));

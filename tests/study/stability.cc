@@ -110,6 +110,27 @@ TEST(Stability, the_barrier_bounds_the_inverse_where_the_printed_lemma_does_not)
   }
 }
 
+// long horizons couple all nodes: all eigenvalues but few are alike, which takes dense solvers care
+TEST(Stability, coercivity_is_found_however_far_bonds_reach)
+{
+  for (const double horizon : {.2, .4, .8, 1.2, 1.6, 2.4})
+    for (const char *name : {"FA", "IPA-AC"})
+    {
+      const auto matrix = operator_of(name, make_scene(false), {.1, horizon});
+      const auto n = static_cast<Eigen::Index>(matrix.size());
+      Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+      for (Eigen::Index i = 0; i < n; ++i)
+        for (std::size_t k = matrix.rows.start[i]; k < matrix.rows.start[i + 1]; ++k)
+          dense(i, matrix.rows.column[k]) += matrix.rows.value[k];
+      const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(dense);
+      Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, 1, 2);
+      for (int iteration = 0; iteration < 200; ++iteration) // inverse iteration
+        x = factors.solve(x).normalized();
+      const double smallest = x.dot(dense * x) / matrix.mass.front();
+      EXPECT_NEAR(measure(matrix).smallest / smallest, 1, 1e-9) << name << ' ' << horizon;
+    }
+}
+
 // It is a parabola across a strip that holds the nodes: the length of the strip does not count.
 TEST(Stability, the_barrier_of_a_rectangle_is_that_of_its_narrow_side)
 {
