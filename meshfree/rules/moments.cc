@@ -59,10 +59,13 @@ namespace plumbline::meshfree
         Index pivot;
         squares.tail(n - k).maxCoeff(&pivot);
         pivot += k;
-        columns.col(k).swap(columns.col(pivot));
-        R.col(k).swap(R.col(pivot));
-        std::swap(values[k], values[pivot]);
-        std::swap(squares[k], squares[pivot]);
+        if (pivot != k)
+        {
+          columns.col(k).swap(columns.col(pivot));
+          R.col(k).swap(R.col(pivot));
+          std::swap(values[k], values[pivot]);
+          std::swap(squares[k], squares[pivot]);
+        }
         auto direction = columns.col(k);
         const double norm = direction.norm();
         R(k, k) = norm;
@@ -122,9 +125,10 @@ namespace plumbline::meshfree
       before[j] = bond.weight / root[j];
       powers[0](j, 0) = conditions.factor(bond) * root[j];
       powers[1](j, 0) = 1;
+      const Point<2> along = bond.xi / conditions.horizon;
       for (unsigned int d = 0; d < 2; ++d)
         for (int p = 0; p < highest; ++p)
-          powers[d](j, p + 1) = powers[d](j, p) * bond.xi[d] / conditions.horizon;
+          powers[d](j, p + 1) = powers[d](j, p) * along[d];
     }
     MatrixXd columns(n, n_conditions);
     VectorXd moments(n_conditions);
