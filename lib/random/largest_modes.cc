@@ -143,6 +143,50 @@ namespace plumbline::random
       Index n_ = 0;
     };
 
+    /// Of the vectors that span an eigenspace, those that do not depend on rounding: all but the
+    /// first vanish where they are largest together, all but the second where the rest is, and so
+    /// on.
+    void fix_basis(std::vector<double> *vectors, Index n_vectors)
+    {
+      const auto size = static_cast<Index>(vectors->size());
+      MatrixXd space(size, n_vectors);
+      for (Index k = 0; k < n_vectors; ++k)
+        space.col(k) = VectorXd::Map(vectors[k].data(), size);
+      for (Index k = 0; k + 1 < n_vectors; ++k)
+      {
+        auto rest = space.rightCols(n_vectors - k);
+        const VectorXd lengths = rest.rowwise().norm();
+        const double largest = lengths.maxCoeff();
+        Index row = 0; // symmetric places are as large but for rounding
+        while (lengths[row] < .75 * largest)
+          ++row;
+        const VectorXd there = rest.row(row).transpose();
+        const Eigen::HouseholderQR<MatrixXd> turn(there);
+        rest = (rest * turn.householderQ()).eval();
+      }
+      for (Index k = 0; k < n_vectors; ++k)
+        VectorXd::Map(vectors[k].data(), size) = space.col(k);
+    }
+
+    void fix_bases(LargestModes &modes)
+    {
+      const std::size_t n = modes.eigenvalue.size();
+      for (std::size_t first = 0, end = 0; first < n; first = end)
+      {
+        // as alike as they are known, but no noise
+        const double alike = std::min(1e-12 * modes.eigenvalue[0], 1e-6 * modes.eigenvalue[first]);
+        double residual = 0;
+        for (;
+             end == first || (end < n && modes.eigenvalue[first] - modes.eigenvalue[end] <= alike);
+             ++end)
+          residual = std::hypot(residual, modes.residual[end]);
+        if (end - first > 1)
+          fix_basis(&modes.vector[first], static_cast<Index>(end - first));
+        for (std::size_t k = first; k < end; ++k)
+          modes.residual[k] = residual;
+      }
+    }
+
     void fix_sign(std::vector<double> &vector)
     {
       double largest = 0;
@@ -233,6 +277,7 @@ namespace plumbline::random
         size <= worth_a_basis * room
             ? dense_modes(static_cast<Index>(size), product, search.n_modes)
             : lanczos_modes(static_cast<Index>(size), static_cast<Index>(room), product, search);
+    fix_bases(modes);
     for (std::vector<double> &vector : modes.vector)
       fix_sign(vector);
     return modes;

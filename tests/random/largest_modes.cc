@@ -61,7 +61,12 @@ namespace
       const double residual =
           (matrix * vectors.col(k) - modes.eigenvalue[k] * vectors.col(k)).norm();
       EXPECT_LT(residual, 2e-12 * eigenvalues[0]) << k;
-      EXPECT_LT(std::abs(modes.residual[k] - residual), 1e-13 * eigenvalues[0]) << k;
+      EXPECT_LT(residual - modes.residual[k], 1e-13 * eigenvalues[0]) << k;
+      const bool is_alone = (k == 0 || eigenvalues[k - 1] > eigenvalues[k]) &&
+                            (k + 1 == search.n_modes || eigenvalues[k + 1] < eigenvalues[k]);
+      if (is_alone)
+        EXPECT_LT(modes.residual[k] - residual, 1e-13 * eigenvalues[0]) << k;
+      EXPECT_LT(modes.residual[k], 5e-12 * eigenvalues[0]) << k;
     }
     const MatrixXd identity = MatrixXd::Identity(search.n_modes, search.n_modes);
     EXPECT_LT((vectors.transpose() * vectors - identity).cwiseAbs().maxCoeff(), 1e-13);
@@ -155,6 +160,35 @@ TEST(LargestModes, have_the_same_bits_each_time_and_a_sign)
   for (unsigned int k = 0; k < 8; ++k)
     for (std::size_t i = 0; i < 300; ++i)
       EXPECT_NEAR(a.vector[k][i], c.vector[k][i], 1e-10);
+}
+
+TEST(LargestModes, of_one_eigenspace_do_not_depend_on_rounding)
+{
+  std::vector<double> eigenvalues = powers(300, -1);
+  eigenvalues[2] = eigenvalues[1];
+  eigenvalues[6] = eigenvalues[5] = eigenvalues[4];
+  const MatrixXd matrix = matrix_of(eigenvalues);
+  const LargestModes a = largest_modes(300, by(matrix), search_for(9)),
+                     b = largest_modes(300, by(matrix), search_for(9, 7)), // by another way
+      few = largest_modes(300, by(matrix), search_for(3));
+  for (unsigned int k = 0; k < 9; ++k)
+    for (std::size_t i = 0; i < 300; ++i)
+    {
+      EXPECT_NEAR(a.vector[k][i], b.vector[k][i], 1e-9) << k << ' ' << i;
+      if (k < 3)
+        EXPECT_NEAR(a.vector[k][i], few.vector[k][i], 1e-9) << k << ' ' << i;
+    }
+  for (std::size_t row = 0; row < 300; ++row)
+  {
+    const auto together = [&](std::size_t i) { return std::hypot(a.vector[1][i], a.vector[2][i]); };
+    double largest = 0;
+    for (std::size_t i = 0; i < 300; ++i)
+      largest = std::max(largest, together(i));
+    if (together(row) < .75 * largest)
+      continue;
+    EXPECT_NEAR(a.vector[2][row], 0, 1e-12); // at the first such row
+    break;
+  }
 }
 
 TEST(LargestModes, let_no_number_through_that_is_none)
