@@ -67,9 +67,12 @@ namespace plumbline::report
       {
         std::vector<Cell> row = names(one);
         const bool is_random = results.sampling.rule == random::SampleRule::monte_carlo;
+        const bool has_field =
+            set.deviation_size || set.negative_part > 0; // else spectra are sampled
         for (const Cell &cell :
              {modes_cell(results, set.n_modes), count_cell(set.count), count_cell(set.n_samples),
-              known(set.n_missing > 0, count_cell(set.n_missing)), number_cell(set.mean_size),
+              known(set.n_missing > 0, count_cell(set.n_missing)),
+              known(has_field, number_cell(set.mean_size)),
               set.deviation_size ? number_cell(*set.deviation_size) : empty_cell(),
               known_error(set.mean_error), known_error(set.deviation_error),
               known(is_random, error_cell(set.standard_error)), number_cell(set.noise),

@@ -56,7 +56,7 @@ namespace plumbline::scene
     void enter(const std::string &section);
 
     /// A key that a member takes; its default is what the member holds.
-    /// @tparam T  bool, int, unsigned int, double, std::vector<double>
+    /// @tparam T  bool, int, unsigned int, double, std::string, std::vector<double>
     template <class T>
     void add(const std::string &name, T &member, const Allowed &allowed, const std::string &help);
     void add(const std::string &name, std::string &member, const std::string &help);

@@ -49,6 +49,19 @@ TEST(SymmetricEigen, scale_with_their_matrix)
   EXPECT_EQ(base::tridiagonal_eigen(VectorXd::Zero(3), VectorXd::Zero(2)).values.norm(), 0);
 }
 
+TEST(SymmetricEigen, of_one_and_two_unknowns_are_their_closed_forms)
+{
+  const auto one = base::symmetric_eigen(MatrixXd::Constant(1, 1, -3));
+  EXPECT_NEAR(one.values[0], -3, 1e-15);
+  EXPECT_EQ(std::abs(one.vectors(0, 0)), 1);
+  MatrixXd matrix(2, 2);
+  matrix << 1, 2, 2, -2;
+  const auto two = base::symmetric_eigen(matrix);
+  EXPECT_NEAR(two.values[0], -3, 1e-15);
+  EXPECT_NEAR(two.values[1], 2, 1e-15);
+  EXPECT_LT((matrix * two.vectors.col(0) + 3 * two.vectors.col(0)).norm(), 1e-14);
+}
+
 TEST(SymmetricEigen, entries_that_are_no_numbers_are_an_error)
 {
   for (const double bad :

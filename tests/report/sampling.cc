@@ -89,6 +89,18 @@ namespace plumbline::report
     EXPECT_EQ(table.rows[1].at(column).text, empty_cell().text);
   }
 
+  TEST(SamplingReport, HasNoMeanOfAFieldWhereThereIsNone)
+  {
+    study::SamplingResults results = sampled();
+    study::CaseStatistics one; // of eigenvalues, say
+    one.of.method = "OPT";
+    one.sets.resize(1);
+    results.cases = {one};
+    EXPECT_EQ(to_csv(sampling_field_table(results)).find("‖"), std::string::npos);
+    results.cases[0].sets[0].deviation_size = 0; // a field that is 0
+    EXPECT_NE(to_csv(sampling_field_table(results)).find("‖mean‖"), std::string::npos);
+  }
+
   TEST(SamplingReport, HasATableOfSamplesWithTheirVariables)
   {
     study::SamplingResults results = sampled();
