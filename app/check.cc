@@ -15,6 +15,10 @@ namespace plumbline::app
   {
     const Requirements required = parse_requirements(options.required);
     const scene::Scene scene = scene::read_scene(options.scene_file, options.overrides);
+    if (scene.study.regime == scene::Regime::variable)
+      throw InputError("Study/regime = variable: weights are those of one value of " +
+                       scene.study.variable +
+                       "; give it as Random/values, with another regime (and no Study/variable)");
     const Findings found = find(scene, options);
     const bool is_wrong = !complaints(found, required).empty();
     if (!is_wrong)

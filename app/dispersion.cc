@@ -43,20 +43,22 @@ namespace plumbline::app
                      const ShouldStop &should_stop)
   {
     study::DispersionResults results{
-        scene.name, scene.purpose, study::plan_waves(scene, angles), {}, {}};
+        scene.name, scene.purpose, study::plan_waves(scene, angles), {}, {}, scene.study.variable};
     const ShouldStop stops = noting(should_stop, results.is_complete);
     std::vector<std::vector<DispersionRow>> rows(methods.size()); // of each method
     for_each_level(
         scene, n_levels,
         [&](const scene::Series &series, const scene::Level &level, bool is_finest)
         {
-          const scene::Problem problem = scene::make_problem(scene, 0, level);
+          const scene::Problem problem = scene::make_problem(at_level(scene, level), 0, level);
           for (std::size_t i = 0; i < methods.size() && !stops(); ++i)
           {
             const base::CpuTimer timer;
             auto own =
                 study::measure_waves(*methods[i], problem, results.study, series.name, is_finest);
             own.front().seconds = timer.seconds();
+            for (DispersionRow &row : own)
+              row.value = level.value;
             if (on_row)
               std::for_each(own.begin(), own.end(), on_row);
             std::move(own.begin(), own.end(), std::back_inserter(rows[i]));

@@ -50,6 +50,7 @@ namespace plumbline::app
                                const std::string &series, const scene::Level &level, double density)
     {
       StabilityRow row{method.name(), method.side(), series, level.h, level.horizon, {}, {}, {}};
+      row.value = level.value;
       const base::CpuTimer timer;
       try
       {
@@ -120,19 +121,21 @@ namespace plumbline::app
     study::StabilityResults results;
     results.scene_name = scene.name;
     results.purpose = scene.purpose;
+    results.variable = scene.study.variable;
     std::vector<std::vector<StabilityRow>> rows(methods.size()); // of each method
     const ShouldStop stops = noting(should_stop, results.is_complete);
     for_each_level(
         scene, n_levels,
         [&](const scene::Series &series, const scene::Level &level, bool is_finest)
         {
-          const scene::Case one = scene::make_case(scene, 0, level);
+          const scene::Scene here = at_level(scene, level);
+          const scene::Case one = scene::make_case(here, 0, level);
           for (std::size_t i = 0; i < methods.size(); ++i)
           {
             if (stops())
               return;
             rows[i].push_back(
-                measure_level(*methods[i], one.problem, series.name, level, scene.time.density));
+                measure_level(*methods[i], one.problem, series.name, level, here.time.density));
             if (on_row)
               on_row(rows[i].back(), is_finest);
           }
@@ -144,7 +147,7 @@ namespace plumbline::app
     {
       if (own.empty())
         continue;
-      results.verdicts.push_back(study::judge(own));
+      results.verdicts.push_back(study::judge(own, results.variable));
       std::move(own.begin(), own.end(), std::back_inserter(results.rows));
     }
     results.trends = study::stability_trends(results.rows);

@@ -32,6 +32,13 @@ namespace plumbline::report
       return value > 0 && std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
     }
 
+    /// Variables may stand on a linear axis.
+    double place_on(study::Axis axis, const study::Run &run)
+    {
+      const double x = coordinate(axis, run);
+      return axis == study::Axis::variable ? x : positive(x);
+    }
+
     Vertex coordinates(const study::Results &results, const study::Run &run, ChartKind kind,
                        study::Axis axis)
     {
@@ -45,14 +52,14 @@ namespace plumbline::report
       case ChartKind::pairs:
         return {positive(static_cast<double>(run.cost.n_bonds)), error};
       case ChartKind::iterations:
-        return {positive(coordinate(axis, run)), run.failure.empty()
-                                                     ? positive(run.cost.n_iterations)
-                                                     : std::numeric_limits<double>::quiet_NaN()};
+        return {place_on(axis, run), run.failure.empty()
+                                         ? positive(run.cost.n_iterations)
+                                         : std::numeric_limits<double>::quiet_NaN()};
       case ChartKind::convergence:
       case ChartKind::error_map:
         break;
       }
-      return {positive(coordinate(axis, run)), error};
+      return {place_on(axis, run), error};
     }
 
     std::string kind_slug(ChartKind kind)
@@ -75,7 +82,7 @@ namespace plumbline::report
       return "convergence";
     }
 
-    std::string kind_title(ChartKind kind)
+    std::string kind_title(ChartKind kind, const std::string &variable)
     {
       switch (kind)
       {
@@ -91,7 +98,7 @@ namespace plumbline::report
       case ChartKind::convergence:
         break;
       }
-      return "convergence";
+      return variable.empty() ? "convergence" : "error over " + variable;
     }
 
     /// The decisive error against something to be spared: there is a Pareto front.
@@ -101,7 +108,7 @@ namespace plumbline::report
              kind == ChartKind::pairs;
     }
 
-    std::string x_label(ChartKind kind, study::Axis axis)
+    std::string x_label(const study::Results &results, ChartKind kind, study::Axis axis)
     {
       switch (kind)
       {
@@ -116,7 +123,7 @@ namespace plumbline::report
       case ChartKind::error_map:
         break;
       }
-      return label(axis);
+      return label(axis, results.variable);
     }
 
     /// The cases of a chart: one, or all of its problem.
@@ -202,12 +209,17 @@ namespace plumbline::report
       Plot plot;
       plot.file = chart.name + ".svg";
       plot.title = chart.title;
-      plot.x_label = x_label(chart.kind, axis);
+      plot.x_label = x_label(results, chart.kind, axis);
       plot.y_label = is_iterations ? "iterations [1]"
                                    : "error: " + error_words(results.decisive_error) +
                                          " [unit of the solution]";
       // with a fixed mesh errors fall as the horizon grows: no order to compare with
       plot.has_slopes = chart.kind == ChartKind::convergence && axis == study::Axis::mesh_size;
+      std::vector<double> places;
+      for (const Point &point : points)
+        if (point.is_drawn())
+          places.push_back(point.x);
+      plot.is_x_log = is_cost(chart.kind) || is_logarithmic(axis, places);
       plot.shows_round_off = !is_iterations;
 
       double least = std::numeric_limits<double>::max(), most = 0;
@@ -216,11 +228,11 @@ namespace plumbline::report
         {
           least = std::min(least, point.y);
           most = std::max(most, point.y);
-          if (is_iterations || chart.kind == ChartKind::convergence)
+          if (plot.is_x_log && (is_iterations || chart.kind == ChartKind::convergence))
             plot.x_ticks.push_back(point.x);
         }
       plot.is_y_log = !is_iterations || most > wide * least;
-      if (is_cost(chart.kind))
+      if (is_cost(chart.kind) && results.variable.empty()) // else points are of several problems
         plot.frontier = frontier(points);
 
       for (const MethodName &method : methods)
@@ -240,7 +252,8 @@ namespace plumbline::report
       return plot;
     }
 
-    Table data_of(const Chart &chart, const std::vector<Point> &points, study::Axis axis)
+    Table data_of(const study::Results &results, const Chart &chart,
+                  const std::vector<Point> &points, study::Axis axis)
     {
       const bool is_iterations = chart.kind == ChartKind::iterations;
       Table table;
@@ -248,7 +261,7 @@ namespace plumbline::report
                        "problem",
                        "series",
                        "level",
-                       x_label(chart.kind, axis),
+                       x_label(results, chart.kind, axis),
                        is_iterations ? "iterations" : "error"};
       for (const Point &point : points)
         table.rows.push_back({text_cell(point.method->name), text_cell(point.one->problem),
@@ -293,7 +306,7 @@ namespace plumbline::report
           ++n;
         }
       candidates.push_back({ChartKind::work_precision, kind_slug(ChartKind::work_precision),
-                            problem + ": " + kind_title(ChartKind::work_precision) +
+                            problem + ": " + kind_title(ChartKind::work_precision, "") +
                                 (n > 1 ? " (of each method the best of " +
                                              (n > 4 ? std::to_string(n) + " series" : series) + ")"
                                        : ""),
@@ -303,7 +316,8 @@ namespace plumbline::report
                                  ChartKind::memory, ChartKind::pairs, ChartKind::iterations})
       for (const Case &one : all)
         candidates.push_back({kind, kind_slug(kind) + "_" + one.slug,
-                              one.title() + ": " + kind_title(kind), one.problem, one.series});
+                              one.title() + ": " + kind_title(kind, results.variable), one.problem,
+                              one.series});
 
     std::vector<Chart> charts;
     for (const Chart &chart : candidates)
@@ -343,7 +357,7 @@ namespace plumbline::report
       const std::vector<Point> points = points_of(results, names, chosen, chart.kind);
       plots.push_back(plot_of(results, names, chosen, chart, points));
       write_file(folder / (chart.name + ".csv"),
-                 to_csv(data_of(chart, points, axis_of(results, *chosen.front()))));
+                 to_csv(data_of(results, chart, points, axis_of(results, *chosen.front()))));
     }
     if (charts.empty())
       return charts;

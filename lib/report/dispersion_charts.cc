@@ -49,7 +49,7 @@ namespace plumbline::report
       {
         if (t.series != series)
           continue;
-        chart.plot.x_label = study::label(t.axis);
+        chart.plot.x_label = study::label(t.axis, results.variable);
         chart.plot.y_label = "|c/c(nonlocal) - 1|, worst direction";
         Line line{t.method, style_of(methods, t.method), 1.8, {}};
         for (std::size_t i = 0; i < t.x.size(); ++i)
@@ -60,13 +60,23 @@ namespace plumbline::report
           }
         chart.plot.lines.push_back(line);
       }
-      chart.plot.has_slopes = true;
+      chart.plot.has_slopes = results.variable.empty();
+      if (!chart.plot.has_slopes)
+        chart.plot.is_x_log = is_logarithmic(study::Axis::variable, chart.plot.x_ticks);
+      if (!chart.plot.is_x_log)
+        chart.plot.x_ticks.clear();
+      if (!results.variable.empty())
+        chart.data.columns.emplace_back(results.variable);
       for (const DispersionRow &row : results.rows)
         if (row.series == series && row.failure.empty())
+        {
           chart.data.rows.push_back({text_cell(row.method), text_cell(row.series),
                                      number_cell(row.h), number_cell(row.horizon),
                                      number_cell(row.worst_nonlocal_error()),
                                      number_cell(row.worst_local_error())});
+          if (!results.variable.empty())
+            chart.data.rows.back().push_back(number_cell(row.value));
+        }
       return chart;
     }
 

@@ -122,6 +122,7 @@ namespace plumbline::report
                 {"series", row.series},
                 {"h", row.h},
                 {"horizon", row.horizon},
+                {"value", row.value},
                 {"failure", row.failure},
                 {"largest_squared_frequency", row.range.largest},
                 {"least_squared_frequency", row.range.least},
@@ -163,11 +164,9 @@ namespace plumbline::report
 
   std::string dispersion_json(const DispersionResults &results)
   {
-    Json json{{"scene", results.scene_name},
-              {"is_complete", results.is_complete},
-              {"wavelength", results.study.wavelength},
-              {"angles", results.study.angles},
-              {"levels", Json::array()},
+    Json json{{"scene", results.scene_name},        {"variable", results.variable},
+              {"is_complete", results.is_complete}, {"wavelength", results.study.wavelength},
+              {"angles", results.study.angles},     {"levels", Json::array()},
               {"verdicts", Json::array()}};
     for (const study::DispersionRow &row : results.rows)
       json["levels"].push_back(level_json(row));

@@ -31,7 +31,7 @@ namespace plumbline::report
           {text_cell(t.method), text_cell(t.series), text_cell(t.verdict),
            known(!in_a_word(t.proof).empty(), text_cell(in_a_word(t.proof))),
            known(!t.values.empty(), error_cell(t.values.empty() ? 0 : t.values.back())),
-           known(is_judged, rate_cell(is_judged ? t.rates.back() : 0)),
+           known(is_judged && !t.rates.empty(), rate_cell(t.rates.empty() ? 0 : t.rates.back())),
            text_cell(t.reason + (t.proof.reason.empty() ? "" : "; proof: " + t.proof.reason))});
     }
     return without_empty_columns(table);
@@ -40,7 +40,7 @@ namespace plumbline::report
   Table long_waves_table(const study::DispersionResults &results)
   {
     Table table;
-    table.columns = {"method", "series", "h"};
+    table.columns = {"method", "series", "h", results.variable};
     const auto finest = finest_rows(results);
     if (finest.empty())
       return table;
@@ -54,20 +54,22 @@ namespace plumbline::report
                                  (names.size() == 1 ? "" : " " + name(polarisation)));
     for (const study::DispersionRow *row : finest)
     {
-      table.rows.push_back({text_cell(row->method), text_cell(row->series), number_cell(row->h)});
+      table.rows.push_back({text_cell(row->method), text_cell(row->series), number_cell(row->h),
+                            variable_cell(results, *row)});
       for (const study::WaveCurve &curve : row->curves)
         table.rows.back().push_back(error_cell(curve.long_wave_error));
       for (const double difference : row->anisotropy)
         table.rows.back().push_back(error_cell(difference));
     }
-    return table;
+    return without_empty_columns(table);
   }
 
   Table wave_levels_table(const study::DispersionResults &results)
   {
     Table table;
-    table.columns = {"method",        "m",       "h", "local", "nonlocal", "largest",
-                     "critical step", "step c/h"};
+    table.columns = {"method",  "m",        "h",       results.variable,
+                     "local",   "nonlocal", "largest", "critical step",
+                     "step c/h"};
     for (const study::DispersionRow &row : results.rows)
     {
       if (!row.failure.empty())
@@ -78,7 +80,7 @@ namespace plumbline::report
                            { return a.local_speed < b.local_speed; })
               ->local_speed;
       table.rows.push_back({text_cell(row.method), number_cell(row.m()), number_cell(row.h),
-                            error_cell(row.worst_local_error()),
+                            variable_cell(results, row), error_cell(row.worst_local_error()),
                             error_cell(row.worst_nonlocal_error()), number_cell(row.range.largest),
                             number_cell(row.critical_step()),
                             number_cell(row.critical_step() * fastest / row.h)});
@@ -89,12 +91,12 @@ namespace plumbline::report
   Table missing_waves_table(const study::DispersionResults &results)
   {
     Table table;
-    table.columns = {"method", "m", "h", "no waves, because"};
+    table.columns = {"method", "m", "h", results.variable, "no waves, because"};
     for (const study::DispersionRow &row : results.rows)
       if (!row.failure.empty())
         table.rows.push_back({text_cell(row.method), number_cell(row.m()), number_cell(row.h),
-                              text_cell(row.failure)});
-    return table;
+                              variable_cell(results, row), text_cell(row.failure)});
+    return without_empty_columns(table);
   }
 
   std::string in_a_word(const study::LimitProof &proof)

@@ -68,7 +68,6 @@ namespace plumbline::report
                            const std::string &error, DataChart chart)
     {
       chart.data.columns = {"method", "case", "series", "scheme", "x", "error"};
-      chart.plot.has_slopes = true;
       chart.plot.shows_round_off = true;
       Lines lines;
       for (const MotionTrend &t : trends)
@@ -86,6 +85,12 @@ namespace plumbline::report
             line.points.push_back({t.x[i], t.values[i]});
         }
       }
+      std::vector<double> x;
+      for (const MotionTrend &t : trends)
+        if (t.error == error && t.axis == study::Axis::variable)
+          x.insert(x.end(), t.x.begin(), t.x.end());
+      chart.plot.is_x_log = is_logarithmic(study::Axis::variable, x);
+      chart.plot.has_slopes = chart.plot.is_x_log;
       chart.plot.lines = lines.take();
       return chart;
     }
@@ -283,7 +288,9 @@ namespace plumbline::report
                              "At the finest level, with all steps."),
               history = named("history", "Errors over time",
                               "Of displacements at the finest level with the shortest step.");
-    errors.plot.x_label = "h";
+    const study::Axis axis =
+        results.trends.empty() ? study::Axis::mesh_size : results.trends.front().axis;
+    errors.plot.x_label = study::label(axis, results.variable);
     errors.plot.y_label = error_words(results);
     orders.plot.x_label = "time step";
     orders.plot.y_label = "error in time, nodal L2";

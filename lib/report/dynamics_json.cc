@@ -26,11 +26,17 @@ namespace plumbline::report
 
   std::string dynamics_json(const study::DynamicResults &results)
   {
-    Json json = {{"scene", results.scene_name},      {"purpose", results.purpose},
-                 {"regime", results.regime},         {"is_complete", results.is_complete},
-                 {"provenance", results.provenance}, {"decisive_error", results.decisive_error},
-                 {"final_time", results.final_time}, {"density", results.density},
-                 {"damping", results.damping},       {"facts", Json::object()}};
+    Json json = {{"scene", results.scene_name},
+                 {"purpose", results.purpose},
+                 {"regime", results.regime},
+                 {"variable", results.variable},
+                 {"is_complete", results.is_complete},
+                 {"provenance", results.provenance},
+                 {"decisive_error", results.decisive_error},
+                 {"final_time", results.final_time},
+                 {"density", results.density},
+                 {"damping", results.damping},
+                 {"facts", Json::object()}};
     for (const auto &[what, value] : results.facts)
       json["facts"][what] = value;
     const auto add = [&](const char *name, const auto &list, const auto &to_json)

@@ -90,13 +90,19 @@ namespace plumbline::report
       return without_empty_columns(table);
     }
 
-    /// Which one it is: method, case, series, h, horizon, scheme and dt.
+    /// How the column of a study's variable is called; of results without one it is all 0.
+    std::string variable_head(const DynamicResults &results)
+    {
+      return results.variable.empty() ? "value" : results.variable;
+    }
+
+    /// Which one it is: method, case, series, h, horizon, the variable's value, scheme and dt.
     std::vector<Cell> cells_of(const MotionRun &run)
     {
       std::vector<Cell> row;
       add_names(row, run.method, run.problem, run.series);
-      for (const Cell &cell : {number_cell(run.h), number_cell(run.horizon), text_cell(run.scheme),
-                               number_cell(run.step)})
+      for (const Cell &cell : {number_cell(run.h), number_cell(run.horizon), number_cell(run.value),
+                               text_cell(run.scheme), number_cell(run.step)})
         row.push_back(cell);
       return row;
     }
@@ -159,11 +165,16 @@ namespace plumbline::report
   Table motions_table(const DynamicResults &results)
   {
     Table table;
-    table.columns = {"method",           "case",          "series",       "h",
-                     "horizon",          "scheme",        "dt",           "critical",
-                     "dt over critical", "steps",         "forces",       "error",
-                     "velocity error",   "error in time", "own estimate", "energy",
-                     "steps' CPU [s]",   "setup CPU [s]"};
+    table.columns = {"method",        "case",
+                     "series",        "h",
+                     "horizon",       variable_head(results),
+                     "scheme",        "dt",
+                     "critical",      "dt over critical",
+                     "steps",         "forces",
+                     "error",         "velocity error",
+                     "error in time", "own estimate",
+                     "energy",        "steps' CPU [s]",
+                     "setup CPU [s]"};
     for (const MotionRun &run : results.runs)
     {
       if (!run.failure.empty())
@@ -190,14 +201,15 @@ namespace plumbline::report
       row.insert(row.end(), rest.begin(), rest.end());
       table.rows.push_back(row);
     }
-    return without_sameness(table, {"case", "series", "horizon"});
+    return without_sameness(table, {"case", "series", "horizon", variable_head(results)});
   }
 
   Table motion_estimates_table(const DynamicResults &results)
   {
     Table table;
-    table.columns = {"method", "case",       "series", "h",   "horizon", "scheme",     "dt",
-                     "space",  "quadrature", "time",   "sum", "error",   "digits of u"};
+    table.columns = {
+        "method", "case",       "series", "h",   "horizon", variable_head(results), "scheme", "dt",
+        "space",  "quadrature", "time",   "sum", "error",   "digits of u"};
     for (const MotionRun &run : results.runs)
     {
       if (!run.estimate || !run.failure.empty())
@@ -214,7 +226,7 @@ namespace plumbline::report
       row.insert(row.end(), rest.begin(), rest.end());
       table.rows.push_back(row);
     }
-    return without_sameness(table, {"case", "series", "horizon", "scheme"});
+    return without_sameness(table, {"case", "series", "horizon", variable_head(results), "scheme"});
   }
 
   namespace
@@ -290,12 +302,13 @@ namespace plumbline::report
   Table torus_table(const DynamicResults &results)
   {
     Table table;
-    table.columns = {"case", "horizon", "points a side", "change", "CPU [s]"};
+    table.columns = {"case",          "horizon", variable_head(results),
+                     "points a side", "change",  "CPU [s]"};
     for (const study::TorusEstimate &one : results.references)
       table.rows.push_back({text_cell(one.problem), number_cell(one.horizon),
-                            count_cell(one.n_points), error_cell(one.estimate),
-                            number_cell(one.seconds)});
-    return table;
+                            number_cell(one.value), count_cell(one.n_points),
+                            error_cell(one.estimate), number_cell(one.seconds)});
+    return without_sameness(table, {variable_head(results)});
   }
 
   Table motion_omissions_table(const DynamicResults &results)

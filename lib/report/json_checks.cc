@@ -38,7 +38,13 @@ namespace plumbline::report
       void trend(const study::Trend &trend, const std::string &place) const
       {
         for (std::size_t i = 0; i < trend.x.size(); ++i)
-          length(trend.x[i], place + ".x[" + std::to_string(i) + "]");
+        {
+          const std::string at = place + ".x[" + std::to_string(i) + "]";
+          if (trend.axis == study::Axis::variable)
+            expect(std::isfinite(trend.x[i]), at, "is not a number");
+          else
+            length(trend.x[i], at);
+        }
         const auto expect_size = [&](std::size_t found, std::size_t wanted, const std::string &key)
         {
           expect(found == wanted, place + "." + key,

@@ -71,6 +71,7 @@ namespace plumbline::report
     a("level", run.level);
     a("h", run.h);
     a("horizon", run.horizon);
+    a("value", run.value);
     a("cost", run.cost);
     a("geometry_seconds", run.geometry_seconds);
     a("diagnostics", run.diagnostics);
@@ -202,6 +203,7 @@ namespace plumbline::report
     a("scene_name", results.scene_name);
     a("purpose", results.purpose);
     a("regime", results.regime);
+    a("variable", results.variable);
     a("decisive_error", results.decisive_error);
     a("is_complete", results.is_complete);
     a("provenance", results.provenance);

@@ -64,6 +64,7 @@ namespace plumbline::report
                  {"level", run.level},
                  {"h", run.h},
                  {"horizon", run.horizon},
+                 {"value", run.value},
                  {"scheme", run.scheme},
                  {"steps", run.steps},
                  {"dt", run.step},
@@ -91,11 +92,8 @@ namespace plumbline::report
 
   Json torus_json(const study::TorusEstimate &torus)
   {
-    return {{"case", torus.problem},
-            {"horizon", torus.horizon},
-            {"n_points", torus.n_points},
-            {"estimate", torus.estimate},
-            {"seconds", torus.seconds}};
+    return {{"case", torus.problem},      {"horizon", torus.horizon}, {"n_points", torus.n_points},
+            {"estimate", torus.estimate}, {"seconds", torus.seconds}, {"value", torus.value}};
   }
 
   study::MotionRun motion_from(const Json &json)
@@ -108,6 +106,7 @@ namespace plumbline::report
     run.level = json.at("level");
     run.h = json.at("h");
     run.horizon = json.at("horizon");
+    run.value = json.at("value");
     run.scheme = json.at("scheme");
     run.steps = json.at("steps");
     run.step = json.at("dt");
@@ -134,7 +133,7 @@ namespace plumbline::report
 
   study::TorusEstimate torus_from(const Json &json)
   {
-    return {json.at("case"), json.at("horizon"), json.at("n_points"), json.at("estimate"),
-            json.at("seconds")};
+    return {json.at("case"),     json.at("horizon"), json.at("n_points"),
+            json.at("estimate"), json.at("seconds"), json.at("value")};
   }
 } // namespace plumbline::report

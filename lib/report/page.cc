@@ -21,14 +21,17 @@ namespace plumbline::report
   {
     namespace
     {
-      std::string regime_words(scene::Regime regime, bool is_own_finest)
+      std::string regime_words(const study::Results &results)
       {
-        if (is_own_finest)
+        const scene::Regime regime = results.regime;
+        if (study::is_against(results.decisive_error, scene::Target::finest))
           return std::string(regime == scene::Regime::m ? "m-convergence: δ is fixed and h → 0"
                              : regime == scene::Regime::delta ? "m = δ/h is fixed and δ → 0"
                                                               : "δ → 0 and m = δ/h → ∞ together") +
                  "; each method is held against its own finest level, which tells whether it has a "
                  "limit, not which";
+        if (regime == scene::Regime::variable)
+          return "h and δ are fixed and " + results.variable + " varies: how errors depend on it";
         static const std::array<const char *, 4> texts = {
             "m-convergence: the horizon δ is fixed and h → 0, against the nonlocal solution",
             "δ-convergence: m = δ/h is fixed and δ → 0, against the local limit; this decides "
@@ -174,8 +177,8 @@ namespace plumbline::report
         add_facts(results, data);
         data["is_complete"] = results.is_complete;
         data["warnings"] = results.warnings;
-        data["regime"] = regime_words(
-            results.regime, study::is_against(results.decisive_error, scene::Target::finest));
+        data["regime"] = regime_words(results);
+        data["variable"] = results.variable;
         data["error"] = error_words(results.decisive_error);
         data["advice"] = advice(results);
         data["matrix"] = verdict_matrix(results);

@@ -108,7 +108,7 @@ namespace plumbline::report::page
       return tallies;
     }
 
-    /// The answer where only the horizon varies: whose largest error is least.
+    /// The answer where nothing is refined: whose largest error is least.
     std::string ranking(const study::Results &results, const std::vector<MethodName> &methods)
     {
       std::vector<std::pair<double, std::string>> largest;
@@ -181,13 +181,15 @@ namespace plumbline::report::page
       return {};
     const std::vector<MethodName> names = methods(results);
     const bool is_own = study::is_against(results.decisive_error, scene::Target::finest);
-    if (!is_own && results.regime == scene::Regime::horizon)
-      // nothing is refined here, so nothing converges or stalls
-      return {{"ranking", ranking(results, names)}, {"summary", Data()}};
+    if (!is_own && is_without_limit(results.regime)) // nothing converges or stalls
+      return {{"ranking", ranking(results, names)},
+              {"over", results.variable.empty() ? "horizons" : "values of " + results.variable},
+              {"summary", Data()}};
     Data cards = Data::array(), more = Data::array();
     for (std::size_t i = 0; i < results.advice.size() && !is_own; ++i)
       (i < n_open_cards ? cards : more).push_back(card(results, results.advice[i], names));
     return {{"ranking", ""},
+            {"over", ""},
             {"summary", summary(results, names, is_own)},
             {"n_more", more.empty() ? Data() : Data(more.size())},
             {"cards", std::move(cards)},

@@ -120,6 +120,7 @@ namespace plumbline::report
               {"series", row.series},
               {"h", row.h},
               {"horizon", row.horizon},
+              {"value", row.value},
               {"failure", row.failure},
               {"unknowns", s.n_unknowns},
               {"smallest_eigenvalue", s.smallest},

@@ -47,7 +47,7 @@ namespace plumbline::report
     struct Series
     {
       std::string name;
-      study::Axis axis = study::Axis::horizon; ///< unless h varies
+      study::Axis axis = study::Axis::horizon; ///< unless h or a variable varies
       std::vector<const StabilityRow *> rows;
 
       double x(const StabilityRow &row) const { return coordinate(axis, row); }
@@ -63,7 +63,10 @@ namespace plumbline::report
         auto found = std::find_if(all.begin(), all.end(),
                                   [&](const Series &s) { return s.name == row.series; });
         if (found == all.end())
-          found = all.insert(all.end(), {row.series, study::Axis::horizon, {}});
+          found = all.insert(
+              all.end(), {row.series,
+                          results.variable.empty() ? study::Axis::horizon : study::Axis::variable,
+                          {}});
         if (!found->rows.empty() && row.h != found->rows[0]->h)
           found->axis = study::Axis::mesh_size;
         found->rows.push_back(&row);
@@ -104,7 +107,7 @@ namespace plumbline::report
       Plot plot;
       plot.file = std::string(measure.name) + series.suffix() + ".svg";
       plot.title = series.title() + measure.title;
-      plot.x_label = label(series.axis);
+      plot.x_label = label(series.axis, results.variable);
       plot.y_label = measure.axis;
       const auto methods = methods_of(results);
       bool has_bound = false;
@@ -137,14 +140,19 @@ namespace plumbline::report
         }
         plot.lines.push_back(line);
       }
+      plot.is_x_log = is_logarithmic(series.axis, plot.x_ticks);
+      if (!plot.is_x_log)
+        plot.x_ticks.clear();
       plot.is_y_log = range.high > wide * range.low;
       return plot;
     }
 
-    Table data_of(const Series &series, const Measure &measure)
+    Table data_of(const StabilityResults &results, const Series &series, const Measure &measure)
     {
       Table table;
       table.columns = {"method", "series", "h", "horizon", measure.name};
+      if (!results.variable.empty())
+        table.columns.emplace_back(results.variable);
       if (measure.bound != nullptr)
         table.columns.emplace_back("barrier");
       for (const StabilityRow *row : series.rows)
@@ -152,6 +160,8 @@ namespace plumbline::report
         const auto cell = [](double v) { return v == 0 ? empty_cell() : number_cell(v); };
         table.rows.push_back({text_cell(row->method), text_cell(row->series), number_cell(row->h),
                               number_cell(row->horizon), cell(measure.value(*row))});
+        if (!results.variable.empty())
+          table.rows.back().push_back(number_cell(row->value));
         if (measure.bound != nullptr)
           table.rows.back().push_back(cell(measure.bound(*row)));
       }
@@ -331,7 +341,7 @@ namespace plumbline::report
         {
           plots.push_back(plot_of(results, series, measure));
           write_file(folder / (measure.name + series.suffix() + ".csv"),
-                     to_csv(data_of(series, measure)));
+                     to_csv(data_of(results, series, measure)));
         }
     std::string modes;
     std::vector<std::string> pictures;

@@ -26,9 +26,9 @@ namespace plumbline::report
   Table measures_table(const study::StabilityResults &results)
   {
     Table table;
-    table.columns = {"method",     "m",         "h",        "unknowns", "smallest", "largest",
-                     "zero modes", "asymmetry", "M-matrix", "parts",    "|A^-1|",   "barrier",
-                     "min weight", "rank",      "singular", "degree"};
+    table.columns = {"method",  "m",          "h",         results.variable, "unknowns", "smallest",
+                     "largest", "zero modes", "asymmetry", "M-matrix",       "parts",    "|A^-1|",
+                     "barrier", "min weight", "rank",      "singular",       "degree"};
     for (const study::StabilityRow &row : results.rows)
     {
       if (!row.failure.empty())
@@ -44,8 +44,8 @@ namespace plumbline::report
       const std::string rank = std::to_string(d.rank) + "/" + std::to_string(d.n_conditions);
       table.rows.push_back(
           {text_cell(row.method), number_cell(row.m()), number_cell(row.h),
-           count_cell(s.n_unknowns), number_cell(s.smallest), number_cell(s.largest), zeros,
-           known(s.has_signs, number_cell(s.signs.asymmetry)),
+           variable_cell(results, row), count_cell(s.n_unknowns), number_cell(s.smallest),
+           number_cell(s.largest), zeros, known(s.has_signs, number_cell(s.signs.asymmetry)),
            known(s.has_signs, text_cell(s.signs.is_m_matrix() ? "yes" : "no")),
            known(s.has_signs, count_cell(s.signs.n_parts)), known(s.inverse_norm > 0, norm),
            known(c.barrier > 0 && s.signs.is_m_matrix(), number_cell(c.barrier)),
@@ -63,6 +63,7 @@ namespace plumbline::report
     table.columns = {"method",
                      "m",
                      "h",
+                     results.variable,
                      "least real part",
                      "least modulus",
                      "largest modulus",
@@ -74,8 +75,9 @@ namespace plumbline::report
       const auto value = [&](double v) { return known(e.n_computed > 0, number_cell(v)); };
       if (row.failure.empty() && !s.is_symmetric())
         table.rows.push_back({text_cell(row.method), number_cell(row.m()), number_cell(row.h),
-                              value(e.smallest_real), value(e.smallest_modulus),
-                              value(e.largest_modulus), value(e.largest_imaginary)});
+                              variable_cell(results, row), value(e.smallest_real),
+                              value(e.smallest_modulus), value(e.largest_modulus),
+                              value(e.largest_imaginary)});
     }
     return without_empty_columns(table);
   }
@@ -89,15 +91,16 @@ namespace plumbline::report
   Table time_steps_table(const study::StabilityResults &results)
   {
     Table table;
-    table.columns = {"method",         "m",          "h",    "density", "lambda", "dt",
-                     "lambda, lumped", "dt, lumped", "grows"};
+    table.columns = {"method",     "m",      "h",  results.variable,
+                     "density",    "lambda", "dt", "lambda, lumped",
+                     "dt, lumped", "grows"};
     for (const study::StabilityRow &row : results.rows)
     {
       const study::CriticalSteps &steps = row.steps;
       if (steps.largest > 0)
         table.rows.push_back({text_cell(row.method), number_cell(row.m()), number_cell(row.h),
-                              number_cell(steps.density), number_cell(steps.largest),
-                              number_cell(steps.own()),
+                              variable_cell(results, row), number_cell(steps.density),
+                              number_cell(steps.largest), number_cell(steps.own()),
                               known(steps.largest_lumped > 0, number_cell(steps.largest_lumped)),
                               known(steps.largest_lumped > 0, number_cell(steps.lumped())),
                               known(!steps.is_oscillating, text_cell("yes"))});
@@ -131,11 +134,11 @@ namespace plumbline::report
   Table missing_operators_table(const study::StabilityResults &results)
   {
     Table table;
-    table.columns = {"method", "m", "h", "no operator, because"};
+    table.columns = {"method", "m", "h", results.variable, "no operator, because"};
     for (const study::StabilityRow &row : results.rows)
       if (!row.failure.empty())
         table.rows.push_back({text_cell(row.method), number_cell(row.m()), number_cell(row.h),
-                              text_cell(row.failure)});
-    return table;
+                              variable_cell(results, row), text_cell(row.failure)});
+    return without_empty_columns(table);
   }
 } // namespace plumbline::report

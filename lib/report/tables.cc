@@ -13,7 +13,7 @@ namespace plumbline::report
     struct Level
     {
       unsigned int number;
-      double h, horizon;
+      double h, horizon, value;
       bool holds(const study::Run &run) const
       {
         return run.level == number && std::abs(run.h - h) <= same_length * h &&
@@ -28,7 +28,7 @@ namespace plumbline::report
         if (run.problem == one.problem && run.series == one.series &&
             std::none_of(levels.begin(), levels.end(),
                          [&](const Level &level) { return level.holds(run); }))
-          levels.push_back({run.level, run.h, run.horizon});
+          levels.push_back({run.level, run.h, run.horizon, run.value});
       std::stable_sort(levels.begin(), levels.end(),
                        [](const Level &a, const Level &b) {
                          return std::make_tuple(a.number, -a.h) < std::make_tuple(b.number, -b.h);
@@ -85,14 +85,18 @@ namespace plumbline::report
     Table table;
     table.caption = one.title() + ": error, " + error_words(results.decisive_error);
     table.columns = {"level", {"h", {"h [length]"}}, {"δ", {"horizon [length]"}}, "m"};
+    if (!results.variable.empty())
+      table.columns.emplace_back(results.variable);
     const std::vector<MethodName> all = methods(results);
     std::vector<const MethodName *> shown;
+    const bool has_rates = results.variable.empty();
     for (const MethodName &method : all)
       if (!runs_of(results, method.name, one).empty())
       {
         shown.push_back(&method);
         table.columns.push_back({method.name, {method.name + " error"}});
-        table.columns.push_back({"rate", {method.name + " rate"}});
+        if (has_rates)
+          table.columns.push_back({"rate", {method.name + " rate"}});
       }
 
     const study::Axis axis = axis_of(results, one);
@@ -100,6 +104,8 @@ namespace plumbline::report
     {
       std::vector<Cell> row = {count_cell(level.number), number_cell(level.h),
                                number_cell(level.horizon), number_cell(level.horizon / level.h)};
+      if (!results.variable.empty())
+        row.push_back(number_cell(level.value));
       for (const MethodName *method : shown)
       {
         Cell error = empty_cell(), rate = empty_cell();
@@ -111,7 +117,8 @@ namespace plumbline::report
               rate = rate_cell(rate_at(*trend, coordinate(axis, *run)));
           }
         row.push_back(error);
-        row.push_back(rate);
+        if (has_rates)
+          row.push_back(rate);
       }
       table.rows.push_back(row);
     }
@@ -291,12 +298,21 @@ namespace plumbline::report
   Table failure_table(const study::Results &results)
   {
     Table table;
-    table.columns = {"method", "problem", "series", "level", "h", "δ", "why"};
+    table.columns = {"method", "problem", "series", "level", "h", "δ"};
+    if (!results.variable.empty())
+      table.columns.emplace_back(results.variable);
+    table.columns.emplace_back("why");
     for (const study::Run &run : results.runs)
       if (!run.failure.empty())
-        table.rows.push_back({text_cell(run.method), text_cell(run.problem), text_cell(run.series),
-                              count_cell(run.level), number_cell(run.h), number_cell(run.horizon),
-                              text_cell(run.failure)});
+      {
+        std::vector<Cell> row = {text_cell(run.method), text_cell(run.problem),
+                                 text_cell(run.series), count_cell(run.level),
+                                 number_cell(run.h),    number_cell(run.horizon)};
+        if (!results.variable.empty())
+          row.push_back(number_cell(run.value));
+        row.push_back(text_cell(run.failure));
+        table.rows.push_back(std::move(row));
+      }
     return table;
   }
 

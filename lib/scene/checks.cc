@@ -7,6 +7,7 @@
 #include "scene/values.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <sstream>
@@ -18,6 +19,39 @@ namespace plumbline::scene
     /// Beyond this ratio a stencil alone takes gigabytes.
     constexpr double most_ratio = 2000;
 
+    /// What a study's variable needs.
+    void check_variable(const Scene &scene)
+    {
+      const StudySection &study = scene.study;
+      const std::string regime = "Study/regime = variable", key = "Study/variable";
+      if (study.regime != Regime::variable)
+      {
+        require(study.variable.empty() && study.values.empty(),
+                key + " and Study/values are for " + regime + "; write that, or clear both");
+        return;
+      }
+      std::string names;
+      for (const random::Variable &one : scene.random.variables)
+        names += (names.empty() ? "" : ", ") + one.name;
+      require(std::any_of(scene.random.variables.begin(), scene.random.variables.end(),
+                          [&](const random::Variable &one) { return one.name == study.variable; }),
+              key + " = '" + study.variable + "' is none of Random/variables" +
+                  (names.empty() ? ", which is empty" : " (" + names + ")") +
+                  "; name it there, e.g. 'nu: uniform 0.25 0.49', and in an expression or in "
+                  "Random/keys");
+      require(!study.values.empty(), regime + " needs Study/values, which is empty");
+      for (std::size_t i = 0; i < study.values.size(); ++i)
+        require(std::isfinite(study.values[i]) && (i == 0 || study.values[i - 1] < study.values[i]),
+                "Study/values must be finite and rise without repetition; " +
+                    short_number(study.values[i]) + " does not");
+      require(!scene.sampling.is_there(),
+              regime + " with Sampling/rule = " + base::word(scene.sampling.rule) +
+                  ": both vary variables; write Sampling/rule = none, or another regime");
+      require(!scene.crack.is_there() && !scene.fracture.is_there() && !scene.strip.is_there(),
+              regime + " is for statics, motions, stability and dispersion; of growth and cracks "
+                       "take samples (Sampling/rule = equidistant), or write another regime");
+    }
+
     /// Coarse to fine and nothing twice: rates and names rest on it.
     void check_order(const Scene &scene)
     {
@@ -28,7 +62,8 @@ namespace plumbline::scene
         if (!names.insert(series.name).second)
           throw InputError("Study: the series '" + series.name +
                            "' comes twice; give each ratio, horizon or mesh size once");
-        for (std::size_t i = 1; i < series.levels.size(); ++i)
+        for (std::size_t i = 1; scene.study.regime != Regime::variable && i < series.levels.size();
+             ++i)
           if (!(is_h ? series.levels[i].h < series.levels[i - 1].h
                      : series.levels[i].horizon < series.levels[i - 1].horizon))
             throw InputError(std::string(is_h ? "Study/h" : "Study/horizon") +
@@ -45,6 +80,7 @@ namespace plumbline::scene
 
   void check_levels(const Scene &scene)
   {
+    check_variable(scene);
     check_order(scene);
     for (const Series &series : scene.study.series)
       for (const Level &level : series.levels)
@@ -220,9 +256,10 @@ namespace plumbline::scene
             decisive +
                 ": solutions of two levels are held against each other by cell averages; use "
                 "averages L2 or averages Linf");
-    require(target != Target::finest || study.regime != Regime::horizon,
-            decisive + " with Study/regime = horizon: nothing is refined there; take the target "
-                       "exact or reference, or another regime");
+    require(target != Target::finest || !is_without_limit(study.regime),
+            decisive + " with Study/regime = " + base::word(study.regime) +
+                ": nothing is refined there; take the target exact or reference, or another "
+                "regime");
     require(target != Target::reference || is_of_averages,
             decisive + ": solutions are held against a reference by cell averages; use averages "
                        "L2 or averages Linf");

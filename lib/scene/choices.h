@@ -61,8 +61,15 @@ namespace plumbline::scene
     delta,   ///< m = horizon / h fixed, h → 0: towards the local limit; decides asymptotic
              ///< compatibility
     delta_m, ///< horizon → 0 and m → ∞ together
-    horizon  ///< h fixed, horizon varies: how errors depend on the horizon
+    horizon, ///< h fixed, horizon varies: how errors depend on the horizon
+    variable ///< h and m fixed, a number of the scene varies: how errors depend on it
   };
+
+  /// Nothing is refined: errors are seen to depend on something.
+  constexpr bool is_without_limit(Regime regime)
+  {
+    return regime == Regime::horizon || regime == Regime::variable;
+  }
 
   /// What of a solution is compared.
   enum class Quantity
@@ -141,7 +148,8 @@ namespace plumbline::base
   template <>
   inline constexpr auto words<scene::Boundary> = std::array{"constrained", "free", "periodic"};
   template <>
-  inline constexpr auto words<scene::Regime> = std::array{"m", "delta", "delta-m", "horizon"};
+  inline constexpr auto words<scene::Regime> =
+      std::array{"m", "delta", "delta-m", "horizon", "variable"};
   template <>
   inline constexpr auto words<scene::Quantity> = std::array{"nodal", "averages", "field"};
   template <>

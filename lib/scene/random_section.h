@@ -62,6 +62,9 @@ namespace plumbline::scene
     bool is_drawn_whole() const { return field != FieldKind::none && n_modes == 0; }
     std::vector<random::Law> laws() const; ///< of all variables
 
+    /// The values, or the means where there are none.
+    std::vector<double> present_values() const;
+
     /// Its variables at the values, in expressions.
     physics::Names names() const;
     /// "Section/key" and its number, at the values.

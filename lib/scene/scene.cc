@@ -10,6 +10,7 @@
 #include "scene/models/model.h"
 #include "scene/scene_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -111,6 +112,16 @@ namespace plumbline::scene
       return scene;
     }
 
+    /// That it can be taken at all values of its study's variable.
+    Scene checked(Scene scene)
+    {
+      if (scene.study.regime == Regime::variable)
+        for (const Series &series : scene.study.series)
+          for (const Level &level : series.levels)
+            (void)at_level(scene, level);
+      return scene;
+    }
+
     std::string opening(const std::string &file)
     {
       return "scene '" + file + "'";
@@ -167,6 +178,29 @@ namespace plumbline::scene
     return scene;
   }
 
+  Scene at_level(const Scene &scene, const Level &level)
+  {
+    const std::vector<random::Variable> &variables = scene.random.variables;
+    if (scene.study.regime != Regime::variable)
+      return scene;
+    const auto varying =
+        std::find_if(variables.begin(), variables.end(),
+                     [&](const random::Variable &one) { return one.name == scene.study.variable; });
+    std::vector<double> values = scene.random.present_values();
+    values[static_cast<std::size_t>(varying - variables.begin())] = level.value;
+    try
+    {
+      Scene here = at_sample(scene, values, scene.random.realisation);
+      (void)make_kernel(here, level.horizon); // is its material one?
+      return here;
+    }
+    catch (const InputError &error)
+    {
+      throw InputError("Study/values: at " + scene.study.variable + " = " +
+                       base::to_text(level.value, 6) + ": " + error.what());
+    }
+  }
+
   bool Scene::is_steady() const
   {
     std::vector<std::string> texts;
@@ -201,16 +235,16 @@ namespace plumbline::scene
     const std::string what = opening(file);
     const std::string text = base::read_text_file(file, what, most_bytes, "a .prm or .json file");
     const bool is_json = base::has_ending(file, ".json");
-    return build(file, what,
-                 is_json ? read_json_settings(text, what) : read_settings(file, text, what),
-                 overrides);
+    return checked(build(file, what,
+                         is_json ? read_json_settings(text, what) : read_settings(file, text, what),
+                         overrides));
   }
 
   Scene parse_scene(const std::string &name, const std::string &text,
                     const std::vector<Override> &overrides)
   {
     base::check_text(text, opening(name));
-    return build(name, opening(name), read_settings(name, text, opening(name)), overrides);
+    return checked(build(name, opening(name), read_settings(name, text, opening(name)), overrides));
   }
 
   namespace

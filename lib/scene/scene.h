@@ -78,6 +78,10 @@ namespace plumbline::scene
   /// @param realisation  of a field that is drawn as a whole
   Scene at_sample(Scene scene, const std::vector<double> &values, unsigned int realisation);
 
+  /// The same scene at a level of its study, where that varies a number of it.
+  /// @throws InputError  the number does not fit the scene, naming Study/values
+  Scene at_level(const Scene &scene, const Level &level);
+
   /// The same scene with nothing left out, to show that what is left out is not missed.
   Scene full_model(Scene scene);
 

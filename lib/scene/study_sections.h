@@ -41,12 +41,14 @@ namespace plumbline::scene
     void complete() const;
   };
 
+  /// A point of a study.
   struct Level
   {
     double h = 0, horizon = 0; ///< [length]
+    double value = 0;          ///< of Study/variable, where one varies
   };
 
-  /// Levels from coarse to fine with what is held fixed as name, e.g. "m = 3".
+  /// Levels, from coarse to fine where they refine, with what is held fixed as name, e.g. "m = 3".
   struct Series
   {
     std::string name;
@@ -66,6 +68,8 @@ namespace plumbline::scene
   {
     Regime regime = Regime::delta;
     std::vector<double> h = {.1, .05, .025, .0125}, m = {3}, horizon = {.4};
+    std::string variable;       ///< that varies in its regime, one of RandomSection::variables
+    std::vector<double> values; ///< of it
     std::vector<Series> series; ///< of these
     std::vector<Norm> norms;
     DecisiveError decisive_error;

@@ -126,7 +126,7 @@ namespace plumbline::study
       if (is_against(error, scene::Target::finest))
         trend.finest = finest_place(results, first, trend.axis);
       if (trend.outcome != Outcome::failed)
-        judge(trend);
+        judge(trend, scene.study.variable);
       doubt_reference(results, trend);
       weigh_proof(trend);
       if (scene.study.regime == scene::Regime::horizon && trend.outcome != Outcome::failed)

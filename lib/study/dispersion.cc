@@ -285,7 +285,7 @@ namespace plumbline::study
     for (Trend &trend : trends)
     {
       if (trend.outcome != Outcome::failed)
-        judge(trend);
+        judge(trend, scene.study.variable);
       trend.verdict = verdict_of(scene.study.regime, trend);
     }
     return trends;

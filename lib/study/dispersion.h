@@ -47,6 +47,7 @@ namespace plumbline::study
     LimitProof limit;           ///< by moments, or for conforming spaces
     std::string failure;        ///< empty, or why there are no waves
     double seconds = 0; ///< CPU time of all rows of this method and level, in the first of them
+    double value = 0;   ///< of DispersionResults::variable
 
     double m() const { return horizon / h; }
     bool grows() const;                  ///< some wave has ω² < 0
@@ -86,6 +87,7 @@ namespace plumbline::study
     WaveStudy study;
     std::vector<DispersionRow> rows; ///< method by method, coarse to fine in each series
     std::vector<Trend> trends;
-    bool is_complete = true; ///< else it was interrupted
+    std::string variable = {}; ///< that varies in its regime, else empty
+    bool is_complete = true;   ///< else it was interrupted
   };
 } // namespace plumbline::study

@@ -31,6 +31,7 @@ namespace plumbline::study
     std::string steps; ///< as the scene says it, "dt = 0.01" or "0.5 of critical"
     unsigned int level = 0;
     double h = 0, horizon = 0; ///< [length]
+    double value = 0;          ///< of DynamicResults::variable
     double step = 0;           ///< Δt [time]
     double critical_step = 0;  ///< of the scheme; infinite: none; 0: unstable at any [time]
     analysis::Counts counts;
@@ -47,7 +48,7 @@ namespace plumbline::study
     std::string failure;                    ///< empty, or what became of it
   };
 
-  /// An error over h, horizon or Δt, with the scheme.
+  /// An error over h, horizon, a variable or Δt, with the scheme.
   struct MotionTrend : Trend
   {
     std::string scheme, steps; ///< steps empty: they are the parameter
@@ -62,11 +63,13 @@ namespace plumbline::study
     unsigned int n_points = 0; ///< a side
     double estimate = 0;       ///< change from 2/3 of the points, of u, L2
     double seconds = 0;
+    double value = 0; ///< of DynamicResults::variable
   };
 
   struct DynamicResults
   {
     std::string scene_name, purpose, regime, scene_text;
+    std::string variable; ///< that varies in its regime, else empty
     std::map<std::string, std::string> provenance;
     std::string decisive_error; ///< "norm | target"; empty: there is nothing to hold it against
     double final_time = 0, density = 1, damping = 0;

@@ -94,11 +94,13 @@ namespace plumbline::study
       }
     for (const scene::Series &series : scene.study.series)
     {
-      const std::size_t n = series.levels.size();
-      const scene::Level &finest =
-          series.levels[n_levels == 0 ? n - 1 : std::min<std::size_t>(n_levels, n) - 1];
-      for (const auto &method : methods)
-        check_steps(scene, *method, finest);
+      const std::size_t n_all = series.levels.size(),
+                        n = n_levels == 0 ? n_all : std::min<std::size_t>(n_levels, n_all);
+      // critical steps are the shortest at the finest level; of a variable nothing is known
+      const bool is_any = scene.study.regime == scene::Regime::variable;
+      for (std::size_t level = is_any ? 0 : n - 1; level < n; ++level)
+        for (const auto &method : methods)
+          check_steps(at_level(scene, series.levels[level]), *method, series.levels[level]);
     }
   }
 } // namespace plumbline::study

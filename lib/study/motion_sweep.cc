@@ -33,7 +33,7 @@ namespace plumbline::study
     public:
       MotionSweep(const scene::Scene &scene, const Methods &methods, const MotionControl &control,
                   const DynamicResults &earlier)
-          : scene_(scene), methods_(methods), control_(control), earlier_(earlier),
+          : study_(scene), methods_(methods), control_(control), earlier_(earlier), scene_(scene),
             results_(begin_results(scene, control.n_levels))
       {
       }
@@ -44,12 +44,12 @@ namespace plumbline::study
         n_all_ = static_cast<double>(names.size() * methods_.size() * scene_.time.schemes.size() *
                                      step_rules(scene_.time).size());
         double n_levels = 0;
-        for (const scene::Series &series : scene_.study.series)
+        for (const scene::Series &series : study_.study.series)
           n_levels += static_cast<double>(series.levels.size());
         n_all_ *= n_levels;
         results_.is_complete = true;
         for (unsigned int c = 0; c < names.size(); ++c)
-          for (const scene::Series &series : scene_.study.series)
+          for (const scene::Series &series : study_.study.series)
           {
             const std::size_t n_all = series.levels.size(),
                               n = control_.n_levels == 0
@@ -58,6 +58,7 @@ namespace plumbline::study
             for (unsigned int level = 0; level < n; ++level)
             {
               is_finest_ = level + 1 == n;
+              take_scene_at(series.levels[level]);
               ProblemsInTime problems(scene_, c, series.levels[level], loads_);
               for (const auto &method : methods_)
               {
@@ -69,6 +70,7 @@ namespace plumbline::study
                 run.level = level;
                 run.h = series.levels[level].h;
                 run.horizon = series.levels[level].horizon;
+                run.value = series.levels[level].value;
                 if (!run_method(*method, problems, run))
                 {
                   results_.is_complete = false;
@@ -81,6 +83,16 @@ namespace plumbline::study
       }
 
     private:
+      /// What was made of the scene at another value of its variable says nothing here.
+      void take_scene_at(const scene::Level &level)
+      {
+        if (study_.study.regime != scene::Regime::variable)
+          return;
+        scene_ = at_level(study_, level);
+        loads_.clear();
+        torus_.reset();
+      }
+
       void finish(const MotionRun &run)
       {
         results_.runs.push_back(run);
@@ -326,11 +338,16 @@ namespace plumbline::study
           run.errors["nodal L2 | time"] = of_time;
       }
 
+      static bool is_of(const TorusEstimate &torus, const MotionRun &run)
+      {
+        return torus.problem == run.problem && torus.horizon == run.horizon &&
+               torus.value == run.value;
+      }
+
       /// What an earlier run says of its torus.
       void take_torus(const MotionRun &run)
       {
-        const auto is_same = [&](const TorusEstimate &one)
-        { return one.problem == run.problem && one.horizon == run.horizon; };
+        const auto is_same = [&](const TorusEstimate &one) { return is_of(one, run); };
         const auto found =
             std::find_if(earlier_.references.begin(), earlier_.references.end(), is_same);
         if (found != earlier_.references.end() &&
@@ -346,22 +363,23 @@ namespace plumbline::study
         if (!torus_ || torus_key_ != std::pair(run.problem, run.horizon))
         {
           auto solution = solve_torus(scene_, control_, run.problem, run.horizon, problems);
+          solution.estimate.value = run.value;
           torus_ = std::move(solution.torus);
           torus_nodes_.clear();
           take_torus(run);
           if (std::none_of(results_.references.begin(), results_.references.end(),
-                           [&](const TorusEstimate &one)
-                           { return one.problem == run.problem && one.horizon == run.horizon; }))
+                           [&](const TorusEstimate &one) { return is_of(one, run); }))
             results_.references.push_back(solution.estimate);
         }
         torus_key_ = {run.problem, run.horizon};
         return &*torus_;
       }
 
-      const scene::Scene &scene_;
+      const scene::Scene &study_; ///< its walk
       const Methods &methods_;
       const MotionControl &control_;
       const DynamicResults &earlier_;
+      scene::Scene scene_; ///< at the level
       DynamicResults results_;
       ProblemsInTime::Loads loads_;
       bool is_finest_ = false;
@@ -372,25 +390,6 @@ namespace plumbline::study
       Vector torus_u_, torus_v_;
     };
   } // namespace
-
-  DynamicResults begin_results(const scene::Scene &scene, unsigned int n_levels)
-  {
-    DynamicResults results;
-    results.scene_name = scene.name;
-    results.purpose = scene.purpose;
-    results.regime = base::word(scene.study.regime);
-    results.scene_text = scene.text;
-    const bool is_known =
-        scene.reference.method || (!scene.problem.solutions.empty() &&
-                                   scene.study.decisive_error.target == scene::Target::exact);
-    results.decisive_error = is_known ? scene.study.decisive_error.text() : "";
-    results.final_time = scene.time.final_time;
-    results.density = scene.time.density;
-    results.damping = scene.time.damping;
-    results.shows_blow_up = scene.time.shows_blow_up;
-    results.n_levels = n_levels;
-    return results;
-  }
 
   DynamicResults run_motions(const scene::Scene &scene, const Methods &methods,
                              const MotionControl &control, const DynamicResults &earlier)

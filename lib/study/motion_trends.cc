@@ -83,7 +83,7 @@ namespace plumbline::study
           trend.round_off = rounding * run->size;
         }
       }
-      judge(trend);
+      judge(trend, scene.study.variable);
       if (!failure.empty())
       {
         trend.outcome = Outcome::failed;
@@ -218,6 +218,26 @@ namespace plumbline::study
         leave_out("loads and constraint in time", "neither has t in it", "one set instead of 17");
     }
   } // namespace
+
+  DynamicResults begin_results(const scene::Scene &scene, unsigned int n_levels)
+  {
+    DynamicResults results;
+    results.scene_name = scene.name;
+    results.purpose = scene.purpose;
+    results.regime = base::word(scene.study.regime);
+    results.variable = scene.study.variable;
+    results.scene_text = scene.text;
+    const bool is_known =
+        scene.reference.method || (!scene.problem.solutions.empty() &&
+                                   scene.study.decisive_error.target == scene::Target::exact);
+    results.decisive_error = is_known ? scene.study.decisive_error.text() : "";
+    results.final_time = scene.time.final_time;
+    results.density = scene.time.density;
+    results.damping = scene.time.damping;
+    results.shows_blow_up = scene.time.shows_blow_up;
+    results.n_levels = n_levels;
+    return results;
+  }
 
   void conclude(const scene::Scene &scene, DynamicResults &results)
   {

@@ -50,7 +50,9 @@ namespace plumbline::study
       throw InputError("scene '" + scene.name +
                        "': Strip/length is for 'plumbline strip', whose crack stands; write that, "
                        "or 0");
-    const scene::Case first = make_case(scene, 0, scene.study.series.front().levels.front());
+    const scene::Level &level = scene.study.series.front().levels.front();
+    const scene::Scene here = at_level(scene, level);
+    const scene::Case first = make_case(here, 0, level);
     const auto reason_against = [&](const Method &method)
     { return refusal(method, first, available); };
     Methods chosen = named_methods(
@@ -65,7 +67,7 @@ namespace plumbline::study
         throw InputError("Reference/method: '" + *scene.reference.method +
                          "' is no Galerkin method, so nothing is known of its error; choose Q2, P2 "
                          "or another ('plumbline list methods')");
-      if (const std::string reason = refusal(*reference, first, available); !reason.empty())
+      if (const std::string reason = reason_against(*reference); !reason.empty())
         throw InputError("Reference/method: '" + *scene.reference.method +
                          "' cannot do this scene: " + reason);
     }
@@ -114,10 +116,19 @@ namespace plumbline::study
             (void)problem.coefficient->at(cells.nodes[i]);
         }
     }
-    /// Meshes and nodes of all levels can be used, and differ where h does.
-    void check_meshes(const scene::Scene &scene)
+
+    void check_data(const scene::Problem &problem)
     {
-      for (const auto &series : scene.study.series)
+      if (problem.lattice)
+        check_lattice_data(problem);
+      else
+        check_node_data(problem);
+    }
+
+    /// Meshes and nodes of all levels can be used, and differ where h does.
+    void check_meshes(const scene::Scene &whole)
+    {
+      for (const auto &series : whole.study.series)
       {
         std::size_t before = 0;
         for (std::size_t i = 0; i < series.levels.size(); ++i)
@@ -127,6 +138,7 @@ namespace plumbline::study
           where << "level h = " << level.h << ", horizon = " << level.horizon << ": ";
           try
           {
+            const scene::Scene scene = at_level(whole, level);
             if (scene.domain.is_free_body)
             {
               (void)make_body(scene, level);
@@ -162,15 +174,13 @@ namespace plumbline::study
     for (unsigned int c = 0; c < names.size(); ++c)
       for (const auto &series : scene.study.series)
       {
-        const scene::Level &level =
+        const scene::Level &widest =
             *std::max_element(series.levels.begin(), series.levels.end(),
                               [](const scene::Level &a, const scene::Level &b)
                               { return a.horizon + a.h < b.horizon + b.h; });
-        const scene::Problem problem = make_problem(scene, c, level);
-        if (problem.lattice)
-          check_lattice_data(problem);
-        else
-          check_node_data(problem);
+        for (const scene::Level &level : series.levels)
+          if (&level == &widest || scene.study.regime == scene::Regime::variable)
+            check_data(make_problem(at_level(scene, level), c, level));
       }
   }
 } // namespace plumbline::study

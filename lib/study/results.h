@@ -25,6 +25,7 @@ namespace plumbline::study
     std::string series;         ///< what is held fixed, e.g. "m = 3"
     unsigned int level = 0;     ///< from coarse to fine
     double h = 0, horizon = 0;  ///< [length]
+    double value = 0;           ///< of Results::variable
     base::Cost cost;
     /// What making the mesh and, for meshfree methods, the cells of nodes took. Methods of a level
     /// share it; it is in no cost [CPU s].
@@ -154,6 +155,7 @@ namespace plumbline::study
   {
     std::string scene_name, purpose;
     scene::Regime regime = scene::Regime::delta;
+    std::string variable;                          ///< that varies in its regime, else empty
     std::string scene_text;                        ///< the scene as read, all keys
     std::map<std::string, std::string> provenance; ///< version, libraries, machine
     std::string decisive_error;                    ///< the "norm | target" that verdicts rest on

@@ -50,6 +50,7 @@ namespace plumbline::study
     std::string failure; ///< empty, or why there is no operator
     CriticalSteps steps = {};
     double seconds = 0; ///< CPU time
+    double value = 0;   ///< of StabilityResults::variable
 
     double m() const { return horizon / h; }
   };
@@ -64,7 +65,7 @@ namespace plumbline::study
     double smallest = 0, largest = 0, inverse_norm = 0;
   };
 
-  /// One for each method and series, as they stand in the rows.
+  /// One for each method and series, as they stand in the rows; none where a variable varies.
   /// @param rows  coarse to fine in each series
   std::vector<StabilityTrend> stability_trends(const std::vector<StabilityRow> &rows);
 
@@ -89,13 +90,15 @@ namespace plumbline::study
   /// levels are good, and the coercivity constant does not fall with the mesh size by a power above
   /// ½. conditionally stable: a bound on m = δ / h parts good levels from others, or sound ones
   /// from others, or all are sound. Else unstable.
-  /// @param rows  of one method, series by series, coarse to fine
-  StabilityVerdict judge(const std::vector<StabilityRow> &rows);
+  /// @param rows      of one method, series by series, coarse to fine
+  /// @param variable  that varies, see scene::StudySection; no bound on m parts its levels
+  StabilityVerdict judge(const std::vector<StabilityRow> &rows, const std::string &variable = "");
 
   /// All that is measured of a scene.
   struct StabilityResults
   {
     std::string scene_name, purpose;
+    std::string variable;           ///< that varies in its regime, else empty
     std::vector<StabilityRow> rows; ///< method by method, coarse to fine in each series
     std::vector<StabilityTrend> trends;
     std::vector<StabilityVerdict> verdicts;

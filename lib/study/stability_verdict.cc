@@ -13,9 +13,10 @@ namespace plumbline::study
 {
   namespace
   {
-    std::string place(const StabilityRow &row)
+    std::string place(const StabilityRow &row, const std::string &variable)
     {
-      return "m = " + base::to_text(row.m(), 4) + ", h = " + base::to_text(row.h, 4);
+      return "m = " + base::to_text(row.m(), 4) + ", h = " + base::to_text(row.h, 4) +
+             (variable.empty() ? "" : ", " + variable + " = " + base::to_text(row.value, 4));
     }
 
     bool is_sound(const StabilityRow &row)
@@ -120,7 +121,7 @@ namespace plumbline::study
     return trends;
   }
 
-  StabilityVerdict judge(const std::vector<StabilityRow> &rows)
+  StabilityVerdict judge(const std::vector<StabilityRow> &rows, const std::string &variable)
   {
     constexpr double most_decay = .5;
     StabilityVerdict result{rows.front().method, StabilityAnswer::unstable, "", ""};
@@ -145,7 +146,7 @@ namespace plumbline::study
       return result;
     }
     const std::string coercive = "coercive with " + base::to_text(lowest->stability.smallest, 4) +
-                                 " or more (least at " + place(*lowest) + ")";
+                                 " or more (least at " + place(*lowest, variable) + ")";
     if (first_not(is_good) == rows.end())
     {
       result.verdict = StabilityAnswer::stable;
@@ -164,14 +165,14 @@ namespace plumbline::study
                          [&](const StabilityRow &row) { return is(row) && !is_good(row); });
         result.explanation = coercive;
         if (bad != rows.end())
-          result.explanation += "; at " + place(*bad) + " " + defect(*bad);
+          result.explanation += "; at " + place(*bad, variable) + " " + defect(*bad);
         if (doubtful != rows.end())
-          result.explanation += "; at " + place(*doubtful) + " " + doubt(*doubtful);
+          result.explanation += "; at " + place(*doubtful, variable) + " " + doubt(*doubtful);
         return result;
       }
     result.verdict = StabilityAnswer::unstable;
     const auto bad = first_not(is_sound);
-    result.explanation = "at " + place(*bad) + " " + defect(*bad) +
+    result.explanation = "at " + place(*bad, variable) + " " + defect(*bad) +
                          ", and no bound on m parts this "
                          "from levels where it is not so";
     return result;

@@ -38,6 +38,7 @@ namespace plumbline::study
         results_.scene_name = scene.name;
         results_.purpose = scene.purpose;
         results_.regime = scene.study.regime;
+        results_.variable = scene.study.variable;
         results_.scene_text = scene.text;
         results_.decisive_error = scene.study.decisive_error.text();
         results_.provenance = earlier.provenance;
@@ -129,6 +130,7 @@ namespace plumbline::study
 
       void run_level(const scene::Series &series, unsigned int level)
       {
+        const scene::Scene here = at_level(scene_, series.levels[level]);
         std::vector<OpenCase> open;
         const std::size_t n_before = n_done_;
         for (unsigned int c = 0; c < cases_.size(); ++c)
@@ -137,7 +139,7 @@ namespace plumbline::study
           if (take_earlier(due, cases_[c], series, level))
             continue;
           say(cases_[c], series, level, "load and reference");
-          open.push_back({make_case(scene_, c, series.levels[level]), std::move(due)});
+          open.push_back({make_case(here, c, series.levels[level]), std::move(due)});
         }
         warn(open, series, level);
         solve_targets(open, series, level);
@@ -257,11 +259,11 @@ namespace plumbline::study
       }
 
       /// At the first level that is run, for the first method of each side, where it is cheap.
-      bool is_saving_due(const Method &method, const Run &run) const
+      bool is_saving_due(const Method &method, const OpenCase &one, const Run &run) const
       {
         constexpr std::uint64_t most_bonds = 100000;
         return run.problem == cases_.front() && run.series == scene_.study.series.front().name &&
-               run.level == 0 && run.cost.n_bonds <= most_bonds && has_fuller_model(scene_) &&
+               run.level == 0 && run.cost.n_bonds <= most_bonds && has_fuller_model(one.scene) &&
                std::none_of(results_.runs.begin(), results_.runs.end(),
                             [&](const Run &other) { return other.side == method.side(); });
       }
@@ -277,6 +279,7 @@ namespace plumbline::study
         run.level = level;
         run.h = series.levels[level].h;
         run.horizon = series.levels[level].horizon;
+        run.value = series.levels[level].value;
         run.geometry_seconds = one.problem.mesh_seconds +
                                (method.side() == Side::meshfree ? one.problem.cells_seconds : 0);
         return run;
@@ -302,7 +305,7 @@ namespace plumbline::study
         if (is_estimated(method, problem))
           results_.estimates.push_back(
               placed(estimate_error(one, method, solution, true), run.problem, series, run.level));
-        if (is_saving_due(method, run))
+        if (is_saving_due(method, one, run))
           if (const auto saving = measure_saving(one, method, solution))
             results_.savings.push_back(*saving);
         if (run.level + 1 == n_levels(series))

@@ -205,10 +205,30 @@ namespace plumbline::study
                                : "neither nil nor significant, run a finer level: ") +
                        numbers;
     }
+
+    /// How an error depends on a variable.
+    std::string dependence(const Trend &trend, const std::string &variable)
+    {
+      if (trend.values.empty())
+        return "no level has this error";
+      const auto at = [&](std::vector<double>::const_iterator one)
+      {
+        return base::to_text(*one, 4) + " at " + variable + " = " +
+               base::to_text(trend.x[static_cast<std::size_t>(one - trend.values.begin())], 4);
+      };
+      const auto [least, most] = std::minmax_element(trend.values.begin(), trend.values.end());
+      return "error from " + at(least) + " to " + at(most);
+    }
   } // namespace
 
-  void judge(Trend &trend)
+  void judge(Trend &trend, const std::string &variable)
   {
+    if (trend.axis == Axis::variable)
+    {
+      trend.outcome = Outcome::undecided;
+      trend.reason = dependence(trend, variable);
+      return;
+    }
     trend.rates.clear();
     const std::vector<double> values = with_own_error(trend);
     for (std::size_t i = 1; i < trend.x.size(); ++i)
@@ -252,6 +272,11 @@ namespace plumbline::study
   {
     if (trend.outcome == Outcome::failed)
       return base::word(Outcome::failed);
+    if (regime == scene::Regime::variable)
+      return trend.values.empty()
+                 ? base::word(Outcome::undecided)
+                 : "at most " + base::to_text(
+                                    *std::max_element(trend.values.begin(), trend.values.end()), 4);
     if (regime == scene::Regime::horizon)
       return trend.rate == 0 && trend.rate_uncertainty == 0 // too few horizons to fit one
                  ? base::word(Outcome::undecided)

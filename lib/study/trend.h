@@ -46,9 +46,12 @@ namespace plumbline::study
   /// The answer is about the given solution: a method may do better for one than for another.
   /// Where trend.finest > 0 the values are differences to the finest level; what is judged is C
   /// x^p, see `own_rate`: whether the solutions have a limit, not which.
-  void judge(Trend &trend);
+  /// Over a variable nothing is refined: undecided, and the reason says between what values are.
+  /// @param variable  its name, where that is the axis
+  void judge(Trend &trend, const std::string &variable = "");
 
   /// The outcome in words: "AC", "not AC", "m-convergent", ..., "self-convergent" (to a limit of
-  /// the method's own), "undecided", "failed"; "rate 1.98" where the horizon alone varies.
+  /// the method's own), "undecided", "failed"; "rate 1.98" where the horizon alone varies, "at most
+  /// 0.052" where a variable does.
   std::string verdict_of(scene::Regime regime, const Trend &trend);
 } // namespace plumbline::study

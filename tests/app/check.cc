@@ -232,3 +232,12 @@ TEST(Check, refuses_a_reference_that_is_no_galerkin_method)
   EXPECT_EQ(outcome.exit_code, 2);
   expect_found(outcome.err, "Reference/method = 'OPT' is no Galerkin method");
 }
+
+TEST(Check, refuses_a_study_over_a_variable)
+{
+  const Outcome outcome = check(nodes_file, bonds_file,
+                                "--set 'Random/variables=a: uniform' --set Study/regime=variable "
+                                "--set Study/variable=a --set Study/values=0,1");
+  EXPECT_EQ(outcome.exit_code, 2);
+  expect_found(outcome.err, "weights are those of one value of a; give it as Random/values");
+}

@@ -420,3 +420,42 @@ TEST(RandomScene, IsRefusedWithTheRemedy)
   expect_refused(solid({{"Random/fraction", "1"}, {"Random/modes", "2"}, {"Random/cell", "0.1"}}),
                  "is the same everywhere");
 }
+
+TEST(ScenesOverAVariable, GoThroughItsValues)
+{
+  const Settings axis = {{"Random/variables", "c: normal 1 2; d: uniform 1 3"},
+                         {"Random/keys", "Time/density: d"},
+                         {"Problem/solution", "c*x^2"},
+                         {"Sampling/rule", "none"},
+                         {"Study/regime", "variable"},
+                         {"Study/variable", "d"},
+                         {"Study/values", "0.5, 2"},
+                         {"Study/h", "0.1, 0.05"},
+                         {"Study/m", "2, 3"}};
+  const scene::Scene scene = random_scene(axis);
+  ASSERT_EQ(scene.study.series.size(), 4u);
+  EXPECT_EQ(scene.study.series[2].name, "h = 0.05, m = 2");
+  const scene::Level &level = scene.study.series[2].levels[1];
+  EXPECT_EQ(std::tuple(level.h, level.horizon, level.value), std::tuple(.05, .1, 2.));
+  const scene::Scene here = at_level(scene, level);
+  EXPECT_EQ(here.time.density, 2);
+  EXPECT_EQ(here.random.present_values(), (std::vector<double>{1, 2})); // c stays at its mean
+  EXPECT_EQ(here.study.series.size(), 4u);
+
+  const auto refuse = [&](const Settings &change, const std::string &message)
+  {
+    Settings all = axis;
+    all.insert(all.end(), change.begin(), change.end());
+    expect_refused(all, message);
+  };
+  refuse({{"Study/variable", "e"}}, "Study/variable = 'e' is none of Random/variables (c, d)");
+  refuse({{"Study/values", ""}}, "needs Study/values, which is empty");
+  refuse({{"Study/values", "1, 1"}}, "rise without repetition; 1 does not");
+  refuse({{"Study/values", "-1, 1"}}, "Study/values: at d = -1: ");
+  refuse({{"Study/regime", "delta"}}, "are for Study/regime = variable; write that, or clear both");
+  refuse({{"Sampling/rule", "Monte Carlo"}, {"Sampling/counts", "2"}}, "both vary variables");
+  refuse(
+      {{"Study/norms", "averages L2"}, {"Study/decisive error", "averages L2 | own finest level"}},
+      "Study/regime = variable: nothing is refined there");
+  refuse({{"Fracture/toughness", "1"}}, "of growth and cracks take samples");
+}

@@ -398,3 +398,40 @@ TEST(Motions, refuse_steps_beyond_the_critical_one_with_its_number)
   expect_refused(with({{"Time/schemes", "explicit Euler"}}), "unstable at any step");
   expect_refused(with({{"Time/schemes", "leapfrog"}}), "Time/schemes: time-stepping scheme");
 }
+
+TEST(Motions, over_a_variable_are_those_of_scenes_at_its_values)
+{
+  // loads, initial states, steps and the torus change with it
+  const Settings axis = {{"Random/variables", "a: uniform 0.01 0.02"},
+                         {"Random/keys", "Time/steps: 0.0002/a"},
+                         {"Methods/names", "IPA-AC-R2, Q1"},
+                         {"Time/initial displacement", ""},
+                         {"Time/initial velocity", ""},
+                         {"Study/regime", "delta"},
+                         {"Problem/solution", "a*cos(2*pi*t)*sin(2*pi*x), 0"},
+                         {"Study/h", "0.1"},
+                         {"Study/m", "3"},
+                         {"Study/norms", "nodal L2"},
+                         {"Study/decisive error", "nodal L2 | exact"},
+                         {"Reference/method", "torus"},
+                         {"Time/final time", "0.1"}};
+  Settings over = axis;
+  over.insert(
+      over.end(),
+      {{"Study/regime", "variable"}, {"Study/variable", "a"}, {"Study/values", "0.01, 0.02"}});
+  const auto results = run(torus(over));
+  ASSERT_EQ(results.runs.size(), 2 * 2u);
+  EXPECT_EQ(results.references.size(), 2u);
+  for (const MotionRun &motion : results.runs)
+  {
+    Settings at = axis;
+    at.push_back({"Random/values", motion.value == .01 ? "0.01" : "0.02"});
+    for (const MotionRun &other : run(torus(at)).runs)
+      if (other.method == motion.method)
+        EXPECT_EQ(std::pair(motion.errors, motion.step), std::pair(other.errors, other.step))
+            << motion.method << ", a = " << motion.value;
+  }
+  for (const MotionTrend &trend : results.trends)
+    EXPECT_EQ(std::pair(trend.axis, trend.verdict.substr(0, 8)),
+              std::pair(Axis::variable, std::string("at most ")));
+}

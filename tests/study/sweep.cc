@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 using namespace plumbline;
 using namespace plumbline::study;
@@ -214,4 +215,46 @@ TEST(SweepBudget, leaves_out_what_the_levels_before_say_is_too_dear)
   EXPECT_EQ(more.runs.size(), 3u);
   EXPECT_EQ(more.left_out.size(), 1u);
   EXPECT_EQ(dear->n_solves, 3u);
+}
+
+namespace
+{
+  /// A solid and its field at a Poisson's ratio.
+  const std::vector<scene::Override> of_nu = {{"Random/variables", "nu: uniform 0.25 0.45"},
+                                              {"Kernel/type", "1/r"},
+                                              {"Kernel/limit", "Navier"},
+                                              {"Material/model", "LPS"},
+                                              {"Material/E", "1"},
+                                              {"Material/nu", "nu"},
+                                              {"Problem/solution", "x^3 - y^2*x, nu*sin(x + 2*y)"},
+                                              {"Methods/names", "IPA-AC, Q1"},
+                                              {"Study/m", "3"},
+                                              {"Study/h", "0.1"},
+                                              {"Study/norms", "nodal Linf"}};
+} // namespace
+
+TEST(SweepOverAVariable, is_that_of_scenes_at_its_values)
+{
+  const Results results = sweep(with(of_nu, {{"Study/regime", "variable"},
+                                             {"Study/variable", "nu"},
+                                             {"Study/values", "0.25, 0.3, 0.45"}}));
+  ASSERT_EQ(results.runs.size(), 2 * 3u);
+  EXPECT_EQ(results.variable, "nu");
+  for (const study::Run &run : results.runs)
+  {
+    std::ostringstream value;
+    value << run.value;
+    for (const study::Run &other : sweep(with(of_nu, {{"Random/values", value.str()}})).runs)
+      if (other.method == run.method)
+        EXPECT_EQ(run.errors, other.errors) << run.method << ", nu = " << run.value;
+  }
+  for (const Trend &trend : results.trends)
+  {
+    EXPECT_EQ(trend.axis, Axis::variable);
+    EXPECT_EQ(trend.x, (std::vector<double>{.25, .3, .45}));
+    EXPECT_TRUE(trend.rates.empty()); // errors over nu have no order
+    EXPECT_EQ(trend.verdict.rfind("at most ", 0), 0u) << trend.verdict;
+    EXPECT_NE(trend.reason.find(" at nu = 0.25 to "), std::string::npos) << trend.reason;
+  }
+  EXPECT_TRUE(results.advice[0].choices.empty()); // nothing converges here
 }

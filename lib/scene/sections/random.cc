@@ -182,11 +182,23 @@ namespace plumbline::scene
     return laws;
   }
 
+  std::vector<double> RandomSection::present_values() const
+  {
+    if (!values.empty())
+      return values;
+    std::vector<double> means;
+    for (const Variable &variable : variables)
+      means.push_back(variable.centre);
+    means.resize(means.size() + n_modes, 0);
+    return means;
+  }
+
   physics::Names RandomSection::names() const
   {
     physics::Names names;
+    const std::vector<double> present = present_values();
     for (std::size_t i = 0; i < variables.size(); ++i)
-      names.constants[variables[i].name] = values.empty() ? variables[i].centre : values[i];
+      names.constants[variables[i].name] = present[i];
     if (place)
       names.fields["R"] = place;
     return names;

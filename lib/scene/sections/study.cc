@@ -69,10 +69,16 @@ namespace plumbline::scene
   {
     keys.add("regime", regime,
              "m: horizon fixed, h to 0. delta: m = horizon / h fixed, h to 0 (decides asymptotic "
-             "compatibility). delta-m: pairs of h and m. horizon: h fixed, horizon varies.");
+             "compatibility). delta-m: pairs of h and m. horizon: h fixed, horizon varies. "
+             "variable: h and m fixed, Study/variable varies.");
     keys.add("h", h, numbers(), "Mesh sizes, separated by ',', coarse to fine. [length]");
-    keys.add("m", m, numbers(), "Ratios horizon / h, real numbers >= 1 (delta, delta-m).");
+    keys.add("m", m, numbers(),
+             "Ratios horizon / h, real numbers >= 1 (delta, delta-m, variable).");
     keys.add("horizon", horizon, numbers(), "Horizons (m, horizon). [length]");
+    keys.add("variable", variable,
+             "Name of one of Random/variables, which stands for any number of the scene: in "
+             "expressions, or in other keys by Random/keys, e.g. 'Time/steps: dt'.");
+    keys.add("values", values, numbers(), "Of Study/variable, separated by ',', rising.");
     keys.add(
         "norms", "nodal Linf, averages L2, field L2", any_text(),
         [this](const std::string &text) { norms = to_norms(text); },
@@ -113,6 +119,15 @@ namespace plumbline::scene
                            [](double size, double delta) {
                              return Level{size, delta};
                            });
+      break;
+    case Regime::variable:
+      series.clear();
+      for (const double size : h)
+        for (Series &of_m : make_series("h = " + short_number(size) + ", m", m, values,
+                                        [size](double ratio, double value) {
+                                          return Level{size, ratio * size, value};
+                                        }))
+          series.push_back(std::move(of_m));
       break;
     }
   }

@@ -1,0 +1,152 @@
+// What tables, charts and pages show of a study over a variable of the scene.
+
+#include "report/charts.h"
+#include "report/dispersion_page.h"
+#include "report/dynamics_page.h"
+#include "report/dynamics_tables.h"
+#include "report/json.h"
+#include "report/page.h"
+#include "report/stability_page.h"
+#include "report/stability_tables.h"
+#include "report/tables.h"
+#include "tests/report/fixture.h"
+
+#include <gtest/gtest.h>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    bool holds(const std::string &text, const std::string &part)
+    {
+      return text.find(part) != std::string::npos;
+    }
+
+    /// One method at two values that straddle 0.
+    study::Results over_q()
+    {
+      study::Results results;
+      results.regime = scene::Regime::variable;
+      results.variable = "q";
+      results.decisive_error = "nodal L2 | exact";
+      study::Trend trend{"FA",
+                         study::Side::meshfree,
+                         "case1",
+                         "h = 0.1, m = 3",
+                         results.decisive_error,
+                         study::Axis::variable};
+      for (const double q : {-.5, .5})
+      {
+        study::Run run;
+        run.method = "FA";
+        run.problem = trend.problem;
+        run.series = trend.series;
+        run.level = q < 0 ? 0 : 1;
+        run.h = .1;
+        run.horizon = .3;
+        run.value = q;
+        run.cost.solve_seconds = .5;
+        run.errors[results.decisive_error] = .02 + .01 * q;
+        trend.x.push_back(q);
+        trend.values.push_back(.02 + .01 * q);
+        results.runs.push_back(run);
+      }
+      results.trends = {trend};
+      results.advice = {{"case1", trend.series, {}, {}, {}}};
+      return results;
+    }
+
+    std::vector<std::string> heads(const Table &table)
+    {
+      std::vector<std::string> all;
+      for (const Column &column : table.columns)
+        all.push_back(column.head);
+      return all;
+    }
+
+    using Heads = std::vector<std::string>;
+  } // namespace
+
+  TEST(ReportOverAVariable, HasItsValuesInTablesAndNoRates)
+  {
+    study::Results results = over_q();
+    const Table errors = error_table(results, cases(results).front());
+    EXPECT_EQ(heads(errors), (Heads{"level", "h", "δ", "m", "q", "FA"}));
+    ASSERT_EQ(errors.rows.size(), 2u);
+    EXPECT_EQ(errors.rows[0][4].text, "-0.5");
+    EXPECT_EQ(errors.rows[1][5].text, "2.500e-2");
+    results.runs[1].failure = "none";
+    EXPECT_EQ(failure_table(results).rows.at(0)[6].text, "0.5");
+    EXPECT_EQ(heads(failure_table(results))[6], "q");
+    results.variable.clear();
+    EXPECT_EQ(heads(failure_table(results))[6], "why");
+  }
+
+  TEST(ReportOverAVariable, DrawsErrorsOverIt)
+  {
+    const fixture::Folder folder;
+    const study::Results results = over_q();
+    write_charts(results, folder.path());
+    const std::string chart = "convergence_case1_h-0.1-m-3";
+    EXPECT_TRUE(holds(fixture::read(folder.path() / "charts" / (chart + ".csv")),
+                      "FA,case1,\"h = 0.1, m = 3\",0,-0.5,0.014999999999999999\n"));
+    const std::string svg = fixture::read(folder.path() / "charts" / (chart + ".svg"));
+    EXPECT_TRUE(holds(svg, "error over q"));
+    EXPECT_TRUE(holds(svg, ">-0.2<")); // an axis that holds it is linear
+    write_page(results, folder.path());
+    const std::string page = fixture::read(folder.path() / "report.html");
+    EXPECT_TRUE(holds(page, "Largest error over all values of q and problems, the best method "
+                            "first: FA (2.500e-2)."));
+    EXPECT_TRUE(holds(page, "h and δ are fixed and q varies"));
+  }
+
+  TEST(ReportOverAVariable, StandsOnALogarithmicAxisWhereItGrowsEightfold)
+  {
+    using study::Axis;
+    EXPECT_TRUE(is_logarithmic(Axis::variable, {.1, .8}));
+    EXPECT_FALSE(is_logarithmic(Axis::variable, {.1, .79}));
+    EXPECT_FALSE(is_logarithmic(Axis::variable, {-.1, 8}));
+    EXPECT_TRUE(is_logarithmic(Axis::mesh_size, {.1, .05}));
+  }
+
+  TEST(ReportOverAVariable, IsReadBack)
+  {
+    const study::Results read = from_json(to_json(over_q(), 0), "a file");
+    EXPECT_EQ(read.variable, "q");
+    EXPECT_EQ(read.runs[0].value, -.5);
+    EXPECT_EQ(read.trends[0].axis, study::Axis::variable);
+    EXPECT_EQ(read.trends[0].x[0], -.5); // no length
+  }
+
+  TEST(ReportOverAVariable, HasItInMeasuresAndMotions)
+  {
+    study::StabilityResults stability;
+    stability.variable = "q";
+    for (const double q : {-.5, .5})
+    {
+      stability.rows.push_back({"FA", study::Side::meshfree, "h = 0.1, m = 3", .1, .3, {}, {}, {}});
+      stability.rows.back().value = q;
+      stability.rows.back().stability.n_unknowns = 9;
+      stability.rows.back().stability.smallest = 2 + q;
+      stability.rows.back().stability.largest = 4;
+    }
+    EXPECT_EQ(heads(measures_table(stability))[3], "q");
+    EXPECT_EQ(measures_table(stability).rows[1][3].text, "0.5");
+    EXPECT_TRUE(powers_table(stability).rows.empty()); // of lengths alone
+    const auto verdict = study::judge(stability.rows, "q");
+    EXPECT_TRUE(holds(verdict.explanation, "h = 0.1, q = -0.5")) << verdict.explanation;
+    stability.variable.clear();
+    EXPECT_NE(heads(measures_table(stability))[3], "q");
+
+    study::DynamicResults motions;
+    motions.variable = "q";
+    motions.runs.resize(2);
+    motions.runs[1].value = .5;
+    const Heads with = heads(motions_table(motions));
+    EXPECT_NE(std::find(with.begin(), with.end(), "q"), with.end());
+    motions.variable.clear();
+    motions.runs[1].value = 0;
+    const Heads without = heads(motions_table(motions));
+    EXPECT_EQ(without.size() + 1, with.size());
+  }
+} // namespace plumbline::report
