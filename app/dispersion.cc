@@ -6,7 +6,6 @@
 #include "methods.h"
 #include "report/dispersion_page.h"
 #include "report/formats.h"
-#include "report/json_lines.h"
 #include "run_parts.h"
 #include "study/preflight.h"
 
@@ -34,17 +33,27 @@ namespace plumbline::app
           throw InputError("--angles: " + base::to_text(angle, 4) +
                            " is no direction; give degrees from -360 to 360");
     }
+
+    /// All that rows depend on: the finest level alone has samples.
+    std::string subject_of(const DispersionOptions &options, const scene::Scene &scene)
+    {
+      std::string angles;
+      for (const double angle : options.angles)
+        angles += " " + base::to_text(angle, 17);
+      return "# levels: " + std::to_string(options.n_levels) + ", angles:" + angles + "\n" +
+             scene.text;
+    }
   } // namespace
 
-  study::DispersionResults
-  measure_dispersion(const scene::Scene &scene, const method::Methods &methods,
-                     const std::vector<double> &angles, unsigned int n_levels,
-                     const std::function<void(const DispersionRow &)> &on_row,
-                     const ShouldStop &should_stop)
+  study::DispersionResults measure_dispersion(const scene::Scene &scene,
+                                              const method::Methods &methods,
+                                              const std::vector<double> &angles,
+                                              unsigned int n_levels,
+                                              const DispersionControl &control)
   {
     study::DispersionResults results{
         scene.name, scene.purpose, study::plan_waves(scene, angles), {}, {}, scene.study.variable};
-    const ShouldStop stops = noting(should_stop, results.is_complete);
+    const ShouldStop stops = noting(control.should_stop, results.is_complete);
     std::vector<std::vector<DispersionRow>> rows(methods.size()); // of each method
     for_each_level(
         scene, n_levels,
@@ -53,14 +62,24 @@ namespace plumbline::app
           const scene::Problem problem = scene::make_problem(at_level(scene, level), 0, level);
           for (std::size_t i = 0; i < methods.size() && !stops(); ++i)
           {
-            const base::CpuTimer timer;
+            const std::string name = methods[i]->name();
             auto own =
-                study::measure_waves(*methods[i], problem, results.study, series.name, is_finest);
-            own.front().seconds = timer.seconds();
-            for (DispersionRow &row : own)
-              row.value = level.value;
-            if (on_row)
-              std::for_each(own.begin(), own.end(), on_row);
+                known_rows(control.earlier, series.name, level,
+                           [&](const DispersionRow &row) {
+                             return row.value == level.value &&
+                                    (row.method == name || row.method == study::lumped(name));
+                           });
+            if (own.empty())
+            {
+              const base::CpuTimer timer;
+              own =
+                  study::measure_waves(*methods[i], problem, results.study, series.name, is_finest);
+              own.front().seconds = timer.seconds();
+              for (DispersionRow &row : own)
+                row.value = level.value;
+              if (control.on_rows)
+                control.on_rows(own);
+            }
             std::move(own.begin(), own.end(), std::back_inserter(rows[i]));
           }
         },
@@ -80,15 +99,15 @@ namespace plumbline::app
     const fs::path folder = output_folder(options, scene);
     watch_interrupts();
     report::write_file(folder / "dispersion.md", ""); // before the work: can it be written?
-    report::JsonLines finished(folder / "dispersion.jsonl");
+    auto journal = open_journal<DispersionRow>(folder / "dispersion.jsonl", scene,
+                                               subject_of(options, scene), options.quiet);
     const study::DispersionResults results = measure_dispersion(
         scene, methods, options.angles, options.n_levels,
-        [&](const DispersionRow &row) { finished.append(report::dispersion_line(row)); },
-        is_interrupted);
+        {is_interrupted, [&](const auto &rows) { journal.append(rows); }, journal.earlier()});
     report::write_dispersion(results, folder);
-    finished.remove();
     if (!results.is_complete)
-      return say_interrupted(folder, false);
+      return say_interrupted(folder);
+    journal.remove();
     if (options.json)
       std::cout << report::dispersion_json(results);
     else if (!options.quiet)

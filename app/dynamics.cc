@@ -122,7 +122,7 @@ namespace plumbline::app
         std::cout << report::dynamics_text(results)
                   << "\nreport: " << (folder / "dynamics.html").string() << '\n';
       if (!results.is_complete)
-        say_interrupted(folder, true);
+        say_interrupted(folder);
       if (results.shows_blow_up)
         return;
       for (const study::MotionRun &run : results.runs)

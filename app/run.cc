@@ -233,7 +233,7 @@ namespace plumbline::app
       else if (!options.quiet)
         print_summary(results, folder);
       if (!results.is_complete)
-        say_interrupted(folder, true);
+        say_interrupted(folder);
       for (const study::Run &run : results.runs)
         if (!run.failure.empty())
           std::cerr << "no solution: " << run.method << ", " << run.problem << ", " << run.series

@@ -48,10 +48,10 @@ namespace plumbline::app
     return interrupted != 0;
   }
 
-  int say_interrupted(const std::filesystem::path &folder, bool continues)
+  int say_interrupted(const std::filesystem::path &folder)
   {
-    std::cerr << "interrupted: what is finished is in '" << folder.string() << "'"
-              << (continues ? "; the same command continues\n" : "\n");
+    std::cerr << "interrupted: what is finished is in '" << folder.string()
+              << "'; the same command continues\n";
     return 130;
   }
 

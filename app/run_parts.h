@@ -15,10 +15,10 @@ namespace plumbline::app
   void watch_interrupts();
   bool is_interrupted();
 
-  /// Says on the terminal where the results of an interrupted command are, and whether it takes
-  /// them over when it is run again.
+  /// Says on the terminal where the results of an interrupted command are, which it takes over when
+  /// it is run again.
   /// @return  its exit code
-  int say_interrupted(const std::filesystem::path &folder, bool continues);
+  int say_interrupted(const std::filesystem::path &folder);
 
   /// Versions and machine, for results.
   std::map<std::string, std::string> provenance();

@@ -245,7 +245,7 @@ namespace plumbline::app
     for (const study::SampleFailure &failure : results.failures)
       std::cerr << "sample " << failure.sample << " failed: " << failure.reason << '\n';
     if (is_interrupted())
-      return say_interrupted(folder, true);
+      return say_interrupted(folder);
     if (!results.failures.empty() || !results.is_complete)
       return 3;
     for (const std::string &fault : faults)

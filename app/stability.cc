@@ -6,7 +6,6 @@
 #include "method/discretisation.h"
 #include "methods.h"
 #include "report/formats.h"
-#include "report/json_lines.h"
 #include "report/stability_page.h"
 #include "run_parts.h"
 #include "scene/models/model.h"
@@ -114,8 +113,8 @@ namespace plumbline::app
 
   study::StabilityResults
   measure_stability(scene::Scene scene, const method::Methods &methods, unsigned int n_levels,
-                    const std::function<void(const StabilityRow &, bool is_finest)> &on_row,
-                    const ShouldStop &should_stop)
+                    const StabilityControl &control,
+                    const std::function<void(const StabilityRow &)> &on_finest)
   {
     scene.solver.is_mixed = false; // the operator on displacements is measured
     study::StabilityResults results;
@@ -123,7 +122,7 @@ namespace plumbline::app
     results.purpose = scene.purpose;
     results.variable = scene.study.variable;
     std::vector<std::vector<StabilityRow>> rows(methods.size()); // of each method
-    const ShouldStop stops = noting(should_stop, results.is_complete);
+    const ShouldStop stops = noting(control.should_stop, results.is_complete);
     for_each_level(
         scene, n_levels,
         [&](const scene::Series &series, const scene::Level &level, bool is_finest)
@@ -134,10 +133,18 @@ namespace plumbline::app
           {
             if (stops())
               return;
-            rows[i].push_back(
-                measure_level(*methods[i], one.problem, series.name, level, here.time.density));
-            if (on_row)
-              on_row(rows[i].back(), is_finest);
+            const auto known =
+                known_rows(control.earlier, series.name, level,
+                           [&](const StabilityRow &row) {
+                             return row.method == methods[i]->name() && row.value == level.value;
+                           });
+            rows[i].push_back(!known.empty() ? known.front()
+                                             : measure_level(*methods[i], one.problem, series.name,
+                                                             level, here.time.density));
+            if (known.empty() && control.on_rows)
+              control.on_rows({rows[i].back()});
+            if (is_finest && on_finest)
+              on_finest(rows[i].back());
           }
           if (is_finest && !scene.material.model->is_linear() && scene.domain.is_periodic)
             add_strains(methods, one, series.name, results.strains);
@@ -165,20 +172,16 @@ namespace plumbline::app
     const fs::path folder = output_folder(options, scene);
     watch_interrupts();
     report::write_file(folder / "stability.md", ""); // before the work: can it be written?
-    report::JsonLines finished(folder / "stability.jsonl");
+    auto journal =
+        open_journal<StabilityRow>(folder / "stability.jsonl", scene, scene.text, options.quiet);
     const study::StabilityResults results = measure_stability(
         scene, methods, options.n_levels,
-        [&](const StabilityRow &row, bool is_finest)
-        {
-          finished.append(report::stability_line(row));
-          if (is_finest)
-            write_modes(row, folder / "stability");
-        },
-        is_interrupted);
+        {is_interrupted, [&](const auto &rows) { journal.append(rows); }, journal.earlier()},
+        [&](const StabilityRow &row) { write_modes(row, folder / "stability"); });
     report::write_stability(results, folder);
-    finished.remove();
     if (!results.is_complete)
-      return say_interrupted(folder, false);
+      return say_interrupted(folder);
+    journal.remove();
     if (options.json)
       std::cout << report::stability_json(results);
     else if (!options.quiet)

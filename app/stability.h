@@ -11,18 +11,20 @@ namespace plumbline::app
     bool check = false;
   };
 
+  using StabilityControl = MeasureControl<study::StabilityRow>;
+
   /// The operators of methods over the sweep of a scene, on displacements alone.
-  /// @param on_row       called with each that is finished
-  /// @param should_stop  asked before each level of each method
+  /// @param on_finest  called with each row of a series' finest level, those of earlier, too
   /// @throws InputError  a method that shows no operator; what else fails is in its row
-  study::StabilityResults measure_stability(
-      scene::Scene scene, const method::Methods &methods, unsigned int n_levels,
-      const std::function<void(const study::StabilityRow &, bool is_finest)> &on_row = {},
-      const ShouldStop &should_stop = {});
+  study::StabilityResults
+  measure_stability(scene::Scene scene, const method::Methods &methods, unsigned int n_levels,
+                    const StabilityControl &control = {},
+                    const std::function<void(const study::StabilityRow &)> &on_finest = {});
 
   /// Measure the operators of all methods over the sweep of a scene; print tables and verdicts,
   /// write stability.html, .md and .json with pictures in stability/, and the modes of each series'
-  /// finest level to stability/*.vtu.
+  /// finest level to stability/*.vtu. A command that was interrupted or killed takes over what it
+  /// had finished, from stability.jsonl.
   /// @return exit code: 0, or with check 1 if Expected/stability does not hold; that a method is
   ///         unstable is a finding, no error; 130 if it was interrupted: what was finished is there
   /// @throws InputError  a scene that cannot be used, a folder that cannot be written

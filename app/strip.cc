@@ -6,7 +6,6 @@
 #include "base/number_text.h"
 #include "methods.h"
 #include "report/formats.h"
-#include "report/strip_journal.h"
 #include "report/strip_page.h"
 #include "run_parts.h"
 #include "strip_growth.h"
@@ -115,23 +114,19 @@ namespace plumbline::app
           scene, n_levels,
           [&](const scene::Series &series, const scene::Level &level, bool)
           {
-            const auto known =
-                std::find_if(control.earlier.begin(), control.earlier.end(),
-                             [&](const study::StripRow &row)
-                             {
-                               return row.method == method->name() && row.series == series.name &&
-                                      row.h == level.h && row.horizon == level.horizon;
-                             });
-            if (known != control.earlier.end())
+            const auto known = known_rows(control.earlier, series.name, level,
+                                          [&](const study::StripRow &row)
+                                          { return row.method == method->name(); });
+            if (!known.empty())
             {
-              results.rows.push_back(*known);
+              results.rows.push_back(known.front());
               return;
             }
             results.rows.push_back(study::stand_crack(*method, scene, series, level));
             if (scene.strip.n_growth > 0)
               add_growth(scene, results.rows.back());
-            if (control.on_row)
-              control.on_row(results.rows.back());
+            if (control.on_rows)
+              control.on_rows({results.rows.back()});
           },
           stops);
     results.limits = study::strip_limits(scene.strip, results.rows);
@@ -150,17 +145,17 @@ namespace plumbline::app
     watch_interrupts();
     report::write_file(folder / "strip.md", ""); // before the work: can it be written?
 
-    report::StripJournal journal(folder, scene.text);
-    const study::StripResults results =
-        stand_cracks(scene, methods, options.n_levels,
-                     {is_interrupted, [&](const study::StripRow &row) { journal.append(row); },
-                      journal.earlier()});
+    auto journal =
+        open_journal<study::StripRow>(folder / "strip.jsonl", scene, scene.text, options.quiet);
+    const study::StripResults results = stand_cracks(
+        scene, methods, options.n_levels,
+        {is_interrupted, [&](const auto &rows) { journal.append(rows); }, journal.earlier()});
     const std::vector<std::string> faults = results.is_complete
                                                 ? study::strip_faults(results, scene.expected)
                                                 : std::vector<std::string>();
     report::write_strip(results, faults, folder);
     if (!results.is_complete)
-      return say_interrupted(folder, true);
+      return say_interrupted(folder);
     journal.remove();
     if (options.json)
       std::cout << report::strip_json(results);

@@ -17,13 +17,7 @@ namespace plumbline::app
   method::Methods strip_methods(const scene::Scene &scene, unsigned int n_levels,
                                 unsigned int n_jobs = 1);
 
-  /// How strips are taken one after another.
-  struct StripControl
-  {
-    ShouldStop should_stop;                              ///< asked before each
-    std::function<void(const study::StripRow &)> on_row; ///< called with each that is finished
-    std::vector<study::StripRow> earlier;                ///< that need not be solved again
-  };
+  using StripControl = MeasureControl<study::StripRow>;
 
   /// Strips with a standing crack by methods at all levels of a scene.
   study::StripResults stand_cracks(const scene::Scene &scene, const method::Methods &methods,

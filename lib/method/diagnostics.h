@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/choice.h"
+
 #include <string>
 #include <vector>
 
@@ -49,3 +51,10 @@ namespace plumbline::method
     std::vector<std::string> notes;     ///< what the method had to do, e.g. clip a negative kernel
   };
 } // namespace plumbline::method
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<method::LimitProof::Answer> =
+      std::array{"unknown", "compatible", "incompatible"};
+} // namespace plumbline::base

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/choice.h"
 #include "physics/kernel.h"
 #include "physics/state_based.h"
 
@@ -49,3 +50,10 @@ namespace plumbline::physics
   double squared_local_speed(const Kernel<2> &kernel, const std::optional<Dilatation> &dilatation,
                              Polarisation polarisation);
 } // namespace plumbline::physics
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<physics::Polarisation> =
+      std::array{"scalar", "longitudinal", "transverse"};
+} // namespace plumbline::base

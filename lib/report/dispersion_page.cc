@@ -157,11 +157,6 @@ namespace plumbline::report
            "\n";
   }
 
-  std::string dispersion_line(const study::DispersionRow &row)
-  {
-    return level_json(row).dump() + "\n";
-  }
-
   std::string dispersion_json(const DispersionResults &results)
   {
     Json json{{"scene", results.scene_name},        {"variable", results.variable},

@@ -14,9 +14,6 @@ namespace plumbline::report
   /// is not known.
   std::string dispersion_json(const study::DispersionResults &results);
 
-  /// What it says of a row, as a line.
-  std::string dispersion_line(const study::DispersionRow &row);
-
   /// Write dispersion.json, dispersion.md, charts and dispersion.html into a folder.
   /// @throws InputError      dir cannot be written
   /// @throws NumericalError  charts could not be drawn; all else is written before that

@@ -7,19 +7,6 @@
 // The keys of results.json. Each stands here once; the same list writes and reads.
 namespace plumbline::report
 {
-  using Answer = study::LimitProof::Answer;
-
-  // How the values of enumerations are called, in their order.
-  constexpr std::array<const char *, 3> names(Answer)
-  {
-    return {"unknown", "compatible", "incompatible"};
-  }
-  template <typename Enum>
-  constexpr auto names(Enum)
-  {
-    return base::words<Enum>;
-  }
-
   template <typename Archive>
   void visit(Archive &a, base::Cost &cost)
   {

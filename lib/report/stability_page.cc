@@ -194,11 +194,6 @@ namespace plumbline::report
     return text + "\n" + to_text(stability_verdicts_table(results));
   }
 
-  std::string stability_line(const study::StabilityRow &row)
-  {
-    return level_json(row).dump() + "\n";
-  }
-
   std::string stability_json(const StabilityResults &results)
   {
     Json json{{"scene", results.scene_name}, {"is_complete", results.is_complete},

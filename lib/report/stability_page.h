@@ -14,9 +14,6 @@ namespace plumbline::report
   /// is not known.
   std::string stability_json(const study::StabilityResults &results);
 
-  /// What it says of a row, as a line.
-  std::string stability_line(const study::StabilityRow &row);
-
   /// Write stability.json, stability.md, pictures and stability.html into a folder.
   /// @throws InputError      dir cannot be written
   /// @throws NumericalError  pictures could not be drawn; all else is written before that

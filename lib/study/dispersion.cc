@@ -239,7 +239,7 @@ namespace plumbline::study
     std::vector<DispersionRow> rows{measured(row, measurement, *waves, is_finest)};
     if (algebra::couples_cells(waves->mass))
     {
-      row.method += " lumped";
+      row.method = lumped(row.method);
       waves->mass = algebra::lump(waves->mass, waves->n_families());
       rows.push_back(measured(row, measurement, *waves, is_finest));
     }

@@ -67,7 +67,13 @@ namespace plumbline::study
   /// a material that varies; or an operator whose local limit has no waves, ω² <= 0
   WaveStudy plan_waves(const scene::Scene &scene, const std::vector<double> &angles);
 
-  /// One row of a method's own mass matrix, and one more, "NAME lumped", where that couples cells.
+  /// What a method is called with its mass matrix made diagonal.
+  inline std::string lumped(const std::string &method)
+  {
+    return method + " lumped";
+  }
+
+  /// One row of a method's own mass matrix, and one more, lumped(NAME), where that couples cells.
   /// @param is_finest  of its series: sampled from 2 to 200 h
   std::vector<DispersionRow> measure_waves(const Method &method, const scene::Problem &problem,
                                            const WaveStudy &study, const std::string &series,

@@ -46,7 +46,7 @@ TEST_F(BadKeys, are_refused_by_key_value_what_is_allowed_and_the_remedy)
        refused("Expected/error tolerance", "0", rest, "0.0005"),
        refused("Solver/tolerance", "nan", "a number from 1e-15 to 0.001", "1e-12"),
        refused("Methods/perturbation", "0.5", "a number from 0 to 0.49", "0"),
-       refused("Study/regime", "x", "one of m, delta, delta-m, horizon", "delta"),
+       refused("Study/regime", "x", "one of m, delta, delta-m, horizon, variable", "delta"),
        refused("Kernel/symmetrisation", "mean", "one of arithmetic, harmonic", "arithmetic"),
        refused("Output/fields", "maybe", "true or false", "false")});
 }

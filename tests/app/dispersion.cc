@@ -1,6 +1,7 @@
 // `plumbline dispersion`: what it says of shipped scenes, and what it refuses.
 
 #include "command.h"
+#include "goes_on.h"
 
 #include <nlohmann/json.hpp>
 
@@ -95,7 +96,13 @@ TEST(DispersionCommand, interrupted_keeps_what_is_finished)
   const auto json = nlohmann::json::parse(read(folder / "dispersion.json"));
   EXPECT_FALSE(json["is_complete"]);
   EXPECT_GE(json["levels"].size(), 1u);
-  EXPECT_FALSE(fs::exists(folder / "dispersion.jsonl"));
+  EXPECT_TRUE(fs::exists(folder / "dispersion.jsonl")); // the same command goes on from it
   expect_found(read(folder / "dispersion.html"), "interrupted: what was finished");
   fs::remove_all(folder);
+}
+
+TEST(DispersionCommand, killed_goes_on_from_what_is_finished)
+{
+  expect_to_go_on("dispersion " + scene("diffusion") + " --methods Q1,Q2,FA --levels 3",
+                  "dispersion");
 }

@@ -1,6 +1,7 @@
 // `plumbline stability`, and failures that are refused instead of computed.
 
 #include "command.h"
+#include "goes_on.h"
 
 #include <nlohmann/json.hpp>
 
@@ -52,6 +53,14 @@ TEST(StabilityCommand, interrupted_keeps_what_is_finished)
   EXPECT_GE(json["levels"].size(), 10u);
   EXPECT_EQ(json["verdicts"].size(), 3u);
   expect_found(read(folder / "stability.html"), "interrupted: what was finished");
+}
+
+TEST(StabilityCommand, killed_goes_on_from_what_is_finished)
+{
+  expect_to_go_on("stability " + std::string(PLUMBLINE_SCENES) +
+                      "/ipa_ac/scalar_delta_convergence.prm --methods IPA-AC-R2,DGQ1 --levels 3 "
+                      "--set Study/m=3,4 --set Expected/rates= --set Expected/verdicts=",
+                  "stability");
 }
 
 TEST(StabilityCommand, refuses_levels_that_do_not_fit_into_memory)

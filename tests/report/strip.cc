@@ -1,4 +1,4 @@
-#include "report/strip_journal.h"
+#include "report/row_journal.h"
 #include "report/strip_page.h"
 
 #include "tests/report/fixture.h"
@@ -11,6 +11,8 @@ namespace plumbline::report
 {
   namespace
   {
+    using StripJournal = RowJournal<study::StripRow>;
+
     study::StripRow strip(const std::string &method, double energy)
     {
       study::StripRow row;
@@ -36,8 +38,8 @@ namespace plumbline::report
   {
     const fixture::Folder folder;
     const study::StripRow written = strip("Q1", 1. / 3);
-    StripJournal(folder.path(), "scene").append(written);
-    const StripJournal journal(folder.path(), "scene");
+    StripJournal(folder.path() / "strip.jsonl", "scene").append({written});
+    const StripJournal journal(folder.path() / "strip.jsonl", "scene");
     ASSERT_EQ(journal.earlier().size(), 1u);
     const study::StripRow &read = journal.earlier().front();
     EXPECT_EQ(read.method, "Q1");
@@ -70,11 +72,11 @@ namespace plumbline::report
     const fixture::Folder folder;
     for (unsigned int i = 0; i < 3; ++i)
     {
-      StripJournal journal(folder.path(), "scene");
+      StripJournal journal(folder.path() / "strip.jsonl", "scene");
       ASSERT_EQ(journal.earlier().size(), i);
-      journal.append(strip("Q1", i));
+      journal.append({strip("Q1", i)});
     }
-    const StripJournal journal(folder.path(), "scene");
+    const StripJournal journal(folder.path() / "strip.jsonl", "scene");
     ASSERT_EQ(journal.earlier().size(), 3u);
     for (unsigned int i = 0; i < 3; ++i)
       EXPECT_EQ(journal.earlier()[i].state.energy, i);
@@ -84,12 +86,12 @@ namespace plumbline::report
   {
     const fixture::Folder folder;
     const auto file = folder.path() / "strip.jsonl";
-    StripJournal(folder.path(), "scene").append(strip("Q1", 1));
-    EXPECT_TRUE(StripJournal(folder.path(), "another").earlier().empty());
+    StripJournal(folder.path() / "strip.jsonl", "scene").append({strip("Q1", 1)});
+    EXPECT_TRUE(StripJournal(folder.path() / "strip.jsonl", "another").earlier().empty());
     std::ofstream(file, std::ios::app) << "{\"method\": \"cut o";
-    EXPECT_EQ(StripJournal(folder.path(), "scene").earlier().size(), 1u);
+    EXPECT_EQ(StripJournal(folder.path() / "strip.jsonl", "scene").earlier().size(), 1u);
     std::ofstream(file, std::ios::app) << "ff\"}\n"; // whole, but no strip
-    EXPECT_TRUE(StripJournal(folder.path(), "scene").earlier().empty());
+    EXPECT_TRUE(StripJournal(folder.path() / "strip.jsonl", "scene").earlier().empty());
   }
 
   TEST(StripPage, StandsWhereNothingIsFinishedYet)
