@@ -157,7 +157,8 @@ namespace plumbline::app
       results.verdicts.push_back(study::judge(own, results.variable));
       std::move(own.begin(), own.end(), std::back_inserter(results.rows));
     }
-    results.trends = study::stability_trends(results.rows);
+    if (results.variable.empty()) // else no length varies, which powers would be of
+      results.trends = study::stability_trends(results.rows);
     return results;
   }
 

@@ -81,9 +81,11 @@ namespace plumbline::report
   };
 
   /// Says where in the file it is, so that a message can name the place.
+  /// @throws InputError  a key that is missing, or a value that is of another type
   class JsonReader
   {
   public:
+    /// @param object, file  outlive it
     JsonReader(const Json &object, std::string place, const std::string &file)
         : object_(object), place_(std::move(place)), file_(file)
     {

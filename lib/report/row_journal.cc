@@ -28,6 +28,7 @@ namespace plumbline::report
   RowJournal<Row>::RowJournal(const std::filesystem::path &file, const std::string &subject)
       : lines_(file), head_(Json{{"version", version}, {"subject", subject}}.dump() + "\n")
   {
+    const std::string name = file.string();
     const std::vector<std::string> lines = read_lines(file);
     if (lines.empty() || lines.front() + "\n" != head_)
       return;
@@ -36,7 +37,7 @@ namespace plumbline::report
       for (std::size_t i = 1; i < lines.size(); ++i)
       {
         const Json json = Json::parse(lines[i]);
-        const JsonReader reader(json, "", file.string());
+        const JsonReader reader(json, "", name);
         visit(reader, earlier_.emplace_back());
       }
     }

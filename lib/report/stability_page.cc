@@ -196,9 +196,13 @@ namespace plumbline::report
 
   std::string stability_json(const StabilityResults &results)
   {
-    Json json{{"scene", results.scene_name}, {"is_complete", results.is_complete},
-              {"levels", Json::array()},     {"powers", Json::array()},
-              {"verdicts", Json::array()},   {"strains", Json::array()}};
+    Json json{{"scene", results.scene_name},
+              {"variable", results.variable},
+              {"is_complete", results.is_complete},
+              {"levels", Json::array()},
+              {"powers", Json::array()},
+              {"verdicts", Json::array()},
+              {"strains", Json::array()}};
     for (const study::StrainGrowth &growth : results.strains)
       json["strains"].push_back(strain_json(growth));
     for (const study::StabilityRow &row : results.rows)

@@ -65,7 +65,7 @@ namespace plumbline::study
     double smallest = 0, largest = 0, inverse_norm = 0;
   };
 
-  /// One for each method and series, as they stand in the rows; none where a variable varies.
+  /// One for each method and series, as they stand in the rows.
   /// @param rows  coarse to fine in each series
   std::vector<StabilityTrend> stability_trends(const std::vector<StabilityRow> &rows);
 
