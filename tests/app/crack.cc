@@ -126,6 +126,7 @@ TEST(CrackCommand, refuses_frames_that_would_fill_the_disk)
   expect_refused(strip + "Study/h=0.1 --set Time/frames=101", "is more than Crack/samples = 100");
 }
 
+#ifndef __SANITIZE_ADDRESS__ // which takes all of the address space
 TEST(CrackCommand, refuses_strips_that_do_not_fit_into_memory)
 {
   rlimit before{};
@@ -138,6 +139,7 @@ TEST(CrackCommand, refuses_strips_that_do_not_fit_into_memory)
                  "a strip of 1e+08 nodes: needs some 25 GB of memory");
   setrlimit(RLIMIT_AS, &before);
 }
+#endif
 
 TEST(CrackCommand, refuses_a_checkpoint_that_is_none)
 {
