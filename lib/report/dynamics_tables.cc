@@ -249,6 +249,8 @@ namespace plumbline::report
 
   std::vector<const MotionRun *> best_runs(const DynamicResults &results)
   {
+    if (!results.variable.empty())
+      return {}; // they are of several problems
     std::vector<const MotionRun *> runs, best;
     for (const MotionRun &run : results.runs)
       if (const double error = decisive_error(results, run);

@@ -35,7 +35,8 @@ namespace plumbline::report
   Table motion_expectations_table(const study::DynamicResults &results);
   Table failed_motions_table(const study::DynamicResults &results);
 
-  /// Runs that no other one beats in both error and CPU seconds, by rising error.
+  /// Runs that no other one beats in both error and CPU seconds, by rising error. None where a
+  /// variable varies: they are of several problems.
   std::vector<const study::MotionRun *> best_runs(const study::DynamicResults &results);
 
   /// Of a run, NaN where it has none.

@@ -113,13 +113,19 @@ namespace plumbline::scene
     }
 
     /// That it can be taken at all values of its study's variable.
-    Scene checked(Scene scene)
+    /// @param what  opens messages
+    Scene checked(Scene scene, const std::string &what)
+    try
     {
       if (scene.study.regime == Regime::variable)
         for (const Series &series : scene.study.series)
           for (const Level &level : series.levels)
             (void)at_level(scene, level);
       return scene;
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(what + ": " + error.what());
     }
 
     std::string opening(const std::string &file)
@@ -237,14 +243,16 @@ namespace plumbline::scene
     const bool is_json = base::has_ending(file, ".json");
     return checked(build(file, what,
                          is_json ? read_json_settings(text, what) : read_settings(file, text, what),
-                         overrides));
+                         overrides),
+                   what);
   }
 
   Scene parse_scene(const std::string &name, const std::string &text,
                     const std::vector<Override> &overrides)
   {
     base::check_text(text, opening(name));
-    return checked(build(name, opening(name), read_settings(name, text, opening(name)), overrides));
+    return checked(build(name, opening(name), read_settings(name, text, opening(name)), overrides),
+                   opening(name));
   }
 
   namespace

@@ -98,6 +98,8 @@ namespace plumbline::report
     EXPECT_TRUE(holds(page, "Largest error over all values of q and problems, the best method "
                             "first: FA (2.500e-2)."));
     EXPECT_TRUE(holds(page, "h and δ are fixed and q varies"));
+    EXPECT_TRUE(holds(page, "the largest error over the values of q"));
+    EXPECT_FALSE(holds(page, "one finer level would help"));
   }
 
   TEST(ReportOverAVariable, StandsOnALogarithmicAxisWhereItGrowsEightfold)

@@ -451,7 +451,7 @@ TEST(ScenesOverAVariable, GoThroughItsValues)
   refuse({{"Study/variable", "e"}}, "Study/variable = 'e' is none of Random/variables (c, d)");
   refuse({{"Study/values", ""}}, "needs Study/values, which is empty");
   refuse({{"Study/values", "1, 1"}}, "rise without repetition; 1 does not");
-  refuse({{"Study/values", "-1, 1"}}, "Study/values: at d = -1: ");
+  refuse({{"Study/values", "-1, 1"}}, "': Study/values: at d = -1: ");
   refuse({{"Study/regime", "delta"}}, "are for Study/regime = variable; write that, or clear both");
   refuse({{"Sampling/rule", "Monte Carlo"}, {"Sampling/counts", "2"}}, "both vary variables");
   refuse(
