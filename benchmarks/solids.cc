@@ -91,7 +91,7 @@ namespace
       benchmarks::count(state, "bonds", bonds);
   }
 
-  /// CsrMatrix of a heterogeneous solid at m = 3 by OPT, θ eliminated or kept: u, or (u, θ). At
+  /// Rows of a heterogeneous solid at m = 3 by OPT, θ eliminated or kept: u, or (u, θ). At
   /// least: 2 operations, 12 bytes (value and column) and a neighbour for each value, and the
   /// vectors.
   void apply_rows(benchmark::State &state, bool is_kept)

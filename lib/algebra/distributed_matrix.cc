@@ -57,7 +57,7 @@ namespace plumbline::algebra
       return received;
     }
 
-    /// CsrMatrix first ... first + n - 1 alone.
+    /// Rows first ... first + n - 1 alone.
     CsrMatrix slice(const CsrMatrix &rows, std::size_t first, std::size_t n)
     {
       const auto at = [](const auto &data, std::size_t i)
@@ -190,7 +190,7 @@ namespace plumbline::algebra
     block_column_ = block_columns(own());
   }
 
-  /// CsrMatrix 2 first ... 2 last - 1.
+  /// Rows 2 first ... 2 last - 1.
   void DistributedMatrix::multiply_blocks(std::size_t first, std::size_t last, const double *x,
                                           double *y) const
   {

@@ -166,7 +166,7 @@ namespace plumbline::algebra
       }
     }
 
-    /// CsrMatrix of half cells become those of the mirrored operator.
+    /// Rows of half cells become those of the mirrored operator.
     void SineSolver::double_mirrored() const
     {
       for (unsigned int upper = 0; upper < 2; ++upper)

@@ -183,7 +183,7 @@ namespace plumbline::algebra
       return n_parts;
     }
 
-    /// CsrMatrix from which no chain of entries leads to one that is marked.
+    /// Rows from which no chain of entries leads to one that is marked.
     /// @param columns  the transposed matrix
     std::size_t count_unreached(const CsrMatrix &columns, std::vector<char> is_reached)
     {

@@ -43,7 +43,7 @@ namespace plumbline::algebra
   {
     std::size_t n_positive = 0; ///< rows with a positive off-diagonal entry
     std::size_t n_weak = 0;     ///< rows that are not diagonally dominant
-    /// CsrMatrix from which no chain of entries leads to a strictly dominant row: nodes that
+    /// Rows from which no chain of entries leads to a strictly dominant row: nodes that
     /// nothing ties to the data in the collar.
     std::size_t n_loose = 0;
     std::size_t n_parts = 0; ///< connected parts of the graph of A + Aᵀ; 1: irreducible

@@ -147,7 +147,7 @@ namespace plumbline::geometry
 
   std::vector<CellRange> maximal_rectangles(const Lattice &lattice)
   {
-    // CsrMatrix and columns where the shape of Ω changes; a maximal rectangle begins and ends
+    // Rows and columns where the shape of Ω changes; a maximal rectangle begins and ends
     // there.
     const auto &n = lattice.n_cells();
     std::array<std::set<int>, 2> breaks{std::set<int>{0, n[0]}, std::set<int>{0, n[1]}};

@@ -7,7 +7,7 @@
 
 namespace plumbline::geometry
 {
-  /// CsrMatrix of nodes of a square lattice, numbered i1 + n[0] i2; each has a square of side h
+  /// Rows of nodes of a square lattice, numbered i1 + n[0] i2; each has a square of side h
   /// about it.
   struct NodeLattice
   {

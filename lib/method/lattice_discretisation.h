@@ -27,7 +27,7 @@ namespace plumbline::method
     CaseData data(const scene::Problem &problem) const override;
     std::unique_ptr<algebra::LinearSystem> tangent() const override;
 
-    /// CsrMatrix are there up to 2e7 entries.
+    /// Rows are there up to 2e7 entries.
     DiscreteOperator matrix() const override { return show(lattice_, nodes_, stencil_, mass_); }
 
     std::optional<algebra::WaveOperator> waves() const override;

@@ -5,7 +5,7 @@
 
 namespace plumbline::method
 {
-  /// CsrMatrix of the free unknowns in two parts: by columns of free ones, and of held ones, whose
+  /// Rows of the free unknowns in two parts: by columns of free ones, and of held ones, whose
   /// values are given. On several ranks the sum of all is the matrix.
   struct PartedRows
   {

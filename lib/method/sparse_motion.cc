@@ -37,7 +37,7 @@ namespace plumbline::method
       };
     }
 
-    /// CsrMatrix of another matrix with a life of their own.
+    /// Rows of another matrix with a life of their own.
     algebra::Action action_of(algebra::CsrMatrix &&rows)
     {
       const auto own = std::make_shared<const algebra::CsrMatrix>(std::move(rows));

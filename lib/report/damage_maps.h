@@ -36,7 +36,7 @@ namespace plumbline::report
   /// So many nodes along each axis are a block of a picture, which has no more columns of them.
   int block_size(const MapCells &cells, int most_columns);
 
-  /// CsrMatrix of blocks as gnuplot reads a matrix, the lowest first; NaN where a block has no
+  /// Rows of blocks as gnuplot reads a matrix, the lowest first; NaN where a block has no
   /// node.
   /// @param show  what is seen of a block, of its nodes' values, one at least
   std::string rows_of(const DamageMap &map, const MapCells &cells, int size,

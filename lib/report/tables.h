@@ -7,7 +7,7 @@
 
 namespace plumbline::report
 {
-  /// CsrMatrix: levels with h, horizon and m = horizon / h. Columns: of each method the decisive
+  /// Rows: levels with h, horizon and m = horizon / h. Columns: of each method the decisive
   /// error and the rate from the level before. No value: no solution, or no error of that name.
   Table error_table(const study::Results &results, const Case &one);
 

@@ -48,7 +48,7 @@ namespace plumbline::scene
     std::vector<std::string> columns_, row_;
   };
 
-  /// CsrMatrix of numbers.
+  /// Rows of numbers.
   struct NumberGrid
   {
     std::array<int, 2> n{};     ///< numbers in a row, rows

@@ -23,7 +23,7 @@ namespace plumbline::reference
   /// The Galerkin matrix of a space and how it came about.
   struct MeshMatrix
   {
-    /// CsrMatrix of the free unknowns, columns of all: unknown = dof · n_components + component;
+    /// Rows of the free unknowns, columns of all: unknown = dof · n_components + component;
     /// shape (n_free n_components, n_dofs n_components). On several ranks the sum of all is the
     /// matrix.
     algebra::CsrMatrix rows;

@@ -11,7 +11,7 @@ namespace
   using algebra::CsrMatrix;
   using algebra::DistributedMatrix;
 
-  /// CsrMatrix of pairs of unknowns, the i-th pair coupled to i % 12 others; each rank gives its
+  /// Rows of pairs of unknowns, the i-th pair coupled to i % 12 others; each rank gives its
   /// own.
   CsrMatrix coupled_pairs(unsigned int n_pairs, const algebra::OwnedRanges &ranges)
   {
