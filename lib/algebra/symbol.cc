@@ -1,15 +1,12 @@
 #include "algebra/symbol.h"
 
+#include "algebra/symbol_pencil.h"
 #include "base/error.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
-#include <functional>
-#include <limits>
 #include <utility>
 
 namespace plumbline::algebra
@@ -78,19 +75,19 @@ namespace plumbline::algebra
       }
       return chosen;
     }
-
-    Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solve(const Matrix &stiffness,
-                                                           const Matrix &mass, bool has_vectors)
-    {
-      Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(
-          stiffness, mass,
-          (has_vectors ? Eigen::ComputeEigenvectors : Eigen::EigenvaluesOnly) | Eigen::Ax_lBx);
-      if (solver.info() != Eigen::Success || !solver.eigenvalues().allFinite())
-        throw NumericalError("the symbol has no eigenvalues: its mass matrix is not positive "
-                             "definite, or an entry of the stencil is not finite");
-      return solver;
-    }
   } // namespace
+
+  Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>
+  solve_pencil(const Matrix &stiffness, const Matrix &mass, bool has_vectors)
+  {
+    Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(
+        stiffness, mass,
+        (has_vectors ? Eigen::ComputeEigenvectors : Eigen::EigenvaluesOnly) | Eigen::Ax_lBx);
+    if (solver.info() != Eigen::Success || !solver.eigenvalues().allFinite())
+      throw NumericalError("the symbol has no eigenvalues: its mass matrix is not positive "
+                           "definite, or an entry of the stencil is not finite");
+    return solver;
+  }
 
   Symbol::Symbol(WaveOperator waves) : waves_(std::move(waves))
   {
@@ -110,7 +107,7 @@ namespace plumbline::algebra
     const auto sum = [&](const Stencil &stencil, const auto &factor)
     { return sum_over(waves_, stencil, n, factor); };
     const Matrix mass = sum(waves_.mass, value);
-    const auto solver = solve(sum(waves_.stiffness, value), mass, true);
+    const auto solver = solve_pencil(sum(waves_.stiffness, value), mass, true);
     const Matrix stiffness_slope = sum(waves_.stiffness, slope),
                  mass_slope = sum(waves_.mass, slope);
     const auto &vectors = solver.eigenvectors();
@@ -137,7 +134,8 @@ namespace plumbline::algebra
     // A(k) = A(0) + i kh X - (kh)²/2 Y
     const Matrix x = sum(waves_.stiffness, [](double d) { return d; }) * constants,
                  y = sum(waves_.stiffness, [](double d) { return d * d; }) * constants;
-    const auto spectrum = solve(at_zero, Matrix::Identity(at_zero.rows(), at_zero.cols()), true);
+    const auto spectrum =
+        solve_pencil(at_zero, Matrix::Identity(at_zero.rows(), at_zero.cols()), true);
     double scale = 0;
     for (unsigned int s = 0; s < waves_.stiffness.n_blocks(); ++s)
       scale = std::max(scale, std::abs(waves_.stiffness(s, s, 0, 0)));
@@ -149,169 +147,11 @@ namespace plumbline::algebra
         second -= part.adjoint() * part / spectrum.eigenvalues()[i];
       }
     const Matrix mass = constants.adjoint() * sum(waves_.mass, one) * constants;
-    const auto solver = solve(.5 * (second + second.adjoint()), mass, true);
+    const auto solver = solve_pencil(.5 * (second + second.adjoint()), mass, true);
     std::vector<double> result;
     for (const Index i : nearest((solver.eigenvectors().adjoint() * mass).cwiseAbs()))
       result.push_back(waves_.h * waves_.h * solver.eigenvalues()[i]);
     return result;
-  }
-
-  namespace
-  {
-    /// Σ_j A(j) e^{iκ·j} at (κ_1, κ_2) = kh, for many κ_1 at the same κ_2. Without the families'
-    /// places: that changes no eigenvalue.
-    class Slice
-    {
-    public:
-      Slice(const Stencil &stencil, double kappa2)
-          : reach_(stencil.reach()),
-            columns_(2 * reach_ + 1, Matrix::Zero(stencil.n_blocks(), stencil.n_blocks()))
-      {
-        const auto n_blocks = stencil.n_blocks();
-        for (int j2 = -reach_; j2 <= reach_; ++j2)
-        {
-          const Complex phase = std::polar(1., kappa2 * j2);
-          for (unsigned int s = 0; s < n_blocks; ++s)
-            for (unsigned int t = 0; t < n_blocks; ++t)
-              for (int j1 = -reach_; j1 <= reach_; ++j1)
-                if (const double a = stencil(s, t, j1, j2); a != 0)
-                  columns_[j1 + reach_](s, t) += a * phase;
-        }
-      }
-
-      Matrix at(double kappa1) const
-      {
-        Matrix sum = columns_[reach_];
-        for (int j1 = 1; j1 <= reach_; ++j1)
-        {
-          const Complex phase = std::polar(1., kappa1 * j1);
-          sum += phase * columns_[reach_ + j1] + std::conj(phase) * columns_[reach_ - j1];
-        }
-        return sum;
-      }
-
-    private:
-      int reach_;
-      std::vector<Matrix> columns_; ///< over j1
-    };
-
-    /// An eigenvalue over a grid of the half zone 0 <= κ_1 <= π, |κ_2| <= π, the other half being
-    /// the same.
-    struct Grid
-    {
-      int n;                      ///< intervals on π
-      std::vector<double> values; ///< shape (2 n + 1, n + 1)
-
-      double spacing() const { return M_PI / n; }
-      double at(int i1, int i2) const
-      {
-        return values[static_cast<std::size_t>(i2) * (n + 1) + i1];
-      }
-    };
-
-    using Function = std::function<double(double, double)>;
-
-    /// Climb from a point of a grid to the local maximum near it, in steps that are halved.
-    double climb(const Function &f, double x, double y, double value, double spacing)
-    {
-      // the last step is 1e-6 of an oscillation, the value then within 1e-12
-      constexpr unsigned int n_halvings = 20;
-      constexpr unsigned int most_moves = 4; // along a ridge, before steps are halved anyway
-      constexpr double rounding = 1e-13;     // of a value: less is no way up
-      double step = spacing / 2;
-      for (unsigned int halving = 0; halving < n_halvings; ++halving, step /= 2)
-        for (unsigned int move = 0; move < most_moves; ++move)
-        {
-          bool has_moved = false;
-          for (const auto &[dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-            if (const double next = f(x + dx * step, y + dy * step);
-                next > value + rounding * std::abs(value))
-            {
-              value = next;
-              x += dx * step;
-              y += dy * step;
-              has_moved = true;
-              break;
-            }
-          if (!has_moved)
-            break;
-        }
-      return value;
-    }
-
-    /// A value of a grid and where it is.
-    struct GridPoint
-    {
-      double value;
-      int i1, i2;
-    };
-
-    /// The local maxima of a grid, largest first, of equal ones one.
-    std::vector<GridPoint> tops(const Grid &grid)
-    {
-      constexpr double equal = 1e-12; // symmetry makes up to eight of each, rounding parts them
-      std::vector<GridPoint> all, distinct;
-      for (int i2 = 0; i2 <= 2 * grid.n; ++i2)
-        for (int i1 = 0; i1 <= grid.n; ++i1)
-        {
-          const double value = grid.at(i1, i2);
-          bool is_top = true;
-          for (int j2 = std::max(0, i2 - 1); is_top && j2 <= std::min(2 * grid.n, i2 + 1); ++j2)
-            for (int j1 = std::max(0, i1 - 1); j1 <= std::min(grid.n, i1 + 1); ++j1)
-              is_top = is_top && grid.at(j1, j2) <= value;
-          if (is_top)
-            all.push_back({value, i1, i2});
-        }
-      std::sort(all.begin(), all.end(),
-                [](const GridPoint &a, const GridPoint &b) { return a.value > b.value; });
-      for (const GridPoint &one : all)
-        if (distinct.empty() ||
-            distinct.back().value - one.value > equal * std::abs(distinct.front().value))
-          distinct.push_back(one);
-      return distinct;
-    }
-
-    /// The largest value, from the grid's highest local maxima.
-    double maximum(const Grid &grid, const Function &f)
-    {
-      constexpr std::size_t most = 3; // a symbol may be flat but for rounding
-      double largest = *std::max_element(grid.values.begin(), grid.values.end());
-      auto starts = tops(grid);
-      starts.resize(std::min(most, starts.size()));
-      for (const GridPoint &one : starts)
-        largest =
-            std::max(largest, climb(f, one.i1 * grid.spacing(), one.i2 * grid.spacing() - M_PI,
-                                    one.value, grid.spacing()));
-      return largest;
-    }
-  } // namespace
-
-  SymbolRange Symbol::range() const
-  {
-    const int n = std::max(24, 4 * waves_.stiffness.reach());
-    const auto eigenvalues = [](const Matrix &stiffness, const Matrix &mass) -> Eigen::VectorXd
-    { return solve(stiffness, mass, false).eigenvalues(); };
-    Grid largest{n, {}};
-    double least = std::numeric_limits<double>::infinity();
-    for (int i2 = 0; i2 <= 2 * n; ++i2)
-    {
-      const double kappa2 = i2 * largest.spacing() - M_PI;
-      const Slice stiffness(waves_.stiffness, kappa2), mass(waves_.mass, kappa2);
-      for (int i1 = 0; i1 <= n; ++i1)
-      {
-        const double kappa1 = i1 * largest.spacing();
-        const auto values = eigenvalues(stiffness.at(kappa1), mass.at(kappa1));
-        largest.values.push_back(values[values.size() - 1]);
-        least = std::min(least, values[0]);
-      }
-    }
-    const auto largest_at = [&](double kappa1, double kappa2)
-    {
-      const auto values = eigenvalues(Slice(waves_.stiffness, kappa2).at(kappa1),
-                                      Slice(waves_.mass, kappa2).at(kappa1));
-      return values[values.size() - 1];
-    };
-    return {least, maximum(largest, largest_at)};
   }
 
   Stencil lump(const Stencil &mass, unsigned int n_families)

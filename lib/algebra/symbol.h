@@ -54,9 +54,10 @@ namespace plumbline::algebra
     /// Accuracy: 1e-13 of the largest.
     std::vector<double> long_waves(double angle) const;
 
-    /// Over the Brillouin zone |k_1|, |k_2| <= π/h, by a grid of at least eight points on each
-    /// oscillation of the symbol, and a search from its highest local maxima; never larger than
-    /// the true one.
+    /// Over the Brillouin zone |k_1|, |k_2| <= π/h: on a grid with eight points or more on the
+    /// shortest oscillation of the symbol, whose degree is the stencil's reach, and by Newton's
+    /// method in a trust region from each local maximum of the grid that may lead to the largest.
+    /// Never larger than the true one.
     SymbolRange range() const;
 
   private:

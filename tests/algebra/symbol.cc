@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 using namespace plumbline;
 using namespace plumbline::algebra;
@@ -203,6 +205,107 @@ TEST(Symbol, finds_extrema_that_lie_between_points_of_a_grid)
   }
   const double c = -1 / (4 * a);
   EXPECT_NEAR(Symbol(waves).range().largest, 1 - c + a * (2 - 2 * c * c), 1e-12);
+}
+
+namespace
+{
+  /// Adds a cos(j·κ) to a scalar symbol.
+  void add_cosine(Stencil &stencil, int j1, int j2, double a)
+  {
+    stencil(0, 0, j1, j2) += a / 2;
+    stencil(0, 0, -j1, -j2) += a / 2;
+  }
+
+  /// -b (cos κ_1 + q cos κ_2 - c)².
+  void subtract_square(Stencil &stencil, double b, double q, double c)
+  {
+    add_cosine(stencil, 0, 0, -b * (c * c + .5 * (1 + q * q)));
+    add_cosine(stencil, 2, 0, -b / 2);
+    add_cosine(stencil, 0, 2, -b * q * q / 2);
+    add_cosine(stencil, 1, 1, -b * q);
+    add_cosine(stencil, 1, -1, -b * q);
+    add_cosine(stencil, 1, 0, 2 * b * c);
+    add_cosine(stencil, 0, 1, 2 * b * q * c);
+  }
+
+  /// Bonds to the cells that a ball of radius m reaches, by full or sampled areas, of equal or
+  /// decaying stiffness, scalar or along the bond; rough ones differ from bond to bond.
+  WaveOperator bonds_of_a_ball(std::mt19937 &generator, double m, unsigned int n, bool is_partial,
+                               bool decays, bool is_rough)
+  {
+    std::uniform_real_distribution<double> rough(.2, 1.2);
+    const int reach = static_cast<int>(m + .5);
+    Stencil a(n, reach);
+    for (int j2 = 0; j2 <= reach; ++j2)
+      for (int j1 = -reach; j1 <= reach; ++j1)
+        if (j2 > 0 || j1 > 0)
+        {
+          const double r = std::hypot(j1, j2);
+          constexpr int n_points = 9;
+          int n_inside = 0;
+          for (int k = 0; k < n_points * n_points; ++k)
+            n_inside += std::hypot(j1 + (k % n_points - 4.) / n_points,
+                                   j2 + (k / n_points - 4.) / n_points) < m
+                            ? 1
+                            : 0;
+          const double area = is_partial ? n_inside / double(n_points * n_points)
+                              : r < m    ? 1
+                                         : 0,
+                       weight = area * (decays ? 1 - r / (m + 1) : 1) *
+                                (is_rough ? rough(generator) : 1);
+          const double e[] = {j1 / r, j2 / r};
+          for (unsigned int s = 0; s < n; ++s)
+            for (unsigned int t = 0; t < n; ++t)
+            {
+              const double entry = n == 1 ? weight : weight * e[s] * e[t];
+              a(s, t, j1, j2) -= entry;
+              a(s, t, -j1, -j2) -= entry;
+              a(s, t, 0, 0) += 2 * entry;
+            }
+        }
+    return {1, a, unit_mass(n), n, {{.5, .5}}};
+  }
+} // namespace
+
+TEST(Symbol, finds_the_top_of_a_ring_shaped_ridge)
+{
+  // 3 - (cos κ_1 + q cos κ_2 - c)² - b (cos κ_1 - d)²: a ridge along a closed curve, along which
+  // the symbol varies by b alone; 3 where both squares vanish
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 100; ++i)
+  {
+    const double first = .95 * uniform(generator), second = .95 * uniform(generator),
+                 q = 1 + .3 * uniform(generator), b = std::pow(10, -2 + 2 * uniform(generator));
+    WaveOperator waves{1, Stencil(1, 2), unit_mass(1), 1, {{.5, .5}}};
+    add_cosine(waves.stiffness, 0, 0, 3);
+    subtract_square(waves.stiffness, 1, q, first + q * second);
+    subtract_square(waves.stiffness, b, 0, first);
+    EXPECT_NEAR(Symbol(waves).range().largest, 3, 1e-12 * 3) << first << ' ' << second << ' ' << b;
+  }
+}
+
+TEST(Symbol, is_nowhere_larger_than_its_range)
+{
+  constexpr int n_points = 50; // on π: 13 or more on the shortest oscillation
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> radius(2, 5.4);
+  for (int i = 0; i < 16; ++i)
+  {
+    const double m = radius(generator);
+    const Symbol symbol(
+        bonds_of_a_ball(generator, m, i % 2 + 1, i / 2 % 2 == 0, i / 4 % 2 == 0, i / 8 % 2 == 0));
+    double sampled = 0;
+    for (int k2 = -n_points; k2 < n_points; ++k2)
+      for (int k1 = 0; k1 <= n_points; ++k1)
+        if (k1 != 0 || k2 != 0)
+          for (const PlaneWave &wave :
+               symbol.waves(M_PI / n_points * std::hypot(k1, k2), std::atan2(k2, k1)))
+            sampled = std::max(sampled, wave.squared);
+    const double largest = symbol.range().largest;
+    EXPECT_GE(largest, sampled * (1 - 1e-13)) << i << ", m = " << m;
+    EXPECT_LE(largest, sampled * (1 + 1e-2)) << i << ", m = " << m;
+  }
 }
 
 TEST(Symbol, sees_waves_that_grow)
