@@ -157,6 +157,22 @@ namespace plumbline::geometry
       return "gmsh cannot do what it says; mend it";
     }
 
+    /// More squares of h in the box about a geometry are refused before gmsh makes any cell.
+    constexpr double most_squares = 5e7;
+
+    /// What gmsh says of such a geometry, before its extents.
+    const std::string too_large = "plumbline: too large for h, ";
+
+    /// In gmsh's language; read after the script.
+    std::string size_check(double h)
+    {
+      const std::string width = "(General.MaxX - General.MinX)",
+                        height = "(General.MaxY - General.MinY)";
+      return "BoundingBox;\nIf (" + width + " * " + height + " > " +
+             base::to_text(most_squares * h * h, 17) + ")\n  Error(\"" + too_large +
+             "%g by %g\", " + width + ", " + height + ");\n  Exit;\nEndIf\n";
+    }
+
     /// gmsh's first error, "Error   : 'a.geo', line 3: syntax error (;)": where it is, in our
     /// words, and its own.
     std::string reason(const std::string &log, const std::string &source)
@@ -166,6 +182,11 @@ namespace plumbline::geometry
       if (at == std::string::npos)
         return "";
       std::string error = log.substr(at + mark.size(), log.find('\n', at) - at - mark.size());
+      if (const std::size_t size = error.find(too_large); size != std::string::npos)
+        return source + ": its geometry is " + error.substr(size + too_large.size()) +
+               ", more than " + base::to_text(most_squares, 3) +
+               " squares of the mesh size h; are both in the same unit of length? Scale the "
+               "geometry, or choose a larger Study/h";
       const std::size_t number = error.find("', line ");
       const std::size_t colon = number == std::string::npos ? number : error.find(": ", number);
       if (colon == std::string::npos)
@@ -262,7 +283,8 @@ namespace plumbline::geometry
     const Folder folder;
     // read after the script, whose own settings would make another format
     const std::string last = (folder.path() / "last.geo").string();
-    std::ofstream(last) << "Mesh.Format = 1; Mesh.MshFileVersion = 2.2; Mesh.Binary = 0; "
+    std::ofstream(last) << size_check(h)
+                        << "Mesh.Format = 1; Mesh.MshFileVersion = 2.2; Mesh.Binary = 0; "
                            "Mesh.SaveAll = 0; Mesh.SaveParametric = 0;\n"
                         << (order == 0 ? ""
                                        : "Mesh.SecondOrderLinear = 0; Mesh.SecondOrderIncomplete "

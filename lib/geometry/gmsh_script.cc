@@ -56,9 +56,12 @@ namespace plumbline::geometry
     {
     public:
       /// @param parents  the files that are being read, each including the next
-      Script(const std::string &file, std::vector<fs::path> parents)
-          : file_(file), parents_(std::move(parents))
+      /// @param files    it and what it reads are added; outlives it
+      Script(const std::string &file, std::vector<fs::path> parents,
+             std::vector<std::string> &files)
+          : file_(file), parents_(std::move(parents)), files_(files)
       {
+        files_.push_back(file);
         std::error_code error;
         parents_.push_back(fs::weakly_canonical(file, error));
         std::ifstream in(file, std::ios::binary);
@@ -85,6 +88,8 @@ namespace plumbline::geometry
             const std::string quoted = quote(c);
             if (is_one_of(reads_scripts, word))
               follow(quoted);
+            else if (std::error_code error; fs::is_regular_file(path_of(quoted), error))
+              files_.push_back(path_of(quoted).string());
             word.clear();
           }
           else if (is_letter(c))
@@ -205,11 +210,16 @@ namespace plumbline::geometry
           fail(word + " would write a file or more, which meshes may not; take the command out");
       }
 
-      /// A file that is included or merged, named from this one.
+      /// Of a file named from this one.
+      fs::path path_of(const std::string &name) const
+      {
+        return fs::path(file_).parent_path() / name; // an absolute name stays
+      }
+
+      /// A file that is included or merged.
       void follow(const std::string &name)
       {
-        const fs::path path =
-            fs::path(name).is_absolute() ? fs::path(name) : fs::path(file_).parent_path() / name;
+        const fs::path path = path_of(name);
         std::string ending = path.extension().string();
         std::transform(ending.begin(), ending.end(), ending.begin(),
                        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -221,23 +231,34 @@ namespace plumbline::geometry
         constexpr std::array shapes = {".stl", ".step", ".stp", ".brep", ".iges", ".igs"};
         std::ifstream in(path, std::ios::binary);
         if (is_one_of(shapes, ending) || in.peek() == '$')
+        {
+          files_.push_back(path.string());
           return;
+        }
         if (const fs::path whole = fs::weakly_canonical(path, error);
             std::find(parents_.begin(), parents_.end(), whole) != parents_.end())
           fail("'" + name +
                "' is being read already, so that it would include itself; take the "
                "line out");
-        Script(path.string(), parents_).check();
+        Script(path.string(), parents_, files_).check();
       }
 
       std::string file_, text_;
       std::vector<fs::path> parents_;
+      std::vector<std::string> &files_;
       std::size_t at_ = 0, line_ = 1;
     };
   } // namespace
 
+  std::vector<std::string> files_of_script(const std::string &file)
+  {
+    std::vector<std::string> files;
+    Script(file, {}, files).check();
+    return files;
+  }
+
   void check_script(const std::string &file)
   {
-    Script(file, {}).check();
+    (void)files_of_script(file);
   }
 } // namespace plumbline::geometry

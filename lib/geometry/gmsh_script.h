@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace plumbline::geometry
 {
@@ -13,4 +14,9 @@ namespace plumbline::geometry
   /// quotes, which gmsh finds there where it skips a branch.
   /// Limits: files that fields and lists read (FileName, ListFromFile) are not looked at.
   void check_script(const std::string &file);
+
+  /// The script and all files that it reads, as far as their names are written out: included,
+  /// merged, and texts in quotes that name a file (FileName, ListFromFile).
+  /// @throws InputError  as check_script
+  std::vector<std::string> files_of_script(const std::string &file);
 } // namespace plumbline::geometry

@@ -187,13 +187,12 @@ namespace plumbline::geometry
                        "curves, or write Domain/sides = straight");
     }
 
-    void turn_if_clockwise(Mesh &mesh)
+    /// A file's cells may run either way, each its own.
+    void turn_clockwise_cells(Mesh &mesh)
     {
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-        if (area(mesh.polygon(c)) >= 0)
-          return;
-      for (MeshCell &cell : mesh.cells)
-        std::reverse(cell.vertex.begin(), cell.vertex.begin() + cell.n_vertices);
+        if (MeshCell &cell = mesh.cells[c]; area(mesh.polygon(c)) < 0)
+          std::reverse(cell.vertex.begin(), cell.vertex.begin() + cell.n_vertices);
     }
 
     // ---- lattices -------------------------------------------------------------------------------
@@ -277,7 +276,7 @@ namespace plumbline::geometry
     }
     SideCurves curves;
     Mesh mesh = read_msh(msh, source, has_collar, is_curved ? &curves : nullptr);
-    turn_if_clockwise(mesh);
+    turn_clockwise_cells(mesh);
     if (is_curved)
       mesh = bend(mesh, curves, source);
     return finish(std::move(mesh), source);

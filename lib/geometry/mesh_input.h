@@ -11,8 +11,7 @@ namespace plumbline::geometry
   /// meshed by gmsh in two dimensions with the constants h and delta set, for
   /// DefineConstant[ h = .1, delta = .3 ]. Physical surfaces whose name begins with 'omega'
   /// make up Ω, those that begin with 'collar' the collar, if it has one, in small letters or
-  /// capitals; surfaces that are not physical are left out. A surface seen from behind, all cells
-  /// clockwise, is turned around.
+  /// capitals; surfaces that are not physical are left out. Clockwise cells are turned around.
   /// gmsh runs as a process of its own with limits (GmshLimits), and scripts that would start
   /// programs or write files are refused (check_script).
   /// @param is_curved  sides follow the curves of the .geo file, or the points between corners of a

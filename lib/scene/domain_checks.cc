@@ -4,7 +4,10 @@
 #include "scene/checks.h"
 #include "scene/values.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <map>
 
 namespace plumbline::scene
 {
@@ -41,9 +44,42 @@ namespace plumbline::scene
     const std::string mesh_remedy = "a lattice is uniform; write Domain/mesh = squares, triangles, "
                                     "a .msh or .geo file, or a generator";
 
+    /// What other programs call their meshes, by the end of the name.
+    const std::map<std::string, std::string> other_formats = {
+        {".e", "an Exodus file"},     {".exo", "an Exodus file"},  {".ex2", "an Exodus file"},
+        {".g", "an Exodus file"},     {".gen", "an Exodus file"},  {".exii", "an Exodus file"},
+        {".vtu", "a VTK file"},       {".vtk", "a VTK file"},      {".pvtu", "a VTK file"},
+        {".vtp", "a VTK file"},       {".inp", "an Abaqus file"},  {".cae", "an Abaqus file"},
+        {".odb", "an Abaqus file"},   {".xdmf", "an XDMF file"},   {".med", "a MED file"},
+        {".unv", "an I-DEAS file"},   {".bdf", "a Nastran file"},  {".nas", "a Nastran file"},
+        {".mphtxt", "a COMSOL file"}, {".cdb", "an Ansys file"},   {".k", "an LS-DYNA file"},
+        {".mesh", "a Medit file"},    {".su2", "an SU2 file"},     {".off", "an OFF file"},
+        {".stl", "an STL file"},      {".obj", "a Wavefront file"}};
+
+    /// deal.II's generators have names without points.
+    void check_format(const MeshSource &mesh)
+    {
+      std::string ending = std::filesystem::path(mesh.name).extension().string();
+      if (mesh.kind() != MeshKind::generator || ending.empty())
+        return;
+      std::transform(ending.begin(), ending.end(), ending.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      const std::string given = "Domain/mesh = " + mesh.name;
+      const std::string small = "mesh" + ending;
+      require(!base::has_ending(small, ".msh") && !base::has_ending(small, ".geo"),
+              given + ": names of gmsh files end in .msh or .geo, in small letters; rename it");
+      const auto known = other_formats.find(ending);
+      require(false, given + " is " +
+                         (known != other_formats.end() ? known->second
+                                                       : "a file of the unknown kind " + ending) +
+                         ", which is not read; convert it to gmsh's .msh format 2.2 or 4.1, e.g. "
+                         "with gmsh or meshio, with physical surfaces omega... and collar...");
+    }
+
     void check_mesh(const Scene &scene)
     {
       const MeshSource &mesh = scene.domain.mesh;
+      check_format(mesh);
       const MeshKind kind = mesh.kind();
       const bool is_generator = kind == MeshKind::generator, is_free = scene.domain.is_free_body;
       const auto needs = [&](bool is_good, const std::string &what, const std::string &remedy)

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/number_text.h"
 #include "geometry/mesh_input.h"
 #include "physics/expression.h"
 #include "scene/csv.h"
@@ -72,6 +73,43 @@ namespace plumbline::scene
                                      [&](const Point<2> &x) { return inside(x) > 0; });
     }
 
+    /// That cells and mesh sizes are lengths in the same unit.
+    void check_units(const Scene &scene, const Level &level, const geometry::Mesh &mesh)
+    {
+      constexpr double far = 30;       // times as long
+      constexpr double is_small = 1e6; // nodes: large cells may hold them
+      double area = 0;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        area += geometry::area(geometry::view(mesh.polygon(c)));
+      const double side = std::sqrt(area / static_cast<double>(mesh.cells.size())),
+                   n_nodes = area / (level.h * level.h),
+                   n_in_ball = M_PI * std::pow(level.horizon / side, 2);
+      const bool is_coarse = side > far * level.h && n_nodes > is_small;
+      if (!is_coarse && side * far > level.h)
+        return;
+      throw InputError(
+          "Domain/mesh = " + scene.domain.mesh.name + ": its cells are some " +
+          base::to_text(side, 3) + " long, but Study/h = " + base::to_text(level.h, 4) +
+          " and the horizon = " + base::to_text(level.horizon, 4) +
+          ", so that there would be some " +
+          (is_coarse ? base::to_text(n_nodes, 2) + " nodes"
+                     : base::to_text(n_in_ball, 2) + " cells in each ball") +
+          "; are the lengths of mesh and scene in the same unit? Scale the mesh, or give Study/h "
+          "and the horizon in its unit");
+    }
+
+    /// Nodes at distances h in a box, before they are made.
+    void check_node_memory(const geometry::Box &box, const Level &level, const std::string &what)
+    {
+      constexpr double of_node = 1000; // with its cell and what methods find of it [bytes]
+      const dealii::Tensor<1, 2> sides = box.upper - box.lower;
+      const double n = sides[0] * sides[1] / (level.h * level.h);
+      base::require_memory(n * of_node,
+                           what + " at h = " + base::to_text(level.h, 4) + " (some " +
+                               base::to_text(n, 2) + " nodes)",
+                           "choose a larger h (Study/h)");
+    }
+
     /// A body has no collar.
     void keep_inside(geometry::Mesh &mesh)
     {
@@ -96,6 +134,7 @@ namespace plumbline::scene
   geometry::Mesh make_mesh(const Scene &scene, const Level &level)
   {
     geometry::Mesh mesh = read_or_make(scene, level);
+    check_units(scene, level, mesh);
     const double width = geometry::collar_width(mesh);
     if (width < scene.reach(level.horizon) * (1 - 1e-9))
     {
@@ -126,6 +165,8 @@ namespace plumbline::scene
     {
       geometry::Mesh mesh = read_or_make(scene, level);
       keep_inside(mesh);
+      check_units(scene, level, mesh);
+      check_node_memory(bounding_box(mesh), level, "Methods/nodes = vertices");
       fix_parts(scene.domain.fixed, mesh);
       const Point<2> origin =
           is_on_boxes ? geometry::Lattice(scene.domain.boxes, level.h).origin() : Point<2>();
@@ -173,6 +214,8 @@ namespace plumbline::scene
     if (source.are_vertices())
       return geometry::vertex_squares(geometry::Lattice(scene.domain.boxes, level.h),
                                       scene.reach(level.horizon));
+    if (source.kind() == NodeKind::centres)
+      check_node_memory(bounding_box(mesh), level, "Methods/nodes = centres");
     const bool is_file = source.kind() == NodeKind::file;
     const std::string file = is_file ? path(scene, source.file_at(level.h)) : source.name;
     std::vector<std::size_t> lines;

@@ -55,7 +55,6 @@ namespace
 
 TEST_F(BadMeshes, mesh_files_that_cannot_be_used_are_refused)
 {
-  write("inverted.msh", msh(names, vertices, triangle_1 + "2 2 2 1 1 5 1 4\n" + collar));
   write("hanging.msh", msh(names, vertices + "7 1 .5 0\n",
                            "1 3 2 1 1 1 2 5 4\n2 2 2 2 2 2 3 7\n3 2 2 2 2 7 6 5\n"
                            "4 2 2 2 2 7 3 6\n"));
@@ -77,8 +76,7 @@ TEST_F(BadMeshes, mesh_files_that_cannot_be_used_are_refused)
     return Trial{set("Domain/mesh", name), std::move(fragments)};
   };
   expect_refusals(
-      {refused("inverted.msh", {"cell 1 at (0.333333, 0.666667) is inverted; number its vertices"}),
-       refused("hanging.msh", {"vertex 5 of cell 1 at (1, 0.5) lies inside a side of cell 0 (a "
+      {refused("hanging.msh", {"vertex 5 of cell 1 at (1, 0.5) lies inside a side of cell 0 (a "
                                "hanging vertex); make the mesh conforming"}),
        refused("dart.msh", {"cell 0 at (0.325, 0.325) is not convex; move its vertices"}),
        refused("nameless.msh", {"physical surfaces (none); give names that begin with 'omega' and "
@@ -94,6 +92,54 @@ TEST_F(BadMeshes, mesh_files_that_cannot_be_used_are_refused)
            {"line 1 is refused by gmsh: a syntax error at ';'; mend the line, or the end of the "
             "one before (gmsh says: syntax error (;))"}),
        refused("thin.msh", {"the collar is 0 wide", "thinner than the horizon 0.5", "; widen"})});
+}
+
+TEST_F(BadMeshes, files_of_other_programs_are_named_with_what_to_convert_them_to)
+{
+  const auto refused = [](const std::string &name, const std::string &what) {
+    return Trial{set("Domain/mesh", name), {"Domain/mesh = " + name + what, "in", "msh"}};
+  };
+  const std::string remedy = ", which is not read; convert it to gmsh's .msh format 2.2 or 4.1";
+  expect_refusals({refused("plate.e", " is an Exodus file" + remedy),
+                   refused("plate.EXO", " is an Exodus file" + remedy),
+                   refused("a/plate.vtu", " is a VTK file" + remedy),
+                   refused("plate.inp", " is an Abaqus file" + remedy),
+                   refused("plate.foo", " is a file of the unknown kind .foo" + remedy),
+                   refused("plate.MSH", ": names of gmsh files end in .msh or .geo, in small")});
+}
+
+TEST_F(BadMeshes, of_other_units_than_the_mesh_size_are_refused_before_they_fill_the_memory)
+{
+  const std::string ring =
+      "Point(1) = {0, 0, 0, SIZE};\nFor k In {0:3}\n"
+      "Point(2 + k) = {R * Cos(k * Pi / 2), R * Sin(k * Pi / 2), 0, SIZE};\n"
+      "Point(6 + k) = {2 * R * Cos(k * Pi / 2), 2 * R * Sin(k * Pi / 2), 0, SIZE};\nEndFor\n"
+      "For k In {0:3}\nCircle(1 + k) = {2 + k, 1, 2 + (k + 1) % 4};\n"
+      "Circle(5 + k) = {6 + k, 1, 6 + (k + 1) % 4};\nEndFor\n"
+      "Curve Loop(1) = {1:4}; Curve Loop(2) = {5:8};\n"
+      "Plane Surface(1) = {1}; Plane Surface(2) = {2, 1};\n"
+      "Physical Surface(\"omega\") = {1}; Physical Surface(\"collar\") = {2};\n";
+  const auto with = [&](const std::string &radius, const std::string &size)
+  { return "DefineConstant[ h = .1 ];\nR = " + radius + "; SIZE = " + size + ";\n" + ring; };
+  write("scaled.geo", with("1", "h") + "Mesh.ScalingFactor = 1000;\n"); // mm, to h = 0.1 m
+  write("large.geo", with("1000", "h"));                                // gmsh would not end
+  write("coarse.geo", with("1000", "300"));
+  write("small.geo", with("0.001", "0.0003")); // m, to h = 0.1 mm
+  const std::string ball = set("Domain/mesh", "hyper_ball") + set("Domain/inside", "1");
+  const std::string units = "are the lengths of mesh and scene in the same unit?",
+                    level = set("Study/h", "0.1");
+  std::vector<Trial> trials;
+  for (const std::string methods : {"FA", "P1"})
+    for (const std::string name : {"scaled.geo", "coarse.geo", "small.geo"})
+      trials.push_back(
+          {set("Methods/names", methods) + level + set("Domain/mesh", name),
+           {"Domain/mesh = " + name + ": its cells are some", "Study/h = 0.1", units}});
+  trials.push_back({level + set("Domain/mesh", "large.geo"),
+                    {"its geometry is 4000 by 4000", "squares of the mesh size h", "same unit"}});
+  trials.push_back({level + ball + set("Domain/arguments", "0, 0 : 0.0001 : false"), {units}});
+  trials.push_back(
+      {level + set("Domain/mesh", "squares") + set("Domain/map", "1e4*x, 1e4*y"), {units}});
+  expect_refusals(trials);
 }
 
 TEST_F(BadMeshes, generators_and_maps_that_do_not_work_are_refused)

@@ -32,6 +32,16 @@ TEST_F(GmshScript, that_only_draws_is_good)
             "no error");
 }
 
+TEST_F(GmshScript, tells_which_files_it_reads)
+{
+  const std::string part = write("part.geo", "Field[1] = PostView; Field[1].FileName = 'f.pos';\n"),
+                    data = write("f.pos", "x"), mesh = write("b.msh", "$MeshFormat\n"),
+                    script =
+                        write("a.geo", "Include \"part.geo\"; Merge 'b.msh'; // Merge 'c.msh'\n"
+                                       "Physical Surface(\"omega\") = {1};\n");
+  EXPECT_EQ(files_of_script(script), (std::vector<std::string>{script, part, data, mesh}));
+}
+
 TEST_F(GmshScript, that_starts_programs_is_refused_with_its_line)
 {
   for (const std::string command :

@@ -300,9 +300,28 @@ TEST_F(MeshFile, with_cells_that_cannot_be_used_is_refused)
   std::string lifted = nodes;
   lifted.replace(lifted.find("16 2 1 0"), 8, "16 2 1 1");
   EXPECT_TRUE(says(fault_of("lifted.msh", msh_2(names, lifted, elements)), "reaches z = 1"));
-  const std::string mixed = "3\n1 2 2 1 1 1 2 15\n2 2 2 1 1 15 1 14\n3 3 2 2 2 2 3 16 15\n";
-  const std::string fault = fault_of("mixed.msh", msh_2(names, nodes, mixed));
-  EXPECT_TRUE(says(fault, "mixed.msh': cell 1 at (0.333333, 0.666667) is inverted"));
+}
+
+TEST_F(MeshFile, of_a_script_that_is_far_larger_than_h_is_refused_before_it_is_meshed)
+{
+  const std::string fault = error_of([&] { read("large.geo", disc, 1e-4); });
+  EXPECT_TRUE(says(fault, "large.geo': its geometry is 2.6 by 2.6, more than 5e+07 squares"))
+      << fault;
+  EXPECT_TRUE(says(fault, "same unit of length")) << fault;
+}
+
+TEST_F(MeshFile, with_clockwise_cells_among_others_has_them_turned)
+{
+  // every second triangle, the quadrilateral, all of them
+  for (const std::string cells : {"3\n1 2 2 1 1 1 2 15\n2 2 2 1 1 15 1 14\n3 3 2 2 2 2 3 16 15\n",
+                                  "3\n1 2 2 1 1 1 2 15\n2 2 2 1 1 1 15 14\n3 3 2 2 2 2 15 16 3\n",
+                                  "3\n1 2 2 1 1 1 15 2\n2 2 2 1 1 15 1 14\n3 3 2 2 2 2 15 16 3\n"})
+  {
+    const Mesh mesh = read("turned.msh", msh_2(names, nodes, cells));
+    ASSERT_EQ(mesh.cells.size(), 3u);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(area(mesh.polygon(c)), c < 2 ? .5 : 1, 1e-15) << cells;
+  }
 }
 
 // whatever is broken has its line, and the file's reader is ours
