@@ -16,7 +16,8 @@ namespace plumbline::report
   const char *const wave_levels_words =
       "local, nonlocal: the worst relative error of the longest wave's phase speed over all "
       "directions, against the local limit and against the nonlocal operator. largest: of the "
-      "symbol over all waves that the lattice carries [1/time^2], density 1; critical step: 2 over "
+      "symbol over all waves that the lattice carries, over Time/density [1/time^2]; critical "
+      "step: 2 over "
       "its root, of central differences (velocity Verlet), and in steps in which the fastest local "
       "wave crosses h. lumped: the mass matrix made diagonal.";
 

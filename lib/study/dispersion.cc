@@ -64,8 +64,10 @@ namespace plumbline::study
                    [](WaveCurve &curve, const WaveSample &one) { curve.samples.push_back(one); });
         const auto axis = symbol.long_waves(0), diagonal = symbol.long_waves(radians(45));
         for (std::size_t i = 0; i < polarisations_.size(); ++i)
-          row.anisotropy.push_back((root(axis[i]) - root(diagonal[i])) / local_speed(i));
+          row.anisotropy.push_back((speed(axis[i]) - speed(diagonal[i])) / local_speed(i));
         row.range = symbol.range();
+        for (double *const squared : {&row.range.least, &row.range.largest})
+          *squared /= study_.density;
         // sums of entries of the size of the largest ω² cancel down to that of the longest wave
         for (std::size_t i = 0; i < polarisations_.size(); ++i)
           row.round_off =
@@ -85,9 +87,12 @@ namespace plumbline::study
         return lengths;
       }
 
+      /// @param squared  of unit density, as symbols and kernels have it
+      double speed(double squared) const { return root(squared / study_.density); }
+
       double local_speed(std::size_t i) const
       {
-        return std::sqrt(
+        return speed(
             physics::squared_local_speed(problem_.kernel, problem_.dilatation, polarisations_[i]));
       }
 
@@ -98,7 +103,7 @@ namespace plumbline::study
         result.angle = angle;
         result.local_speed = local_speed(i);
         result.long_wave_error =
-            root(symbol.long_waves(radians(angle))[i]) / result.local_speed - 1;
+            speed(symbol.long_waves(radians(angle))[i]) / result.local_speed - 1;
         return result;
       }
 
@@ -117,9 +122,10 @@ namespace plumbline::study
           const auto waves = symbol.waves(k, radians(angle));
           for (std::size_t i = 0; i < waves.size(); ++i, ++curve)
           {
-            const double omega = root(waves[i].squared), exact_omega = root(exact[i].squared);
-            take(*curve, {k, omega / k, waves[i].slope / (2 * omega), exact_omega / k,
-                          exact[i].slope / (2 * exact_omega)});
+            const double omega = speed(waves[i].squared), exact_omega = speed(exact[i].squared),
+                         per_omega = 1 / (2 * study_.density);
+            take(*curve, {k, omega / k, per_omega * waves[i].slope / omega, exact_omega / k,
+                          per_omega * exact[i].slope / exact_omega});
           }
         }
       }
@@ -200,7 +206,7 @@ namespace plumbline::study
           "Kernel/coefficients and Kernel/constant make a local limit of " +
               base::to_text(scene.is_vector() ? limit.mu : limit.diffusion, 4) +
               " (diffusion, or mu), which has no waves; it must be positive: change their signs");
-    WaveStudy study{angles, longer_side(scene.domain.boxes)};
+    WaveStudy study{angles, longer_side(scene.domain.boxes), scene.time.density};
     for (const scene::Series &series : scene.study.series)
       for (const scene::Level &level : series.levels)
         needs(2 * level.h <= study.wavelength,

@@ -61,6 +61,7 @@ namespace plumbline::study
   {
     std::vector<double> angles; ///< [degree]
     double wavelength = 0;      ///< the longest one of the domain: the longer side of its box
+    double density = 1;         ///< > 0, see scene::TimeSection
   };
 
   /// @throws InputError  a scene without one stencil for all nodes: a mesh, a free body, cracks,

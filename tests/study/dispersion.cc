@@ -200,6 +200,37 @@ TEST(Dispersion, compatible_methods_and_no_others_tend_to_the_right_speed)
   }
 }
 
+TEST(Dispersion, of_a_denser_body_is_slower_and_as_accurate)
+{
+  const scene::Scene scene = scene::parse_scene("test.prm", bonds(true));
+  const scene::Problem problem = scene::make_problem(scene, 0, {.05, .15});
+  constexpr double density = 16;
+  WaveStudy dense = unit_square;
+  dense.density = density;
+  for (const std::string name : {"FA", "Q1"})
+  {
+    const auto light =
+                   measure_waves(*method_of(name), problem, unit_square, "series", true).front(),
+               heavy = measure_waves(*method_of(name), problem, dense, "series", true).front();
+    EXPECT_NEAR(heavy.critical_step(), 4 * light.critical_step(), 1e-13 * heavy.critical_step());
+    EXPECT_EQ(heavy.grows(), light.grows());
+    for (std::size_t i = 0; i < light.curves.size(); ++i)
+    {
+      const WaveCurve &a = light.curves[i], &b = heavy.curves[i];
+      EXPECT_NEAR(b.local_speed, a.local_speed / 4, 1e-14);
+      EXPECT_NEAR(b.local_error(), a.local_error(), 1e-13);
+      EXPECT_NEAR(b.nonlocal_error(), a.nonlocal_error(), 1e-13);
+      EXPECT_NEAR(b.long_wave_error, a.long_wave_error, 1e-13);
+      EXPECT_NEAR(b.samples.front().group, a.samples.front().group / 4, 1e-13);
+      EXPECT_NEAR(b.longest.exact_group, a.longest.exact_group / 4, 1e-13);
+    }
+  }
+  // as `plumbline dispersion` has it of a scene
+  const scene::Scene steel =
+      scene::parse_scene("test.prm", bonds(true) + "subsection Time\n set density = 16\nend\n");
+  EXPECT_EQ(plan_waves(steel, {0}).density, density);
+}
+
 TEST(Dispersion, at_a_fixed_horizon_waves_tend_to_those_of_the_nonlocal_operator)
 {
   scene::Scene scene = scene::parse_scene(
