@@ -26,6 +26,10 @@ namespace plumbline::app
   {
     scene::Scene read(const SampleOptions &options)
     {
+      if (scene::is_read_once(options.scene_file))
+        throw InputError("scene '" + options.scene_file +
+                         "' is a pipe, but the processes that take samples read it again; write "
+                         "it to a file, and give that");
       auto overrides = options.overrides;
       if (!options.methods.empty())
         overrides.push_back({"Methods/names", options.methods});

@@ -8,6 +8,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <regex>
 #include <sstream>
 
 namespace plumbline::scene
@@ -54,6 +55,7 @@ namespace plumbline::scene
       }
     };
 
+    constexpr double least_positive = 1e-300;
     constexpr unsigned int any_length = std::numeric_limits<unsigned int>::max();
 
     Allowed polylines(const std::string &words, unsigned int most_points)
@@ -61,6 +63,30 @@ namespace plumbline::scene
       const Numbers point("'x, y'", Patterns::Double(), 2, 2, ",");
       const Patterns::List line(point, 2, most_points, ":");
       return std::make_shared<InWords<Patterns::List>>(words, line, 0, any_length, ";");
+    }
+
+    /// The number that a decimal comma stands in, with a point, e.g. 3.015 for '3,015'; empty where
+    /// commas separate numbers. A number that begins with 0 and goes on with digits is part of
+    /// another one.
+    std::string with_point(const std::string &text, const std::string &first,
+                           const std::string &second)
+    {
+      const std::regex number("(^|[^0-9A-Za-z_.])([+-]?" + first + "),\\s*(" + second +
+                              "([eE][+-]?[0-9]+)?)(?![0-9.])");
+      std::smatch found;
+      return std::regex_search(text, found, number) ? found[2].str() + "." + found[3].str() : "";
+    }
+
+    std::string question(const std::string &number)
+    {
+      return number.empty() ? ""
+                            : "; did you mean " + number +
+                                  "? Decimals have a point, a comma separates numbers";
+    }
+
+    bool is_list(const Patterns::PatternBase &allowed)
+    {
+      return dynamic_cast<const Patterns::List *>(&allowed) != nullptr;
     }
 
     /// The part of a text that is not allowed, where it is a list.
@@ -106,7 +132,7 @@ namespace plumbline::scene
   Allowed positive()
   {
     return std::make_shared<InWords<Patterns::Double>>("a number above 0 such as 0.5 or 1e-3",
-                                                       1e-300);
+                                                       least_positive);
   }
 
   Allowed between(double lowest, double highest)
@@ -119,6 +145,12 @@ namespace plumbline::scene
   {
     return std::make_shared<Numbers>("numbers such as 0.05 or 1e-3, separated by ','",
                                      Patterns::Double(), 0, any_length, ",");
+  }
+
+  Allowed positive_numbers()
+  {
+    return std::make_shared<Numbers>("numbers above 0 such as 0.05 or 1e-3, separated by ','",
+                                     Patterns::Double(least_positive), 0, any_length, ",");
   }
 
   Allowed boxes()
@@ -229,7 +261,7 @@ namespace plumbline::scene
 
   void Keys::set(const std::string &path, const std::string &value)
   {
-    const Key &key = find(path);
+    Key &key = keys_[static_cast<std::size_t>(&find(path) - keys_.data())];
     const std::string given = path + " = '" + base::shown(value) + "' ";
     const bool is_text =
         std::none_of(value.begin(), value.end(),
@@ -238,12 +270,18 @@ namespace plumbline::scene
       throw InputError(
           given + "cannot be written in a scene: '#' begins a comment, a '\\' at the end "
                   "continues the line; take them, line breaks and other control characters out");
+    if (const std::string meant = with_point(value, "[0-9]+", "0[0-9]+");
+        !meant.empty() && !key.section.empty())
+      throw InputError(given + "is not allowed" + question(meant));
     const std::string bad = culprit(value, *key.allowed);
     if (!key.allowed->match(value))
-      throw InputError(given + "is not allowed" +
-                       (bad == value ? "" : ", for '" + base::shown(bad) + "' in it") + "; write " +
-                       key.allowed->description() + ", or take the key out: its default is '" +
-                       key.by_default + "'");
+      throw InputError(
+          given + "is not allowed" +
+          (bad == value ? "" : ", for '" + base::shown(bad) + "' in it") + "; write " +
+          key.allowed->description() + ", or take the key out: its default is '" + key.by_default +
+          "'" + question(with_point(value, is_list(*key.allowed) ? "0" : "[0-9]+", "[0-9]+")));
+    key.value = value;
+    key.is_given = true;
     enter(key.section);
     try
     {
@@ -253,6 +291,30 @@ namespace plumbline::scene
     {
       throw InputError(path + ": " + error.what());
     }
+  }
+
+  bool Keys::is_changed(const Key &key)
+  {
+    if (!key.is_given || key.value == key.by_default)
+      return false;
+    const Patterns::Double number;
+    return !number.match(key.value) || !number.match(key.by_default) ||
+           to_number(key.value) != to_number(key.by_default);
+  }
+
+  std::vector<std::string> Keys::changed_keys(const std::string &section) const
+  {
+    std::vector<std::string> result;
+    for (const Key &key : keys_)
+      if (key.section == section && is_changed(key))
+        result.push_back(key.path());
+    return result;
+  }
+
+  std::string Keys::value(const std::string &path) const
+  {
+    const Key &key = find(path);
+    return key.is_given ? key.value : key.by_default;
   }
 
   std::string Keys::Key::description() const

@@ -33,9 +33,10 @@ namespace plumbline::scene
   Allowed any_number();
   Allowed positive();
   Allowed between(double lowest, double highest);
-  Allowed numbers(); ///< separated by ','
-  Allowed boxes();   ///< "x0, y0 : x1, y1; ..."
-  Allowed lines();   ///< the same, of two points or more
+  Allowed numbers();          ///< separated by ','
+  Allowed positive_numbers(); ///< the same, above 0
+  Allowed boxes();            ///< "x0, y0 : x1, y1; ..."
+  Allowed lines();            ///< the same, of two points or more
 
   /// @param allowed  boxes() or lines()
   /// @throws InputError  anything else
@@ -79,6 +80,13 @@ namespace plumbline::scene
     /// @throws InputError  unknown key, or a value that is not allowed
     void set(const std::string &path, const std::string &value);
 
+    /// Whether it was set, and to another value than its default.
+    /// @pre  a key that there is
+    bool is_given(const std::string &path) const { return find(path).is_given; }
+    bool is_changed(const std::string &path) const { return is_changed(find(path)); }
+    std::vector<std::string> changed_keys(const std::string &section) const;
+    std::string value(const std::string &path) const; ///< as it was set, or the default
+
     /// What a key means, its default and what it allows; for "Section" all its keys.
     /// @throws InputError  unknown key; the message names similar ones
     std::string describe(const std::string &path) const;
@@ -92,12 +100,15 @@ namespace plumbline::scene
       std::string section, name, by_default;
       Allowed allowed;
       std::string help;
+      std::string value = {}; ///< that was set
+      bool is_given = false;
 
       std::string path() const { return section.empty() ? name : section + "/" + name; }
       std::string description() const;
     };
     void remember(const std::string &name, const Allowed &allowed, const std::string &help);
     const Key &find(const std::string &path) const;
+    static bool is_changed(const Key &key);
 
     std::string section_; ///< that parameters_ is in
     std::vector<Key> keys_;

@@ -1,14 +1,17 @@
 #include "scene/scene.h"
 
+#include "base/communicator.h"
 #include "base/error.h"
 #include "base/number_text.h"
 #include "base/text_file.h"
 #include "physics/expression.h"
 #include "scene/capabilities.h"
 #include "scene/checks.h"
+#include "scene/input_files.h"
 #include "scene/keys.h"
 #include "scene/models/model.h"
 #include "scene/scene_file.h"
+#include "scene/unused_keys.h"
 
 #include <algorithm>
 #include <cmath>
@@ -109,6 +112,8 @@ namespace plumbline::scene
              });
       scene.text = keys.text(false);
       saying("", [&] { complete(scene); });
+      saying("", [&] { check_unused_keys(keys, scene); });
+      scene.text += describe_files(scene);
       return scene;
     }
 
@@ -135,7 +140,18 @@ namespace plumbline::scene
 
     /// A scene is a page or two.
     constexpr std::size_t most_bytes = 10'000'000;
+
+    /// The name of a scene that comes from a pipe.
+    constexpr auto piped_name = "stdin";
   } // namespace
+
+  bool is_read_once(const std::string &file)
+  {
+    std::error_code not_there;
+    const auto status = std::filesystem::status(file, not_there);
+    return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+           !std::filesystem::is_directory(status);
+  }
 
   Scene full_model(Scene scene)
   {
@@ -239,12 +255,19 @@ namespace plumbline::scene
   Scene read_scene(const std::string &file, const std::vector<Override> &overrides)
   {
     const std::string what = opening(file);
+    const bool is_pipe = is_read_once(file);
+    if (is_pipe && base::Communicator::all().n_ranks() > 1)
+      throw InputError(what + " is a pipe, which one of several ranks alone can read; give a file");
     const std::string text = base::read_text_file(file, what, most_bytes, "a .prm or .json file");
-    const bool is_json = base::has_ending(file, ".json");
-    return checked(build(file, what,
-                         is_json ? read_json_settings(text, what) : read_settings(file, text, what),
-                         overrides),
-                   what);
+    const bool is_json = is_pipe ? text.find_first_not_of(" \t\r\n") == text.find('{')
+                                 : base::has_ending(file, ".json");
+    // files that a piped scene names are found from here
+    const std::string place = is_pipe ? std::string(piped_name) + ".prm" : file;
+    return checked(
+        build(place, what,
+              is_json ? read_json_settings(text, what) : read_settings(place, text, what),
+              overrides),
+        what);
   }
 
   Scene parse_scene(const std::string &name, const std::string &text,

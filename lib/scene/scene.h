@@ -15,7 +15,9 @@ namespace plumbline::scene
   struct Scene
   {
     std::string name, purpose;
-    std::string text;   ///< all keys and values; parses to the same scene
+    /// All keys and values, and hashes of the files that it names in comments: two scenes with the
+    /// same text are the same. Parses to the same scene.
+    std::string text;
     std::string folder; ///< of the scene's file: other files are named from there
 
     DomainSection domain;
@@ -91,7 +93,12 @@ namespace plumbline::scene
     std::string key, value;
   };
 
-  /// @param file  .prm or .json
+  /// Whether a scene's file is a pipe or a terminal ('cat SCENE | plumbline run /dev/stdin'): its
+  /// text is there once.
+  bool is_read_once(const std::string &file);
+
+  /// @param file  .prm or .json; from a pipe either, whose scene is called 'stdin' and names other
+  /// files from the working directory
   /// @throws InputError  file not readable, unknown key, wrong type, or values that do not fit
   /// together
   Scene read_scene(const std::string &file, const std::vector<Override> &overrides = {});

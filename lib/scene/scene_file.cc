@@ -89,7 +89,8 @@ namespace plumbline::scene
       void read(const std::string &file, const std::string &text, std::vector<fs::path> parents,
                 const std::string &suffix)
       {
-        parents.push_back(fs::weakly_canonical(file));
+        std::error_code is_pipe; // which has no path: it cannot include itself
+        parents.push_back(fs::weakly_canonical(file, is_pipe));
         std::vector<std::pair<std::string, std::string>> sections; // and where they begin
         std::size_t at = 0, line = 0;
         while (at < text.size())

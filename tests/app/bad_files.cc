@@ -88,6 +88,41 @@ TEST_F(BadFiles, scenes_from_windows_run)
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
 }
 
+TEST_F(BadFiles, scenes_from_a_pipe_run)
+{
+  const std::string text = problem + methods + "subsection Study\n set h = 0.25\nend\n";
+  const std::string json = "{\"Problem\": {\"solution\": \"x\"}, \"Methods\": {\"names\": "
+                           "\"FA\"}, \"Study\": {\"h\": 0.25}}";
+  for (const std::string &file : {write("piped.prm", text), write("piped.json", json)})
+  {
+    const std::string to = " run /dev/stdin --quiet -o " + output() + " 2>&1";
+    EXPECT_EQ(std::system(("cat " + file + " | " PLUMBLINE_COMMAND + to).c_str()), 0) << file;
+    expect_found(read(fs::path(output()) / "results.json"), "\"scene_name\": \"stdin\"");
+    fs::remove_all(output());
+  }
+  const int status =
+      std::system(("cat " + write("sampled.prm", text) +
+                   " | " PLUMBLINE_COMMAND " sample /dev/stdin -o " + output() + " 2>/dev/null")
+                      .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_FALSE(fs::exists(output()));
+}
+
+TEST_F(BadFiles, threads_of_the_environment_that_are_no_number_are_refused)
+{
+  for (const std::string value : {"0", "-1", "many", "2x", ""})
+  {
+    const std::string err = output() + ".err";
+    const int status = std::system(
+        ("DEAL_II_NUM_THREADS=" + value + " " PLUMBLINE_COMMAND " --version >/dev/null 2>" + err)
+            .c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 2) << value;
+    expect_found(read(err), "DEAL_II_NUM_THREADS must be a whole number from 1");
+    fs::remove(err);
+  }
+  EXPECT_EQ(std::system("DEAL_II_NUM_THREADS=1 " PLUMBLINE_COMMAND " --version >/dev/null"), 0);
+}
+
 TEST_F(BadFiles, numbers_that_are_none_are_refused)
 {
   const std::string scene = write("scene.prm", problem + methods);

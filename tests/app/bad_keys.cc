@@ -53,7 +53,7 @@ TEST_F(BadKeys, are_refused_by_key_value_what_is_allowed_and_the_remedy)
 
 TEST_F(BadKeys, in_lists_are_named_with_how_a_list_is_written)
 {
-  const std::string write = "; write numbers such as 0.05 or 1e-3, separated by ";
+  const std::string write = "; write numbers above 0 such as 0.05 or 1e-3, separated by ";
   const std::string no = " is not allowed", in = " in it" + write;
   expect_refusals(
       {{set("Study/h", "0.1, fine"), {"Study/h = '0.1, fine'" + no + ", for 'fine'" + in + "','"}},
@@ -62,10 +62,62 @@ TEST_F(BadKeys, in_lists_are_named_with_how_a_list_is_written)
        {set("Study/m", "3,,4"), {"Study/m = '3,,4'" + no + ", for ''" + in}},
        {set("Study/m", "3, 4,"), {"Study/m = '3, 4,'" + no + write}},
        {set("Expected/errors", "FA: 1 one"),
-        {"Expected/errors: 'one' is not a number" + write + "blanks"}},
+        {"Expected/errors: 'one' is not a number; write numbers such as 0.05 or 1e-3, separated by "
+         "blanks"}},
        {set("Domain/collar", "wide"), {"Domain/collar: 'wide' is not a number; write one such as"}},
        {set("Domain/boxes", "0, 0 : a, 1"),
         {no + ", for 'a' in it; write boxes 'x0, y0 : x1, y1'"}}});
+}
+
+TEST_F(BadKeys, with_decimal_commas_are_refused_with_the_number_that_was_meant)
+{
+  const auto meant = [](const std::string &key, const std::string &value, const std::string &number)
+  {
+    return Trial{
+        set(key, value),
+        {key + " = '" + value + "' is not allowed", "did you mean " + number + "? Decimals"}};
+  };
+  expect_refusals({meant("Study/m", "3,015", "3.015"), meant("Study/h", "0,1", "0.1"),
+                   meant("Study/h", "0.1, 0,05", "0.05"), meant("Study/h", "0,1, 0,05", "0.05"),
+                   meant("Study/m", "2, 3,05, 4", "3.05"), meant("Study/horizon", "0,4", "0.4"),
+                   meant("Study/h", "1,05e-1", "1.05e-1"), meant("Kernel/constant", "1,5", "1.5"),
+                   meant("Kernel/constant", "-2,5e3", "-2.5e3"),
+                   meant("Problem/load", "x + 1,05*y", "1.05"),
+                   meant("Domain/boxes", "0, 0 : 1,05", "1.05"),
+                   meant("Kernel/coefficients", "1, 0,05", "0.05")});
+  // lists are lists
+  const Outcome outcome = run({{set("Study/m", "2,3") + set("Study/h", "0.25,0.125"), {}}})[0];
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
+TEST_F(BadKeys, without_effect_are_refused_with_what_they_need)
+{
+  const auto unused = [](const std::string &key, const std::string &value, const std::string &needs,
+                         const std::string &more = "")
+  {
+    return Trial{set(key, value) + more,
+                 {key + " = " + value + " has no effect here: it needs " + needs}};
+  };
+  expect_refusals(
+      {unused("Study/horizon", "0.05", "Study/regime = m or horizon; with delta the horizon is"),
+       unused("Study/m", "4", "Study/regime = delta, delta-m or variable",
+              set("Study/regime", "m")),
+       unused("Kernel/bulk modulus", "2", "a bond tensor"),
+       unused("Kernel/constant", "2", "Kernel/limit = none"),
+       unused("Kernel/singularity", "1", "a polynomial"),
+       unused("Kernel/symmetrisation", "harmonic", "Kernel/coefficient or Kernel/materials"),
+       unused("Material/plane", "stress", "Material/E and nu"),
+       unused("Material/beta", "2", "Material/model = double well"),
+       unused("Random/smoothness", "2", "Random/field = Matern"),
+       unused("Random/overlap", "no", "Random/field = ellipses"),
+       unused("Time/damping", "1", "Time/final time"),
+       unused("Sampling/counts", "3", "Sampling/rule"),
+       unused("Fracture/ties", "0.01", "Fracture/toughness")});
+  // defaults may stand, and what is turned off keeps its keys
+  for (const std::string &more :
+       {set("Study/horizon", "0.4"), set("Study/horizon", "4e-1"), set("Kernel/constant", "1.0"),
+        set("Sampling/rule", "none") + set("Sampling/counts", "3")})
+    EXPECT_EQ(run({{more + set("Study/h", "0.25,0.125"), {}}})[0].exit_code, 0) << more;
 }
 
 TEST(Descriptions, say_what_is_allowed_in_our_words)

@@ -71,10 +71,10 @@ namespace plumbline::scene
              "m: horizon fixed, h to 0. delta: m = horizon / h fixed, h to 0 (decides asymptotic "
              "compatibility). delta-m: pairs of h and m. horizon: h fixed, horizon varies. "
              "variable: h and m fixed, Study/variable varies.");
-    keys.add("h", h, numbers(), "Mesh sizes, separated by ',', coarse to fine. [length]");
-    keys.add("m", m, numbers(),
+    keys.add("h", h, positive_numbers(), "Mesh sizes, separated by ',', coarse to fine. [length]");
+    keys.add("m", m, positive_numbers(),
              "Ratios horizon / h, real numbers >= 1 (delta, delta-m, variable).");
-    keys.add("horizon", horizon, numbers(), "Horizons (m, horizon). [length]");
+    keys.add("horizon", horizon, positive_numbers(), "Horizons (m, horizon). [length]");
     keys.add("variable", variable,
              "Name of one of Random/variables, which stands for any number of the scene: in "
              "expressions, or in other keys by Random/keys, e.g. 'Time/steps: dt'.");

@@ -1,0 +1,117 @@
+#include "scene/unused_keys.h"
+
+#include "base/error.h"
+#include "scene/keys.h"
+#include "scene/models/model.h"
+#include "scene/values.h"
+
+namespace plumbline::scene
+{
+  namespace
+  {
+    const std::string of_polynomials = "coefficients", youngs_modulus = "E";
+
+    struct Use
+    {
+      std::string key;
+      bool is_there = false; ///< else the key has no effect
+      std::string needs;     ///< what it is for
+    };
+
+    std::vector<Use> uses_of_study(const Scene &scene)
+    {
+      const Regime regime = scene.study.regime;
+      const bool takes_horizon = regime == Regime::m || regime == Regime::horizon;
+      return {{"Study/m", !takes_horizon,
+               "Study/regime = delta, delta-m or variable; with " + base::word(regime) +
+                   " the horizon is Study/horizon"},
+              {"Study/horizon", takes_horizon,
+               "Study/regime = m or horizon; with " + base::word(regime) +
+                   " the horizon is Study/m times Study/h"},
+              {"Time/critical fractions", scene.time.steps.empty(),
+               "Time/steps to be empty, which gives the steps themselves"},
+              {"Fracture/load step", scene.fracture.breaking == BreakMode::steps,
+               "Fracture/breaking = steps"}};
+    }
+
+    std::vector<Use> uses_of_material(const Scene &scene)
+    {
+      const KernelSection &kernel = scene.kernel;
+      const MaterialSection &material = scene.material;
+      const bool is_double_well = material.model == &double_well(),
+                 is_bonds = !material.model->takes_influence();
+      const std::string of_wells = "Material/model = " + double_well().name();
+      return {{"Kernel/bulk modulus", kernel.limit == Limit::navier && is_bonds,
+               "a bond tensor (Kernel/type) with Kernel/limit = Navier; other models take their "
+               "constants from Material"},
+              {"Kernel/constant", kernel.limit == Limit::none, "Kernel/limit = none"},
+              {"Kernel/singularity", physics::kernel_type(kernel.type).key == of_polynomials,
+               "a polynomial Kernel/type"},
+              {"Kernel/symmetrisation", !kernel.coefficient.empty() || !kernel.materials.empty(),
+               "Kernel/coefficient or Kernel/materials"},
+              {"Material/plane",
+               material.model->is_state_based() && material.keys[0] == youngs_modulus,
+               "Material/E and nu: other constants are those of the plane"},
+              {"Material/c", is_double_well, of_wells},
+              {"Material/beta", is_double_well, of_wells},
+              {"Material/boundary function", is_double_well, of_wells}};
+    }
+
+    std::vector<Use> uses_of_field(const Scene &scene)
+    {
+      const RandomSection &random = scene.random;
+      const bool is_there = random.field != FieldKind::none,
+                 is_ellipses = random.field == FieldKind::ellipses,
+                 is_covariance = is_there && !is_ellipses && random.field != FieldKind::files,
+                 has_modes = random.n_modes > 0;
+      const std::string covariance = "Random/field with a covariance (exponential, Gaussian, ...)",
+                        ellipses = "Random/field = ellipses";
+      return {{"Random/mean", is_covariance, covariance},
+              {"Random/deviation", is_covariance, covariance},
+              {"Random/length", is_covariance, covariance},
+              {"Random/smoothness", random.field == FieldKind::matern, "Random/field = Matern"},
+              {"Random/cell", is_covariance || (is_ellipses && has_modes),
+               "Random/field with modes that are found on a lattice"},
+              {"Random/fraction", is_ellipses, ellipses},
+              {"Random/semi-axes", is_ellipses, ellipses},
+              {"Random/overlap", is_ellipses, ellipses},
+              {"Random/realisations", is_ellipses && has_modes, ellipses + " and Random/modes"},
+              {"Random/realisation", random.is_drawn_whole(),
+               "Random/field = ellipses or files, and no Random/modes"},
+              {"Random/box", is_there, "Random/field"}};
+    }
+
+    /// A section that is about one thing, and the key that says that it is there.
+    struct Switch
+    {
+      std::string section, key;
+      std::string needed_alone = ""; ///< a key that is of use without it
+    };
+
+    const std::vector<Switch> switches = {{"Crack", "Crack/notch"},
+                                          {"Fracture", "Fracture/toughness"},
+                                          {"Strip", "Strip/length"},
+                                          {"Sampling", "Sampling/rule"},
+                                          {"Time", "Time/final time", "Time/density"}};
+
+    [[noreturn]] void refuse(const Keys &keys, const std::string &key, const std::string &needs)
+    {
+      throw InputError(key + " = " + keys.value(key) + " has no effect here: it needs " + needs +
+                       "; take it out, or give what it needs");
+    }
+  } // namespace
+
+  void check_unused_keys(const Keys &keys, const Scene &scene)
+  {
+    for (const auto &uses : {uses_of_study(scene), uses_of_material(scene), uses_of_field(scene)})
+      for (const Use &use : uses)
+        if (!use.is_there && keys.is_changed(use.key))
+          refuse(keys, use.key, use.needs);
+    // what is turned off by its key, e.g. on the command line, may keep its other keys
+    for (const Switch &one : switches)
+      if (!keys.is_given(one.key))
+        for (const std::string &key : keys.changed_keys(one.section))
+          if (key != one.needed_alone)
+            refuse(keys, key, one.key);
+  }
+} // namespace plumbline::scene
