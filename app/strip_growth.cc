@@ -14,6 +14,7 @@ namespace plumbline::app
     model.nodes = network.nodes;
     for (const meshfree::BondNetwork::Bond &bond : network.bonds)
       model.bonds.push_back({bond.from, bond.to});
+    model.toughness_of_bonds = network.toughness;
     model.cut = network.cut;
     model.notch_tip = notch_tip;
     model.damage = [&network](const std::vector<std::size_t> &broken)

@@ -136,8 +136,19 @@ namespace plumbline::report
       const std::vector<double> phases = r.phases();
       return phases.size() == 2 ? " Phase 1 has G = " + rounded(phases[0]) +
                                       ", phase 2 G = " + rounded(phases[1]) +
-                                      ", bonds between them the mean of both."
+                                      (r.rules.of_bonds == scene::BondToughness::mean
+                                           ? ", bonds between them the mean of both."
+                                           : ", bonds the least along them.")
                                 : "";
+    }
+
+    std::string interface_words(const GrowthResults &r)
+    {
+      return r.rules.interfaces.empty()
+                 ? ""
+                 : " Bonds across " + std::to_string(r.rules.interfaces.size()) +
+                       (r.rules.interfaces.size() == 1 ? " line has" : " lines have") +
+                       " a G of its own (Fracture/interfaces).";
     }
 
     std::string model_words(const GrowthResults &r)
@@ -153,7 +164,7 @@ namespace plumbline::report
                         " G, as a strip shows, by the root of which s0 was lowered (Fracture/"
                         "criterion = calibrated)."
                   : ".") +
-             phase_words(r) +
+             phase_words(r) + interface_words(r) +
              (r.spectrum ? " Of the random field " + words_of(*r.spectrum) + "." : "");
     }
 
@@ -172,6 +183,7 @@ namespace plumbline::report
                       {r.method + ", m = " + rounded(r.horizon / r.h), base::word(r.rules.breaking),
                        (faults.empty() ? "✓ " : "✗ ") + base::word(r.growth.end)});
       data["verdict"] = verdict(r, faults);
+      data["warnings"] = r.warnings;
       data["microstructure"] = Data();
       if (has_microstructure(r))
         data["microstructure"] = page::figure(
@@ -196,9 +208,11 @@ namespace plumbline::report
 
     std::string markdown(const GrowthResults &r, const std::vector<std::string> &faults)
     {
-      std::string text = "# Growth: " + r.scene_name + "\n\n" + verdict(r, faults) + "\n\n" +
-                         to_markdown(facts_table(r)) + "\n" + origin_words(r) +
-                         "\n\n## What was left out of the model\n\n";
+      std::string text = "# Growth: " + r.scene_name + "\n\n" + verdict(r, faults) + "\n\n";
+      for (const std::string &warning : r.warnings)
+        text += "Warning: " + warning + ".\n\n";
+      text += to_markdown(facts_table(r)) + "\n" + origin_words(r) +
+              "\n\n## What was left out of the model\n\n";
       for (const std::string &one : study::left_out_of_growth(r.rules))
         text += "- " + one + "\n";
       return text + "\n## The scene as read\n\n```\n" + r.scene_text + "```\n";
@@ -271,6 +285,7 @@ namespace plumbline::report
               {"variance_kept", r.spectrum ? Json(r.spectrum->variance_kept()) : Json()},
               {"n_apart", r.path.n_elsewhere},
               {"n_unpaired", r.n_unpaired},
+              {"warnings", r.warnings},
               {"energy_imbalance", r.largest_imbalance()},
               {"residual", r.largest_residual()},
               {"solver", base::word(r.rules.solver)},

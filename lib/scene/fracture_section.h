@@ -27,6 +27,13 @@ namespace plumbline::scene
     calibrated ///< less, so that a crack in this lattice goes on at G, as one in a strip shows
   };
 
+  /// G of a bond.
+  enum class BondToughness
+  {
+    mean,   ///< of G at its ends
+    minimum ///< of G at samples along it
+  };
+
   enum class Stretch
   {
     linear, ///< ξ·Δu / |ξ|²
@@ -63,6 +70,9 @@ namespace plumbline::scene
   struct FractureSection
   {
     std::string toughness; ///< G, an expression in x and y; empty: nothing breaks [force/length]
+    BondToughness of_bonds = BondToughness::mean;
+    std::vector<std::vector<dealii::Point<2>>> interfaces; ///< lines; bonds across have their G
+    std::vector<double> interface_toughness; ///< of each, or one for all [force/length]
     Criterion criterion = Criterion::toughness;
     BreakMode breaking = BreakMode::events;
     Stretch stretch = Stretch::linear;
@@ -76,6 +86,10 @@ namespace plumbline::scene
     unsigned int interval = 50;            ///< of checkpoints [events]
 
     bool is_there() const { return !toughness.empty(); }
+    double toughness_of_interface(std::size_t line) const
+    {
+      return interface_toughness[interface_toughness.size() == 1 ? 0 : line];
+    }
     /// Without a factor pieces that turn about a node are not found, where finite stretches and
     /// surface terms mean nothing.
     bool can_iterate() const { return stretch == Stretch::linear && !has_surface_terms; }
@@ -90,6 +104,8 @@ namespace plumbline::base
 {
   template <>
   inline constexpr auto words<scene::Criterion> = std::array{"toughness", "calibrated"};
+  template <>
+  inline constexpr auto words<scene::BondToughness> = std::array{"mean", "minimum"};
   template <>
   inline constexpr auto words<scene::BreakMode> = std::array{"events", "batches", "steps"};
   template <>

@@ -234,8 +234,7 @@ namespace plumbline::study
     const double of_bond = model.h / bonds_across(model);
     std::map<double, std::size_t> counts;
     for (const std::size_t bond : broken)
-      ++counts[.5 *
-               (model.toughness[model.bonds[bond][0]] + model.toughness[model.bonds[bond][1]])];
+      ++counts[model.toughness_of_bonds[bond]];
     std::vector<BrokenPart> parts;
     for (const auto &[toughness, n] : counts)
       parts.push_back({toughness, n, static_cast<double>(n) * of_bond});

@@ -18,7 +18,8 @@ namespace plumbline::study
     method::BreakingBody *body = nullptr;
     double h = 0; ///< of the lattice [length]
     std::vector<dealii::Point<2>> nodes;
-    std::vector<double> toughness; ///< G of each node; a bond's is its ends' mean [force/length]
+    std::vector<double> toughness;                       ///< G of each node [force/length]
+    std::vector<double> toughness_of_bonds;              ///< G of each bond [force/length]
     std::vector<std::array<unsigned int, 2>> bonds, cut; ///< their nodes; of those the notch cuts
     dealii::Point<2> notch_tip;
     /// The part of each node's bonds that is broken or cut.
@@ -114,6 +115,7 @@ namespace plumbline::study
     CrackPath path;
     std::vector<GrowthMoment> moments;
     std::size_t n_unpaired = 0;
+    std::vector<std::string> warnings; ///< e.g. of what the nodes do not see
 
     std::size_t n_broken() const;
     double advance() const; ///< of the tip, from the notch's

@@ -12,6 +12,7 @@
 #include "study/saving.h"
 #include "study/self_convergence.h"
 #include "study/timing.h"
+#include "study/unseen_features.h"
 
 #include <algorithm>
 #include <cmath>
@@ -160,6 +161,9 @@ namespace plumbline::study
           return;
         if (const auto spectrum = field_spectrum(scene_.random); spectrum && spectrum->is_grey())
           results_.warnings.push_back("Random/modes: " + words_of(*spectrum));
+        if (!open.empty())
+          for (const std::string &one : unseen_features(open.front()))
+            results_.warnings.push_back(one);
         for (const OpenCase &one : open)
           if (const auto found = measure_contradiction(one); found && found->is_clear())
             results_.warnings.push_back(cases_[one.index] + ": " + found->text());

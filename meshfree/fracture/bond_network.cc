@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <sstream>
 
 namespace plumbline::meshfree
@@ -86,16 +87,16 @@ namespace plumbline::meshfree
       return number;
     }
 
-    /// Tells which bonds a notch cuts.
-    class Notch
+    /// Tells which bonds go across lines.
+    class Crossing
     {
     public:
-      Notch(const BreakingSolid &solid, const BondNetwork &network)
-          : broken_({solid.notch, {}, false}, cells(network), network.horizon)
+      Crossing(const std::vector<geometry::Polyline> &lines, const BondNetwork &network)
+          : broken_({lines, {}, false}, cells(network), network.horizon)
       {
       }
 
-      bool cuts(std::size_t from, const Tensor<1, 2> &xi, unsigned int to)
+      bool has(std::size_t from, const Tensor<1, 2> &xi, unsigned int to)
       {
         one_.neighbours = {to};
         one_.bonds.resize(1);
@@ -119,27 +120,87 @@ namespace plumbline::meshfree
       std::vector<char> is_intact_;
     };
 
+    /// G of bonds.
+    class BondToughness
+    {
+    public:
+      BondToughness(const BreakingSolid &solid, const BondNetwork &network) : solid_(solid)
+      {
+        for (const Point<2> &x : network.nodes)
+          of_nodes_.push_back(at(x));
+        for (std::size_t k = 0; k < solid.interfaces.size(); ++k)
+          try
+          {
+            interfaces_.push_back(std::make_unique<Crossing>(
+                std::vector<geometry::Polyline>(1, solid.interfaces[k].line), network));
+          }
+          catch (const InputError &error)
+          {
+            throw InputError("Fracture/interfaces, line " + std::to_string(k + 1) + ": " +
+                             error.what());
+          }
+        is_crossed_.resize(interfaces_.size());
+      }
+
+      double operator()(const BondNetwork &network, unsigned int a, const Tensor<1, 2> &xi,
+                        unsigned int b)
+      {
+        double G = endless;
+        for (std::size_t k = 0; k < interfaces_.size(); ++k)
+          if (interfaces_[k]->has(a, xi, b))
+          {
+            is_crossed_[k] = true;
+            G = std::min(G, solid_.interfaces[k].toughness);
+          }
+        if (G < endless)
+          return G;
+        if (!solid_.takes_least_toughness)
+          return .5 * (of_nodes_[a] + of_nodes_[b]);
+        constexpr double n_per_mesh_size = 8;
+        const auto n = static_cast<int>(std::ceil(n_per_mesh_size * xi.norm() / network.h));
+        G = std::min(of_nodes_[a], of_nodes_[b]);
+        for (int k = 1; k < n; ++k)
+          G = std::min(G, at(network.nodes[a] + k / static_cast<double>(n) * xi));
+        return G;
+      }
+
+      /// @throws InputError  an interface that no bond crossed
+      void check() const
+      {
+        for (std::size_t k = 0; k < is_crossed_.size(); ++k)
+          if (!is_crossed_[k])
+            throw InputError("Fracture/interfaces: no bond crosses line " + std::to_string(k + 1) +
+                             "; give a line in the body (Domain/boxes), or take it out");
+      }
+
+    private:
+      double at(const Point<2> &x) const
+      {
+        const double G = solid_.toughness(x);
+        if (G > 0)
+          return G;
+        std::ostringstream message;
+        message << "Fracture/toughness = " << G << " at (" << x
+                << ") must be positive: it is the energy that a crack takes for its area; "
+                << "give each phase its own";
+        throw InputError(message.str());
+      }
+
+      const BreakingSolid &solid_;
+      std::vector<double> of_nodes_;
+      std::vector<std::unique_ptr<Crossing>> interfaces_;
+      std::vector<bool> is_crossed_;
+    };
+
     /// What two nodes have in common.
     struct Materials
     {
       std::vector<physics::Lame> lame;
-      std::vector<double> toughness;
 
       Materials(const BreakingSolid &solid, const std::vector<Point<2>> &nodes)
       {
         for (const Point<2> &x : nodes)
-        {
           lame.push_back(solid.material(x));
-          toughness.push_back(solid.toughness(x));
-          if (!(toughness.back() > 0))
-          {
-            std::ostringstream message;
-            message << "Fracture/toughness = " << toughness.back() << " at (" << x
-                    << ") must be positive: it is the energy that a crack takes for its area; "
-                    << "give each phase its own";
-            throw InputError(message.str());
-          }
-        }
       }
 
       physics::Lame mean(std::size_t i, std::size_t j) const
@@ -166,16 +227,16 @@ namespace plumbline::meshfree
 
     /// Infinite where a bond cannot break.
     double critical_stretch(const BreakingSolid &solid, const BondNetwork &network,
-                            const Materials &materials, const Kernel<2> &influence, unsigned int a,
-                            unsigned int b)
+                            const Materials &materials, double toughness,
+                            const Kernel<2> &influence, unsigned int a, unsigned int b)
     {
       if ((network.grip[a] >= 0 && network.grip[b] >= 0) ||
           box_of(solid.unbreaking, network.nodes[a], network.h) >= 0 ||
           box_of(solid.unbreaking, network.nodes[b], network.h) >= 0)
         return endless;
       const physics::Lame lame = materials.mean(a, b);
-      const double G = .5 * (materials.toughness[a] + materials.toughness[b]);
-      return std::sqrt(G / (4 * beta(influence) * (lame.lambda + lame.mu)));
+      return std::sqrt(toughness / solid.trapping /
+                       (4 * beta(influence) * (lame.lambda + lame.mu)));
     }
   } // namespace
 
@@ -189,7 +250,8 @@ namespace plumbline::meshfree
     const std::vector<int> number = place_nodes(solid, lattice, network);
     const Materials materials(solid, network.nodes);
     network.dilatation = dilatations(materials.lame, h * h);
-    Notch notch(solid, network);
+    BondToughness toughness_of(solid, network);
+    Crossing notch(solid.notch, network);
     const std::vector<Half> family = half_family(rule, influence, h, backend);
     const auto [n1, n2] = lattice.n_cells();
     const auto node_at = [&](int i, int j)
@@ -227,16 +289,19 @@ namespace plumbline::meshfree
             continue;
           }
           NetworkBond bond = bond_of(half, a, b);
-          if (notch.cuts(a, half.xi, b))
+          if (notch.has(a, half.xi, b))
           {
             network.cut.push_back({a, b});
             lack(bond);
             lack(bond.reversed());
             continue;
           }
-          bond.critical = critical_stretch(solid, network, materials, influence, a, b);
+          const double toughness = toughness_of(network, a, half.xi, b);
+          bond.critical = critical_stretch(solid, network, materials, toughness, influence, a, b);
           network.bonds.push_back(bond);
+          network.toughness.push_back(toughness);
         }
+    toughness_of.check();
     if (!solid.notch.empty() && network.cut.empty())
       throw InputError("Domain/cracks cuts no bond: the notch lies outside of the body "
                        "(Domain/boxes); give a line in it, from its mouth to its tip");

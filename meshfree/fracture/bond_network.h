@@ -24,6 +24,15 @@ namespace plumbline::meshfree
     std::function<physics::Lame(const Point<2> &)> material;
     std::function<double(const Point<2> &)> toughness; ///< G [force/length]
     bool has_surface_terms = false;                    ///< see SurfaceForces
+    bool takes_least_toughness = false; ///< of a bond: of samples along it; else its ends' mean
+    /// A line that bonds across have this G from, across several the smallest.
+    struct Interface
+    {
+      geometry::Polyline line;
+      double toughness = 0; ///< [force/length]
+    };
+    std::vector<Interface> interfaces = {};
+    double trapping = 1; ///< G is divided by it for critical stretches, see scene::Criterion
   };
 
   /// A solid on the nodes of a lattice, cell centres, as bonds: its energy is
@@ -54,6 +63,7 @@ namespace plumbline::meshfree
     std::vector<int> grip;                        ///< of each node, -1: free
     std::vector<Tensor<1, 2>> held;               ///< u of each node at load 1, 0 where it is free
     std::vector<Bond> bonds;                      ///< that are whole at the beginning, each once
+    std::vector<double> toughness;                ///< G of each of them [force/length]
     std::vector<std::array<unsigned int, 2>> cut; ///< nodes of bonds that the notch has cut
     std::vector<double> dilatation;               ///< τ of each node; empty where λ = μ
 
@@ -72,11 +82,11 @@ namespace plumbline::meshfree
   /// Critical stretches by G: with s0² = G / (4β (λ + μ)), β = ∫K r⁴ dr, the energy of all bonds
   /// across a straight cut of a continuum is G where dilatations are twice the stretch, which is
   /// exact for bonds (λ = μ). On the lattice itself it is .9158 G for m = 3, see lattice_toughness.
-  /// Bonds between two materials have harmonic means of λ and μ, and the mean of G.
+  /// Bonds between two materials have harmonic means of λ and μ, and G as BreakingSolid says.
   /// @param rule       with the deviatoric kernel of μ = 1
   /// @param influence  1/r, ∫K|ξ|² = 2
   /// @throws InputError  h that does not fit the boxes; grips that hold no node, or one grip alone;
-  /// G <= 0 at a bond; a notch through a node, or that cuts no bond
+  /// G <= 0 at a bond; a notch or an interface through a node, or that crosses no bond
   /// Source: Fan et al. 2022, eqs. (2.24)-(2.26); Silling & Askari 2005 for λ = μ,
   /// doi:10.1016/j.compstruc.2004.11.026.
   BondNetwork make_bond_network(const BreakingSolid &solid, const QuadratureRule &rule,

@@ -334,6 +334,67 @@ TEST(Fracture, bonds_between_materials_have_means_of_both_ends)
   EXPECT_EQ(net.bonds.size(), soft.bonds.size());
 }
 
+TEST(Fracture, bonds_across_an_interface_have_its_toughness)
+{
+  BreakingSolid solid = plate(10, 16, 2 * h, .25);
+  const BondNetwork plain = network(solid);
+  double y = plain.nodes[0][1]; // between two rows, above those of the notch
+  for (const Point<2> &x : plain.nodes)
+    y = std::max(y, x[1]);
+  y -= 4.5 * h;
+  solid.interfaces = {{{{-1, y}, {6.3 * h, y}}, .04}, {{{3 * h, y + 1}, {3 * h, y}}, .01}};
+  const BondNetwork net = network(solid);
+  ASSERT_EQ(net.bonds.size(), plain.bonds.size());
+  std::size_t n_first = 0, n_second = 0;
+  for (std::size_t b = 0; b < net.bonds.size(); ++b)
+  {
+    const Point<2> from = net.nodes[net.bonds[b].from], to = net.nodes[net.bonds[b].to];
+    const auto crosses = [&](double at, unsigned int d, double least, double most)
+    {
+      const double s = (at - from[d]) / (to[d] - from[d]);
+      const double along = from[1 - d] + s * (to[1 - d] - from[1 - d]);
+      return s > 0 && s < 1 && along > least + 1e-9 && along < most - 1e-9; // an end is free
+    };
+    const bool is_first = crosses(y, 1, -1, 6.3 * h), is_second = crosses(3 * h, 0, y, y + 1);
+    n_first += is_first ? 1 : 0;
+    n_second += is_second ? 1 : 0;
+    const double G = is_second ? .01 : is_first ? .04 : 1;
+    EXPECT_EQ(net.toughness[b], G);
+    if (std::isfinite(plain.bonds[b].critical))
+    {
+      EXPECT_NEAR(net.bonds[b].critical, std::sqrt(G) * plain.bonds[b].critical, 1e-14);
+    }
+  }
+  EXPECT_GT(n_first, 20u);
+  EXPECT_GT(n_second, 20u);
+  solid.interfaces = {{{{5, y}, {6, y}}, 1}};
+  EXPECT_THROW(network(solid), InputError); // nowhere near
+}
+
+TEST(Fracture, the_least_toughness_along_a_bond_is_seen_between_nodes)
+{
+  BreakingSolid solid = plate(10, 16, 2 * h, .25);
+  const double y = network(solid).nodes[0][1] + 6.5 * h; // between two rows
+  solid.toughness = [y](const Point<2> &x) { return std::abs(x[1] - y) < .2 * h ? .25 : 1; };
+  const BondNetwork mean = network(solid);
+  solid.takes_least_toughness = true;
+  const BondNetwork least = network(solid);
+  std::size_t n_weak = 0;
+  for (std::size_t b = 0; b < least.bonds.size(); ++b)
+  {
+    const double from = least.nodes[least.bonds[b].from][1], to = least.nodes[least.bonds[b].to][1];
+    const bool is_across = (from - y) * (to - y) < 0;
+    n_weak += is_across ? 1 : 0;
+    EXPECT_EQ(least.toughness[b], is_across ? .25 : 1);
+    EXPECT_EQ(mean.toughness[b], 1);
+    if (std::isfinite(mean.bonds[b].critical))
+    {
+      EXPECT_NEAR(least.bonds[b].critical, (is_across ? .5 : 1) * mean.bonds[b].critical, 1e-14);
+    }
+  }
+  EXPECT_GT(n_weak, 20u);
+}
+
 TEST(Fracture, goes_on_from_any_event_to_the_same_bits)
 {
   const BondNetwork net = network(plate(40, 20, 20 * h, .25));

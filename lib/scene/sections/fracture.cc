@@ -11,9 +11,22 @@ namespace plumbline::scene
   {
     keys.add("toughness", toughness,
              "G > 0, the energy that a crack takes for its area, an expression in x and y; a bond "
-             "between two materials has the mean of both. It says at which stretch a bond breaks, "
+             "has the mean of its ends (Fracture/toughness of bonds). It says at which stretch it "
+             "breaks, "
              "s0^2 = pi G / (3 delta (lambda + mu)) for the influence function 1/r. 'plumbline "
              "grow' runs the scene. Empty: nothing breaks. [force/length]");
+    keys.add("toughness of bonds", of_bonds,
+             "mean: of G at the two ends of a bond, so that what lies between nodes is not seen. "
+             "minimum: the smallest G at samples along the bond, eight to a mesh size: weak lines "
+             "and layers weaken all bonds across them.");
+    keys.add(
+        "interfaces", "", scene::lines(),
+        [this](const std::string &text) { interfaces = to_lines(text, scene::lines()); },
+        "Lines with a strength of their own, written like Domain/cracks: bonds across them have "
+        "the G of Fracture/interface toughness, whatever it is on both sides; across several, the "
+        "smallest. [length]");
+    keys.add("interface toughness", interface_toughness, positive_numbers(),
+             "G of each of Fracture/interfaces, separated by ',', or one for all. [force/length]");
     keys.add("criterion", criterion,
              "toughness: the stretch s0 of G in the continuum. On a lattice a crack is trapped "
              "between rows, and needs more (1.32 G for OPT and m = 3). calibrated: s0 over the "
@@ -73,6 +86,12 @@ namespace plumbline::scene
       throw InputError("Fracture/solver = multigrid does not find pieces that turn about a node, "
                        "where finite stretches and surface terms mean nothing; write "
                        "Fracture/solver = factor, or stretch = linear and surface terms = no");
+    if (interface_toughness.size() != interfaces.size() &&
+        (interfaces.empty() || interface_toughness.size() != 1))
+      throw InputError("Fracture/interface toughness has " +
+                       std::to_string(interface_toughness.size()) +
+                       " values and Fracture/interfaces has " + std::to_string(interfaces.size()) +
+                       " lines; give one value for each line, or one for all");
     require(largest_load > 0, "largest load", largest_load,
             "must be positive; none: growth goes on");
   }

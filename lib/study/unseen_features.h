@@ -1,0 +1,39 @@
+#pragma once
+
+#include "scene/problem.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace plumbline::study
+{
+  /// A number of the material that varies in space, of which methods know its values at nodes.
+  struct SpatialValue
+  {
+    std::string key; ///< of the scene, e.g. "Material/E"
+    std::function<double(const dealii::Point<2> &)> at;
+  };
+
+  /// Constants of the material.
+  std::vector<SpatialValue> material_values(const scene::Scene &scene);
+
+  /// Where values are looked for between nodes.
+  struct Between
+  {
+    std::vector<dealii::Point<2>> nodes;
+    std::vector<geometry::Polygon> cells; ///< convex; several may belong to a node
+    std::vector<dealii::Point<2>> middles_of_bonds;
+  };
+
+  /// What nodes do not see: for each value that is, at samples in cells or in the middle of bonds,
+  /// by a tenth out of the range that it has at the nodes about them, a sentence with numbers of
+  /// cells and bonds and both ranges. A feature that is thinner than the distance between samples,
+  /// which is a tenth of a cell of up to 4000 and a half of a cell of many more, may be missed.
+  std::vector<std::string> unseen_features(const std::vector<SpatialValue> &values,
+                                           const Between &places, double h);
+
+  /// The same of all values of a case on a mesh, with what to do: the constants of the material,
+  /// the coefficient of the kernel. None on a lattice, where nothing varies.
+  std::vector<std::string> unseen_features(const scene::Case &one);
+} // namespace plumbline::study
