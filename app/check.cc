@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "check_files.h"
 #include "check_text.h"
+#include "output_folder.h"
 
 #include <iostream>
 
@@ -37,6 +38,8 @@ namespace plumbline::app
       return exit_code;
     const fs::path folder = options.output.empty() ? fs::path("results") / ("check_" + scene.name)
                                                    : fs::path(options.output);
+    const OutputFolder output(folder, {"check", scene.name, scene.text},
+                              base::Communicator::alone());
     write_check(found, required, options, exit_code, folder);
     if (!is_silent)
       std::cout << "written: " << (folder / "report.html").string() << '\n';

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/number_text.h"
 #include "meshfree/lattice/crack_strip.h"
+#include "output_folder.h"
 #include "report/crack_page.h"
 #include "report/formats.h"
 #include "report/frames.h"
@@ -15,6 +16,7 @@
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <optional>
 
 namespace plumbline::app
 {
@@ -270,10 +272,16 @@ namespace plumbline::app
                        "': Crack/notch = 0, so there is no crack to follow; give its length, or "
                        "use 'plumbline run'");
     const fs::path folder = output_folder(options, scene);
+    std::optional<OutputFolder> output; // once nothing is refused any more
     check_crack_size(scene, options.n_levels, folder);
     const CrackResults results =
         move_crack(scene, options.n_levels, folder,
-                   [&] { report::write_file(folder / "crack.md", ""); }); // can it be written?
+                   [&]
+                   {
+                     output.emplace(folder, OutputFolder::Owner{"crack", scene.name, scene.text},
+                                    base::Communicator::alone());
+                     report::write_file(folder / "crack.md", ""); // can it be written?
+                   });
     if (!options.quiet && results.history.resumed_at > 0)
       std::cerr << "continued from t = " << base::to_text(results.history.resumed_at, 4) << ", of '"
                 << results.plan.checkpoint.string() << "'\n";

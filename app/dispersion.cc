@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "methods.h"
+#include "output_folder.h"
 #include "report/dispersion_page.h"
 #include "report/formats.h"
 #include "run_parts.h"
@@ -59,7 +60,10 @@ namespace plumbline::app
         scene, n_levels,
         [&](const scene::Series &series, const scene::Level &level, bool is_finest)
         {
-          const scene::Problem problem = scene::make_problem(at_level(scene, level), 0, level);
+          const scene::Scene here = at_level(scene, level);
+          const scene::Problem problem = scene::make_problem(here, 0, level);
+          study::WaveStudy waves = results.study;
+          waves.density = here.time.density;
           for (std::size_t i = 0; i < methods.size() && !stops(); ++i)
           {
             const std::string name = methods[i]->name();
@@ -72,8 +76,7 @@ namespace plumbline::app
             if (own.empty())
             {
               const base::CpuTimer timer;
-              own =
-                  study::measure_waves(*methods[i], problem, results.study, series.name, is_finest);
+              own = study::measure_waves(*methods[i], problem, waves, series.name, is_finest);
               own.front().seconds = timer.seconds();
               for (DispersionRow &row : own)
                 row.value = level.value;
@@ -97,9 +100,11 @@ namespace plumbline::app
     (void)study::plan_waves(scene, options.angles);
     const method::Methods methods = study::choose_methods(scene, all_methods());
     const fs::path folder = output_folder(options, scene);
+    const OutputFolder output(folder, {"dispersion", scene.name, scene.text},
+                              base::Communicator::alone());
     watch_interrupts();
     report::write_file(folder / "dispersion.md", ""); // before the work: can it be written?
-    auto journal = open_journal<DispersionRow>(folder / "dispersion.jsonl", scene,
+    auto journal = open_journal<DispersionRow>(folder / "dispersion.jsonl",
                                                subject_of(options, scene), options.quiet);
     const study::DispersionResults results = measure_dispersion(
         scene, methods, options.angles, options.n_levels,

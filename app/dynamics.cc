@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/number_text.h"
 #include "methods.h"
+#include "output_folder.h"
 #include "reference/lattice/torus_motion.h"
 #include "report/dynamics_page.h"
 #include "report/formats.h"
@@ -79,15 +80,6 @@ namespace plumbline::app
       return check && !holds ? 1 : 0;
     }
 
-    /// What a run that did not come to its end left, unless files that the scene names are newer.
-    study::DynamicResults earlier_motions(const fs::path &folder, const scene::Scene &scene,
-                                          unsigned int n_levels)
-    {
-      if (has_newer_files(scene, folder / "dynamics.jsonl"))
-        return study::begin_results(scene, n_levels);
-      return report::read_motions(folder, study::begin_results(scene, n_levels));
-    }
-
     /// Of each motion, those that are written.
     using FrameTimes = std::map<std::string, std::vector<double>>;
 
@@ -139,11 +131,12 @@ namespace plumbline::app
         options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
     check_frames(scene, methods, folder);
     study::check_motions(scene, methods, options.n_levels);
-    prepare_folder(folder);
+    const OutputFolder output(folder, {"run", scene.name, scene.text}, base::Communicator::all());
     if (base::Communicator::all().rank() != 0)
       return 0; // motions are not shared among ranks: the first one does them
 
-    const study::DynamicResults earlier = earlier_motions(folder, scene, options.n_levels);
+    const study::DynamicResults earlier =
+        report::read_motions(folder, study::begin_results(scene, options.n_levels));
     if (!earlier.runs.empty() && !options.quiet)
       std::cerr << "continuing: " << earlier.runs.size() << " motions are in '" << folder.string()
                 << "' already\n";
@@ -153,17 +146,10 @@ namespace plumbline::app
       journal.append(earlier); // so that a kill before the next motion loses none
     FrameTimes times;
     study::DynamicResults results;
-    try
     {
       ProgressLine progress(!options.quiet);
       results = study::run_motions(scene, methods,
                                    control_of(options, folder, journal, times, progress), earlier);
-    }
-    catch (...)
-    {
-      std::error_code not_empty; // motions that are there stay
-      fs::remove(folder, not_empty);
-      throw;
     }
     results.provenance = provenance();
     study::conclude(scene, results);

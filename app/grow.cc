@@ -5,16 +5,19 @@
 #include "base/memory.h"
 #include "base/number_text.h"
 #include "meshfree/fracture/breaking_network.h"
+#include "output_folder.h"
 #include "physics/expression.h"
 #include "report/formats.h"
 #include "report/growth_page.h"
 #include "run_parts.h"
 #include "strip_growth.h"
 #include "study/sampling.h"
+#include "study/unseen_features.h"
 
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 namespace plumbline::app
 {
@@ -44,8 +47,12 @@ namespace plumbline::app
       };
       solid.material = scene.material.lame();
       solid.has_surface_terms = scene.fracture.has_surface_terms;
-      solid.toughness = [toughness, trapping](const Point<2> &x)
-      { return toughness(x) / trapping; };
+      solid.toughness = [toughness](const Point<2> &x) { return toughness(x); };
+      solid.takes_least_toughness = scene.fracture.of_bonds == scene::BondToughness::minimum;
+      for (std::size_t k = 0; k < scene.fracture.interfaces.size(); ++k)
+        solid.interfaces.push_back(
+            {scene.fracture.interfaces[k], scene.fracture.toughness_of_interface(k)});
+      solid.trapping = trapping;
       return solid;
     }
 
@@ -116,6 +123,37 @@ namespace plumbline::app
         at_nodes.push_back(toughness(node));
       return at_nodes;
     }
+
+    /// What of G and of the material lies between nodes, where bonds do not know of it.
+    std::vector<std::string> find_unseen(const scene::Scene &scene, const study::GrowthModel &model,
+                                         double horizon)
+    {
+      std::vector<study::SpatialValue> values = study::material_values(scene);
+      const physics::Expression toughness("Fracture/toughness", scene.fracture.toughness,
+                                          scene.names(horizon));
+      if (!toughness.is_constant() && scene.fracture.of_bonds == scene::BondToughness::mean)
+        values.push_back(
+            {"Fracture/toughness", [toughness](const Point<2> &x) { return toughness(x); }});
+      if (values.empty())
+        return {};
+      study::Between places{model.nodes, {}, {}};
+      const double half = .5 * model.h;
+      for (const Point<2> &x : model.nodes)
+        places.cells.push_back({x + Point<2>(-half, -half), x + Point<2>(half, -half),
+                                x + Point<2>(half, half), x + Point<2>(-half, half)});
+      for (const auto &bond : model.bonds)
+        places.middles_of_bonds.push_back(model.nodes[bond[0]] +
+                                          .5 * (model.nodes[bond[1]] - model.nodes[bond[0]]));
+      std::vector<std::string> warnings = study::unseen_features(values, places, model.h);
+      for (std::string &one : warnings)
+        one += "; refine Study/h, or make it wider than h" +
+               std::string(one.find("Fracture/") == 0
+                               ? ", or write Fracture/toughness of bonds = minimum, or give a weak "
+                                 "line as Fracture/interfaces"
+                               : "");
+      return warnings;
+    }
+
     /// λ = μ at every one of some points.
     bool is_of_bonds(const scene::Scene &scene)
     {
@@ -209,8 +247,7 @@ namespace plumbline::app
       before_it_grows();
     study::GrowthModel model = growth_model(body, scene.domain.cracks.front().back());
     model.toughness = toughness_of_nodes(scene, model.nodes, level.horizon);
-    if (has_newer_files(scene, checkpoint))
-      fs::remove(checkpoint); // of another body
+    std::vector<std::string> warnings = find_unseen(scene, model, level.horizon);
     const base::CpuTimer timer;
     study::GrowthResults results;
     results.growth =
@@ -242,6 +279,7 @@ namespace plumbline::app
     results.n_unpaired = n_unpaired(model, broken, middle(scene));
     results.plane_modulus = mean_plane_modulus(scene, model.nodes);
     results.parts = broken_parts(model, broken);
+    results.warnings = std::move(warnings);
     results.toughness = model.toughness;
     results.spectrum = study::field_spectrum(scene.random);
     return results;
@@ -256,13 +294,21 @@ namespace plumbline::app
                        "'plumbline run' ('plumbline crack' where Crack/notch is given)");
     check_growth_size(scene);
     const fs::path folder = output_folder(options, scene);
+    std::optional<OutputFolder> output; // once nothing is refused any more
     const study::GrowthResults results =
         grow_body(scene, folder / "checkpoint.h5",
-                  [&] { report::write_file(folder / "grow.md", ""); }); // can it be written?
+                  [&]
+                  {
+                    output.emplace(folder, OutputFolder::Owner{"grow", scene.name, scene.text},
+                                   base::Communicator::alone());
+                    report::write_file(folder / "grow.md", ""); // can it be written?
+                  });
     if (!options.quiet && results.growth.n_resumed > 0)
       std::cerr << "continued from event " << results.growth.n_resumed << " of '"
                 << (folder / "checkpoint.h5").string() << "'\n";
     const std::vector<std::string> faults = growth_faults(results, scene.expected);
+    for (const std::string &warning : results.warnings)
+      std::cerr << "warning: " << warning << '\n';
     report::write_growth(results, faults, folder);
     std::error_code code;
     fs::remove(folder / "checkpoint.h5", code); // what is complete is done again, as its user asks

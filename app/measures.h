@@ -65,13 +65,11 @@ namespace plumbline::app
     return known;
   }
 
-  /// What an interrupted command left in a file, if the files that the scene names are older.
+  /// What an interrupted command of the same subject left in a file.
   template <class Row>
-  report::RowJournal<Row> open_journal(const std::filesystem::path &file, const scene::Scene &scene,
+  report::RowJournal<Row> open_journal(const std::filesystem::path &file,
                                        const std::string &subject, bool is_quiet)
   {
-    if (has_newer_files(scene, file))
-      std::filesystem::remove(file);
     report::RowJournal<Row> journal(file, subject);
     if (!journal.earlier().empty() && !is_quiet)
       std::cerr << "continuing: " << journal.earlier().size() << " rows are in '" << file.string()

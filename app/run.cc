@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "dynamics.h"
 #include "methods.h"
+#include "output_folder.h"
 #include "report/journal.h"
 #include "report/report.h"
 #include "run_parts.h"
@@ -46,9 +47,7 @@ namespace plumbline::app
       try
       {
         const study::Results earlier = report::read_results(folder);
-        // files that the scene names must be as old as the results
-        if (!has_newer_files(scene, file) && !earlier.is_complete &&
-            earlier.scene_text == scene.text)
+        if (!earlier.is_complete && earlier.scene_text == scene.text)
           return earlier;
       }
       catch (const InputError &)
@@ -261,26 +260,18 @@ namespace plumbline::app
     const bool is_first = communicator.rank() == 0, is_quiet = options.quiet || !is_first;
     const fs::path folder =
         options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
-    prepare_folder(folder);
+    const OutputFolder output(folder, {"run", scene.name, scene.text}, communicator);
     const study::Results earlier = begin_results(folder, scene, methods, communicator);
     tell_beginning(earlier, folder, communicator, is_quiet);
 
     watch_interrupts();
     report::Journal journal(folder);
     study::Results results;
-    try
     {
       ProgressLine progress(!is_quiet);
       results = study::run_sweep(
           scene, methods, available,
           control_of(options, scene, folder, communicator, journal, progress), earlier);
-    }
-    catch (...)
-    {
-      std::error_code not_empty; // results that are there stay
-      if (is_first)
-        fs::remove(folder, not_empty);
-      throw;
     }
     communicator.together(
         [&]
@@ -297,7 +288,10 @@ namespace plumbline::app
 
   int rebuild_report(const std::string &folder)
   {
-    report::write_report(report::read_results(folder), folder);
+    const study::Results results = report::read_results(folder);
+    const OutputFolder output(folder, {"run", results.scene_name, results.scene_text},
+                              base::Communicator::alone());
+    report::write_report(results, folder);
     std::cout << "report: " << (fs::path(folder) / "report.html").string() << '\n';
     return 0;
   }

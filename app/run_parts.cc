@@ -1,7 +1,6 @@
 #include "run_parts.h"
 
 #include "base/communicator.h"
-#include "base/error.h"
 
 #include <deal.II/base/config.h>
 #include <deal.II/base/multithread_info.h>
@@ -15,8 +14,6 @@
 
 namespace plumbline::app
 {
-  namespace fs = std::filesystem;
-
   namespace
   {
     volatile std::sig_atomic_t interrupted = 0;
@@ -63,42 +60,6 @@ namespace plumbline::app
             {"processor", processor()},
             {"threads", std::to_string(dealii::MultithreadInfo::n_threads())},
             {"ranks", std::to_string(base::Communicator::all().n_ranks())}};
-  }
-
-  bool has_newer_files(const scene::Scene &scene, const std::filesystem::path &than)
-  {
-    const std::filesystem::path folder = scene.folder;
-    for (const scene::Series &series : scene.study.series)
-      for (const scene::Level &level : series.levels)
-        if (is_newer(folder / scene.methods.nodes.file_at(level.h), than))
-          return true;
-    for (const std::string &picture : scene.random.files)
-      if (is_newer(folder / picture, than))
-        return true;
-    return is_newer(folder / scene.domain.mesh.name, than);
-  }
-
-  bool is_newer(const std::filesystem::path &file, const std::filesystem::path &than)
-  {
-    namespace fs = std::filesystem;
-    return fs::exists(file) && fs::exists(than) &&
-           fs::last_write_time(file) > fs::last_write_time(than);
-  }
-
-  void prepare_folder(const std::filesystem::path &folder)
-  {
-    bool is_writable = true;
-    if (base::Communicator::all().rank() == 0)
-    {
-      std::error_code error;
-      fs::create_directories(folder, error);
-      const fs::path probe = folder / ".write-test";
-      is_writable = !error && (std::ofstream(probe) << "x").flush().good();
-      fs::remove(probe, error);
-    }
-    if (base::Communicator::all().any(!is_writable))
-      throw InputError("output folder '" + folder.string() +
-                       "' cannot be written; give a writable one with -o");
   }
 
   ProgressLine::ProgressLine(bool is_wanted) : is_on_(is_wanted && isatty(STDERR_FILENO) != 0) {}

@@ -23,16 +23,6 @@ namespace plumbline::app
   /// Versions and machine, for results.
   std::map<std::string, std::string> provenance();
 
-  /// Whether both files are there, and the first is newer.
-  bool is_newer(const std::filesystem::path &file, const std::filesystem::path &than);
-
-  /// Whether a file that the scene names is newer: its mesh, nodes, or pictures of a random field.
-  bool has_newer_files(const scene::Scene &scene, const std::filesystem::path &than);
-
-  /// Make the folder and try it, so that no work is lost at the end. @note Collective.
-  /// @throws InputError  it cannot be written
-  void prepare_folder(const std::filesystem::path &folder);
-
   /// One line that is rewritten, on a terminal, after the first two seconds.
   class ProgressLine
   {

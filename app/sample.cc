@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "grow.h"
+#include "output_folder.h"
 #include "report/formats.h"
 #include "report/sample_files.h"
 #include "report/sampling_page.h"
@@ -222,13 +223,12 @@ namespace plumbline::app
       return take_samples(scene, plan, files);
 
     sample_taker(scene).check(scene, folder, n_processes(options, plan));
-    prepare_folder(folder);
     const base::Communicator communicator = base::Communicator::all();
+    const OutputFolder output(folder, {"sample", scene.name, scene.text}, communicator);
     communicator.together(
         [&]
         {
-          if (communicator.rank() == 0 &&
-              (!files.are_there() || has_newer_files(scene, files.subject_file())))
+          if (communicator.rank() == 0 && !files.are_there())
             files.begin();
         });
     watch_interrupts();

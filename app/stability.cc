@@ -5,6 +5,7 @@
 #include "meshfree/vtu.h"
 #include "method/discretisation.h"
 #include "methods.h"
+#include "output_folder.h"
 #include "report/formats.h"
 #include "report/stability_page.h"
 #include "run_parts.h"
@@ -171,10 +172,12 @@ namespace plumbline::app
     study::check_memory(scene, methods, available, options.n_levels);
 
     const fs::path folder = output_folder(options, scene);
+    const OutputFolder output(folder, {"stability", scene.name, scene.text},
+                              base::Communicator::alone());
     watch_interrupts();
     report::write_file(folder / "stability.md", ""); // before the work: can it be written?
     auto journal =
-        open_journal<StabilityRow>(folder / "stability.jsonl", scene, scene.text, options.quiet);
+        open_journal<StabilityRow>(folder / "stability.jsonl", scene.text, options.quiet);
     const study::StabilityResults results = measure_stability(
         scene, methods, options.n_levels,
         {is_interrupted, [&](const auto &rows) { journal.append(rows); }, journal.earlier()},

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/number_text.h"
 #include "methods.h"
+#include "output_folder.h"
 #include "report/formats.h"
 #include "report/strip_page.h"
 #include "run_parts.h"
@@ -142,11 +143,12 @@ namespace plumbline::app
                        "or use 'plumbline run'");
     const method::Methods methods = strip_methods(scene, options.n_levels);
     const fs::path folder = output_folder(options, scene);
+    const OutputFolder output(folder, {"strip", scene.name, scene.text},
+                              base::Communicator::alone());
     watch_interrupts();
     report::write_file(folder / "strip.md", ""); // before the work: can it be written?
 
-    auto journal =
-        open_journal<study::StripRow>(folder / "strip.jsonl", scene, scene.text, options.quiet);
+    auto journal = open_journal<study::StripRow>(folder / "strip.jsonl", scene.text, options.quiet);
     const study::StripResults results = stand_cracks(
         scene, methods, options.n_levels,
         {is_interrupted, [&](const auto &rows) { journal.append(rows); }, journal.earlier()});

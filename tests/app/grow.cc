@@ -155,6 +155,45 @@ TEST(GrowCommand, calibrates_the_critical_stretch)
   fs::remove_all(folder);
 }
 
+TEST(GrowCommand, warns_of_what_nodes_do_not_see_and_takes_weak_lines)
+{
+  const std::string body =
+      "grow " + plate() +
+      " --quiet --set Study/h=0.05 --set 'Domain/fixed=0, 0.35 : 2, 0.5; 0, -0.5 : 2, -0.35' ";
+  const auto grown = [&](const std::string &settings)
+  {
+    const fs::path folder = temporary("weak");
+    const Outcome outcome = run(body + settings + " -o " + folder.string());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto json = results(folder);
+    EXPECT_EQ(outcome.err.empty(), json["warnings"].empty()) << outcome.err;
+    fs::remove_all(folder);
+    return json;
+  };
+  const std::string weak = "--set 'Fracture/toughness=abs(y) < 0.02 ? 0.05 : 1' ";
+  const auto uniform = grown("--set Fracture/toughness=1"), unseen = grown(weak),
+             least = grown(weak + "--set 'Fracture/toughness of bonds=minimum'"),
+             line = grown("--set Fracture/toughness=1 --set 'Fracture/interfaces=-1, 0 : 3, 0' "
+                          "--set 'Fracture/interface toughness=0.05'");
+  const double peak = uniform["peak_load"];
+  EXPECT_TRUE(uniform["warnings"].empty());
+  ASSERT_EQ(unseen["warnings"].size(), 1u);
+  expect_found(unseen["warnings"][0], "Fracture/toughness varies between nodes where no node sees "
+                                      "it: at h = 0.05 it is 0.05 in ");
+  EXPECT_EQ(unseen["peak_load"], peak);
+  // the first bonds that break lie across the line, at √.05 of their stretch
+  const auto first = [](const nlohmann::json &json)
+  { return json["events"][0]["load"].get<double>(); };
+  for (const auto &one : {least, line})
+  {
+    EXPECT_TRUE(one["warnings"].empty());
+    EXPECT_NEAR(first(one), std::sqrt(.05) * first(uniform), 1e-9);
+    EXPECT_LT(one["peak_load"].get<double>(), .3 * peak);
+    EXPECT_NEAR(one["G_by_bonds"].get<double>(), .05, .02);
+  }
+  EXPECT_EQ(least["events"], line["events"]);
+}
+
 TEST(GrowCommand, says_what_is_not_as_expected)
 {
   const fs::path folder = temporary("grow");
@@ -200,8 +239,7 @@ TEST(GrowCommand, begins_anew_when_a_picture_has_changed)
                               picture + " -o " + killed.string();
   ASSERT_TRUE(kill_at(command, killed / "checkpoint.h5"))
       << "the run had ended before it was killed";
-  fs::last_write_time(picture,
-                      fs::last_write_time(killed / "checkpoint.h5") + std::chrono::seconds(1));
+  std::ofstream(picture) << "0,1\n1,0\n";
   const Outcome again = run(command);
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(results(killed)["n_resumed"], 0);

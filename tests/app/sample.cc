@@ -123,14 +123,48 @@ TEST(SampleCommand, takes_given_pictures_and_begins_anew_when_one_has_changed)
   EXPECT_EQ(mean(), std::pair(true, first.second));
   // stiff all over, so that it moves less
   std::ofstream(grain) << "1,1\n1,1\n";
-  fs::last_write_time(grain, fs::last_write_time(folder / "samples/000001.json") +
-                                 std::chrono::seconds(1));
   const auto changed = mean();
   EXPECT_FALSE(changed.first);
   EXPECT_LT(changed.second, .99 * first.second);
   fs::remove_all(folder);
   fs::remove(grain);
   fs::remove(rim);
+}
+
+TEST(SampleCommand, takes_samples_anew_when_the_table_of_the_kernel_has_changed)
+{
+  const fs::path folder = temporary("sample"), fresh = temporary("fresh");
+  const std::string table = write("kernel.csv", "t,rho\n0,1\n1,0\n");
+  const std::string scene =
+      write("table.prm", "subsection Kernel\n set type = table\n set limit = none\n set table file "
+                         "= " +
+                             fs::path(table).filename().string() +
+                             "\nend\nsubsection Problem\n set load = (1 + a)*sin(3*x)\n set "
+                             "constraint = 0\n set local solution = none\nend\n"
+                             "subsection Random\n set variables = a: uniform -1 1\nend\n"
+                             "subsection Sampling\n set rule = tensor\n set counts = 2\nend\n"
+                             "subsection Methods\n set names = IPA-AC-R2\nend\n"
+                             "subsection Study\n set regime = m\n set horizon = 0.3\n set h = 0.1\n"
+                             "set norms = averages L2\n set decisive error = averages L2 | own "
+                             "finest level\nend\n");
+  const auto sets = [&](const fs::path &place)
+  {
+    const Outcome outcome = run("sample " + scene + " -o " + place.string());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err.find("continuing"), std::string::npos) << outcome.err;
+    return results(place)["cases"][0]["sets"];
+  };
+  const Json first = sets(folder);
+  const auto written = fs::last_write_time(table);
+  std::ofstream(table) << "t,rho\n0,100\n1,100\n";
+  fs::last_write_time(table, written); // as copies and archives have it
+  const Json second = sets(folder);
+  EXPECT_NE(second, first);
+  EXPECT_EQ(second, sets(fresh));
+  for (const fs::path &one : {folder, fresh})
+    fs::remove_all(one);
+  fs::remove(table);
+  fs::remove(scene);
 }
 
 TEST(SampleCommand, takes_samples_anew_whose_files_are_not_whole)
