@@ -18,7 +18,7 @@ namespace plumbline::meshfree
     using NetworkBond = BondNetwork::Bond;
 
     constexpr double endless = std::numeric_limits<double>::infinity();
-    constexpr double on_side = 1e-9; // of h: a node counts as in a box up to there
+    constexpr double on_side = 1e-9; // of h: what two boxes share, and how far a node may be out
 
     /// A bond of every node of the lattice; of two that are opposite, one.
     struct Half
@@ -60,6 +60,18 @@ namespace plumbline::meshfree
       return -1;
     }
 
+    /// The first grip that shares area with the cell of a node, as geometry::vertex_cells holds
+    /// nodes of bodies at rest; -1: none.
+    int grip_of(const std::vector<geometry::Box> &grips, const Point<2> &x, double h)
+    {
+      const auto common = [&](const geometry::Box &box, unsigned int d)
+      { return std::min(box.upper[d], x[d] + h / 2) - std::max(box.lower[d], x[d] - h / 2); };
+      for (std::size_t i = 0; i < grips.size(); ++i)
+        if (common(grips[i], 0) > on_side * h && common(grips[i], 1) > on_side * h)
+          return static_cast<int>(i);
+      return -1;
+    }
+
     /// Nodes, by cells of the lattice: shape (n[1], n[0]), -1 where there is none.
     std::vector<int> place_nodes(const BreakingSolid &solid, const geometry::Lattice &lattice,
                                  BondNetwork &network)
@@ -73,15 +85,15 @@ namespace plumbline::meshfree
             const Point<2> x = lattice.point(i + .5, j + .5);
             number[static_cast<std::size_t>(j) * n1 + i] = static_cast<int>(network.nodes.size());
             network.nodes.push_back(x);
-            network.grip.push_back(box_of(solid.grips, x, network.h));
+            network.grip.push_back(grip_of(solid.grips, x, network.h));
             network.held.push_back(network.grip.back() < 0 ? Tensor<1, 2>() : solid.held(x));
           }
       for (std::size_t g = 0; g < solid.grips.size(); ++g)
         if (std::find(network.grip.begin(), network.grip.end(), static_cast<int>(g)) ==
             network.grip.end())
           throw InputError("Domain/fixed: grip " + std::to_string(g) +
-                           " holds no node; give a box in the body (Domain/boxes) that is thicker "
-                           "than a mesh size");
+                           " holds no node: it shares no area with a cell; give a box in the body "
+                           "(Domain/boxes)");
       if (std::find(network.grip.begin(), network.grip.end(), -1) == network.grip.end())
         throw InputError("Domain/fixed holds all nodes; leave some of them free");
       return number;

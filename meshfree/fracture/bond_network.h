@@ -16,8 +16,8 @@ namespace plumbline::meshfree
   /// What a body whose bonds break is made of.
   struct BreakingSolid
   {
-    geometry::Domain domain;                            ///< with its grips
-    std::vector<geometry::Box> grips;                   ///< nodes in them are held
+    geometry::Domain domain;          ///< with its grips
+    std::vector<geometry::Box> grips; ///< nodes are held whose cell shares area with one of them
     std::vector<geometry::Box> unbreaking;              ///< bonds with an end in them do not break
     std::vector<geometry::Polyline> notch;              ///< what it is cut by from the beginning
     std::function<Tensor<1, 2>(const Point<2> &)> held; ///< u in the grips at load 1

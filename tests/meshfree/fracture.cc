@@ -286,6 +286,25 @@ TEST(Fracture, toughness_of_a_lattice_depends_on_the_direction_of_a_cut)
   EXPECT_NEAR(along(0, 1), lattice_toughness(rule, K, h, geometry::Backend::fast), 1e-14);
 }
 
+TEST(Fracture, grips_hold_the_nodes_whose_cells_share_area_with_them)
+{
+  const auto rows = [](double thickness, double length)
+  {
+    BreakingSolid solid = plate(10, 16, 2 * h, .25);
+    solid.grips[0].lower[1] = solid.grips[0].upper[1] - thickness * h;
+    solid.grips[0].upper[0] = length * h;
+    const BondNetwork net = network(solid);
+    return std::count(net.grip.begin(), net.grip.end(), 0);
+  };
+  EXPECT_EQ(rows(3, 10), 30);
+  EXPECT_EQ(rows(2.9, 10), 30); // the third row's cells reach into it
+  EXPECT_EQ(rows(2.1, 10), 30); // though their nodes are outside
+  EXPECT_EQ(rows(2, 10), 20);
+  EXPECT_EQ(rows(.2, 10), 10);
+  EXPECT_EQ(rows(2.1, 4.3), 15);
+  EXPECT_EQ(rows(2 + 1e-12, 5 - 1e-12), 10); // rounding is no area
+}
+
 TEST(Fracture, finite_stretches_reach_their_limits_at_critical_loads)
 {
   const BondNetwork net = network(plate(20, 16, 5 * h, .25));

@@ -99,7 +99,8 @@ namespace plumbline::scene
           fixed = is_floating ? std::vector<geometry::Box>() : to_boxes(text);
         },
         "Boxes where u is given in a free body, written like boxes: of nodes whose cell shares "
-        "area with them, of mesh cells whose centroid is in them. none: the body can move as a "
+        "area with them (by 'plumbline grow' too: its grips), of mesh cells whose centroid is in "
+        "them. none: the body can move as a "
         "whole; 'plumbline stability' measures it, and run refuses it. [length]");
     keys.add(
         "cracks", "", lines(),
