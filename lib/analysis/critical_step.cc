@@ -48,7 +48,7 @@ namespace plumbline::analysis
         next_check += std::max(10, k / 4);
         const auto [value, residual] = ritz(alpha, beta, size);
         if (residual <= tolerance * std::abs(value) || is_exhausted)
-          return value;
+          return value + residual;
       }
       beta.push_back(size);
       std::swap(before, now);

@@ -6,11 +6,12 @@
 
 namespace plumbline::analysis
 {
-  /// The largest eigenvalue of a symmetric operator by Lanczos' method with three vectors: without
-  /// reorthogonalisation copies of eigenvalues appear, and none that is larger. Where both ends are
-  /// asked for and there is memory for all vectors: algebra::spectrum.
-  /// @param tolerance  of the residual relative to the eigenvalue, which bounds its error; the
-  /// error of an eigenvalue with a gap to the next is quadratic in it
+  /// The largest eigenvalue of a symmetric operator from above: Ritz value plus residual of
+  /// Lanczos' method with three vectors; without reorthogonalisation copies of eigenvalues appear,
+  /// and none that is larger. The Ritz value alone is too small, and steps by it too long, which
+  /// matters: at a step 1e-5 beyond the critical one motions grow by 1 % a step. Where both ends
+  /// are asked for and there is memory for all vectors: algebra::spectrum.
+  /// @param tolerance  of the residual relative to the eigenvalue, and so of the result
   /// @throws NumericalError  no convergence in 5000 steps
   /// Source: Parlett 1998, "The Symmetric Eigenvalue Problem", ch. 13,
   /// doi:10.1137/1.9781611971163.

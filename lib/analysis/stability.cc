@@ -1,6 +1,7 @@
 #include "analysis/stability.h"
 
 #include "algebra/sparse_system.h"
+#include "analysis/critical_step.h"
 #include "base/error.h"
 #include "method/discretisation.h"
 #include "physics/load.h"
@@ -187,7 +188,7 @@ namespace plumbline::analysis
     result.n_unknowns = matrix.size();
     const auto spectrum = algebra::spectrum(symmetric_part(matrix), matrix.size());
     result.smallest = spectrum.smallest;
-    result.largest = spectrum.largest;
+    result.largest = largest_eigenvalue(symmetric_part(matrix), matrix.size());
     result.n_zero = static_cast<unsigned int>(spectrum.zero_modes.size());
     result.modes = {matrix.n_components, matrix.nodes, spectrum.zero_modes};
     if (result.n_zero == 0)

@@ -25,8 +25,8 @@ namespace plumbline::analysis
   struct Stability
   {
     std::size_t n_unknowns = 0;
-    double smallest = 0; ///< eigenvalue of the symmetric part: the coercivity constant
-    double largest = 0;
+    double smallest = 0;     ///< eigenvalue of the symmetric part: the coercivity constant
+    double largest = 0;      ///< from above, to 1e-4: what critical time steps are made of
     unsigned int n_zero = 0; ///< zero-energy modes, up to algebra::most_zero_modes
     Modes modes;             ///< those, or else the one of the smallest eigenvalue
     /// Of M⁻¹A itself, which differ from those of the symmetric part where A is not symmetric;

@@ -84,8 +84,9 @@ namespace plumbline::report
 
   const char *const time_steps_words =
       "dt: the longest stable time step of central differences, 2 / sqrt(lambda / rho), lambda the "
-      "largest eigenvalue of small motions about rest; of Galerkin methods with the mass matrix, "
-      "and with lumped masses. grows: eigenvalues that are complex or negative let waves grow at "
+      "largest eigenvalue of small motions about rest, of double wells on a lattice over the waves "
+      "of a lattice without end; of Galerkin methods with the mass matrix, and with lumped masses. "
+      "grows: eigenvalues that are complex or negative let waves grow at "
       "any step.";
 
   Table time_steps_table(const study::StabilityResults &results)

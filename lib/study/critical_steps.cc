@@ -6,10 +6,14 @@ namespace plumbline::study
 {
   namespace
   {
-    /// Of small motions of unit density about rest.
+    /// Of small motions about rest, of unit density.
+    /// @param of_matrix  the largest eigenvalue of the method's matrix, whose masses are lumped
     double largest_eigenvalue(const method::EquationOfMotion &equation,
-                              const scene::Problem &problem)
+                              const scene::Problem &problem, bool has_masses_of_matrix,
+                              double of_matrix)
     {
+      if (has_masses_of_matrix && !equation.largest_eigenvalue())
+        return of_matrix;
       const analysis::Transient transient(equation, analysis::TimeSeries(equation.drive(problem)),
                                           1, 0);
       const double step = transient.critical_step(analysis::scheme("velocity Verlet"));
@@ -33,10 +37,12 @@ namespace plumbline::study
     }
     steps.is_oscillating = stability.smallest >= -rounding * stability.largest;
     const auto own = discretisation.motion(false);
-    steps.largest = own ? largest_eigenvalue(*own, problem) : stability.largest;
-    if (!discretisation.matrix().is_collocated && own)
+    const bool is_collocated = discretisation.matrix().is_collocated;
+    steps.largest = own ? largest_eigenvalue(*own, problem, is_collocated, stability.largest)
+                        : stability.largest;
+    if (!is_collocated && own)
       if (const auto lumped = discretisation.motion(true))
-        steps.largest_lumped = largest_eigenvalue(*lumped, problem);
+        steps.largest_lumped = largest_eigenvalue(*lumped, problem, true, stability.largest);
     return steps;
   }
 } // namespace plumbline::study

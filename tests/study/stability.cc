@@ -1,11 +1,13 @@
 // The measures tell sound operators from unsound ones, on both sides.
 #include "study/stability.h"
+#include "analysis/transient.h"
 #include "meshfree/discretisations.h"
 #include "meshfree/lattice/stencil.h"
 #include "meshfree/rules/family_statistics.h"
 #include "method/lattice_discretisation.h"
 #include "tests/study/operators.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <gtest/gtest.h>
 
@@ -89,6 +91,53 @@ TEST(Stability, of_a_lattice_and_of_its_mesh_agree)
       EXPECT_EQ(a.signs.is_m_matrix(), b.signs.is_m_matrix()) << name;
       EXPECT_LT(a.signs.asymmetry, 1e-12) << name;
       EXPECT_EQ(a.signs.n_parts, 1u) << name;
+    }
+}
+
+TEST(Stability, the_largest_eigenvalue_is_one_number_and_never_too_small)
+{
+  const scene::Level level{.05, .15};
+  for (const std::string &mesh : {std::string(), squares})
+    for (const std::string name : {"FA", "IPA-AC-R2", "Q1", "DGQ1"})
+    {
+      const scene::Problem problem = scene::make_problem(make_scene(false, mesh), 0, level);
+      const auto discretisation = method_of(name)->discretise(problem);
+      const DiscreteOperator matrix = discretisation->matrix();
+      const auto n = static_cast<Eigen::Index>(matrix.size());
+      Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+      std::vector<double> x(n), y(n);
+      for (Eigen::Index j = 0; j < n; ++j)
+      {
+        x.assign(n, 0);
+        x[j] = 1 / std::sqrt(matrix.mass[j]);
+        if (matrix.action)
+          matrix.action(x, y);
+        else
+          for (Eigen::Index i = 0; i < n; ++i)
+          {
+            y[i] = 0;
+            for (std::size_t k = matrix.rows.start[i]; k < matrix.rows.start[i + 1]; ++k)
+              y[i] += matrix.rows.value[k] * x[matrix.rows.column[k]];
+          }
+        for (Eigen::Index i = 0; i < n; ++i)
+          dense(i, j) = y[i] / std::sqrt(matrix.mass[i]);
+      }
+      const double exact =
+          Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly)
+              .eigenvalues()[n - 1];
+      const Stability found = measure(matrix);
+      EXPECT_GE(found.largest, exact * (1 - 1e-13)) << name;
+      EXPECT_LE(found.largest, exact * (1 + 1e-4)) << name;
+      const CriticalSteps steps = critical_steps(*discretisation, problem, found, 1);
+      EXPECT_EQ(matrix.is_collocated ? steps.largest : steps.largest_lumped, found.largest) << name;
+      if (matrix.is_collocated)
+        continue;
+      const auto equation = discretisation->motion(true);
+      const analysis::Transient transient(*equation, analysis::TimeSeries(equation->drive(problem)),
+                                          1, 0);
+      const double step = transient.critical_step(analysis::scheme("velocity Verlet"));
+      EXPECT_NEAR(4 / (step * step), exact, 1e-4 * exact) << name; // the same lumped masses
+      EXPECT_GT(steps.largest, steps.largest_lumped) << name;
     }
 }
 
