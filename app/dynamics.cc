@@ -115,6 +115,8 @@ namespace plumbline::app
                   << "\nreport: " << (folder / "dynamics.html").string() << '\n';
       if (!results.is_complete)
         say_interrupted(folder);
+      for (const std::string &warning : results.warnings)
+        std::cerr << "warning: " << warning << '\n';
       if (results.shows_blow_up)
         return;
       for (const study::MotionRun &run : results.runs)

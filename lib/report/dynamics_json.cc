@@ -53,6 +53,7 @@ namespace plumbline::report
         [](const study::Omission &one) {
           return Json{{"what", one.what}, {"why", one.why}, {"saving", one.saving}};
         });
+    json["warnings"] = results.warnings;
     add("expectations", results.expectations,
         [](const study::Expectation &one)
         {

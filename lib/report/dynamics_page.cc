@@ -32,7 +32,8 @@ namespace plumbline::report
     std::vector<Part> details(const DynamicResults &results)
     {
       return page::with_rows(
-          {{"runs", "All motions", motions_words, motions_table(results)},
+          {{"warnings", "Warnings", "", motion_warnings_table(results)},
+           {"runs", "All motions", motions_words, motions_table(results)},
            {"reference", "The reference", torus_words, torus_table(results)},
            {"model", "What moves", "", motion_facts_table(results)},
            {"omissions", "What was left out of the model", "", motion_omissions_table(results)},

@@ -313,6 +313,15 @@ namespace plumbline::report
     return without_sameness(table, {variable_head(results)});
   }
 
+  Table motion_warnings_table(const DynamicResults &results)
+  {
+    Table table;
+    table.columns = {"warning"};
+    for (const std::string &warning : results.warnings)
+      table.rows.push_back({text_cell(warning)});
+    return table;
+  }
+
   Table motion_omissions_table(const DynamicResults &results)
   {
     Table table;

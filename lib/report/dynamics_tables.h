@@ -31,6 +31,7 @@ namespace plumbline::report
   Table motion_facts_table(const study::DynamicResults &results);
   Table torus_table(const study::DynamicResults &results);
   extern const char *const torus_words;
+  Table motion_warnings_table(const study::DynamicResults &results);
   Table motion_omissions_table(const study::DynamicResults &results);
   Table motion_expectations_table(const study::DynamicResults &results);
   Table failed_motions_table(const study::DynamicResults &results);

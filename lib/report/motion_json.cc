@@ -69,6 +69,7 @@ namespace plumbline::report
                  {"steps", run.steps},
                  {"dt", run.step},
                  {"critical_step", known_number(run.critical_step)},
+                 {"is_symmetric", run.is_symmetric},
                  {"failure", run.failure},
                  {"n_steps", run.counts.n_steps},
                  {"n_forces", run.counts.n_accelerations},
@@ -111,6 +112,7 @@ namespace plumbline::report
     run.steps = json.at("steps");
     run.step = json.at("dt");
     run.critical_step = number(json.at("critical_step"), std::numeric_limits<double>::infinity());
+    run.is_symmetric = json.at("is_symmetric");
     run.failure = json.at("failure");
     run.counts = {json.at("n_steps"), json.at("n_forces"), json.at("n_tangents"),
                   json.at("n_newton")};

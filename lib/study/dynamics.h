@@ -34,6 +34,7 @@ namespace plumbline::study
     double value = 0;          ///< of DynamicResults::variable
     double step = 0;           ///< Δt [time]
     double critical_step = 0;  ///< of the scheme; infinite: none; 0: unstable at any [time]
+    bool is_symmetric = true;  ///< the operator; else critical_step is that of its symmetric part
     analysis::Counts counts;
     base::Cost cost; ///< setup: what does not depend on scheme and step; solve: the steps alone
     double size = 0; ///< of u at the end: largest less least value of a component
@@ -81,6 +82,7 @@ namespace plumbline::study
     std::vector<TorusEstimate> references;
     std::vector<Omission> omissions;
     std::vector<Expectation> expectations;
+    std::vector<std::string> warnings;
     bool is_complete = false;
     unsigned int n_levels = 0; ///< that were asked for, the first so many; 0: all
   };

@@ -157,6 +157,7 @@ namespace plumbline::study
           const Transient transient(*equation, data.drive, scene_.time.density,
                                     scene_.time.damping);
           run.facts = equation->facts();
+          run.is_symmetric = equation->is_symmetric();
           run.cost.setup_seconds = timer.seconds() - (problems.seconds() - shared);
           const auto torus = torus_of(run, problems);
           const auto in_time =

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace plumbline::study
 {
@@ -217,6 +218,18 @@ namespace plumbline::study
       if (scene.is_steady())
         leave_out("loads and constraint in time", "neither has t in it", "one set instead of 17");
     }
+    /// One for each method whose operator is not symmetric at some level.
+    void say_warnings(DynamicResults &results)
+    {
+      std::set<std::string> methods;
+      for (const MotionRun &run : results.runs)
+        if (!run.is_symmetric && methods.insert(run.method).second)
+          results.warnings.push_back(
+              run.method +
+              ": the operator is not symmetric, since a bond has different weights at its two "
+              "ends. The critical step is that of the symmetric part; complex eigenvalues can "
+              "make motions grow at any step. 'plumbline stability' finds them.");
+    }
   } // namespace
 
   DynamicResults begin_results(const scene::Scene &scene, unsigned int n_levels)
@@ -245,6 +258,7 @@ namespace plumbline::study
     results.facts.clear();
     results.omissions.clear();
     results.expectations.clear();
+    results.warnings.clear();
     if (!results.decisive_error.empty())
       for (const auto &runs : over_levels(results.runs))
       {
@@ -254,6 +268,7 @@ namespace plumbline::study
     results.orders = orders(results.runs);
     say_facts(scene, results);
     say_omissions(scene, results);
+    say_warnings(results);
 
     Results statics; // expectations of levels are those of statics
     statics.decisive_error = results.decisive_error;

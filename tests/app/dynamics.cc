@@ -153,3 +153,17 @@ TEST(DynamicsCommand, refuses_what_cannot_move)
   expect_no_motion(set("Time/schemes", "leapfrog"), "choose one of: explicit Euler");
   expect_no_motion(set("Time/final time", "0"), "needs Problem/solution");
 }
+
+TEST(DynamicsCommand, warns_of_critical_steps_of_operators_that_are_not_symmetric)
+{
+  const fs::path folder = temporary("motion");
+  const Outcome outcome = run(
+      "run " + std::string(PLUMBLINE_SCENES) + "/dynamics/scattered_wells.prm --levels 1 " +
+      "--quiet --methods IPA-AC-R2 " + set("Time/final time", "0.05") + "-o " + folder.string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.err, "warning: IPA-AC-R2: the operator is not symmetric");
+  expect_found(read(folder / "dynamics.html"), "that of the symmetric part");
+  const auto json = nlohmann::json::parse(read(folder / "dynamics.json"));
+  EXPECT_EQ(json["warnings"].size(), 1u);
+  EXPECT_EQ(json["runs"][0]["is_symmetric"], false);
+}

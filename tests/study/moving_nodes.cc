@@ -194,6 +194,32 @@ TEST(MovingNodes, of_double_wells_converge_where_moments_are_exact)
   EXPECT_LT(finest.imbalance, 1e-3);
 }
 
+TEST(MovingNodes, with_two_weights_to_a_bond_are_warned_of)
+{
+  const Settings quick = {{"Problem/solution", "0.2*sin(2*x + y - 2*t), 0.1*cos(x - 2*y + t)"},
+                          {"Study/h", "0.2"},
+                          {"Time/final time", "0.1"}};
+  const auto wells = run(scene_of("double-well", moved_wells("FA, IPA-AC-R2", quick)));
+  ASSERT_EQ(wells.runs.size(), 2u);
+  EXPECT_EQ(wells.runs[0].is_symmetric, wells.runs[0].method == "FA");
+  EXPECT_EQ(wells.runs[1].is_symmetric, wells.runs[1].method == "FA");
+  ASSERT_EQ(wells.warnings.size(), 1u);
+  EXPECT_EQ(wells.warnings[0].find("IPA-AC-R2: the operator is not symmetric"), 0u);
+  // linear ones as well; once for a method, whatever its levels
+  const auto linear = run(scene_of("", {{"Methods/names", "FA, IPA-AC-R2"},
+                                        {"Methods/perturbation", "0.3"},
+                                        {"Domain/mesh", "squares"},
+                                        {"Problem/solution", "x*t"},
+                                        {"Study/h", "0.2, 0.1"},
+                                        {"Time/final time", "0.1"}}));
+  EXPECT_EQ(linear.warnings.size(), 1u);
+  const auto lattice = run(scene_of("", {{"Methods/names", "IPA-AC-R2"},
+                                         {"Problem/solution", "x*t"},
+                                         {"Study/h", "0.2"},
+                                         {"Time/final time", "0.1"}}));
+  EXPECT_TRUE(lattice.warnings.empty());
+}
+
 TEST(MovingNodes, of_double_wells_have_the_slope_of_their_energy_for_a_force)
 {
   // where a bond's two weights differ, its energy is that of their mean, as the tangent is
