@@ -1,7 +1,77 @@
 #include "arguments.h"
 
+#include "base/error.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+
 namespace plumbline::app
 {
+  namespace
+  {
+    constexpr auto separators = ",; \t\n";
+
+    std::vector<std::string> words_of(const std::string &text)
+    {
+      std::vector<std::string> words;
+      for (std::size_t end = 0, begin = 0;
+           (begin = text.find_first_not_of(separators, end)) != std::string::npos;)
+      {
+        end = std::min(text.find_first_of(separators, begin), text.size());
+        words.push_back(text.substr(begin, end - begin));
+      }
+      return words;
+    }
+
+    std::optional<double> to_number(const std::string &word)
+    {
+      char *end = nullptr;
+      const double value = std::strtod(word.c_str(), &end);
+      return word.empty() || *end != 0 ? std::nullopt : std::optional(value);
+    }
+
+    bool is_numbers(const std::string &text)
+    {
+      const auto words = words_of(text);
+      return !text.empty() &&
+             std::all_of(words.begin(), words.end(),
+                         [](const std::string &word) { return to_number(word).has_value(); });
+    }
+  } // namespace
+
+  std::vector<double> to_numbers(const std::string &option, const std::vector<std::string> &given)
+  {
+    std::vector<double> numbers;
+    for (const std::string &text : given)
+      for (const std::string &word : words_of(text))
+        if (const auto number = to_number(word))
+          numbers.push_back(*number);
+        else
+          throw InputError(option + ": '" + word +
+                           "' is no number; give numbers separated by commas, semicolons or "
+                           "blanks");
+    return numbers;
+  }
+
+  std::vector<std::string> join_numbers(const std::vector<std::string> &arguments,
+                                        const std::string &option)
+  {
+    std::vector<std::string> result;
+    bool takes_numbers = false;
+    for (const std::string &argument : arguments)
+    {
+      const bool begins = argument == option;
+      if (takes_numbers && is_numbers(argument))
+        result.back() += (result.back() == option ? "=" : ",") + argument;
+      else
+        result.push_back(argument);
+      takes_numbers =
+          begins || argument.rfind(option + "=", 0) == 0 || (takes_numbers && is_numbers(argument));
+    }
+    return result;
+  }
+
   std::string explain(const CLI::ParseError &error)
   {
     const std::string said = error.what();

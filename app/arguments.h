@@ -3,9 +3,19 @@
 #include <CLI/CLI.hpp>
 
 #include <string>
+#include <vector>
 
 namespace plumbline::app
 {
   /// What is wrong with the arguments of the command, and the remedy.
   std::string explain(const CLI::ParseError &error);
+
+  /// The numbers that were given for an option, separated by commas, semicolons or blanks.
+  /// @throws InputError  what is no number
+  std::vector<double> to_numbers(const std::string &option, const std::vector<std::string> &given);
+
+  /// Arguments with all numbers that follow an option in one argument, e.g. --angles 0 -45 as
+  /// --angles=0,-45.
+  std::vector<std::string> join_numbers(const std::vector<std::string> &arguments,
+                                        const std::string &option);
 } // namespace plumbline::app

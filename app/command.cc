@@ -21,6 +21,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -84,9 +85,9 @@ namespace
   };
 
   /// What a command that is chosen does with its options.
-  template <class Options>
+  template <class Options, class Action>
   void set_action(CLI::App &command, Request &request, const std::shared_ptr<Options> &options,
-                  int (*action)(const Options &), bool is_for_all_ranks = false)
+                  Action action, bool is_for_all_ranks = false)
   {
     command.callback(
         [=, &request]
@@ -154,15 +155,27 @@ namespace
     return command;
   }
 
+  constexpr auto angles_option = "--angles";
+
   void add_dispersion(CLI::App &app, Request &request)
   {
     const auto options = std::make_shared<DispersionOptions>();
     auto &command =
         add_measuring(app, "dispersion", "How waves move by each method", *options, request);
-    command.add_option("--angles", options->angles, "Directions in degrees (default: 0,22.5,45)")
-        ->delimiter(',')
+    const auto angles = std::make_shared<std::vector<std::string>>();
+    command
+        .add_option(angles_option, *angles,
+                    "Directions in degrees, separated by commas, semicolons or blanks (default: "
+                    "0,22.5,45); may be repeated")
         ->allow_extra_args(false);
-    set_action(command, request, options, dispersion);
+    set_action(command, request, options,
+               [angles](const DispersionOptions &given)
+               {
+                 DispersionOptions all = given;
+                 if (!angles->empty())
+                   all.angles = to_numbers(angles_option, *angles);
+                 return dispersion(all);
+               });
   }
 
   /// Those that are told to check what the scene expects, and nothing else.
@@ -297,7 +310,11 @@ int plumbline::app::command(int argc, char **argv)
   add_commands(app, request);
   try
   {
-    app.parse(argc, argv);
+    // CLI11 takes the last argument first, and no name with them
+    app.name(argv[0]);
+    std::vector<std::string> arguments = join_numbers({argv + 1, argv + argc}, angles_option);
+    std::reverse(arguments.begin(), arguments.end());
+    app.parse(std::move(arguments));
   }
   catch (const CLI::Success &answer) // --help, --version
   {

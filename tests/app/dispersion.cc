@@ -61,6 +61,30 @@ TEST(DispersionCommand, writes_a_page_with_tables_and_charts)
   EXPECT_EQ(nlohmann::json::parse(read(folder / "dispersion.json"))["levels"].size(), 6u);
 }
 
+TEST(DispersionCommand, takes_directions_however_they_are_separated)
+{
+  const auto angles = [](const std::string &arguments)
+  {
+    const Outcome outcome =
+        run("dispersion " + scene("diffusion") + " --methods FA --levels 1 --json -o " +
+            temporary("dispersion").string() + " " + arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << arguments << ": " << outcome.err;
+    return nlohmann::json::parse(outcome.out)["angles"].get<std::vector<double>>();
+  };
+  const std::vector<double> expected = {0, -30.5, 45};
+  for (const std::string text :
+       {"--angles 0,-30.5,45", "--angles 0 -30.5 45", "--angles '0 -30.5 45'",
+        "--angles '0; -30.5; 45'", "--angles=0 --angles=-30.5,45", "--angles 0, -30.5 , 45,",
+        "--angles 0 -30.5 --angles 45"})
+    EXPECT_EQ(angles(text), expected) << text;
+  EXPECT_EQ(angles(""), (std::vector<double>{0, 22.5, 45}));
+  // before the scene, too
+  const Outcome outcome =
+      run("dispersion --angles 10 20 " + scene("diffusion") +
+          " --methods FA --levels 1 --json -o " + temporary("dispersion").string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
 TEST(DispersionCommand, takes_rules_that_are_infeasible_as_findings)
 {
   const fs::path folder = temporary("dispersion");
@@ -76,7 +100,9 @@ TEST(DispersionCommand, refuses_what_has_no_waves)
   const std::string diffusion = scene("diffusion");
   expect_no_waves(diffusion + " --set Domain/mesh=squares", "Domain/mesh = squares");
   expect_no_waves(diffusion + " --set Solver/model=full", "Solver/model = full");
-  expect_no_waves(diffusion + " --angles x", "--angles");
+  expect_no_waves(diffusion + " --angles x", "--angles: 'x' is no number");
+  expect_no_waves(diffusion + " --angles 0,3o", "--angles: '3o' is no number");
+  expect_no_waves(diffusion + " --angles ''", "--angles has 0 directions");
   expect_no_waves(std::string(PLUMBLINE_SCENES) + "/state_based/bar.prm", "Domain/boundary = free");
   expect_no_waves(std::string(PLUMBLINE_SCENES) + "/lps/interface_crack.prm", "Domain/mesh");
   expect_no_waves(diffusion + " --methods LOCAL", "Domain/mesh = lattice; take FA");
