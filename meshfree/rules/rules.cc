@@ -9,7 +9,10 @@ namespace plumbline::meshfree
         {"LAMMPS", "full area with a ramp inside the horizon", lammps},
         {"QWJ", "full area with a ramp across the horizon, also known as HHB", qwj},
         {"PA-AC", "exact partial areas, kernel at the node", partial_area},
-        {"IPA-AC", "exact partial areas, kernel at the centroid", improved_partial_area},
+        {"IPA-AC",
+         "exact partial areas, kernel at the centroid of ball and cell ('plumbline describe "
+         "Methods/names': what of each model)",
+         improved_partial_area},
         {"IPA-AC-R2", "IPA-AC recalibrated to exact moments of degree 2",
          [](const Kernel<2> &kernel) { return recalibrated(kernel, 2); }},
         {"IPA-AC-R4", "IPA-AC recalibrated to exact moments of degree 4",

@@ -19,7 +19,13 @@ namespace plumbline::scene
     keys.add(
         "names", "", any_text(), [this](const std::string &text) { names = to_methods(text); },
         "Methods to compare, separated by ','; 'all' takes those that can do the scene. See "
-        "'plumbline list methods'.");
+        "'plumbline list methods'. What IPA-AC takes at the centroid of ball and cell, everything "
+        "else being taken at the node: scalar kernels and bond tensors, the kernel with its "
+        "direction; double wells in the plane, J, r and e; on a line, J alone; LPS (run, grow), "
+        "the influence function and the direction of bond forces, not the dilatation or the "
+        "stretch at which bonds break; variational, the influence function alone. IPA-AC-R2 and "
+        "IPA-AC-R4 do so for scalar kernels; they take tensors, double wells and LPS at the "
+        "node.");
     keys.add("nodes", nodes.name,
              "Meshfree nodes: centres of lattice cells, vertices (of a lattice, the boundary among "
              "the data), mesh (centroids of its cells), or a file .csv with columns x and y, one "
