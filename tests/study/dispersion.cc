@@ -140,6 +140,19 @@ TEST(Dispersion, critical_steps_of_full_areas_are_as_measured_by_others)
     }
 }
 
+TEST(Dispersion, critical_steps_of_rules_on_ring_shaped_ridges_are_those_of_another_program)
+{
+  // J = 1, c beta = .91, density 1.9, m = 4.62, h = 1/23: of a program that looks on fine grids and
+  // refines them; a search along the axes of wave vectors stops at up to 5e-4 more
+  for (const auto &[name, step] :
+       {std::pair{"QWJ", .272823}, {"IPA-AC", .272566}, {"FA", .2697279}})
+  {
+    const DispersionRow row = waves(name, false, 4.62, 1. / 23); // of another c beta
+    const double p = 6 * std::pow(along(row, 0, 1).local_speed, 2);
+    EXPECT_NEAR(row.critical_step() * std::sqrt(p * 1.9 / .91), step, 6e-7) << name;
+  }
+}
+
 TEST(Dispersion, the_largest_eigenvalue_is_that_of_a_fine_grid_of_waves)
 {
   // FA, J = 1, m = 4, in units of p / ε²: all waves of a grid of 200 on π/h along each axis
