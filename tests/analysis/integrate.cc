@@ -105,6 +105,14 @@ TEST(Integrate, runge_kutta_is_exact_in_time)
   EXPECT_DOUBLE_EQ(last, 4);
 }
 
+TEST(Integrate, runge_kutta_is_as_exact_for_small_motions)
+{
+  constexpr double small = 1e-3;
+  State state{{small}, {0}, 0};
+  integrate(oscillator(3), scheme("Runge-Kutta"), {.5, {}, false, 1e-13}, 4, state);
+  EXPECT_NEAR(state.u[0], small * std::cos(12), 1e-11 * small);
+}
+
 TEST(Integrate, schemes_are_bounded_up_to_their_limits)
 {
   EXPECT_NEAR(stability_limit(scheme("symplectic Euler")), 2, 1e-6);

@@ -181,6 +181,27 @@ namespace plumbline::report
     EXPECT_FALSE(place_slope(1, lines, {.1, .2}, {1e-14, 1e-2}, {}));
   }
 
+  TEST(ReportCharts, PutSlopeTrianglesBesideLinesOfLikeSlope)
+  {
+    // lines of observed slopes, 1.85 and 1.5: the triangle of 2 belongs to the first one
+    Line like, other;
+    for (const double x : {.01, .02, .04, .08, .16})
+    {
+      like.points.push_back({x, .01 * std::pow(x, 1.85)});
+      other.points.push_back({x, std::pow(x, 1.5)});
+    }
+    for (const bool is_first : {true, false})
+    {
+      const std::vector<Line> lines =
+          is_first ? std::vector<Line>{like, other} : std::vector<Line>{other, like};
+      const auto found = place_slope(2, lines, {.008, .2}, {1e-7, 1e-1}, {});
+      ASSERT_TRUE(found);
+      const double x = std::sqrt(found->x0 * found->x1), y = std::sqrt(found->y0 * found->y1);
+      EXPECT_LT(std::abs(std::log(y / (.01 * std::pow(x, 1.85)))),
+                .5 * std::abs(std::log(y / std::pow(x, 1.5))));
+    }
+  }
+
   TEST(ReportCharts, PutRoundOffIntoAStripOfRows)
   {
     Line exact_one, exact_two, other;

@@ -7,6 +7,7 @@
 #include "reference/lattice/torus_motion.h"
 #include "reference/method.h"
 #include "study/preflight.h"
+#include "study/sample_sweep.h"
 
 #include <gtest/gtest.h>
 
@@ -213,6 +214,22 @@ TEST(Motions, on_a_line_show_each_rule_at_its_own_rate)
   EXPECT_EQ(galerkin.trends.at(0).proven + rules.trends.at(0).proven, "γ <= 1"); // of rules alone
 }
 
+TEST(Motions, on_the_torus_without_a_mesh_are_known_to_eight_digits)
+{
+  for (const auto &[amplitude, time] : {std::pair{.4, "0.5"}, {.6, "0.3"}, {.5, "0.4"}})
+  {
+    const auto results =
+        run(torus({{"Domain/dimension", "1"},
+                   {"Time/initial displacement", std::to_string(amplitude) + "*sin(2*pi*x)"},
+                   {"Time/final time", time},
+                   {"Study/h", "0.05"},
+                   {"Study/horizon", "0.1"},
+                   {"Methods/names", "FA"}}));
+    EXPECT_LT(results.references.at(0).estimate, 1e-8 * 2 * amplitude) << amplitude;
+    EXPECT_LT(results.references[0].n_points, 162u); // the last one is not it by chance
+  }
+}
+
 TEST(Motions, of_galerkin_know_their_own_errors)
 {
   const auto results = run(torus({{"Methods/names", "Q1, IPA-AC-R2"},
@@ -397,6 +414,64 @@ TEST(Motions, refuse_steps_beyond_the_critical_one_with_its_number)
   expect_refused(with({{"Time/critical fractions", "1.1"}}), "1.1 of critical with the scheme");
   expect_refused(with({{"Time/schemes", "explicit Euler"}}), "unstable at any step");
   expect_refused(with({{"Time/schemes", "leapfrog"}}), "Time/schemes: time-stepping scheme");
+}
+
+TEST(Motions, steps_are_held_against_the_finest_level_and_each_value_of_a_variable)
+{
+  const auto refusal = [](const Settings &settings) -> std::string
+  {
+    const auto scene = torus(settings);
+    try
+    {
+      check_motions(scene, choose_methods(scene, meshfree::methods()), 0);
+      return "accepted";
+    }
+    catch (const InputError &error)
+    {
+      return error.what();
+    }
+  };
+  // too long at all levels: the number is that of the finest, which is the shortest
+  const std::string levels =
+      refusal({{"Study/h", "0.1, 0.05"}, {"Methods/names", "FA"}, {"Time/steps", "0.4"}});
+  EXPECT_NE(levels.find("at h = 0.05"), std::string::npos) << levels;
+  // three critical steps at the first value alone, or at the last one
+  for (const std::string steps : {"0.018/a", "0.9*(a/0.2)^2"})
+  {
+    const std::string found = refusal({{"Study/h", "0.1"},
+                                       {"Methods/names", "FA"},
+                                       {"Random/variables", "a: uniform 0.01 0.2"},
+                                       {"Random/keys", "Time/steps: " + steps},
+                                       {"Study/regime", "variable"},
+                                       {"Study/variable", "a"},
+                                       {"Study/values", "0.02, 0.1, 0.2"}});
+    EXPECT_NE(found.find("dt = 0.9"), std::string::npos) << steps << ": " << found;
+  }
+}
+
+TEST(Motions, of_a_sample_are_told_apart_by_scheme_and_step)
+{
+  const auto series = [](const std::string &schemes, const std::string &steps)
+  {
+    const auto scene = wave("scalar", "sin(2*x + y)",
+                            {{"Methods/names", "FA"},
+                             {"Study/h", "0.2"},
+                             {"Time/schemes", schemes},
+                             {"Time/steps", steps}});
+    std::vector<std::string> names;
+    for (const SampleCase &one : move_sample(scene, choose_methods(scene, meshfree::methods()), {}))
+      names.push_back(one.series);
+    return names;
+  };
+  const std::vector<std::string> one = series("velocity Verlet", "0.02");
+  ASSERT_EQ(one.size(), 1u);
+  const std::vector<std::string> all = series("velocity Verlet, trapezoidal", "0.02, 0.01");
+  EXPECT_EQ(all, (std::vector<std::string>{one[0] + ", velocity Verlet, dt = 0.02",
+                                           one[0] + ", velocity Verlet, dt = 0.01",
+                                           one[0] + ", trapezoidal, dt = 0.02",
+                                           one[0] + ", trapezoidal, dt = 0.01"}));
+  EXPECT_EQ(series("trapezoidal", "0.02, 0.01"),
+            (std::vector<std::string>{one[0] + ", dt = 0.02", one[0] + ", dt = 0.01"}));
 }
 
 TEST(Motions, over_a_variable_are_those_of_scenes_at_its_values)
