@@ -81,6 +81,7 @@ TEST(MomentOutliers, name_the_bond_that_explains_all_but_a_twentieth)
   const std::size_t one = bond_at(weights, 1, 1), two = bond_at(weights, -2, 0);
   for (const auto &[less, defect] : {std::pair{0., Defect::weight},
                                      {.03, Defect::weight},
+                                     {.1, Defect::moments},
                                      {.25, Defect::moments},
                                      {.8, Defect::moments}})
   {
