@@ -1,5 +1,7 @@
 #include "method/limit_proof.h"
 
+#include "physics/profile_shape.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,21 +68,6 @@ namespace plumbline::method
         }
       return worst / largest;
     }
-
-    bool is_non_increasing_and_positive(const physics::Kernel<2> &kernel)
-    {
-      constexpr unsigned int n_samples = 200;
-      double before = kernel.radial(kernel.horizon() / n_samples);
-      const double noise = 1e-12 * std::abs(before);
-      for (unsigned int i = 2; i <= n_samples; ++i)
-      {
-        const double value = kernel.radial(kernel.horizon() * i / n_samples);
-        if (value > before + noise || value < -noise)
-          return false;
-        before = value;
-      }
-      return before >= -noise;
-    }
   } // namespace
 
   LimitProof prove_by_moments(const scene::Problem &problem, const algebra::Stencil &stencil,
@@ -108,7 +95,7 @@ namespace plumbline::method
     const bool has_entries = problem.lattice || diagnostics.is_outer_error_known;
     if (!problem.is_homogeneous || problem.body)
       proof.reason = "no theorem for this material or boundary";
-    else if (!is_non_increasing_and_positive(problem.kernel))
+    else if (!is_positive_and_non_increasing(problem.kernel.profile(), problem.kernel.constant()))
       proof.reason = "no theorem for a kernel that is negative or increases with distance";
     else if (!has_entries)
       proof.reason = "its entries are quadrature of unknown error";

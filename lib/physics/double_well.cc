@@ -1,6 +1,7 @@
 #include "physics/double_well.h"
 
 #include "base/error.h"
+#include "physics/profile_shape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +35,7 @@ namespace plumbline::physics
         throw InputError("double well: the influence function behaves like r^" +
                          std::to_string(influence.lowest_exponent()) +
                          " at 0; it must be bounded: use powers from 0");
-      double largest = 0, least = 0, at = 0;
+      double largest = 0;
       for (int i = 0; i <= n_samples; ++i)
       {
         const double t = static_cast<double>(i) / n_samples, value = influence(t);
@@ -42,15 +43,11 @@ namespace plumbline::physics
           throw InputError("double well: the influence function is " + std::to_string(value) +
                            " at r = " + std::to_string(t) + " horizons; use finite coefficients");
         largest = std::max(largest, value);
-        if (value < least)
-        {
-          least = value;
-          at = t;
-        }
       }
-      if (least < -rounding * (largest + influence.size()))
-        throw InputError("double well: the influence function is " + std::to_string(least) +
-                         " at r = " + std::to_string(at) +
+      if (const LeastValue least = least_value(influence);
+          least.value < -rounding * (largest + influence.size()) - least.rounding)
+        throw InputError("double well: the influence function is " + std::to_string(least.value) +
+                         " at r = " + std::to_string(least.t) +
                          " horizons; it must not be negative in [0, 1], change its coefficients");
       if (!(largest > 0))
         throw InputError("double well: the influence function vanishes, so there are no forces; "

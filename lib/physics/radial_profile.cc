@@ -86,7 +86,13 @@ namespace plumbline::physics
       for (unsigned int i = 0; i < 1u << level; ++i)
         raise_degrees(smooth, std::ldexp(i, -static_cast<int>(level)),
                       std::ldexp(i + 1, -static_cast<int>(level)), largest, function.degree[level]);
-    if (function.degree[0][0] >= n_samples - 4)
+    // a part takes no higher degree than the whole, unless the whole's points missed a feature of
+    // it
+    constexpr std::size_t digits = 1; // beyond the rounding of values
+    const bool is_hidden = std::any_of(
+        function.degree.begin(), function.degree.end(),
+        [&](const Degrees &degrees) { return degrees[digits] > function.degree[0][digits] + 1; });
+    if (function.degree[0][0] >= n_samples - 4 || is_hidden)
       throw InputError("kernel: the radial profile varies so fast that " +
                        std::to_string(n_samples) +
                        " points do not resolve it; it must be smooth in [0, 1]. Take a smaller "

@@ -31,7 +31,8 @@ namespace plumbline::physics
     /// A function that is smooth in [0, 1], ends included.
     /// @param is_even  it is smooth as a function of ξ, too: a function of t²
     /// @throws InputError  a value that is not finite, or a function that 128 points do not resolve
-    ///                     to round-off
+    ///                     to round-off; parts down to 1/128 of it are looked at as closely, so
+    ///                     that a feature of 1e-4 horizons is seen
     static RadialProfile smooth(std::function<double(double t)> value, bool is_even);
 
     /// Linear between rows (t, ρ).

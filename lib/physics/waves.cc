@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "physics/gauss.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -68,8 +69,10 @@ namespace plumbline::physics
         }
         return sum;
       };
-      const double most_points = 64 + k * horizon;
-      auto n = static_cast<unsigned int>(16 + k * horizon / 2); // three for each wave, and more
+      const double of_profile = kernel.profile().degree() / 2.,
+                   most_points = 64 + of_profile + k * horizon;
+      // three for each wave, and more; and what the profile takes
+      auto n = static_cast<unsigned int>(std::max(16., of_profile) + k * horizon / 2);
       Pair coarse = by(n);
       double change = 0;
       while (n < most_points)

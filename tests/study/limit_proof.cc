@@ -5,6 +5,7 @@
 #include "study/conclusions.h"
 #include "study/preflight.h"
 #include "study/round_off.h"
+#include "tests/text_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -121,6 +122,23 @@ TEST(LimitProof, of_moved_nodes_rests_on_the_moments_of_all_families)
   const auto right = proof(moved, "IPA-AC-R2");
   EXPECT_LT(right.defect, 1e-10);
   EXPECT_EQ(right.answer, Answer::compatible) << right.reason;
+}
+
+// The theorem needs a kernel that is nowhere negative and nowhere increases: the table is known.
+TEST(LimitProof, of_galerkin_methods_sees_a_dip_between_any_two_places)
+{
+  const tests::TextFolder folder("dip");
+  folder.write("s.prm", "subsection Kernel\n set type = table\n set table file = k.csv\nend\n" +
+                            harmonic + "subsection Methods\n set names = Q1\nend\n");
+  const auto answer = [&](const std::string &rows)
+  {
+    folder.write("k.csv", "t,rho\n0,1\n" + rows + "1,0\n");
+    return proof(scene::read_scene((folder.path() / "s.prm").string()), "Q1").answer;
+  };
+  EXPECT_EQ(answer(""), Answer::compatible);
+  EXPECT_EQ(answer("0.5011,1\n0.5019,0.9\n"), Answer::compatible);
+  EXPECT_EQ(answer("0.5011,1\n0.5015,-3\n0.5019,0.9\n"), Answer::unknown);  // dips below 0
+  EXPECT_EQ(answer("0.5011,1\n0.5015,0.5\n0.5019,0.9\n"), Answer::unknown); // rises again
 }
 
 TEST(RoundOff, grows_with_the_offset_and_size_does_not)
