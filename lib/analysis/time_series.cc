@@ -1,6 +1,7 @@
 #include "analysis/time_series.h"
 
 #include "analysis/motion.h"
+#include "base/control_points.h"
 #include "base/error.h"
 #include "base/number_text.h"
 
@@ -30,13 +31,28 @@ namespace plumbline::analysis
 
   TimeSeries::TimeSeries(Vector value) : values_{std::move(value)} {}
 
-  TimeSeries TimeSeries::resolve(const std::function<Vector(double)> &at, double end,
-                                 double tolerance, const std::string &what)
+  namespace
   {
-    constexpr std::size_t first = 8, last = 64;
+    constexpr std::size_t first = 8, last = 64; ///< intervals between Chebyshev's points
+
+    [[noreturn]] void refuse(const std::string &what, double error)
+    {
+      throw InputError(what +
+                       ": 65 Chebyshev points up to Time/final time do not resolve it in t, "
+                       "values between them differ by " +
+                       base::to_text(error, 2) +
+                       " of it; shorten the time, or give a field that is smoother in t");
+    }
+  } // namespace
+
+  TimeSeries TimeSeries::resolve(const std::function<Vector(double)> &at, double end,
+                                 double tolerance, const std::string &what, std::size_t least)
+  {
+    constexpr std::size_t n_controls = 3;
     TimeSeries series(end, {});
     for (std::size_t k = 0; k <= first; ++k)
       series.values_.push_back(at(point(k, first, end)));
+    std::vector<std::pair<double, Vector>> controls;
     for (std::size_t n = 2 * first; n <= last; n *= 2)
     {
       std::vector<Vector> finer;
@@ -57,15 +73,57 @@ namespace plumbline::analysis
         size = std::max(size, norm(finer.back()));
       }
       series.values_ = std::move(finer);
+      if (difference <= tolerance * size && n + 1 >= least) // else it is of no use to look closer
+      {
+        for (const double s : base::control_points(controls.empty() ? n_controls : 0))
+          controls.emplace_back(s * end, at(s * end));
+        for (const auto &[t, value] : controls)
+          size = std::max(size, norm(value));
+        difference = std::max(difference, series.difference(controls));
+      }
       series.error_ = size > 0 ? difference / size : 0;
-      if (difference <= tolerance * size)
+      if (difference <= tolerance * size && n + 1 >= least)
         return series;
     }
-    throw InputError(what +
-                     ": 65 Chebyshev points up to Time/final time do not resolve it in t, "
-                     "the last ones differ by " +
-                     base::to_text(series.error_, 2) +
-                     " of it; shorten the time, or give a field that is smoother in t");
+    refuse(what, series.error_);
+  }
+
+  double TimeSeries::difference(const std::vector<std::pair<double, Vector>> &values) const
+  {
+    double largest = 0;
+    Vector guess;
+    for (const auto &[t, value] : values)
+    {
+      at(t, guess);
+      analysis::add(guess, -1, value);
+      largest = std::max(largest, norm(guess));
+    }
+    return largest;
+  }
+
+  std::optional<std::size_t> TimeSeries::points(const std::function<Vector(double)> &at, double end)
+  {
+    constexpr std::size_t n_controls = 300;
+    constexpr double tolerance = 1e-9;
+    std::vector<std::pair<double, Vector>> controls;
+    double size = 0;
+    for (const double s : base::control_points(n_controls))
+    {
+      controls.emplace_back(s * end, at(s * end));
+      size = std::max(size, norm(controls.back().second));
+    }
+    std::vector<Vector> all;
+    for (std::size_t k = 0; k <= last; ++k)
+      all.push_back(at(point(k, last, end)));
+    for (std::size_t n = 2 * first; n <= last; n *= 2)
+    {
+      std::vector<Vector> values;
+      for (std::size_t k = 0; k <= n; ++k)
+        values.push_back(all[k * (last / n)]);
+      if (TimeSeries(end, std::move(values)).difference(controls) <= tolerance * size)
+        return n + 1;
+    }
+    return {};
   }
 
   void TimeSeries::at(double t, Vector &value) const

@@ -1,3 +1,4 @@
+#include "base/control_points.h"
 #include "base/error.h"
 #include "physics/expression.h"
 #include "scene/capabilities.h"
@@ -6,6 +7,7 @@
 #include "scene/values.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace plumbline::scene
@@ -27,30 +29,36 @@ namespace plumbline::scene
       needs(!scene.problem.constraint, "Problem/constraint = solution: there is no collar");
     }
 
+    constexpr std::array<double, 3> parts_of_time = {.07, .3, .9}; ///< where fields are looked at
+
     /// A solution on a torus goes on as it begins: at some points, beyond either side.
     void check_periods(const Scene &scene)
     {
       constexpr double tolerance = 1e-9; // of the largest value: rounding of sin(2πx) and the like
-      constexpr int n_samples = 7;
+      constexpr std::size_t n_samples = 199, stride = 80; // without a common factor
       const geometry::Box &box = scene.domain.boxes.include.front();
       const dealii::Tensor<1, 2> side = box.upper - box.lower;
+      const std::vector<double> places = base::control_points(n_samples);
       for (const NamedExpression &one : scene.problem.solutions)
       {
-        const physics::Expression u("Problem/solution", one.expression,
-                                    scene.names(1, .3 * scene.time.final_time));
         double size = 0, jump = 0;
-        for (int i = 0; i < n_samples; ++i)
-          for (unsigned int axis = 0; axis < 2; ++axis)
-            for (unsigned int c = 0; c < u.n_components(); ++c)
-            {
-              dealii::Point<2> x = box.lower, y;
-              x[0] += side[0] * std::fmod(.137 + .391 * i, 1);
-              x[1] += side[1] * std::fmod(.271 + .619 * i, 1);
-              y = x;
-              y[axis] += side[axis];
-              size = std::max(size, std::abs(u(x, c)));
-              jump = std::max(jump, std::abs(u(y, c) - u(x, c)));
-            }
+        for (const double part : parts_of_time)
+        {
+          const physics::Expression u("Problem/solution", one.expression,
+                                      scene.names(1, part * scene.time.final_time));
+          for (std::size_t i = 0; i < n_samples; ++i)
+            for (unsigned int axis = 0; axis < 2; ++axis)
+              for (unsigned int c = 0; c < u.n_components(); ++c)
+              {
+                dealii::Point<2> x = box.lower, y;
+                x[0] += side[0] * places[i];
+                x[1] += side[1] * places[i * stride % n_samples];
+                y = x;
+                y[axis] += side[axis];
+                size = std::max(size, std::abs(u(x, c)));
+                jump = std::max(jump, std::abs(u(y, c) - u(x, c)));
+              }
+        }
         require(jump <= tolerance * size,
                 "Problem/solution = '" + one.expression + "' jumps by " + short_number(jump) +
                     " where Domain/boundary = periodic joins the sides of the box; give a field "
@@ -59,7 +67,7 @@ namespace plumbline::scene
       }
     }
 
-    /// Fields on a line are of x alone: at some points, whatever y.
+    /// Fields on a line are of x alone: at control points, whatever y.
     void check_line(const Scene &scene)
     {
       require(scene.domain.is_periodic,
@@ -72,19 +80,24 @@ namespace plumbline::scene
         given.emplace_back("Problem/solution", one.expression);
       for (const NamedExpression &one : scene.problem.loads)
         given.emplace_back("Problem/load", one.expression);
-      auto names = scene.names(1, .3 * time.final_time);
-      names.constants["h"] = 1; // of the level
+      const geometry::Box &box = scene.domain.boxes.include.front();
       for (const auto &[key, text] : given)
-      {
-        if (text.empty())
-          continue;
-        const physics::Expression u(key, text, names);
-        for (const double x : {.137, .528, .919})
-          require(u(dealii::Point<2>(x, .271), 0) == u(dealii::Point<2>(x, .619), 0),
-                  key + " = '" + text +
-                      "' depends on y, which a line (Domain/dimension = 1) does "
-                      "not have; write it in x alone");
-      }
+        for (const double part : parts_of_time)
+        {
+          if (text.empty())
+            continue;
+          auto names = scene.names(1, part * time.final_time);
+          names.constants["h"] = 1; // of the level
+          const physics::Expression u(key, text, names);
+          for (const double s : base::control_points(200))
+          {
+            const double x = box.lower[0] + s * (box.upper[0] - box.lower[0]);
+            require(u(dealii::Point<2>(x, .271), 0) == u(dealii::Point<2>(x, .619), 0),
+                    key + " = '" + text +
+                        "' depends on y, which a line (Domain/dimension = 1) does "
+                        "not have; write it in x alone");
+          }
+        }
     }
 
     void check_targets(const Scene &scene)

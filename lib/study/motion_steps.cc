@@ -4,6 +4,7 @@
 #include "base/number_text.h"
 #include "method/discretisation.h"
 #include "study/dynamics.h"
+#include "study/motion_data.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,6 +92,14 @@ namespace plumbline::study
       catch (const InputError &error)
       {
         throw InputError(std::string("Time/schemes: ") + error.what());
+      }
+    if (!scene.is_steady()) // else it would be said when much is done
+      for (unsigned int c = 0; c < scene.problem.case_names().size(); ++c)
+      {
+        const scene::Level &level = scene.study.series.front().levels.front();
+        const scene::Scene here = at_level(scene, level);
+        ProblemsInTime::Loads loads;
+        (void)ProblemsInTime(here, c, level, loads).points_in_time();
       }
     for (const scene::Series &series : scene.study.series)
     {

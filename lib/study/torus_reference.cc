@@ -1,8 +1,13 @@
 #include "study/torus_reference.h"
 
+#include "base/control_points.h"
+#include "base/error.h"
+#include "base/number_text.h"
 #include "study/motion_estimate.h"
 #include "study/motion_norms.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace plumbline::study
@@ -19,10 +24,56 @@ namespace plumbline::study
     return values;
   }
 
+  namespace
+  {
+    /// The largest difference of a field to the trigonometric polynomial through its values, of its
+    /// largest value, at control points.
+    double unresolved_part(const method::ContinuousMotion &equation, const scene::Scene &scene,
+                           const analysis::Vector &values, const scene::Field &field)
+    {
+      constexpr std::size_t n_line = 400, n_plane = 60; // along each axis
+      const geometry::Box &box = scene.domain.boxes.include.front();
+      const bool is_line = scene.domain.dimension == 1;
+      double largest = 0, worst = 0;
+      for (const double t : base::control_points(is_line ? 1 : n_plane))
+        for (const double s : base::control_points(is_line ? n_line : n_plane))
+        {
+          const dealii::Point<2> x(box.lower[0] + s * (box.upper[0] - box.lower[0]),
+                                   is_line ? box.lower[1]
+                                           : box.lower[1] + t * (box.upper[1] - box.lower[1]));
+          for (unsigned int c = 0; c < equation.n_components(); ++c)
+          {
+            const double value = field(x, c);
+            largest = std::max(largest, std::abs(value));
+            worst = std::max(worst, std::abs(value - equation.value(values, x, c)));
+          }
+        }
+      return largest > 0 ? worst / largest : 0;
+    }
+
+    /// Of what a motion begins with and is driven by.
+    double unresolved_part(const method::ContinuousMotion &equation, const scene::Scene &scene,
+                           const MotionData &data, ProblemsInTime &problems)
+    {
+      double worst = 0;
+      const double end = scene.is_steady() ? 0 : scene.time.final_time;
+      for (const double t : {0., end / 2, end}) // points of the series in time
+        worst = std::max(worst, unresolved_part(equation, scene, equation.drive(problems.at(t)),
+                                                problems.at(t).load));
+      for (const auto &[field, values] :
+           {std::pair(data.displacement, data.start.u), std::pair(data.velocity, data.start.v)})
+        if (field)
+          worst = std::max(worst, unresolved_part(equation, scene, values, *field));
+      return worst;
+    }
+  } // namespace
+
   TorusSolution solve_torus(const scene::Scene &scene, const MotionControl &control,
                             const std::string &problem, double horizon, ProblemsInTime &problems)
   {
     constexpr double tolerance = 1e-8;
+    constexpr double of_data = 1e-6; // of the largest value: loads are seen by the motion's average
+    double missed = 0;
     const base::CpuTimer timer;
     Torus coarse, fine;
     TorusEstimate estimate{problem, horizon};
@@ -42,9 +93,16 @@ namespace plumbline::study
       const unsigned int n_components = fine.equation->n_components();
       estimate.estimate = norm_of(difference(coarse.equation->nodal(coarse.state.u), exact),
                                   n_components, 1, false);
-      if (estimate.estimate <= tolerance * extent_of(exact, n_components))
+      // both may have missed the same feature
+      missed = unresolved_part(*fine.equation, scene, data, problems);
+      if (estimate.estimate <= tolerance * extent_of(exact, n_components) && missed <= of_data)
         break;
     }
+    if (missed > of_data)
+      throw InputError("Reference/method = torus: its " + std::to_string(estimate.n_points) +
+                       " points a side miss " + base::to_text(missed, 2) +
+                       " of the load or of what the motion begins with; give smoother fields, or "
+                       "write Reference/method = none and take the target own finest level");
     estimate.seconds = timer.seconds();
     return {fine, estimate};
   }

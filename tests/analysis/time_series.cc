@@ -62,3 +62,32 @@ TEST(TimeSeries, refuses_what_is_not_smooth)
       TimeSeries::resolve([](double t) { return Vector{std::sin(200 * t)}; }, 1, 1e-11, "u"),
       InputError);
 }
+
+// The 17 points of [0, 1] lie up to .098 apart: a pulse between two of them was not there.
+TEST(TimeSeries, refuses_a_pulse_between_its_points)
+{
+  for (const double from : {.1, .155, .41, .8})
+    for (const double length : {.045, .02, .008})
+    {
+      const auto pulse = [=](double t)
+      { return Vector{t > from && t < from + length ? 100. : 0.}; };
+      EXPECT_EQ(TimeSeries::points(pulse, 1), std::nullopt) << from << ' ' << length;
+      const auto smooth = [=](double t)
+      { return Vector{std::exp(-std::pow((t - from) / (length / 3), 2))}; };
+      EXPECT_EQ(TimeSeries::points(smooth, 1), std::nullopt) << from << ' ' << length;
+    }
+  EXPECT_EQ(TimeSeries::points([](double t) { return Vector{std::sin(3 * t), 2}; }, 1), 17u);
+  EXPECT_EQ(TimeSeries::points([](double t) { return Vector{std::exp(-100 * t * t)}; }, 1), 65u);
+}
+
+TEST(TimeSeries, takes_as_many_points_as_are_known_to_be_needed)
+{
+  // (1 - T_32) / 2 of time: 0 at all of 17 Chebyshev points, 1 half way between them
+  const auto hidden = [](double t)
+  { return Vector{std::pow(std::sin(16 * std::acos(1 - 2 * t)), 2)}; };
+  EXPECT_EQ(TimeSeries::points(hidden, 1), 33u);
+  const TimeSeries found = TimeSeries::resolve(hidden, 1, 1e-11, "u", 33);
+  EXPECT_NEAR(found.at(.3)[0], hidden(.3)[0], 1e-9);
+  // its own control points see it as well
+  EXPECT_NEAR(TimeSeries::resolve(hidden, 1, 1e-11, "u").at(.3)[0], hidden(.3)[0], 1e-9);
+}

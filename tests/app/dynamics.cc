@@ -167,3 +167,15 @@ TEST(DynamicsCommand, warns_of_critical_steps_of_operators_that_are_not_symmetri
   EXPECT_EQ(json["warnings"].size(), 1u);
   EXPECT_EQ(json["runs"][0]["is_symmetric"], false);
 }
+
+// Of 17 Chebyshev points in time none lies in the first pulse, nor of 33 in the second.
+TEST(DynamicsCommand, refuses_a_pulse_of_load_wherever_it_lies_in_time)
+{
+  for (const std::string pulse :
+       {"(t > 0.1 ? (t < 0.145 ? 100 : 0) : 0)", "(t > 0.81 ? (t < 0.83 ? 100 : 0) : 0)",
+        "100*exp(-((t-0.25)/0.005)^2)"})
+    expect_no_motion(set("Problem/load", pulse + "*sin(2*pi*x), 0") + set("Problem/solution", "") +
+                         set("Study/decisive error", "nodal L2 | reference") +
+                         set("Reference/method", "torus") + set("Expected/orders", ""),
+                     "65 Chebyshev points up to Time/final time do not resolve it");
+}
