@@ -1,5 +1,7 @@
 #include "physics/chebyshev.h"
 
+#include "base/control_points.h"
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -33,13 +35,21 @@ namespace plumbline::physics
       return static_cast<unsigned int>(n);
     }
 
+    /// A corner of a matrix, made square with zeros.
+    std::vector<double> squared_corner(const Matrix &all, const std::array<unsigned int, 2> &n)
+    {
+      const unsigned int size = std::max(n[0], n[1]);
+      Matrix kept = Matrix::Zero(size, size);
+      kept.topLeftCorner(n[0], n[1]) = all.topLeftCorner(n[0], n[1]);
+      return {kept.data(), kept.data() + kept.size()};
+    }
+
     /// Coefficients of f on a box by its values at n[0] × n[1] Chebyshev points.
-    /// @param tolerance  overwritten: of round-off
+    /// @param largest  overwritten: of f
     Matrix coefficients_of(const ChebyshevField::Function &f, unsigned int component,
                            const Point<2> &lower, const Point<2> &upper,
-                           const std::array<unsigned int, 2> &n, double noise, double &tolerance)
+                           const std::array<unsigned int, 2> &n, double &largest)
     {
-      constexpr double relative = 1e-15;
       Matrix values(n[0], n[1]);
       for (unsigned int i = 0; i < n[0]; ++i)
         for (unsigned int j = 0; j < n[1]; ++j)
@@ -49,55 +59,84 @@ namespace plumbline::physics
                                     lower[1] + .5 * (1 + t) * (upper[1] - lower[1])),
                            component);
         }
-      tolerance = relative * values.cwiseAbs().maxCoeff() + noise;
+      largest = values.cwiseAbs().maxCoeff();
       return values_to_coefficients(n[0]) * values * values_to_coefficients(n[1]).transpose();
     }
   } // namespace
 
-  std::optional<ChebyshevField> ChebyshevField::resolve(const Function &f,
-                                                        unsigned int n_components,
-                                                        const Point<2> &lower,
-                                                        const Point<2> &upper, double noise)
+  std::optional<ChebyshevField>
+  ChebyshevField::resolve(const Function &f, unsigned int n_components, const Point<2> &lower,
+                          const Point<2> &upper, double noise, const Search &search)
   {
-    constexpr unsigned int fewest = 9, most = 129;
     // a layer along one axis needs many points across it, few along it
-    for (std::array<unsigned int, 2> n{fewest, fewest};;)
+    for (std::array<unsigned int, 2> n{search.fewest, search.fewest};;)
     {
       std::vector<Matrix> coefficients;
       std::array<unsigned int, 2> n_significant{1, 1};
       for (unsigned int c = 0; c < n_components; ++c)
       {
-        double tolerance = 0;
-        coefficients.push_back(coefficients_of(f, c, lower, upper, n, noise, tolerance));
+        double largest = 0;
+        coefficients.push_back(coefficients_of(f, c, lower, upper, n, largest));
+        const double tolerance = search.digits * largest + noise;
         n_significant[0] = std::max(n_significant[0], significant_rows(coefficients[c], tolerance));
         n_significant[1] =
             std::max(n_significant[1], significant_rows(coefficients[c].transpose(), tolerance));
       }
-      // resolved when at least the last two terms of each axis are round-off
-      bool is_resolved = true;
+      // resolved when at least the last two terms of each axis are round-off ...
+      std::array<bool, 2> is_short{};
       for (unsigned int d = 0; d < 2; ++d)
-        if (n_significant[d] + 2 > n[d])
+        is_short[d] = n_significant[d] + 2 > n[d];
+      if (!is_short[0] && !is_short[1])
+      {
+        ChebyshevField field;
+        field.lower_ = lower;
+        field.upper_ = upper;
+        field.n_terms_ = std::max(n_significant[0], n_significant[1]);
+        for (const Matrix &all : coefficients)
+          field.coefficients_.push_back(squared_corner(all, n_significant));
+        if (field.meets(f, noise, search)) // ... and nothing hid between the points
+          return field;
+        is_short = {true, true};
+      }
+      for (unsigned int d = 0; d < 2; ++d)
+        if (is_short[d])
         {
-          if (n[d] == most)
+          if (2 * n[d] - 1 > search.most)
             return std::nullopt;
           n[d] = 2 * n[d] - 1;
-          is_resolved = false;
         }
-      if (!is_resolved)
-        continue;
-      ChebyshevField field;
-      field.lower_ = lower;
-      field.upper_ = upper;
-      field.n_terms_ = std::max(n_significant[0], n_significant[1]);
-      for (const Matrix &all : coefficients)
-      {
-        Matrix kept = Matrix::Zero(field.n_terms_, field.n_terms_);
-        kept.topLeftCorner(n_significant[0], n_significant[1]) =
-            all.topLeftCorner(n_significant[0], n_significant[1]);
-        field.coefficients_.emplace_back(kept.data(), kept.data() + kept.size());
-      }
-      return field;
     }
+  }
+
+  bool ChebyshevField::meets(const Function &f, double noise, const Search &search) const
+  {
+    const double relative = 1e3 * search.digits; // there are many coefficients that are cut
+    constexpr double n_noises = 100;
+    const std::array<std::vector<double>, 2> at = {base::control_points(search.n_control[0]),
+                                                   base::control_points(search.n_control[1])};
+    std::array<std::vector<double>, 2> place;
+    std::vector<double> along;
+    for (unsigned int axis = 0; axis < 2; ++axis)
+      for (const double s : at[axis])
+        place[axis].push_back(lower_[axis] + s * (upper_[axis] - lower_[axis]));
+    for (const double x : place[0])
+    {
+      const auto row = basis(0, x);
+      along.insert(along.end(), row.begin(), row.end());
+    }
+    double largest = 0, worst = 0;
+    for (unsigned int c = 0; c < n_components(); ++c)
+      for (const double y : place[1])
+      {
+        const std::vector<double> row = contract(c, along, basis(1, y));
+        for (std::size_t i = 0; i < row.size(); ++i)
+        {
+          const double value = f(Point<2>(place[0][i], y), c);
+          largest = std::max(largest, std::abs(value));
+          worst = std::max(worst, std::abs(value - row[i]));
+        }
+      }
+    return worst <= relative * largest + n_noises * noise;
   }
 
   std::vector<double> ChebyshevField::basis(unsigned int axis, double coordinate) const
@@ -121,10 +160,13 @@ namespace plumbline::physics
     const auto n_a = static_cast<Eigen::Index>(a.size() / n_terms_);
     const auto n_b = static_cast<Eigen::Index>(b.size() / n_terms_);
     std::vector<double> result(n_a * n_b);
-    Eigen::Map<Matrix>(result.data(), n_b, n_a) =
-        Map(b.data(), n_b, n_terms_) *
-        (Map(a.data(), n_a, n_terms_) * Map(coefficients_[component].data(), n_terms_, n_terms_))
-            .transpose();
+    const Map of_a(a.data(), n_a, n_terms_), of_b(b.data(), n_b, n_terms_),
+        coefficients(coefficients_[component].data(), n_terms_, n_terms_);
+    Eigen::Map<Matrix> product(result.data(), n_b, n_a);
+    if (n_b < n_a) // the shorter side first
+      product = (of_b * coefficients.transpose()) * of_a.transpose();
+    else
+      product = of_b * (of_a * coefficients).transpose();
     return result;
   }
 } // namespace plumbline::physics

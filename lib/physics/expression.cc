@@ -6,6 +6,7 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -176,6 +177,28 @@ namespace plumbline::physics
   {
     return std::all_of(parsers_->components.begin(), parsers_->components.end(),
                        [](const mu::Parser &parser) { return parser.GetUsedVar().empty(); });
+  }
+
+  bool Expression::is_piecewise() const
+  {
+    for (const auto &[name, place] : parsers_->fields)
+      if (place.field != nullptr)
+        return true;
+    if (text_.find_first_of("?<>=!&|") != std::string::npos)
+      return true;
+    for (const std::string name : {"abs", "min", "max", "sign", "rint"})
+      for (std::size_t at = text_.find(name); at != std::string::npos;
+           at = text_.find(name, at + 1))
+      {
+        const auto is_letter = [&](std::size_t i)
+        {
+          return i < text_.size() &&
+                 (std::isalnum(static_cast<unsigned char>(text_[i])) != 0 || text_[i] == '_');
+        };
+        if (!(at > 0 && is_letter(at - 1)) && !is_letter(at + name.size()))
+          return true;
+      }
+    return false;
   }
 
   unsigned int Expression::n_components() const

@@ -43,6 +43,10 @@ namespace plumbline::physics
     const std::string &text() const { return text_; }
     bool is_constant() const; ///< neither x nor y nor a field is in it
 
+    /// It may be made of pieces: it names a field, a condition or a function that has kinks or
+    /// jumps (abs, min, max, sign, rint).
+    bool is_piecewise() const;
+
     /// @throws InputError  the value is not a finite number
     double operator()(const Point<2> &x, unsigned int component = 0) const;
 

@@ -28,6 +28,12 @@ namespace plumbline::physics
                      const Integrand &g)
     {
       Sample result{0, 0, 0};
+      std::vector<Point<2>> directions;
+      for (unsigned int k = 0; k < n_angles; ++k)
+      {
+        const double angle = 2 * M_PI * (k + .5) / n_angles;
+        directions.emplace_back(std::cos(angle), std::sin(angle));
+      }
       double from = 0;
       for (const double to : ends)
       {
@@ -35,10 +41,9 @@ namespace plumbline::physics
         {
           const double r = from + (to - from) * gauss(n_radii).point(q)[0];
           double ring = 0;
-          for (unsigned int k = 0; k < n_angles; ++k)
+          for (const Point<2> &direction : directions)
           {
-            const double angle = 2 * M_PI * (k + .5) / n_angles;
-            const Sample sample = g(Point<2>(r * std::cos(angle), r * std::sin(angle)));
+            const Sample sample = g(r * direction);
             ring += sample.value;
             result.difference = std::max(result.difference, std::abs(sample.difference));
             result.size = std::max(result.size, std::abs(sample.size));
@@ -51,19 +56,24 @@ namespace plumbline::physics
     }
 
     /// The same with more and more points until the value settles.
+    /// @param fewest of radii, to begin with
     /// @param scale  of round-off: ∫ of the size of the factor of the differences
     /// @param what   the integral is, and @param x  where, for the message
     template <typename Integrand>
-    double settled_integral(const Kernel<2> &kernel, double scale, const char *what,
-                            const Point<2> &x, const Integrand &g)
+    double settled_integral(const Kernel<2> &kernel, const FewestRadii &fewest, double scale,
+                            const char *what, const Point<2> &x, const Integrand &g)
     {
+      constexpr unsigned int least = 6, most = 192; // of radii
       constexpr double settled = 1e-14, acceptable = 1e-12;
       constexpr double round_off = 2 * std::numeric_limits<double>::epsilon(); // of a difference
       std::vector<double> ends = kernel.breaks();
       ends.push_back(kernel.horizon());
-      Sample coarse = over_ball(ends, 6, 12, g);
+      unsigned int first = least;
+      for (const unsigned int wanted = fewest ? fewest(x) : 0; first < wanted && 2 * first < most;)
+        first *= 2;
+      Sample coarse = over_ball(ends, first, 2 * first, g);
       double change = 0, size = 0, noise = 0, before = 0;
-      for (unsigned int n = 12; n <= 192; n *= 2)
+      for (unsigned int n = 2 * first; n <= most; n *= 2)
       {
         const Sample fine = over_ball(ends, n, 2 * n, g);
         change = std::abs(fine.value - coarse.value);
@@ -86,8 +96,9 @@ namespace plumbline::physics
     }
   } // namespace
 
-  ManufacturedLoad::ManufacturedLoad(Kernel<2> kernel, Expression u, std::optional<Coefficient> a)
-      : kernel_(std::move(kernel)), u_(std::move(u)), a_(std::move(a))
+  ManufacturedLoad::ManufacturedLoad(Kernel<2> kernel, Expression u, std::optional<Coefficient> a,
+                                     FewestRadii fewest)
+      : kernel_(std::move(kernel)), u_(std::move(u)), a_(std::move(a)), fewest_(std::move(fewest))
   {
     if (u_.n_components() < kernel_.n_components())
       throw InputError("the field '" + u_.text() + "' has " + std::to_string(u_.n_components()) +
@@ -117,7 +128,8 @@ namespace plumbline::physics
       result.value *= kernel_.radial(xi.norm()) * (a_ ? a_->mean(a0, a_->at(x + xi)) : 1);
       return result;
     };
-    return settled_integral(kernel_, operator_scale(kernel_), "the load L u", x, integrand);
+    return settled_integral(kernel_, fewest_, operator_scale(kernel_), "the load L u", x,
+                            integrand);
   }
 
   double FieldDilatation::operator()(const Point<2> &x) const
@@ -130,7 +142,7 @@ namespace plumbline::physics
                     std::max(std::abs(first), std::abs(second)),
                     std::max(std::abs(u0[0]), std::abs(u0[1]))};
     };
-    return settled_integral(influence_, influence_.horizon() * operator_scale(influence_),
+    return settled_integral(influence_, fewest_, influence_.horizon() * operator_scale(influence_),
                             "the dilatation of u", x, integrand);
   }
 
@@ -150,7 +162,7 @@ namespace plumbline::physics
           std::max(std::abs(theta), std::abs(theta0));
       return Sample{-influence.radial(xi.norm()) * xi[component] * sum, size, size};
     };
-    return settled_integral(influence, influence.horizon() * operator_scale(influence),
+    return settled_integral(influence, fewest_, influence.horizon() * operator_scale(influence),
                             "the load of the dilatation", x, integrand);
   }
 

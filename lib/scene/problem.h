@@ -17,11 +17,17 @@ namespace plumbline::scene
   {
     std::function<double(const dealii::Point<2> &, unsigned int component)> value;
     std::optional<physics::ChebyshevField> series; ///< on the bounding box of Ω
+    /// Of a field whose values cost an integral each: the same to 12 digits, by series where they
+    /// resolve it. Empty: `value` is cheap, and right wherever it is asked for.
+    std::function<double(const dealii::Point<2> &, unsigned int component)> fast = {};
+    bool is_smooth_in_cells = false; ///< without a series: Gauss points of a cell see all of it
 
-    /// In Ω, by the series where there is one, which is cheaper.
+    bool is_smooth() const { return series || is_smooth_in_cells; }
+
+    /// In Ω.
     double operator()(const dealii::Point<2> &x, unsigned int component) const
     {
-      return series ? (*series)(x, component) : value(x, component);
+      return fast ? fast(x, component) : value(x, component);
     }
   };
 

@@ -1,5 +1,7 @@
 #include "study/comparison.h"
 
+#include "geometry/rough_rule.h"
+
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
@@ -38,16 +40,43 @@ namespace plumbline::study
       return rows;
     }
 
-    double quadrature_mean(const Field &field, const geometry::Lattice &lattice, double s, double t,
-                           unsigned int component)
+    /// For fields that have no series: of cells that may hold jumps and kinks.
+    geometry::RoughRule rough_rule(const Field &field, std::size_t n_cells,
+                                   const std::function<geometry::Polygon(std::size_t)> &cell,
+                                   unsigned int component)
     {
-      static const dealii::QIterated<2> rule(dealii::QGauss<1>(6), 2);
-      double mean = 0;
-      for (unsigned int q = 0; q < rule.size(); ++q)
-        mean += rule.weight(q) *
-                field.value(lattice.point(s - .5 + rule.point(q)[0], t - .5 + rule.point(q)[1]),
-                            component);
-      return mean;
+      constexpr unsigned int degree = 11;
+      return {degree, n_cells, cell,
+              [&](const dealii::Point<2> &x) { return field.value(x, component); }};
+    }
+
+    /// Means over the squares around all nodes that are free, a component after the other.
+    std::vector<std::vector<double>>
+    quadrature_means(const Field &field, const geometry::Lattice &lattice, const NodeSet &cells)
+    {
+      const double h = lattice.h(), offset = cells.axis[0].offset;
+      const auto square = [&](int i, int j)
+      {
+        const auto corners = geometry::square(lattice.point(i + offset - .5, j + offset - .5), h);
+        return geometry::Polygon(corners.begin(), corners.end());
+      };
+      std::vector<std::vector<double>> means(cells.n_components);
+      for (unsigned int c = 0; c < cells.n_components; ++c)
+      {
+        const auto rule = rough_rule(
+            field, cells.n_positions(),
+            [&](std::size_t k)
+            { return square(static_cast<int>(k) % cells.n[0], static_cast<int>(k) / cells.n[0]); },
+            c);
+        for (int j = 0; j < cells.n[1]; ++j)
+          for (int i = 0; i < cells.n[0]; ++i)
+            means[c].push_back(cells.free(0, i, j)
+                                   ? rule.integral(square(i, j), [&](const dealii::Point<2> &x)
+                                                   { return field.value(x, c); }) /
+                                         (h * h)
+                                   : 0);
+      }
+      return means;
     }
 
     /// Largest and mean square of differences as they come.
@@ -171,14 +200,14 @@ namespace plumbline::study
       for (unsigned int c = 0; c < cells.n_components; ++c)
         means[c] = field.series->contract(c, basis_means(*field.series, 0, lattice, cells),
                                           basis_means(*field.series, 1, lattice, cells));
+    else
+      means = quadrature_means(field, lattice, cells);
     std::vector<double> result;
     result.reserve(cells.n_unknowns());
     for (int j = 0; j < cells.n[1]; ++j)
       for (int i = 0; i < cells.n[0]; ++i)
         for (unsigned int c = 0; c < cells.n_components && cells.free(0, i, j); ++c)
-          result.push_back(field.series ? means[c][static_cast<std::size_t>(j) * cells.n[0] + i]
-                                        : quadrature_mean(field, lattice, i + cells.axis[0].offset,
-                                                          j + cells.axis[0].offset, c));
+          result.push_back(means[c][static_cast<std::size_t>(j) * cells.n[0] + i]);
     return result;
   }
 
@@ -187,16 +216,18 @@ namespace plumbline::study
   {
     constexpr unsigned int degree = 9;
     std::vector<double> result(cells.n_free * n_components);
-    for (std::size_t cell = 0; cell < cells.n_free; ++cell)
-      for (std::size_t piece = cells.first_piece[cell]; piece < cells.first_piece[cell + 1];
-           ++piece)
-      {
-        const auto rule = geometry::polygon_rule(geometry::view(cells.pieces[piece]), degree);
-        for (std::size_t q = 0; q < rule.points.size(); ++q)
-          for (unsigned int c = 0; c < n_components; ++c)
-            result[cell * n_components + c] +=
-                rule.weights[q] / cells.area[cell] * field(rule.points[q], c);
-      }
+    for (unsigned int c = 0; c < n_components; ++c)
+    {
+      const auto value = [&](const dealii::Point<2> &x) { return field(x, c); };
+      const auto piece = [&](std::size_t i) { return cells.pieces[i]; };
+      const geometry::RoughRule rule =
+          field.series ? geometry::RoughRule(degree)
+                       : rough_rule(field, cells.first_piece[cells.n_free], piece, c);
+      for (std::size_t cell = 0; cell < cells.n_free; ++cell)
+        for (std::size_t k = cells.first_piece[cell]; k < cells.first_piece[cell + 1]; ++k)
+          result[cell * n_components + c] +=
+              rule.integral(cells.pieces[k], value) / cells.area[cell];
+    }
     return result;
   }
 

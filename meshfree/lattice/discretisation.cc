@@ -27,7 +27,7 @@ namespace plumbline::meshfree
       for (unsigned int c = 0; c < nodes.n_components; ++c, block += nodes.n_positions())
       {
         std::vector<double> smooth;
-        if (problem.load.series)
+        if (problem.load.fast && problem.load.series)
         {
           const auto at_nodes = [&](unsigned int axis)
           {
@@ -48,9 +48,9 @@ namespace plumbline::meshfree
             if (nodes.is_free[position] != 0)
             {
               const auto place = nodes.place(0, i, j);
-              load[block + position] =
-                  smooth.empty() ? problem.load.value(lattice.point(place[0], place[1]), c)
-                                 : smooth[position];
+              load[block + position] = smooth.empty()
+                                           ? problem.load(lattice.point(place[0], place[1]), c)
+                                           : smooth[position];
             }
       }
       return load;

@@ -1,5 +1,6 @@
 #include "reference/lattice/discretisation.h"
 
+#include "geometry/rough_rule.h"
 #include "method/lattice_discretisation.h"
 #include "method/limit_proof.h"
 #include "method/line_discretisation.h"
@@ -51,29 +52,50 @@ namespace plumbline::reference
       return rows;
     }
 
-    /// ∫ b φ for a load that is not smooth: Gauss points on each cell.
-    void test_by_cells(const scene::Problem &problem, const AxisShapes &shapes, unsigned int family,
-                       unsigned int component, double *block)
+    /// ∫ b φ of all families for a load without a series: Gauss points on each cell, or on parts.
+    /// @param blocks  of all families, zero
+    void test_by_cells(const scene::Problem &problem, const AxisShapes &shapes,
+                       unsigned int component, std::size_t n_positions, double *blocks)
     {
-      const auto &n = problem.lattice->n_cells();
-      const double h = problem.lattice->h();
-      const dealii::QGauss<2> gauss(shapes.degree() + 4);
+      const geometry::Lattice &lattice = *problem.lattice;
+      const auto &n = lattice.n_cells();
+      const double h = lattice.h();
       const auto n_axis = static_cast<unsigned int>(shapes.families().size());
+      const auto f = [&](const Point<2> &x) { return problem.load(x, component); };
+      const auto square = [&](int i, int j)
+      {
+        const auto corners = geometry::square(lattice.point(i, j), h);
+        return geometry::Polygon(corners.begin(), corners.end());
+      };
+      const auto cell = [&](std::size_t k)
+      { return square(static_cast<int>(k) % n[0], static_cast<int>(k) / n[0]); };
+      const unsigned int degree = 2 * shapes.degree() + 7;
+      const geometry::RoughRule rule =
+          problem.load.is_smooth()
+              ? geometry::RoughRule(degree)
+              : geometry::RoughRule(degree, static_cast<std::size_t>(n[0]) * n[1], cell, f);
+      geometry::RoughRule::Sampled sampled;
       for (int j = 0; j < n[1]; ++j)
         for (int i = 0; i < n[0]; ++i)
-          if (problem.lattice->is_inside(i, j))
-            for (unsigned int q = 0; q < gauss.size(); ++q)
-            {
-              const Point<2> x = gauss.point(q);
-              const double value =
-                  h * h * gauss.weight(q) *
-                  problem.load.value(problem.lattice->point(i + x[0], j + x[1]), component);
+        {
+          if (!lattice.is_inside(i, j))
+            continue;
+          rule.sample(square(i, j), f, sampled);
+          const Point<2> corner = lattice.point(i, j);
+          for (std::size_t q = 0; q < sampled.values.size(); ++q)
+          {
+            const double value = sampled.rule.weights[q] * sampled.values[q];
+            const double s = (sampled.rule.points[q][0] - corner[0]) / h,
+                         t = (sampled.rule.points[q][1] - corner[1]) / h;
+            double *block = blocks;
+            for (unsigned int family = 0; family < n_axis * n_axis; ++family, block += n_positions)
               for (const auto &a : shapes.restrictions(family % n_axis))
                 for (const auto &b : shapes.restrictions(family / n_axis))
                   if (i - a.cell >= 0 && i - a.cell < n[0] && j - b.cell >= 0 && j - b.cell < n[1])
                     block[static_cast<std::size_t>(j - b.cell) * n[0] + i - a.cell] +=
-                        value * shapes.value(a.local, x[0]) * shapes.value(b.local, x[1]);
-            }
+                        value * shapes.value(a.local, s) * shapes.value(b.local, t);
+          }
+        }
     }
 
     Vector load_vector(const scene::Problem &problem, const AxisShapes &shapes,
@@ -83,6 +105,9 @@ namespace plumbline::reference
       const auto n_axis = static_cast<unsigned int>(nodes.axis.size());
       std::size_t block = 0;
       for (unsigned int c = 0; c < nodes.n_components; ++c)
+      {
+        if (!problem.load.series)
+          test_by_cells(problem, shapes, c, nodes.n_positions(), load.begin() + block);
         for (unsigned int s = 0; s < nodes.n_families(); ++s, block += nodes.n_positions())
           if (problem.load.series)
           {
@@ -92,8 +117,7 @@ namespace plumbline::reference
                                 test_basis(series, 1, *problem.lattice, shapes, s / n_axis));
             std::copy(values.begin(), values.end(), load.begin() + block);
           }
-          else
-            test_by_cells(problem, shapes, s, c, load.begin() + block);
+      }
       for (std::size_t i = 0; i < nodes.size(); ++i)
         if (nodes.is_free[i % nodes.is_free.size()] == 0)
           load[i] = 0;

@@ -99,10 +99,12 @@ namespace plumbline::reference
         return x;
       }
 
-      /// M^-½ ∫ b φ.
+      /// M^-½ ∫ b φ: in parts of each cell where b may jump.
       State tested(const scene::Field &b) const
       {
-        const dealii::QGauss<dim> gauss(shapes_.degree() + 2);
+        constexpr unsigned int n_parts = 4;
+        const dealii::QIterated<dim> gauss(dealii::QGauss<1>(shapes_.degree() + 2),
+                                           b.is_smooth() ? 1 : n_parts);
         const auto &n_cells = lattice_.n_cells();
         const auto n = space_.n_along();
         const int p = degree();

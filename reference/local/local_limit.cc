@@ -40,6 +40,33 @@ namespace plumbline::reference
       const scene::Problem &problem_;
     };
 
+    /// A rule on each of n² equal parts of the unit square or triangle.
+    dealii::Quadrature<2> in_parts(const dealii::Quadrature<2> &rule, bool is_triangle,
+                                   unsigned int n)
+    {
+      std::vector<Point<2>> points;
+      std::vector<double> weights;
+      const auto add = [&](double corner_x, double corner_y, double side)
+      {
+        for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          points.emplace_back(corner_x + side * rule.point(q)[0],
+                              corner_y + side * rule.point(q)[1]);
+          weights.push_back(side * side * rule.weight(q));
+        }
+      };
+      const double side = 1. / n;
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < n; ++i)
+          if (!is_triangle || i + j < n)
+          {
+            add(i * side, j * side, side);
+            if (is_triangle && i + j + 1 < n) // the one turned around
+              add((i + 1) * side, (j + 1) * side, -side);
+          }
+      return {points, weights};
+    }
+
     class DirectSystem : public algebra::LinearSystem
     {
     public:
@@ -168,7 +195,11 @@ namespace plumbline::reference
 
       Vector load(const scene::Problem &problem) const
       {
-        dealii::FEValues<2> values(*mesh_.mapping, element_, gauss_,
+        constexpr unsigned int n_parts = 8; // of cells where b may jump, along each side
+        const dealii::Quadrature<2> rule =
+            in_parts(gauss_, !mesh_.triangulation.all_reference_cells_are_hyper_cube(),
+                     problem.load.is_smooth() ? 1 : n_parts);
+        dealii::FEValues<2> values(*mesh_.mapping, element_, rule,
                                    dealii::update_values | dealii::update_quadrature_points |
                                        dealii::update_JxW_values);
         const scene::Field &b = problem.load;

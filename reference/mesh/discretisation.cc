@@ -6,10 +6,10 @@
 #include "method/sparse_motion.h"
 #include "reference/geometry_check.h"
 #include "reference/mesh/assembly.h"
-#include "reference/mesh/cell_rules.h"
 #include "reference/mesh/dilatation.h"
 #include "reference/mesh/entry_check.h"
 #include "reference/mesh/inclusion_check.h"
+#include "reference/mesh/load.h"
 #include "reference/mesh/mass.h"
 #include "reference/mesh/polygon_pairs.h"
 #include "reference/mesh/weighted_volume.h"
@@ -26,49 +26,6 @@ namespace plumbline::reference
   namespace
   {
     using method::Vector;
-
-    /// ∫ b φ over this rank's share of the cells of Ω, shape (n_free n_components).
-    Vector load_vector(const scene::Problem &problem, const MeshSpace &space,
-                       const MeshCells &cells, const base::Communicator &communicator)
-    {
-      const CellShapes &shapes = space.shapes();
-      const unsigned int n_points = std::min(7u, shapes.degree() + 4), nc = problem.n_components;
-      const CellRules rules = gauss_on_cells(space, cells, n_points);
-
-      const auto [first, last] = communicator.owned_range(space.mesh().cells.size());
-      const std::size_t n_values = shapes.size() * nc;
-      std::vector<double> of_cells((last - first) * n_values); // shape (n_cells, n_shapes, nc)
-      const auto integrate = [&, first = first](std::size_t begin, std::size_t end)
-      {
-        const scene::Field b = problem.load; // a thread's own
-        CellRule rule;
-        for (std::size_t cell = begin; cell < end; ++cell)
-        {
-          if (!space.mesh().cells[cell].is_inside)
-            continue;
-          rules.find(cell, rule);
-          for (std::size_t q = 0; q < rule.points.size(); ++q)
-            for (unsigned int c = 0; c < nc; ++c)
-            {
-              const double value = rule.weights[q] * b(rule.points[q], c);
-              for (unsigned int a = 0; a < shapes.size(); ++a)
-                of_cells[(cell - first) * n_values + a * nc + c] +=
-                    value * rule.phi[q * shapes.size() + a];
-            }
-        }
-      };
-      constexpr unsigned int grain = 256;
-      dealii::parallel::apply_to_subranges(first, last, integrate, grain);
-
-      Vector load(space.n_free() * nc);
-      const double *from = of_cells.data();
-      for (std::size_t cell = first; cell < last; ++cell)
-        for (unsigned int a = 0; a < shapes.size(); ++a, from += nc)
-          if (const unsigned int dof = space.dofs(cell)[a]; dof < space.n_free())
-            for (unsigned int c = 0; c < nc; ++c)
-              load[dof * nc + c] += from[c];
-      return load;
-    }
 
     /// The volume constraint at the degrees of freedom that are not free. Data may jump across
     /// cracks: a space that jumps as well takes them from inside of each cell.

@@ -46,3 +46,16 @@ TEST(Weierstrass, refuses_exponents_and_numbers_of_waves_that_are_none)
     EXPECT_THROW((void)Expression("u", text)({.1, 0}), InputError) << text;
   EXPECT_THROW(Expression("u", "weierstrass(x, 1)"), InputError);
 }
+
+TEST(Expression, knows_whether_it_may_be_made_of_pieces)
+{
+  for (const char *text : {"x > 0.5 ? 1 : 0", "(x > 0.5)*y", "abs(x)", "max(x, y)", "min(x, 0)",
+                           "1, sign(y)", "rint(4*x)", "x == y", "3*abs(x)+1"})
+    EXPECT_TRUE(Expression("k", text).is_piecewise()) << text;
+  for (const char *text : {"sin(3*x)*cos(2*y)", "exp(-x^2), y", "1", "minimum*x", "signal + y"})
+    EXPECT_FALSE(Expression("k", text, {{"minimum", 1}, {"signal", 2}}).is_piecewise()) << text;
+  physics::Names names;
+  names.fields["R"] = [](const dealii::Point<2> &) { return 1.; };
+  EXPECT_TRUE(Expression("k", "1 + R", names).is_piecewise());
+  EXPECT_FALSE(Expression("k", "1 + x", names).is_piecewise());
+}

@@ -219,7 +219,7 @@ TEST(ChebyshevField, asks_for_many_values_across_a_layer_alone)
       ++n_values;
       return std::atan(5 * (x[across] - .43)) * std::cos(x[1 - across]);
     };
-    const auto field = ChebyshevField::resolve(f, 1, Point<2>(), Point<2>(1, 1));
+    const auto field = ChebyshevField::resolve(f, 1, Point<2>(), Point<2>(1, 1), 0, {{10, 10}});
     ASSERT_TRUE(field);
     EXPECT_LT(n_values, 6000u); // 129² are 16641
     for (const double x : {.01, .4, .44, .97})
