@@ -211,9 +211,10 @@ namespace plumbline::app
                                          frame_writer(results.plan, strip, results.lower, folder));
       results.seconds = timer.seconds();
       results.asymmetry = strip.asymmetry(results.history.last.u);
-      results.motion = study::describe_crack(results.history.samples, results.notch_tip,
-                                             scene.domain.boxes.include.front().upper[0], strip.h(),
-                                             results.own.horizon);
+      results.motion = study::describe_crack(
+          results.history.samples,
+          {results.notch_tip, scene.domain.boxes.include.front().upper[0], strip.h(),
+           results.own.horizon, sides(scene)[1], results.transverse});
     }
   } // namespace
 
@@ -286,6 +287,8 @@ namespace plumbline::app
       std::cerr << "continued from t = " << base::to_text(results.history.resumed_at, 4) << ", of '"
                 << results.plan.checkpoint.string() << "'\n";
     report::write_crack(results, folder);
+    for (const std::string &warning : results.warnings())
+      std::cerr << "warning: " << warning << '\n';
     std::error_code code;
     fs::remove(results.plan.checkpoint, code); // what is complete is done again, as its user asks
     if (options.json)
@@ -296,7 +299,7 @@ namespace plumbline::app
     if (options.check && !results.is_as_expected())
     {
       std::cerr << "Expected/crack = " << base::word(results.expected) << ", but it "
-                << base::word(results.motion.outcome) << '\n';
+                << report::crack_outcome_words(results.motion.outcome) << '\n';
       return 1;
     }
     return 0;

@@ -74,8 +74,10 @@ namespace plumbline::report
     {
       const auto &m = results.motion;
       std::string text = "At " + rounded(results.crack.load) + " of its threshold the crack " +
-                         base::word(m.outcome);
-      if (m.outcome == scene::CrackOutcome::arrests)
+                         crack_outcome_words(m.outcome);
+      if (m.outcome == scene::CrackOutcome::too_short)
+        text += ": its tip advanced by " + rounded(m.advance / results.own.horizon) + " horizons";
+      else if (m.outcome == scene::CrackOutcome::arrests)
         text += " after " + rounded(m.advance) + ", " + rounded(m.advance / results.own.horizon) +
                 " horizons, of its notch's tip";
       else
@@ -86,18 +88,22 @@ namespace plumbline::report
       text += "; the picture is " + (results.asymmetry == 0
                                          ? std::string("symmetric to the last bit")
                                          : "asymmetric by " + rounded(results.asymmetry));
+      if (!m.reason.empty())
+        text += ". Reason: " + m.reason;
+      for (const std::string &warning : results.warnings())
+        text += ". Warning: " + warning;
       if (!results.is_as_expected())
-        text += ". EXPECTED: it " + base::word(results.expected);
+        text += ". EXPECTED: it " + crack_outcome_words(results.expected);
       return text + ".";
     }
 
     std::string page_of(const CrackResults &results, const std::filesystem::path &dir)
     {
-      Data data = page::begin(
-          "crack", results.scene_name, results.purpose,
-          {results.method + ", m = " + rounded(results.own.m()),
-           "load " + rounded(results.crack.load) + " of the threshold",
-           (results.is_as_expected() ? "✓ it " : "✗ it ") + base::word(results.motion.outcome)});
+      Data data = page::begin("crack", results.scene_name, results.purpose,
+                              {results.method + ", m = " + rounded(results.own.m()),
+                               "load " + rounded(results.crack.load) + " of the threshold",
+                               (results.is_as_expected() ? "✓ it " : "✗ it ") +
+                                   crack_outcome_words(results.motion.outcome)});
       data["verdict"] = verdict(results);
       data["pictures"] = Data::array();
       data["charts"] = Data::array();
@@ -129,6 +135,12 @@ namespace plumbline::report
     }
   } // namespace
 
+  std::string crack_outcome_words(scene::CrackOutcome outcome)
+  {
+    return outcome == scene::CrackOutcome::too_short ? "was followed for a time too short to tell"
+                                                     : base::word(outcome);
+  }
+
   std::string crack_text(const CrackResults &results)
   {
     return results.scene_name + "\n\n" + to_text(facts_table(results)) + "\n" +
@@ -156,6 +168,8 @@ namespace plumbline::report
               {"seconds", r.seconds},
               {"resumed_at", r.history.resumed_at},
               {"outcome", base::word(r.motion.outcome)},
+              {"reason", r.motion.reason},
+              {"warnings", r.warnings()},
               {"expected", base::word(r.expected)},
               {"advance", r.motion.advance},
               {"speed", r.motion.speed},

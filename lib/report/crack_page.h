@@ -7,6 +7,9 @@
 
 namespace plumbline::report
 {
+  /// To follow "the crack" or "it": "runs", "arrests", "was followed for a time too short to tell".
+  std::string crack_outcome_words(scene::CrackOutcome outcome);
+
   /// Tables for a terminal.
   std::string crack_text(const study::CrackResults &results);
 

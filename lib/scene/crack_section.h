@@ -21,7 +21,8 @@ namespace plumbline::scene
     unknown,
     arrests, ///< stands still at the end
     runs,
-    branches
+    branches,
+    too_short ///< the time is too short to tell
   };
 
   /// What the section Crack of a scene file says: a strip, Domain/boxes, with a notch along y = its
@@ -49,5 +50,5 @@ namespace plumbline::base
   inline constexpr auto words<scene::CrackStart> = std::array{"opened", "sudden"};
   template <>
   inline constexpr auto words<scene::CrackOutcome> =
-      std::array{"unknown", "arrests", "runs", "branches"};
+      std::array{"unknown", "arrests", "runs", "branches", "too short to tell"};
 } // namespace plumbline::base

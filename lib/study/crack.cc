@@ -3,6 +3,7 @@
 #include "analysis/checkpoint.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -144,47 +145,148 @@ namespace plumbline::study
     return history;
   }
 
-  CrackMotion describe_crack(const std::vector<CrackSample> &all, double notch_tip,
-                             double right_end, double h, double horizon)
+  namespace
+  {
+    using Samples = std::vector<CrackSample>;
+
+    /// Slope of the line fitted to the tip where it is between 1/5 and 4/5 of its way.
+    double fitted_speed(const Samples &samples, double way)
+    {
+      double n = 0, t = 0, x = 0, tt = 0, tx = 0;
+      for (const CrackSample &sample : samples)
+        if (const double part = (sample.tip - samples.front().tip) / way; part >= .2 && part <= .8)
+        {
+          ++n;
+          t += sample.t;
+          x += sample.tip;
+          tt += sample.t * sample.t;
+          tx += sample.t * sample.tip;
+        }
+      return n >= 2 ? (n * tx - t * x) / (n * tt - t * t) : 0;
+    }
+
+    /// The longest way of the tip while there are several cracks side by side.
+    double branched_way(const Samples &samples)
+    {
+      double longest = 0;
+      for (std::size_t first = 0, i = 0; i < samples.size(); ++i)
+        if (samples[i].n_branches > 1)
+          longest = std::max(longest, samples[i].tip - samples[first].tip);
+        else
+          first = i + 1;
+      return longest;
+    }
+
+    /// How far the tip went in the last part of the time.
+    double last_way(const Samples &all, double part)
+    {
+      const double since = (1 - part) * all.back().t;
+      const auto first = std::find_if(all.begin(), all.end() - 1,
+                                      [&](const CrackSample &sample) { return sample.t >= since; });
+      return all.back().tip - (first == all.end() - 1 ? all[all.size() - 2].tip : first->tip);
+    }
+
+    /// Kinetic energy in the last quarter of the time is larger than in the one before, and not
+    /// rounding of the whole.
+    bool is_gathering_speed(const Samples &all)
+    {
+      constexpr double rounding = 1e-12;
+      double before = 0, last = 0;
+      for (const CrackSample &sample : all)
+      {
+        double &largest = sample.t < .75 * all.back().t ? before : last;
+        if (sample.t >= .5 * all.back().t)
+          largest = std::max(largest, sample.kinetic);
+      }
+      return last > before && last > rounding * std::abs(all.front().total());
+    }
+
+    /// @param before_end  samples while the tip is away from the strip's end
+    void judge_motion(const Samples &all, const Samples &before_end, const CrackScales &scales,
+                      CrackMotion &motion)
+    {
+      using Outcome = scene::CrackOutcome;
+      constexpr double few_horizons = 2, few_crossings = 10, few_transits = 2, to_arrest = 4;
+      const auto text = [](double value) { return base::to_text(value, 3); };
+      const double time = all.back().t, horizon = scales.horizon;
+      const double crossings = time / scales.crossing(), transits = time / scales.transit();
+      const std::string length = "the time is " + text(crossings) + " crossings of a horizon and " +
+                                 text(transits) + " transits from grip to grip by shear waves";
+      const auto conclude = [&](Outcome outcome, const std::string &reason)
+      {
+        motion.outcome = outcome;
+        motion.reason = reason;
+      };
+      const double branched = branched_way(before_end);
+      if (branched >= few_horizons * horizon)
+        conclude(Outcome::branches,
+                 "two cracks or more run side by side while the tip advances by " +
+                     text(branched / horizon) + " horizons");
+      else if (before_end.size() < all.size())
+        conclude(Outcome::runs, "the tip comes to the end of the strip");
+      else if (crossings < few_crossings || transits < few_transits)
+        conclude(Outcome::too_short, length + "; take at least " + text(few_crossings) + " and " +
+                                         text(few_transits) + ": Time/final time = " +
+                                         text(std::max(few_crossings * scales.crossing(),
+                                                       to_arrest * scales.transit())) +
+                                         " or more");
+      else if (motion.advance >= few_horizons * horizon && last_way(all, .2) >= scales.h)
+        conclude(Outcome::runs, "the tip advances by " + text(motion.advance / horizon) +
+                                    " horizons and still moves at the end of the time");
+      else if (last_way(all, .5) >= scales.h)
+        conclude(Outcome::too_short,
+                 "the tip advances by " + text(motion.advance / horizon) +
+                     " horizons, some of it in the second half of the time; lengthen Time/final "
+                     "time");
+      else if (transits < to_arrest)
+        conclude(Outcome::too_short, length + "; a crack that stands still needs " +
+                                         text(to_arrest) + " transits to be called arrested");
+      else if (is_gathering_speed(all))
+        conclude(Outcome::too_short, "the tip stands still, but the kinetic energy still grows; "
+                                     "lengthen Time/final time");
+      else
+        conclude(Outcome::arrests,
+                 "the tip advances by less than h in the second half of the time, " +
+                     text(transits / 2) + " transits from grip to grip");
+    }
+  } // namespace
+
+  CrackMotion describe_crack(const std::vector<CrackSample> &all, const CrackScales &scales)
   {
     CrackMotion motion;
     const double start = all.front().total();
     for (const CrackSample &sample : all)
       motion.energy_drift = std::max(motion.energy_drift, std::abs(sample.total() - start) / start);
-    const auto at_end =
-        std::find_if(all.begin(), all.end(),
-                     [&](const CrackSample &sample) { return sample.tip >= right_end - horizon; });
-    const std::vector<CrackSample> samples(all.begin(), at_end);
+    const auto at_end = std::find_if(all.begin(), all.end(),
+                                     [&](const CrackSample &sample)
+                                     { return sample.tip >= scales.right_end - scales.horizon; });
+    const Samples samples(all.begin(), at_end);
     if (samples.size() < 2)
       return motion;
     const CrackSample &first = samples.front(), &last = samples.back();
-    motion.advance = last.tip - notch_tip;
+    motion.advance = last.tip - scales.notch_tip;
     const double way = last.tip - first.tip;
-    if (way > h)
+    if (way > scales.h)
       motion.soft_per_length = (last.soft - first.soft) / way;
-
-    double n = 0, t = 0, x = 0, tt = 0, tx = 0;
-    for (const CrackSample &sample : samples)
-      if (const double part = (sample.tip - first.tip) / way; part >= .2 && part <= .8)
-      {
-        ++n;
-        t += sample.t;
-        x += sample.tip;
-        tt += sample.t * sample.t;
-        tx += sample.t * sample.tip;
-      }
-    if (way > horizon && n >= 2)
-      motion.speed = (n * tx - t * x) / (n * tt - t * t);
+    if (way > scales.horizon)
+      motion.speed = fitted_speed(samples, way);
     const std::size_t window = std::max<std::size_t>(1, (all.size() - 1) / 10);
     for (std::size_t i = window; i < samples.size(); ++i)
       motion.fastest = std::max(motion.fastest, (samples[i].tip - samples[i - window].tip) /
                                                     (samples[i].t - samples[i - window].t));
-    const std::size_t before = all.size() - 1 - std::min(window, all.size() - 1);
-    const bool runs = at_end != all.end() || all.back().tip - all[before].tip >= h;
-    motion.outcome = !runs                       ? scene::CrackOutcome::arrests
-                     : all.back().n_branches > 1 ? scene::CrackOutcome::branches
-                                                 : scene::CrackOutcome::runs;
+    judge_motion(all, samples, scales, motion);
     return motion;
+  }
+
+  std::vector<std::string> CrackResults::warnings() const
+  {
+    std::vector<std::string> list;
+    if (std::abs(strain) > large_strain)
+      list.push_back("the strain of the grips is " + base::to_text(strain, 3) + ", beyond " +
+                     base::to_text(large_strain, 2) +
+                     ": bonds have linear kinematics, which hold for small strains; lower "
+                     "Crack/load, or scale the material so that its critical strain is small");
+    return list;
   }
 
   double rayleigh_ratio()

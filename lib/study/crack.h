@@ -111,15 +111,39 @@ namespace plumbline::study
     double speed = 0;   ///< of the line fitted to its tip, if it has gone a horizon; see below
     double fastest = 0; ///< over any tenth of the time
     scene::CrackOutcome outcome = scene::CrackOutcome::unknown;
+    std::string reason;         ///< of the outcome, one sentence with the numbers
     double energy_drift = 0;    ///< max |kinetic + bonds + dissipated - start| / start
     double soft_per_length = 0; ///< rise of the soft bonds' energy per length of advance
   };
 
+  /// What lengths and times a motion is measured by.
+  struct CrackScales
+  {
+    double notch_tip = 0, right_end = 0; ///< x of the strip [length]
+    double h = 0, horizon = 0;           ///< [length]
+    double height = 0;                   ///< between the grips [length]
+    double wave_speed = 0;               ///< of shear waves [length/time]
+
+    double crossing() const { return horizon / wave_speed; } ///< of a horizon
+    double transit() const { return height / wave_speed; }   ///< from grip to grip
+  };
+
   /// The line is fitted by least squares where the tip is between 1/5 and 4/5 of its advance. What
-  /// comes when the tip is within a horizon of the strip's end is left out of speeds. A crack runs
-  /// if it comes there, or advances by h or more in the last tenth of the time.
-  CrackMotion describe_crack(const std::vector<CrackSample> &samples, double notch_tip,
-                             double right_end, double h, double horizon);
+  /// comes when the tip is within a horizon of the strip's end is left out of speeds and branches.
+  /// The first that holds is the outcome:
+  /// - branches: the tip advances by two horizons or more while there are two cracks side by side;
+  /// - runs: it comes within a horizon of the strip's end;
+  /// - too short to tell: the time is less than ten crossings of a horizon, or two transits;
+  /// - runs: it advances by two horizons or more, and by h or more in the last fifth of the time;
+  /// - arrests: it advances by less than h in the second half of the time, which is at least two
+  ///   transits, and the kinetic energy does not grow in it;
+  /// - too short to tell.
+  /// @pre samples are there
+  CrackMotion describe_crack(const std::vector<CrackSample> &samples, const CrackScales &scales);
+
+  /// The bonds have linear kinematics, whose relative error is of the size of the strain: above
+  /// this strain of the grips a warning says so.
+  constexpr double large_strain = .1;
 
   /// Speed of Rayleigh waves over that of shear waves where λ = μ, .9194: the root c of
   /// x³ - 8x² + (24 - 16k) x - 16 (1 - k) = 0, x = c², k = μ/(λ + 2μ) = 1/3.
@@ -148,6 +172,7 @@ namespace plumbline::study
 
     double h() const { return own.h; }
     double rayleigh_speed() const { return rayleigh_ratio() * transverse; }
+    std::vector<std::string> warnings() const;
     bool is_as_expected() const
     {
       return expected == scene::CrackOutcome::unknown || expected == motion.outcome;

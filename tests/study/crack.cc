@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <unistd.h>
 
 using namespace plumbline;
@@ -92,22 +93,27 @@ namespace
     return numbers;
   }
 
-  /// Samples of a tip that is at x(t), t = 0, 1, ..., 100, in a strip from 0 to 10.
-  template <typename Place>
-  CrackMotion described(const Place &x, double n_branches = 1)
+  using Function = std::function<double(double)>;
+
+  /// Samples at t = 0, 1, ..., end of a tip at x(t), in a strip from 0 to 10 that is 5 high, with
+  /// shear waves of speed 1.
+  CrackMotion described(
+      const Function &x, const Function &n_branches = [](double) { return 1; }, int end = 100,
+      const Function &kinetic = [](double) { return 0; })
   {
     std::vector<CrackSample> samples;
-    for (int t = 0; t <= 100; ++t)
+    for (int t = 0; t <= end; ++t)
     {
       CrackSample sample;
       sample.t = t;
       sample.tip = x(t);
-      sample.bonds = 5;
+      sample.kinetic = kinetic(t);
+      sample.bonds = 5 - sample.kinetic;
       sample.soft = 2 * sample.tip;
-      sample.n_branches = n_branches;
+      sample.n_branches = n_branches(t);
       samples.push_back(sample);
     }
-    return describe_crack(samples, 1, 10, .1, .4);
+    return describe_crack(samples, {1, 10, .1, .4, 5, 1});
   }
 } // namespace
 
@@ -183,7 +189,8 @@ TEST(Crack, is_described_by_where_its_tip_goes)
   EXPECT_NEAR(run.advance, 5, 1e-12);
   EXPECT_NEAR(run.soft_per_length, 2, 1e-12);
   EXPECT_EQ(run.energy_drift, 0);
-  EXPECT_EQ(described([](double t) { return 1 + .05 * t; }, 2).outcome, CrackOutcome::branches);
+  EXPECT_EQ(described([](double t) { return 1 + .05 * t; }, [](double) { return 2; }).outcome,
+            CrackOutcome::branches);
   const CrackMotion arrest = described([](double t) { return 1 + std::min(t, 30.) * .01; });
   EXPECT_EQ(arrest.outcome, CrackOutcome::arrests);
   EXPECT_NEAR(arrest.advance, .3, 1e-12);
@@ -192,6 +199,62 @@ TEST(Crack, is_described_by_where_its_tip_goes)
   EXPECT_EQ(through.outcome, CrackOutcome::runs);
   EXPECT_NEAR(through.speed, .3, 1e-12);
   EXPECT_NEAR(through.fastest, .3, 1e-12);
+}
+
+TEST(Crack, branches_only_where_two_tips_go_on_side_by_side)
+{
+  using scene::CrackOutcome;
+  const auto outcome = [](const Function &n_branches, int end = 100)
+  { return described([](double t) { return 1 + .05 * t; }, n_branches, end).outcome; };
+  EXPECT_EQ(outcome([](double t) { return t == 100 ? 2 : 1; }), CrackOutcome::runs); // the last one
+  EXPECT_EQ(outcome([](double t) { return t == 50 ? 3 : 1; }), CrackOutcome::runs);
+  // two horizons are 16 samples, in one piece
+  EXPECT_EQ(outcome([](double t) { return t >= 50 && t < 60 ? 2 : 1; }), CrackOutcome::runs);
+  EXPECT_EQ(outcome([](double t) { return static_cast<int>(t) % 10 > 0 ? 2 : 1; }),
+            CrackOutcome::runs);
+  const Function branched = [](double t) { return t >= 50 && t < 80 ? 2 : 1; };
+  for (const int end : {70, 90, 100}) // whenever one looks
+    EXPECT_EQ(outcome(branched, end), CrackOutcome::branches) << end;
+  // at the end of the strip alone, from x = 9.6 on
+  EXPECT_EQ(described([](double t) { return std::min(10., 1 + .1 * t); },
+                      [](double t) { return t > 84 ? 2 : 1; })
+                .outcome,
+            CrackOutcome::runs);
+}
+
+TEST(Crack, is_followed_long_enough_or_the_outcome_is_not_told)
+{
+  using scene::CrackOutcome;
+  const Function one = [](double) { return 1; }, still = [](double) { return 1; };
+  EXPECT_EQ(described(still, one, 3).outcome, CrackOutcome::too_short);  // 7 crossings of a horizon
+  EXPECT_EQ(described(still, one, 8).outcome, CrackOutcome::too_short);  // 1.6 transits
+  EXPECT_EQ(described(still, one, 18).outcome, CrackOutcome::too_short); // 3.6 transits
+  EXPECT_EQ(described(still, one, 21).outcome, CrackOutcome::arrests);
+  const CrackMotion early = described(still, one, 3);
+  EXPECT_NE(early.reason.find("Time/final time = 20"), std::string::npos) << early.reason;
+  // it begins to move at t = 60, as its kinetic energy tells before
+  const Function later = [](double t) { return 1 + .1 * std::max(0., t - 60); };
+  const Function kinetic = [](double t) { return 1e-6 * std::exp(.1 * t); };
+  for (const int end : {20, 40, 60})
+    EXPECT_EQ(described(later, one, end, kinetic).outcome, CrackOutcome::too_short) << end;
+  EXPECT_EQ(described(later, one, 100, kinetic).outcome, CrackOutcome::runs);
+  // stopped lately, in the second half of the time
+  EXPECT_EQ(described([](double t) { return 1 + .05 * std::min(t, 70.); }).outcome,
+            CrackOutcome::too_short);
+  EXPECT_EQ(described([](double t) { return 1 + .05 * std::min(t, 40.); }).outcome,
+            CrackOutcome::arrests);
+  // a tip that has not gone two horizons
+  EXPECT_EQ(described([](double t) { return 1 + .007 * t; }).outcome, CrackOutcome::too_short);
+}
+
+TEST(Crack, warns_of_large_strains)
+{
+  CrackResults results;
+  results.strain = .09;
+  EXPECT_TRUE(results.warnings().empty());
+  results.strain = .11;
+  ASSERT_EQ(results.warnings().size(), 1u);
+  EXPECT_NE(results.warnings()[0].find("strain of the grips is 0.11"), std::string::npos);
 }
 
 TEST(Crack, rayleigh_waves_are_a_little_slower_than_shear_waves)

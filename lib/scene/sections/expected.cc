@@ -133,9 +133,10 @@ namespace plumbline::scene
     add(ExpectedKind::orders,
         "'method, scheme: p', the order of a scheme in time at the finest level, over Time/steps "
         "or critical fractions.");
-    keys.add("crack", crack,
-             "What becomes of the crack of 'plumbline crack': it arrests, runs or "
-             "branches; unknown: nothing is expected.");
+    keys.add(
+        "crack", crack,
+        "What becomes of the crack of 'plumbline crack': it arrests, runs, "
+        "branches, or is followed for a time too short to tell; unknown: nothing is expected.");
     keys.add(
         "growth", "", any_text(), [this](const std::string &text) { growth = to_growth(text); },
         "'quantity: value' separated by ';', of 'plumbline grow': " + growth_words() +
