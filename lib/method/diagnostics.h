@@ -21,9 +21,17 @@ namespace plumbline::method
     /// Of the second moments from those of the local operator, relative to the largest of these; 0
     /// where they play no part. On scattered nodes: the worst of all families.
     double defect = 0;
-    /// On scattered nodes: mean and standard deviation over the families of Σ w tr C |ξ|² relative
-    /// to its exact value, less 1. On a lattice all families are one.
+    /// On scattered nodes: mean and standard deviation over the families of the moment up to the
+    /// second, of all components, whose mean is farthest from exact; relative to the largest second
+    /// moment. On a lattice all families are one.
     double mean_defect = 0, spread = 0;
+    /// Where m grows from level to level (regimes m and delta-m): of the moments of the weights
+    /// from those of the ball, up to the order that matters there; on scattered nodes the worst of
+    /// all families. It must tend to 0.
+    double ball_defect = 0;
+    /// There: Σ |w - area| |C| |ξ|² over its value with areas, of cells or ball ∩ cell. Where it
+    /// tends to 0, the operator tends to the nonlocal one for every smooth field.
+    double area_defect = 0;
     std::string reason; ///< one clause with the numbers or the theorem; empty: not asked
 
     /// Known to be wrong somewhere: such a method is never advised.

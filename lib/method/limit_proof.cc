@@ -68,6 +68,13 @@ namespace plumbline::method
         }
       return worst / largest;
     }
+
+    /// A homogeneous solid, or bonds whose coefficient is smooth.
+    bool is_smooth(const scene::Problem &problem)
+    {
+      return problem.is_homogeneous ||
+             (!problem.dilatation && problem.coefficient && problem.coefficient->is_smooth());
+    }
   } // namespace
 
   LimitProof prove_by_moments(const scene::Problem &problem, const algebra::Stencil &stencil,
@@ -87,13 +94,35 @@ namespace plumbline::method
     return proof;
   }
 
+  LimitProof limit_of(const scene::Problem &problem, const LimitProof &of_families)
+  {
+    LimitProof proof;
+    proof.ball_defect = of_families.ball_defect;
+    proof.area_defect = of_families.area_defect;
+    if (!problem.settings.tends_to_local_limit)
+      return proof;
+    if (!problem.damage.is_there())
+      proof = of_families;
+    else if (of_families.has_wrong_moments())
+    {
+      proof.defect = of_families.defect;
+      proof.reason = of_families.reason + ", whatever bonds are broken besides";
+    }
+    if (proof.answer == Answer::compatible && !is_smooth(problem))
+    {
+      proof.answer = Answer::unknown;
+      proof.reason += ", but the material is not known to be smooth";
+    }
+    return proof;
+  }
+
   LimitProof prove_galerkin(const scene::Problem &problem, const Diagnostics &diagnostics)
   {
     LimitProof proof;
     if (!problem.settings.tends_to_local_limit)
       return proof;
     const bool has_entries = problem.lattice || diagnostics.is_outer_error_known;
-    if (!problem.is_homogeneous || problem.body)
+    if (problem.body || !is_smooth(problem))
       proof.reason = "no theorem for this material or boundary";
     else if (!is_positive_and_non_increasing(problem.kernel.profile(), problem.kernel.constant()))
       proof.reason = "no theorem for a kernel that is negative or increases with distance";
@@ -103,6 +132,8 @@ namespace plumbline::method
     {
       proof.answer = Answer::compatible;
       proof.reason = "its space holds the continuous piecewise linear functions (Tian & Du 2014)";
+      if (!problem.is_homogeneous)
+        proof.reason += ", and the coefficient is smooth and positive";
     }
     return proof;
   }

@@ -18,13 +18,24 @@ namespace plumbline::method
   LimitProof prove_by_moments(const scene::Problem &problem, const algebra::Stencil &stencil,
                               double mass);
 
+  /// What the moments of the families of scattered nodes say of this problem. They are those of the
+  /// kernel alone. A material a(x, y) = mean(a(x), a(y)) changes the local limit to -∇·(a T ∇u) but
+  /// not the conditions on moments: a(x, x + ξ) = a + ∇a·ξ/2 + O(ξ²), so that second moments
+  /// multiply both a ∂²u and ∇a·∇u. Wrong ones are wrong for every a; right ones prove the limit
+  /// where a is smooth, since bond coefficients keep their signs. Broken bonds: wrong moments of
+  /// whole families are kept, for a method with them is not to be advised, but prove nothing.
+  LimitProof limit_of(const scene::Problem &problem, const LimitProof &of_families);
+
   /// A conforming Galerkin method of degree 1 or more. Its space holds the continuous piecewise
   /// linear (on quadrilaterals bilinear) functions, which are dense in the local energy space
   /// whatever the horizon, so it is asymptotically compatible where the kernel is >= 0, does not
   /// increase with distance and the material is homogeneous (Tian & Du 2014, SIAM J. Numer. Anal.
-  /// 52, doi:10.1137/130942644: scalar diffusion, bond-based and state-based solids). Integrable
-  /// kernels, all that a scene can have, make discontinuous spaces conforming too. Unknown
-  /// elsewhere: for coefficients that vary, free bodies, and entries by quadrature of unknown
+  /// 52, doi:10.1137/130942644: scalar diffusion, bond-based and state-based solids). A coefficient
+  /// of the bonds with 0 < a_min <= a <= a_max makes energies equivalent to homogeneous ones,
+  /// uniformly in the horizon, so that their abstract framework covers it where L u tends to the
+  /// local operator's value for smooth u, that is for smooth a. Integrable kernels, all that a
+  /// scene can have, make discontinuous spaces conforming too. Unknown elsewhere: for other
+  /// coefficients, state-based solids that vary, free bodies, and entries by quadrature of unknown
   /// error.
   LimitProof prove_galerkin(const scene::Problem &problem, const Diagnostics &diagnostics);
 } // namespace plumbline::method

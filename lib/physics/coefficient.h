@@ -22,22 +22,26 @@ namespace plumbline::physics
   {
   public:
     /// @param text  what the scene says, for messages
-    Coefficient(std::function<double(const Point<2> &)> a, std::string text, Mean kind)
-        : a_(std::move(a)), text_(std::move(text)), kind_(kind)
+    /// @param is_smooth  surely so
+    Coefficient(std::function<double(const Point<2> &)> a, std::string text, Mean kind,
+                bool is_smooth = false)
+        : a_(std::move(a)), text_(std::move(text)), kind_(kind), is_smooth_(is_smooth)
     {
     }
     Coefficient(const Expression &a, Mean kind)
-        : Coefficient([a](const Point<2> &x) { return a(x); }, a.text(), kind)
+        : Coefficient([a](const Point<2> &x) { return a(x); }, a.text(), kind, a.is_smooth())
     {
     }
 
     /// a(x) > 0. @throws InputError  not a positive number
     double at(const Point<2> &x) const;
     double mean(double a, double b) const { return physics::mean(kind_, a, b); }
+    bool is_smooth() const { return is_smooth_; } ///< false: it may not be
 
   private:
     std::function<double(const Point<2> &)> a_;
     std::string text_;
     Mean kind_;
+    bool is_smooth_;
   };
 } // namespace plumbline::physics

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -199,6 +201,46 @@ namespace plumbline::physics
           return true;
       }
     return false;
+  }
+
+  bool Expression::is_smooth() const
+  {
+    static const std::set<std::string> smooth = {"x",  "y",    "pi",   "sin", "cos",
+                                                 "ln", "sinh", "cosh", "exp", "tanh"};
+    for (std::size_t i = 0; i < text_.size();)
+    {
+      const auto is_of_name = [&](std::size_t k)
+      { return k < text_.size() && (std::isalnum(text_[k]) != 0 || text_[k] == '_'); };
+      const auto begins_name = [&](std::size_t k)
+      { return is_of_name(k) && std::isdigit(text_[k]) == 0; };
+      std::size_t end = i + 1;
+      if (std::isdigit(text_[i]) != 0 || text_[i] == '.')
+      {
+        char *last = nullptr;
+        std::strtod(&text_[i], &last);
+        end = static_cast<std::size_t>(last - text_.data());
+      }
+      else if (begins_name(i))
+      {
+        while (is_of_name(end))
+          ++end;
+        const std::string name = text_.substr(i, end - i);
+        if (smooth.count(name) == 0 && names_.constants.count(name) == 0)
+          return false;
+      }
+      else if (text_[i] == '^')
+      {
+        while (end < text_.size() && (text_[end] == ' ' || std::isdigit(text_[end]) != 0))
+          ++end;
+        if (text_.find_first_of("0123456789", i) >= end ||
+            (end < text_.size() && (is_of_name(end) || text_[end] == '.')))
+          return false;
+      }
+      else if (std::string("+-*/(), \t").find(text_[i]) == std::string::npos)
+        return false;
+      i = std::max(end, i + 1);
+    }
+    return true;
   }
 
   unsigned int Expression::n_components() const

@@ -42,6 +42,9 @@ namespace plumbline::physics
     unsigned int n_components() const;
     const std::string &text() const { return text_; }
     bool is_constant() const; ///< neither x nor y nor a field is in it
+    /// Surely smooth wherever it is finite: sums, products, quotients and whole powers of x, y,
+    /// constants, sin, cos, exp, ln, sinh, cosh and tanh. Others may be smooth too.
+    bool is_smooth() const;
 
     /// It may be made of pieces: it names a field, a condition or a function that has kinks or
     /// jumps (abs, min, max, sign, rint).

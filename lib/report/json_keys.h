@@ -25,6 +25,8 @@ namespace plumbline::report
     a("defect", proof.defect);
     a("mean_defect", proof.mean_defect);
     a("spread", proof.spread);
+    a("ball_defect", proof.ball_defect);
+    a("area_defect", proof.area_defect);
     a("reason", proof.reason);
   }
 

@@ -43,9 +43,16 @@ namespace plumbline::scene
 
     MethodSettings method_settings(const Scene &scene)
     {
+      // the local limit has the second moments alone; the nonlocal operator has all
+      constexpr unsigned int of_local_limit = 2, of_nonlocal = 6;
+      const Regime regime = scene.study.regime;
+      const unsigned int ball_order = regime == Regime::m         ? of_nonlocal
+                                      : regime == Regime::delta_m ? of_local_limit
+                                                                  : 0;
       return {scene.methods.nodes.are_vertices(),
               scene.methods.loads_are_averages,
-              scene.study.regime == Regime::delta,
+              regime == Regime::delta,
+              ball_order,
               scene.quadrature,
               scene.geometry,
               scene.solver};

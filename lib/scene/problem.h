@@ -46,6 +46,9 @@ namespace plumbline::scene
     bool nodes_are_vertices = false;   ///< of lattices, with their comparison cells; else centres
     bool loads_are_averages = false;   ///< of meshfree methods: over the cells, not at the nodes
     bool tends_to_local_limit = false; ///< horizon and mesh are refined together, m held fixed
+    /// Where m grows from level to level: up to which order the moments of weights must tend to
+    /// those of the ball; 0 elsewhere.
+    unsigned int ball_order = 0;
     QuadratureSection quadrature = {};
     GeometrySection geometry = {};
     SolverSection solver = {};

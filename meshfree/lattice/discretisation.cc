@@ -78,6 +78,12 @@ namespace plumbline::meshfree
         describe_weights(bonds.family, bonds.fit, diagnostics_);
         diagnostics_.notes = bonds.notes;
         diagnostics_.limit = method::prove_by_moments(problem, stencil(), 1);
+        if (problem.settings.ball_order > 0)
+        {
+          const BallMoments ball(problem.kernel, problem.settings.ball_order);
+          diagnostics_.limit.ball_defect = ball.worst_defect(bonds.family);
+          diagnostics_.limit.area_defect = ball.area_defect(bonds.family);
+        }
       }
 
       method::Diagnostics diagnostics() const override { return diagnostics_; }

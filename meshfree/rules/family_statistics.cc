@@ -27,52 +27,12 @@ namespace plumbline::meshfree
 
   namespace
   {
-    /// Of the second moments Σ w C_ab ξ_c ξ_d and the first, times the horizon, from those of the
-    /// ball, relative to the largest; and of their trace Σ w tr C |ξ|² relative to its exact value,
-    /// less 1.
-    std::pair<double, double> moment_defects(const Kernel<2> &kernel, const Family &family)
-    {
-      const unsigned int n = kernel.n_components();
-      double worst = 0, largest = 0, trace = 0, exact_trace = 0;
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int b = a; b < n; ++b)
-        {
-          std::array<double, 2> first{};
-          std::array<double, 3> second{}; // of ξ_1², ξ_1 ξ_2, ξ_2²
-          for (const Bond &bond : family.bonds)
-          {
-            const double C = bond.weight * kernel_value(kernel, bond, a, b);
-            const Point<2> &xi = bond.xi;
-            for (unsigned int c = 0; c < 2; ++c)
-              first[c] += C * xi[c];
-            second[0] += C * xi[0] * xi[0];
-            second[1] += C * xi[0] * xi[1];
-            second[2] += C * xi[1] * xi[1];
-          }
-          const std::array<double, 3> exact = {kernel.moment({2, 0}, a, b),
-                                               kernel.moment({1, 1}, a, b),
-                                               kernel.moment({0, 2}, a, b)};
-          for (unsigned int i = 0; i < 3; ++i)
-          {
-            worst = std::max(worst, std::abs(second[i] - exact[i]));
-            largest = std::max(largest, std::abs(exact[i]));
-            if (a == b && i != 1)
-            {
-              trace += second[i];
-              exact_trace += exact[i];
-            }
-          }
-          for (const double sum : first)
-            worst = std::max(worst, std::abs(sum) * kernel.horizon());
-        }
-      return {worst / largest, trace / exact_trace - 1};
-    }
-
     /// What the moments of all families say of the limit.
-    void judge_moments(method::LimitProof &limit, double n_families, bool is_m_matrix)
+    void judge_moments(method::LimitProof &limit, const MomentBias::Answer &bias, bool is_m_matrix)
     {
       using Answer = method::LimitProof::Answer;
-      constexpr double n_errors = 3; // standard errors of the mean, to be more than chance
+      limit.mean_defect = bias.mean;
+      limit.spread = bias.spread;
       if (!limit.has_wrong_moments())
       {
         limit.answer = is_m_matrix ? Answer::compatible : Answer::unknown;
@@ -81,28 +41,58 @@ namespace plumbline::meshfree
                                     : ": consistent, but stability is only observed");
         return;
       }
-      const bool is_biased =
-          std::abs(limit.mean_defect) >
-          n_errors * limit.spread / std::sqrt(n_families) + method::LimitProof::tolerance;
-      limit.answer = is_biased ? Answer::incompatible : Answer::unknown;
-      limit.reason = "second moments are off by " + base::to_percent(limit.mean_defect) +
-                     " on average over the families, with a spread of " +
-                     base::to_percent(limit.spread) + " and moments up to the second by " +
-                     base::to_percent(limit.defect) + " at worst";
+      limit.answer = bias.is_biased ? Answer::incompatible : Answer::unknown;
+      const bool is_local = std::abs(bias.mean_of_part) > 2 * std::abs(bias.mean);
+      limit.reason = "second moments are off by " + base::to_percent(bias.mean) +
+                     " on average over the families, in the worst component, with a spread of " +
+                     base::to_percent(bias.spread) +
+                     (is_local ? ", by " + base::to_percent(bias.mean_of_part) +
+                                     " on average in a part of the domain"
+                               : "") +
+                     ", and moments up to the second by " + base::to_percent(limit.defect) +
+                     " at worst";
     }
   } // namespace
 
-  void FamilyStatistics::add(const Kernel<2> &kernel, const Family &family)
+  FamilyStatistics::FamilyStatistics(const geometry::NodeCells &cells, unsigned int ball_order)
+      : ball_order_(ball_order)
+  {
+    if (cells.n_free == 0)
+      return;
+    Point<2> lower = cells.nodes.front(), upper = lower;
+    for (std::size_t i = 0; i < cells.n_free; ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        lower[d] = std::min(lower[d], cells.nodes[i][d]);
+        upper[d] = std::max(upper[d], cells.nodes[i][d]);
+      }
+    bias_ = {lower, upper};
+  }
+
+  void FamilyStatistics::add(const Kernel<2> &kernel, const Point<2> &node, const Family &family)
   {
     const auto any = [&](const auto &is) -> int
     { return std::any_of(family.bonds.begin(), family.bonds.end(), is) ? 1 : 0; };
     describe_weights(family.bonds, family.fit, weights_);
     n_families_ += 1;
     is_scalar_ = kernel.structure() == physics::Structure::scalar;
-    const auto [defect, ratio] = moment_defects(kernel, family);
+    if (!second_)
+    {
+      second_.emplace(kernel, 2);
+      if (ball_order_ > 0)
+        all_.emplace(kernel, ball_order_);
+    }
+    const std::vector<double> defects = second_->defects(family.bonds);
+    double defect = 0;
+    for (const double one : defects)
+      defect = std::max(defect, std::abs(one));
     worst_defect_ = std::max(worst_defect_, defect);
-    ratio_ += ratio;
-    squared_ratio_ += ratio * ratio;
+    bias_.add(node, defects, family.bonds.size());
+    if (all_)
+    {
+      ball_defect_ = std::max(ball_defect_, all_->worst_defect(family.bonds));
+      area_defect_ = std::max(area_defect_, all_->area_defect(family.bonds));
+    }
     n_negative_ += any([](const Bond &bond) { return bond.weight < 0; });
     n_unstable_ +=
         any([&](const Bond &bond) { return bond.weight * radial_value(kernel, bond) < 0; });
@@ -122,12 +112,10 @@ namespace plumbline::meshfree
         result.n_conditions -
         static_cast<unsigned int>(communicator.largest(weights_.n_conditions - weights_.rank));
     result.smallest_singular_value = -communicator.largest(-weights_.smallest_singular_value);
-    const double n = communicator.sum(n_families_), mean = communicator.sum(ratio_) / n;
     result.limit.defect = communicator.largest(worst_defect_);
-    result.limit.mean_defect = mean;
-    result.limit.spread =
-        std::sqrt(std::max(0., communicator.sum(squared_ratio_) / n - mean * mean));
-    judge_moments(result.limit, n, is_scalar_ && total(n_unstable_) == 0);
+    result.limit.ball_defect = communicator.largest(ball_defect_);
+    result.limit.area_defect = communicator.largest(area_defect_);
+    judge_moments(result.limit, bias_.answer(communicator), is_scalar_ && total(n_unstable_) == 0);
     const std::string n_families = std::to_string(total(n_families_));
     const auto note = [&](double n, const std::string &what, const std::string &so)
     {

@@ -1,8 +1,12 @@
 #pragma once
 
 #include "base/communicator.h"
+#include "geometry/node_cells.h"
+#include "meshfree/rules/family_moments.h"
 #include "meshfree/rules/quadrature_rule.h"
 #include "method/diagnostics.h"
+
+#include <optional>
 
 namespace plumbline::meshfree
 {
@@ -14,7 +18,11 @@ namespace plumbline::meshfree
   class FamilyStatistics
   {
   public:
-    void add(const Kernel<2> &kernel, const Family &family);
+    FamilyStatistics() = default;
+    /// @param ball_order  see scene::MethodSettings
+    FamilyStatistics(const geometry::NodeCells &cells, unsigned int ball_order);
+
+    void add(const Kernel<2> &kernel, const Point<2> &node, const Family &family);
 
     /// The largest family, the distribution of moments, the smallest weight and the number of
     /// negative ones, with notes on how many families are concerned; over all ranks.
@@ -24,8 +32,10 @@ namespace plumbline::meshfree
   private:
     method::Diagnostics weights_;
     bool is_scalar_ = true;
-    double worst_defect_ = 0, ratio_ = 0,
-           squared_ratio_ = 0; ///< of second moments, sums of the last
+    unsigned int ball_order_ = 0;
+    std::optional<BallMoments> second_, all_; ///< of the families' kernel, once there is one
+    double worst_defect_ = 0, ball_defect_ = 0, area_defect_ = 0;
+    MomentBias bias_;
     double n_families_ = 0, n_negative_ = 0, n_unstable_ = 0, n_dependent_ = 0, n_clipped_ = 0;
   };
 } // namespace plumbline::meshfree

@@ -3,6 +3,7 @@
 #include "meshfree/scattered/field.h"
 #include "meshfree/scattered/state_based_operator.h"
 #include "method/lattice_discretisation.h"
+#include "method/limit_proof.h"
 #include "method/sparse_motion.h"
 #include "scene/damage.h"
 
@@ -46,9 +47,7 @@ namespace plumbline::meshfree
           rows->start.resize(n + 1, rows->column.size());
         set_rows(std::move(matrix.rows));
         diagnostics_ = matrix.statistics.diagnostics(communicator);
-        if (!problem.settings.tends_to_local_limit || problem.damage.is_there() ||
-            !problem.is_homogeneous)
-          diagnostics_.limit = {}; // the moments of whole families decide nothing there
+        diagnostics_.limit = method::limit_of(problem, diagnostics_.limit);
         if (problem.damage.is_there() && problem.dilatation)
           is_ghost_ = find_ghosts(problem.damage, problem.horizon(), *cells_);
       }
@@ -208,7 +207,8 @@ namespace plumbline::meshfree
           problem.cells.get(),
           *problem.dilatation,
           {problem.damage.cracks, find_ghosts(problem.damage, problem.horizon(), *problem.cells)},
-          problem.has_collar_dilatation};
+          problem.has_collar_dilatation,
+          problem.settings.ball_order};
       if (!problem.settings.solver.is_mixed)
         return state_based_operator(make, body, share);
       return communicator.rank() == 0 ? state_based_system(make, body) : ScatteredOperator();

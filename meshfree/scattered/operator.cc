@@ -35,6 +35,7 @@ namespace plumbline::meshfree
     ScatteredOperator result;
     algebra::CsrMatrix rows; // columns of all nodes
     rows.start.assign(share.first * n_components + 1, 0);
+    result.statistics = {*problem.cells, problem.settings.ball_order};
     const BrokenBonds broken({problem.damage.cracks, {}}, *problem.cells, problem.horizon());
     Family family;
     std::vector<char> is_intact;
@@ -42,7 +43,7 @@ namespace plumbline::meshfree
     for (auto i = static_cast<unsigned int>(share.first); i < share.second; ++i)
     {
       families(i, family);
-      result.statistics.add(problem.kernel, family);
+      result.statistics.add(problem.kernel, problem.cells->nodes[i], family);
       if (!broken.find(i, family, is_intact))
         check_held(is_intact, *problem.cells, i);
       blocks.clear();

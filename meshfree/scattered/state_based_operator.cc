@@ -32,7 +32,7 @@ namespace plumbline::meshfree
     public:
       Links(const FamilySource &families, const StateBasedBody &body,
             std::pair<std::size_t, std::size_t> share)
-          : nodes_(body.cells->size())
+          : statistics(*body.cells, body.ball_order), nodes_(body.cells->size())
       {
         const Kernel<2> &influence = body.dilatation.influence;
         const BrokenBonds broken(body.damage, *body.cells, influence.horizon());
@@ -60,7 +60,7 @@ namespace plumbline::meshfree
         for (std::size_t i = share.first; i < share.second; ++i)
         {
           add(i);
-          statistics.add(deviatoric, family);
+          statistics.add(deviatoric, body.cells->nodes[i], family);
           check_held(is_intact, *body.cells, i);
         }
         const std::size_t n_own = links_.size();

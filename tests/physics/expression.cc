@@ -59,3 +59,19 @@ TEST(Expression, knows_whether_it_may_be_made_of_pieces)
   EXPECT_TRUE(Expression("k", "1 + R", names).is_piecewise());
   EXPECT_FALSE(Expression("k", "1 + x", names).is_piecewise());
 }
+
+TEST(Expression, is_called_smooth_only_where_it_surely_is)
+{
+  const physics::Names names{{"delta", .1}};
+  for (const char *const text :
+       {"1.5 + x", "1 + 0.5*sin(3*x)*cos(2*y)", "exp(-x^2 - y^2)", "2e-3*x + 1", "1/(1 + x)",
+        "ln(2 + x*delta)", "-x^ 3 + tanh(40*(y - .5))", "7"})
+    EXPECT_TRUE(Expression("a", text, names).is_smooth()) << text;
+  for (const char *const text :
+       {"x < 0.5 ? 1 : 2", "abs(x)", "sign(x - .5)", "x^0.5", "x^1.5", "x^(1/2)", "x^y", "sqrt(x)",
+        "min(x, y)", "rint(x)", "weierstrass(x, 0.5, 2)", "atan2(y, x)", "1 + (x > 0.5)"})
+    EXPECT_FALSE(Expression("a", text, names).is_smooth()) << text;
+  physics::Names random;
+  random.fields["R"] = [](const dealii::Point<2> &x) { return x[0]; };
+  EXPECT_FALSE(Expression("a", "1 + R", random).is_smooth());
+}

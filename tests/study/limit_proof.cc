@@ -7,7 +7,13 @@
 #include "study/round_off.h"
 #include "tests/text_folder.h"
 
+#include "meshfree/rules/family_moments.h"
+
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
 
 using namespace plumbline;
 using Answer = study::LimitProof::Answer;
@@ -102,12 +108,154 @@ TEST(LimitProof, promises_nothing_where_no_theorem_applies)
                                           {"Kernel/limit", "-Laplace"}});
   EXPECT_EQ(proof(rising, "Q1").answer, Answer::unknown);
   EXPECT_EQ(proof(rising, "IPA-AC-R2").answer, Answer::compatible); // moments need no sign
-  const auto varying = scene_of(harmonic, {{"Domain/mesh", "squares"},
+  const auto layered = scene_of(harmonic, {{"Domain/mesh", "squares"},
                                            {"Study/h", ".25"},
                                            {"Study/m", "2"},
-                                           {"Kernel/coefficient", "2 + x"}});
-  EXPECT_EQ(proof(varying, "Q1").answer, Answer::unknown);
-  EXPECT_EQ(proof(varying, "FA").answer, Answer::unknown);
+                                           {"Problem/load", "0"},
+                                           {"Kernel/coefficient", "x < 0.5 ? 1 : 2"}});
+  for (const char *name : {"Q1", "IPA-AC-R2"}) // fluxes across the jump are in no theorem
+    EXPECT_EQ(proof(layered, name).answer, Answer::unknown) << name;
+}
+
+// Moments do not depend on the material: a(x, x + ξ) is a(x) + ∇a·ξ/2 but for O(ξ²).
+TEST(LimitProof, of_a_material_that_varies_is_that_of_its_kernel)
+{
+  for (const char *a : {"2 + x", "1 + 0.5*sin(3*x)*cos(2*y)", "exp(x + y)", "x < 0.5 ? 1 : 2"})
+  {
+    const auto varying = scene_of(harmonic, {{"Domain/mesh", "squares"},
+                                             {"Study/h", ".25"},
+                                             {"Study/m", "3"},
+                                             {"Problem/load", "0"},
+                                             {"Kernel/coefficient", a}});
+    const bool is_smooth = std::string(a).find('?') == std::string::npos;
+    for (const char *name : {"FA", "LAMMPS", "IPA-AC"})
+    {
+      const auto found = proof(varying, name);
+      EXPECT_EQ(found.answer, Answer::incompatible) << name << ' ' << a;
+      EXPECT_GT(found.defect, .01) << name;
+    }
+    EXPECT_EQ(proof(varying, "IPA-AC-R2").answer, is_smooth ? Answer::compatible : Answer::unknown)
+        << a;
+    EXPECT_EQ(proof(varying, "Q1").answer, is_smooth ? Answer::compatible : Answer::unknown) << a;
+  }
+  const std::string varying_solid =
+      "subsection Domain\n set mesh = squares\nend\n"
+      "subsection Kernel\n set type = 1/r\n set limit = Navier\nend\n"
+      "subsection Material\n set model = LPS\n set E = 3 + x\n set nu = .3\nend\n"
+      "subsection Problem\n set solution = exp(x)*cos(y), x*y\n set load = 0, 0\nend\n";
+  const auto solid = scene_of(varying_solid, {{"Study/h", ".25"}, {"Study/m", "2"}});
+  EXPECT_EQ(proof(solid, "FA").answer, Answer::incompatible);
+  EXPECT_FALSE(proof(solid, "OPT").has_wrong_moments());
+}
+
+TEST(LimitProof, at_a_fixed_horizon_weights_tend_to_areas_but_those_of_optimisation)
+{
+  const auto defect = [](const std::string &text, const char *name, const char *h)
+  {
+    const auto found = proof(
+        scene_of(text, {{"Study/regime", "m"}, {"Study/horizon", "0.4"}, {"Study/h", h}}), name);
+    EXPECT_EQ(found.answer, Answer::unknown);
+    EXPECT_GT(found.ball_defect, 0);
+    return found.area_defect;
+  };
+  for (const std::string &text : {harmonic, solid, lps})
+  {
+    for (const char *name : {"FA", "PA-AC", "IPA-AC"})
+      EXPECT_LT(defect(text, name, "0.1"), 1e-12) << name;
+    EXPECT_LT(defect(text, "IPA-AC-R2", "0.05"), .5 * defect(text, "IPA-AC-R2", "0.1"));
+    EXPECT_GT(defect(text, "OPT", "0.05"), .05);
+  }
+  const auto moved = [](const char *name)
+  {
+    return proof(scene_of(harmonic, {{"Study/regime", "m"},
+                                     {"Study/horizon", "0.4"},
+                                     {"Study/h", "0.1"},
+                                     {"Domain/mesh", "squares"},
+                                     {"Methods/perturbation", ".2"}}),
+                 name);
+  };
+  EXPECT_LT(moved("FA").area_defect, 1e-12);
+  EXPECT_GT(moved("FA").ball_defect, 1e-3);
+  EXPECT_GT(moved("OPT").area_defect, .05);
+}
+
+TEST(LimitProof, of_broken_bonds_proves_nothing_but_keeps_wrong_moments)
+{
+  const auto cracked = scene_of("subsection Problem\n set solution = x\n set load = 0\nend\n",
+                                {{"Domain/mesh", "squares"},
+                                 {"Domain/cracks", "0.3, 0.51 : 0.7, 0.51"},
+                                 {"Study/h", ".125"},
+                                 {"Study/m", "2"}});
+  const auto wrong = proof(cracked, "FA");
+  EXPECT_EQ(wrong.answer, Answer::unknown);
+  EXPECT_TRUE(wrong.has_wrong_moments()); // so that it is never advised
+  EXPECT_FALSE(proof(cracked, "IPA-AC-R2").has_wrong_moments());
+}
+
+namespace
+{
+  /// A bias that the trace of second moments does not see.
+  meshfree::MomentBias::Answer
+  bias_of(const std::function<std::vector<double>(double x, double y)> &defects, unsigned int n,
+          std::size_t n_bonds = 28)
+  {
+    meshfree::MomentBias bias({0, 0}, {1, 1});
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        bias.add({(i + .5) / n, (j + .5) / n}, defects((i + .5) / n, (j + .5) / n), n_bonds);
+    return bias.answer(base::Communicator::alone());
+  }
+} // namespace
+
+TEST(LimitProof, finds_a_bias_of_any_component_in_any_part_of_the_domain)
+{
+  // first moments, then ξ_2², ξ_1 ξ_2, ξ_1²
+  const auto stretched = bias_of(
+      [](double, double) -> std::vector<double> {
+        return {0, 0, .03, 0, -.03};
+      },
+      10);
+  EXPECT_TRUE(stretched.is_biased);
+  EXPECT_NEAR(std::abs(stretched.mean), .03, 1e-12);
+  EXPECT_TRUE(bias_of(
+                  [](double, double) -> std::vector<double> {
+                    return {0, 0, 0, .02, 0};
+                  },
+                  10)
+                  .is_biased); // shear
+  EXPECT_TRUE(bias_of(
+                  [](double, double) -> std::vector<double> {
+                    return {0, .02, 0, 0, 0};
+                  },
+                  10)
+                  .is_biased); // drift
+  // stretched one way at the left and the other way at the right
+  const auto graded = [](double x, double) -> std::vector<double> {
+    return {0, 0, .03 * std::cos(M_PI * x), 0, 0};
+  };
+  const auto found = bias_of(graded, 64);
+  EXPECT_TRUE(found.is_biased);
+  EXPECT_LT(std::abs(found.mean), 1e-12);
+  EXPECT_NEAR(std::abs(found.mean_of_part), .03, .005);
+  // chance alone
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, .03);
+  for (const unsigned int n : {10u, 64u})
+    EXPECT_FALSE(
+        bias_of(
+            [&](double, double) -> std::vector<double> {
+              return {noise(random), noise(random), noise(random), noise(random), noise(random)};
+            },
+            n)
+            .is_biased)
+        << n;
+  // a tensor has 15 moments
+  for (unsigned int k = 0; k < 15; ++k)
+  {
+    std::vector<double> one(15, 0.);
+    one[k] = -.01;
+    EXPECT_TRUE(bias_of([&](double, double) { return one; }, 10).is_biased) << k;
+  }
 }
 
 TEST(LimitProof, of_moved_nodes_rests_on_the_moments_of_all_families)
