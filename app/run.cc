@@ -13,6 +13,7 @@
 #include "study/preflight.h"
 #include "study/sampling.h"
 #include "study/sweep.h"
+#include "study/target_words.h"
 
 #include <algorithm>
 #include <array>
@@ -78,7 +79,8 @@ namespace plumbline::app
     void print_summary(const study::Results &results, const fs::path &folder)
     {
       std::cout << results.scene_name << ": " << results.purpose << "\n\n"
-                << results.decisive_error << '\n';
+                << results.decisive_error << " (held against " << study::target_words(results)
+                << ")\n";
       std::array<std::size_t, 4> width{};
       std::vector<std::array<std::string, 5>> rows;
       for (const study::Trend &trend : results.trends)
@@ -99,7 +101,9 @@ namespace plumbline::app
       for (const study::Advice &advice : results.advice)
         if (!advice.choices.empty())
         {
-          std::cout << '\n' << advice.problem << ", " << advice.series << '\n';
+          std::cout << '\n'
+                    << advice.problem << ", " << advice.series << ", against "
+                    << study::target_words(results) << '\n';
           for (const study::Choice &choice : advice.choices)
             std::cout << "  cheapest to " << choice.target << ": " << choice.method
                       << " at h = " << choice.h << ", error " << choice.error << ", "

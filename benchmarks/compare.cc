@@ -45,6 +45,11 @@ namespace
 
     void compare(const Json &old, const Json &now, const std::string &scene)
     {
+      const std::string before = text(old, "decisive_error"), after = text(now, "decisive_error");
+      if (before == after)
+        std::printf("%s: verdicts rest on %s\n", scene.c_str(), before.c_str());
+      else
+        say(scene, "verdicts rested on " + before + " and rest on " + after + " now");
       for (const char *list : {"runs", "trends"})
       {
         const auto after = by_name(now.at(list));

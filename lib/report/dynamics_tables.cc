@@ -121,7 +121,7 @@ namespace plumbline::report
       std::vector<Cell> row;
       add_names(row, t.method, t.problem, t.series);
       const bool has_rate = !t.rates.empty() && std::isfinite(t.rates.back());
-      const bool is_fitted = t.x.size() >= 3 && t.rate != 0;
+      const bool is_fitted = t.x.size() >= 3 && std::isfinite(t.rate);
       row.push_back(text_cell(t.scheme));
       row.push_back(text_cell(t.steps));
       row.push_back(text_cell(t.error.rfind("velocity", 0) == 0 ? "v" : "u"));

@@ -4,6 +4,7 @@
 #include "report/report_parts.h"
 #include "report/tables.h"
 #include "scene/choices.h"
+#include "study/target_words.h"
 #include "study/trend.h"
 
 #include <nlohmann/json.hpp>
@@ -33,8 +34,8 @@ namespace plumbline::report
         if (regime == scene::Regime::variable)
           return "h and δ are fixed and " + results.variable + " varies: how errors depend on it";
         static const std::array<const char *, 4> texts = {
-            "m-convergence: the horizon δ is fixed and h → 0, against the nonlocal solution",
-            "δ-convergence: m = δ/h is fixed and δ → 0, against the local limit; this decides "
+            "m-convergence: the horizon δ is fixed and h → 0, towards the nonlocal solution",
+            "δ-convergence: m = δ/h is fixed and δ → 0, towards the local limit; this decides "
             "asymptotic compatibility (AC)",
             "δm-convergence: δ → 0 and m = δ/h → ∞ together",
             "h is fixed and the horizon δ varies: how errors depend on the horizon"};
@@ -61,6 +62,8 @@ namespace plumbline::report
       {
         using Answer = study::LimitProof::Answer;
         const Answer answer = trend.proof.answer;
+        if (trend.proof.area_defect > 0) // seen from level to level
+          return false;
         return (trend.outcome == study::Outcome::converges && answer == Answer::compatible) ||
                (trend.outcome == study::Outcome::stalls && answer == Answer::incompatible);
       }
@@ -180,6 +183,7 @@ namespace plumbline::report
         data["regime"] = regime_words(results);
         data["variable"] = results.variable;
         data["error"] = error_words(results.decisive_error);
+        data["target"] = study::target_words(results);
         data["advice"] = advice(results);
         data["matrix"] = verdict_matrix(results);
         data["fits"] = table(verdict_table(results));

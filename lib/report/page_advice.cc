@@ -1,6 +1,7 @@
 #include "report/page_parts.h"
 
 #include "report/formats.h"
+#include "study/target_words.h"
 #include "study/trend.h"
 
 #include <nlohmann/json.hpp>
@@ -159,6 +160,10 @@ namespace plumbline::report::page
       const bool is_open = !open.empty() || !too_few.empty();
       const bool is_other = !bad.empty() || !mixed.empty() || !blind.empty();
       return {{"is_own", is_own},
+              {"moments", results.regime == scene::Regime::delta
+                              ? "their second moments are"
+                              : "the moments of their weights are"},
+              {"target", study::target_words(results)},
               {"is_one", is_one},
               {"everywhere",
                is_one ? "" : " in all " + std::to_string(results.advice.size()) + " cases"},
@@ -183,12 +188,22 @@ namespace plumbline::report::page
     const bool is_own = study::is_against(results.decisive_error, scene::Target::finest);
     if (!is_own && is_without_limit(results.regime)) // nothing converges or stalls
       return {{"ranking", ranking(results, names)},
+              {"is_between_models", false},
+              {"target", study::target_words(results)},
               {"over", results.variable.empty() ? "horizons" : "values of " + results.variable},
+              {"summary", Data()}};
+    if (study::is_between_models(results))
+      return {{"ranking", ""},
+              {"is_between_models", true},
+              {"target", study::target_words(results)},
+              {"over", ""},
               {"summary", Data()}};
     Data cards = Data::array(), more = Data::array();
     for (std::size_t i = 0; i < results.advice.size() && !is_own; ++i)
       (i < n_open_cards ? cards : more).push_back(card(results, results.advice[i], names));
     return {{"ranking", ""},
+            {"is_between_models", false},
+            {"target", study::target_words(results)},
             {"over", ""},
             {"summary", summary(results, names, is_own)},
             {"n_more", more.empty() ? Data() : Data(more.size())},

@@ -43,11 +43,9 @@ namespace plumbline::report
              error.compare(error.size() - target.size(), target.size(), target) == 0;
     }
 
-    /// A trend that could not be fitted has zeros for all of these.
     bool is_fitted(const study::Trend &trend)
     {
-      return trend.rate != 0 || trend.rate_uncertainty != 0 || trend.plateau != 0 ||
-             trend.plateau_uncertainty != 0;
+      return std::isfinite(trend.rate);
     }
 
     Cell fitted_rate(const study::Trend &trend)

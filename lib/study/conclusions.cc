@@ -4,7 +4,9 @@
 #include "scene/models/model.h"
 #include "study/cheapest.h"
 #include "study/expectations.h"
+#include "study/target_words.h"
 #include "study/trend.h"
+#include "study/weigh_proof.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +18,10 @@ namespace plumbline::study
 {
   namespace
   {
+    const std::string other_targets =
+        "hold it against exact, reference or own finest level (Study/decisive error), or let the "
+        "horizon fall with h (Study/regime = delta or delta-m)";
+
     bool is_against_reference(const std::string &error)
     {
       return is_against(error, scene::Target::reference);
@@ -46,50 +52,24 @@ namespace plumbline::study
       if (trend.values.back() < 10 * estimate)
       {
         trend.outcome = Outcome::undecided;
+        trend.leaning = Leaning::none;
         trend.reason = "the last difference " + base::to_text(trend.values.back(), 4) +
                        " is not ten times the reference's own estimate " +
                        base::to_text(estimate, 4) + ": take a better reference (Reference/method)";
       }
     }
 
-    /// Of the proofs at two levels the one that promises less.
-    const LimitProof &weaker(const LimitProof &a, const LimitProof &b)
+    /// Errors against the local solution at a fixed horizon do not tell methods apart.
+    void refuse_modelling_difference(scene::Regime regime, Trend &trend)
     {
-      using Answer = LimitProof::Answer;
-      const auto rank = [](const LimitProof &proof) {
-        return proof.answer == Answer::incompatible ? 0 : proof.answer == Answer::unknown ? 1 : 2;
-      };
-      if (rank(a) != rank(b))
-        return rank(a) < rank(b) ? a : b;
-      return a.defect > b.defect ? a : b;
-    }
-
-    /// Proof beside observation: a field may hide what is wrong, never a proof.
-    void weigh_proof(Trend &trend)
-    {
-      const LimitProof &proof = trend.proof;
-      if (proof.reason.empty() || trend.outcome == Outcome::failed)
+      if (regime != scene::Regime::m || !is_against(trend.error, scene::Target::local) ||
+          (trend.outcome != Outcome::stalls && trend.outcome != Outcome::undecided) ||
+          trend.values.empty())
         return;
-      std::string beside = proof.reason;
-      if (proof.answer == LimitProof::Answer::compatible)
-        beside = (trend.outcome == Outcome::converges ? "proven: "
-                  : trend.outcome == Outcome::stalls
-                      ? "although its limit is right for every field; look at load, constraint and "
-                        "quadrature: "
-                      : "its limit is right for every field: ") +
-                 beside;
-      else if (proof.answer == LimitProof::Answer::incompatible)
-      {
-        beside = (trend.outcome == Outcome::stalls      ? "proven: "
-                  : trend.outcome == Outcome::converges ? "other fields tend to a wrong limit: "
-                                                        : "its limit is wrong for most fields: ") +
-                 beside;
-        if (trend.outcome == Outcome::converges)
-          trend.outcome = Outcome::field_only;
-      }
-      else
-        beside = "not proven: " + beside;
-      trend.reason += "; " + beside;
+      trend.outcome = Outcome::undecided;
+      trend.reason = "at a fixed horizon every convergent method tends to the difference of the "
+                     "nonlocal from the local solution, not to 0; the last error is " +
+                     base::to_text(trend.values.back(), 4) + ": " + other_targets;
     }
 
     /// The errors of one method, case and series over its levels.
@@ -103,6 +83,7 @@ namespace plumbline::study
       trend.series = first.series;
       trend.error = error;
       trend.axis = level_axis(scene.study.regime);
+      std::vector<LimitProof> proofs;
       for (const Run &run : results.runs)
       {
         if (run.method != first.method || run.problem != first.problem ||
@@ -122,22 +103,43 @@ namespace plumbline::study
         trend.proof = trend.x.empty() ? proof : weaker(trend.proof, proof);
         trend.x.push_back(coordinate(trend.axis, run));
         trend.values.push_back(value->second);
+        proofs.push_back(proof);
       }
       if (is_against(error, scene::Target::finest))
         trend.finest = finest_place(results, first, trend.axis);
       if (trend.outcome != Outcome::failed)
         judge(trend, scene.study.variable);
       doubt_reference(results, trend);
+      if (scene.study.regime == scene::Regime::m || scene.study.regime == scene::Regime::delta_m)
+        trend.proof = prove_by_levels(scene.study.regime, trend, proofs);
       weigh_proof(trend);
+      refuse_modelling_difference(scene.study.regime, trend);
       if (scene.study.regime == scene::Regime::horizon && trend.outcome != Outcome::failed)
       {
         // no limit is approached: the rate tells how the error depends on the horizon
         trend.outcome = Outcome::undecided;
-        trend.reason =
-            "error ~ horizon^" + base::to_text(trend.rate, 4) + " at the smallest horizons";
+        if (std::isfinite(trend.rate))
+          trend.reason =
+              "error ~ horizon^" + base::to_text(trend.rate, 4) + " at the smallest horizons";
       }
       trend.verdict = verdict_of(scene.study.regime, trend);
       return trend;
+    }
+
+    /// Once, of a decisive error that decides nothing.
+    void warn_of_target(Results &results)
+    {
+      if (!is_between_models(results))
+        return;
+      const std::string warning =
+          "Study/decisive error = " + results.decisive_error +
+          " at a fixed horizon (Study/regime = m): every convergent method tends to the difference "
+          "of the nonlocal from the local solution, not to 0, so that no method is called "
+          "convergent or not; " +
+          other_targets;
+      if (std::find(results.warnings.begin(), results.warnings.end(), warning) ==
+          results.warnings.end())
+        results.warnings.push_back(warning);
     }
 
     void make_trends(const scene::Scene &scene, Results &results)
@@ -283,6 +285,7 @@ namespace plumbline::study
     results.advice.clear();
     results.omissions.clear();
     make_trends(scene, results);
+    warn_of_target(results);
     check_expectations(scene, results);
     give_advice(scene, results);
     list_omissions(scene, results);

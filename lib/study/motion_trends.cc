@@ -166,7 +166,7 @@ namespace plumbline::study
                 {trend.method + ", " + trend.scheme + ", " + trend.series + ": order in time",
                  base::to_text(expected.values.front(), 4) + " ± " +
                      base::to_text(scene.expected.rate_tolerance, 4),
-                 base::to_text(trend.rate, 4),
+                 std::isfinite(trend.rate) ? base::to_text(trend.rate, 4) : trend.reason,
                  std::abs(trend.rate - expected.values.front()) <= scene.expected.rate_tolerance});
           }
         if (!is_found)

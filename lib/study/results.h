@@ -6,6 +6,7 @@
 #include "study/axis.h"
 
 #include <array>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -46,8 +47,18 @@ namespace plumbline::study
     stalls,    ///< significant plateau, or the error grows again
     undecided, ///< neither; the reason says what would help
     failed,    ///< no solution at some level
-    field_only ///< it converges for this field, but its second moments are wrong: not for others
+    field_only ///< it converges for this field, but its moments are wrong: not for others
   };
+
+  /// What the errors of an undecided trend leave open, which a proof settles.
+  enum class Leaning
+  {
+    none,
+    plateau_or_power, ///< a plateau and a slow power or a logarithm fit alike
+    none_or_plateau   ///< the rate is surely 3/4, the plateau neither nil nor significant
+  };
+
+  constexpr double not_fitted = std::numeric_limits<double>::quiet_NaN();
 
   /// One error over a sweep, and what it says.
   struct Trend
@@ -57,12 +68,14 @@ namespace plumbline::study
     std::string problem, series;
     std::string error; ///< "norm | target"
     Axis axis = Axis::mesh_size;
-    std::vector<double> x;                       ///< values on the axis, coarse to fine
-    std::vector<double> values;                  ///< the errors
-    double size = 0;                             ///< of the solution, how far it varies: see Run
-    std::vector<double> rates;                   ///< between neighbours, size x.size() - 1
-    double rate = 0, rate_uncertainty = 0;       ///< slope of the last three levels, log over log
-    double plateau = 0, plateau_uncertainty = 0; ///< a of the fit
+    std::vector<double> x;      ///< values on the axis, coarse to fine
+    std::vector<double> values; ///< the errors
+    double size = 0;            ///< of the solution, how far it varies: see Run
+    std::vector<double> rates;  ///< between neighbours, size x.size() - 1
+    /// Slope of the last three levels, log over log, and a of the fit; NaN where nothing is fitted:
+    /// fewer than four levels above round-off, or no refinement.
+    double rate = not_fitted, rate_uncertainty = not_fitted;
+    double plateau = not_fitted, plateau_uncertainty = not_fitted;
     Outcome outcome = Outcome::undecided;
     /// "AC", "not AC", "AC for this field only", "m-convergent", "not m-convergent", "undecided"
     /// ...
@@ -72,6 +85,7 @@ namespace plumbline::study
     LimitProof proof = {}; ///< apart from this field; of the level with the worst moments
     /// Where errors are differences to the own finest level: its place on the axis; else 0.
     double finest = 0;
+    Leaning leaning = Leaning::none;
   };
 
   /// How far a Galerkin solution of one level may be wrong: bounds in practice, see

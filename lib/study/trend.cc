@@ -1,6 +1,7 @@
 #include "study/trend.h"
 
 #include "base/number_text.h"
+#include "study/slow_power.h"
 
 #include <algorithm>
 #include <cmath>
@@ -159,6 +160,44 @@ namespace plumbline::study
                      base::to_text(largest, 3);
     }
 
+    /// Of errors whose fit has a plateau: it stalls, unless a slow power or a logarithm fits too.
+    void judge_plateau(Trend &trend, const std::vector<double> &x, const std::vector<double> &e,
+                       const PlateauFit &fit, const std::string &numbers)
+    {
+      // c / ln(L/x) has the rate 1/ln(L/x), above .1 while x > L / 2e4, and is fitted by a plateau
+      // with a rest that falls slower than x^(1/2)
+      constexpr double slowest_rest = .5, rate_of_logarithms = .1;
+      const std::size_t n = x.size();
+      const double last_rate = std::log(e[n - 1] / e[n - 2]) / std::log(x[n - 1] / x[n - 2]);
+      const Approach approach = find_approach(x, e);
+      const auto power = [](double p) { return "x^" + base::to_text(p, 2); };
+      if (fit.p < slowest_rest && last_rate > rate_of_logarithms)
+      {
+        trend.leaning = Leaning::plateau_or_power;
+        trend.reason =
+            "a plateau or a logarithm: the rest falls like " + power(fit.p) + " only; " + numbers;
+      }
+      else if (approach.kind == Approach::Kind::plateau)
+      {
+        trend.outcome = Outcome::stalls;
+        trend.reason = "significant plateau: " + numbers;
+      }
+      else if (approach.kind == Approach::Kind::slow_power)
+        trend.reason = "a slow power, " + power(approach.power) + " (" +
+                       base::to_text(approach.low, 2) + " to " + base::to_text(approach.high, 2) +
+                       "), fits better than a plateau: last error " + base::to_text(e.back(), 3) +
+                       ", rate " + base::to_text(trend.rate, 3) + " ± " +
+                       base::to_text(trend.rate_uncertainty, 3);
+      else
+      {
+        constexpr double root = .5;
+        const bool may_be_root = approach.low <= root && root <= approach.high;
+        trend.leaning = Leaning::plateau_or_power;
+        trend.reason = "plateau or a slow power " + power(may_be_root ? root : approach.power) +
+                       ", run a finer level: " + numbers;
+      }
+    }
+
     /// By plateau and rate of errors above round-off.
     /// @pre  levels_for_verdict of them
     void judge_errors(Trend &trend, const std::vector<double> &x, const std::vector<double> &e)
@@ -176,6 +215,7 @@ namespace plumbline::study
       const bool is_significant = fit.a > 3 * fit.a_uncertainty;
       const bool is_nil =
           std::abs(fit.a) < .1 * last || (!is_significant && std::abs(fit.a) < .3 * last);
+      const bool is_rate_sure = slope.value - 2 * slope.uncertainty >= .75;
       const bool is_certain = fit.a > 10 * fit.a_uncertainty;
       // coarse levels that lie above their power law look like a plateau of the others
       const bool is_flattening = e.back() / e[e.size() - 2] > x.back() / x[x.size() - 2];
@@ -189,21 +229,25 @@ namespace plumbline::study
         trend.reason = "the error grows again, from " + base::to_text(smallest, 3) + " to " +
                        base::to_text(last, 3);
       }
-      else if (is_nil && slope.value - 2 * slope.uncertainty >= .75)
+      else if (is_nil && is_rate_sure)
       {
         trend.outcome = Outcome::converges;
         trend.reason = "no plateau: " + numbers;
       }
       else if (fit.a >= .1 * last &&
                (is_certain || (is_significant && is_flattening && fit.a >= .3 * last)))
-      {
-        trend.outcome = Outcome::stalls;
-        trend.reason = "significant plateau: " + numbers;
-      }
+        judge_plateau(trend, x, e, fit, numbers);
+      else if (is_nil && slope.value + 2 * slope.uncertainty < .75)
+        trend.reason = "no plateau, but a slow power, x^" + base::to_text(slope.value, 2) +
+                       ", below 3/4: " + numbers;
       else
+      {
+        if (!is_significant && is_rate_sure)
+          trend.leaning = Leaning::none_or_plateau;
         trend.reason = (is_nil ? "no plateau, but a rate that is not surely 3/4: "
                                : "neither nil nor significant, run a finer level: ") +
                        numbers;
+      }
     }
 
     /// How an error depends on a variable.
@@ -230,6 +274,7 @@ namespace plumbline::study
       return;
     }
     trend.rates.clear();
+    trend.leaning = Leaning::none;
     const std::vector<double> values = with_own_error(trend);
     for (std::size_t i = 1; i < trend.x.size(); ++i)
       trend.rates.push_back(std::log(values[i] / values[i - 1]) /
@@ -278,7 +323,7 @@ namespace plumbline::study
                  : "at most " + base::to_text(
                                     *std::max_element(trend.values.begin(), trend.values.end()), 4);
     if (regime == scene::Regime::horizon)
-      return trend.rate == 0 && trend.rate_uncertainty == 0 // too few horizons to fit one
+      return std::isnan(trend.rate) // too few horizons to fit one
                  ? base::word(Outcome::undecided)
                  : "rate " + base::to_text(trend.rate, 4);
     if (trend.finest > 0 && trend.outcome == Outcome::field_only)

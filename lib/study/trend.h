@@ -40,9 +40,10 @@ namespace plumbline::study
   ///   1/10 of the last error, or under 3/10 and within three uncertainties, and the slope of the
   ///   last three levels is at least 3/4 with two standard errors to spare;
   /// - stalls: a is at least 1/10 of the last error and exceeds ten uncertainties; or 3/10 and
-  ///   three, and the error falls slower than x between the last two levels; or the error grew to
-  ///   twice the smallest one;
-  /// - undecided: neither, or fewer than four levels, or round-off hides the answer.
+  ///   three, and the error falls slower than x between the last two levels; and no slow power
+  ///   (see find_approach) or logarithm fits as well; or the error grew to twice the smallest one;
+  /// - undecided: neither, or fewer than four levels, or round-off hides the answer. A slow power
+  ///   below 3/4 and an error that is either a plateau or a slow power are named in the reason.
   /// The answer is about the given solution: a method may do better for one than for another.
   /// Where trend.finest > 0 the values are differences to the finest level; what is judged is C
   /// x^p, see `own_rate`: whether the solutions have a limit, not which.

@@ -164,7 +164,8 @@ namespace plumbline::report
   {
     study::Results results = fixture::results();
     study::Trend &trend = results.trends.at(0);
-    trend.rate = trend.rate_uncertainty = trend.plateau = trend.plateau_uncertainty = 0;
+    trend.rate = trend.rate_uncertainty = trend.plateau = trend.plateau_uncertainty =
+        study::not_fitted;
     const Table table = verdict_table(results);
     EXPECT_EQ(table.rows.at(0).at(3).text, "–");
     EXPECT_EQ(table.rows.at(0).at(4).csv, std::vector<std::string>({"", ""}));

@@ -423,6 +423,112 @@ TEST(Conclusions, a_field_that_hides_wrong_moments_proves_nothing)
   }
 }
 
+TEST(Conclusions, a_proof_settles_what_errors_leave_open)
+{
+  using Answer = LimitProof::Answer;
+  const std::vector<double> plateau_or_root = {6e-2, 2.6e-2, 1.5e-2, 1e-2};
+  const std::vector<double> sure_rate = {2.622e-2, 4.216e-3, 8.83e-4, 2.02e-4}; // 2.6 to 2.1
+  struct Row
+  {
+    Answer answer;
+    std::vector<double> errors;
+    Outcome outcome;
+  };
+  const std::vector<Row> table = {{Answer::unknown, plateau_or_root, Outcome::undecided},
+                                  {Answer::compatible, plateau_or_root, Outcome::undecided},
+                                  {Answer::incompatible, plateau_or_root, Outcome::stalls},
+                                  {Answer::unknown, sure_rate, Outcome::undecided},
+                                  {Answer::compatible, sure_rate, Outcome::converges},
+                                  {Answer::incompatible, sure_rate, Outcome::undecided}};
+  const auto scene = make_scene(against_exact);
+  for (const Row &row : table)
+  {
+    Results results = make_results(scene);
+    add_runs(results, "A", row.errors);
+    prove(results, "A", row.answer, row.answer == Answer::incompatible ? .1 : 0);
+    conclude(scene, results);
+    EXPECT_EQ(trend_of(results, "A").outcome, row.outcome) << trend_of(results, "A").reason;
+  }
+  // not where the reference is in doubt
+  const auto held_against_reference = make_scene(against_reference);
+  Results results = make_results(held_against_reference);
+  add_runs(results, "A", sure_rate);
+  add_reference(results, std::vector<double>(4, 1e-4));
+  prove(results, "A", Answer::compatible, 0);
+  conclude(held_against_reference, results);
+  EXPECT_EQ(trend_of(results, "A").outcome, Outcome::undecided);
+}
+
+namespace
+{
+  /// A and B over four levels at a fixed horizon or towards the local limit with m growing.
+  Results refined(const std::string &regime, const std::string &target,
+                  const std::vector<double> &errors, const std::vector<double> &area_defects,
+                  const std::vector<double> &ball_defects)
+  {
+    const std::string series = regime == "m" ? " set horizon = 0.4\n" : " set m = 2, 3, 4, 6\n";
+    const auto scene = scene::parse_scene(
+        "test.prm", "subsection Problem\n set solution = one: x^3\n"
+                    " set local solution = x^2\nend\n"
+                    "subsection Methods\n set names = A\nend\n"
+                    "subsection Study\n set regime = " +
+                        regime + "\n" + series +
+                        " set h = 0.2, 0.1, 0.05, 0.025\n set norms = averages L2\n"
+                        " set decisive error = averages L2 | " +
+                        target + "\nend\n");
+    Results results = make_results(scene);
+    results.regime = scene.study.regime;
+    const std::string name = scene.study.series.front().name;
+    add_runs(results, "A", errors, "one", name);
+    for (std::size_t level = 0; level < results.runs.size(); ++level)
+    {
+      Run &run = results.runs[level];
+      run.horizon = scene.study.series.front().levels[level].horizon;
+      run.diagnostics.limit.area_defect = area_defects[level];
+      run.diagnostics.limit.ball_defect = ball_defects[level];
+    }
+    conclude(scene, results);
+    return results;
+  }
+
+  const std::vector<double> falling = {.2, .05, .0125, .003}, staying = {.31, .3, .3, .3},
+                            exact = {1e-13, 1e-13, 1e-13, 1e-13};
+} // namespace
+
+TEST(Conclusions,
+     at_a_fixed_horizon_weights_that_do_not_tend_to_areas_are_right_for_this_field_only)
+{
+  const auto verdict = [](const Results &results) { return results.trends.front().verdict; };
+  EXPECT_EQ(verdict(refined("m", "exact", second_order, falling, falling)), "m-convergent");
+  const Results wrong = refined("m", "exact", second_order, staying, {.25, .03, .002, .02});
+  EXPECT_EQ(verdict(wrong), "m-convergent for this field only");
+  EXPECT_TRUE(wrong.advice.front().choices.empty());
+  EXPECT_EQ(verdict(refined("m", "exact", stalled, staying, staying)), "not m-convergent");
+  // towards the local limit second moments decide
+  EXPECT_EQ(verdict(refined("delta-m", "exact", second_order, staying, exact)),
+            "delta-m-convergent");
+  EXPECT_EQ(verdict(refined("delta-m", "exact", second_order, staying, staying)),
+            "delta-m-convergent for this field only");
+  EXPECT_EQ(verdict(refined("delta-m", "exact", second_order, falling, {.03, .01, .002, .008})),
+            "delta-m-convergent");
+}
+
+TEST(Conclusions, a_fixed_horizon_against_the_local_solution_decides_nothing)
+{
+  for (const auto &errors : {stalled, std::vector<double>{1.9e-1, 1.4e-1, 1.12e-1, 1.05e-1}})
+  {
+    const Results results = refined("m", "local", errors, falling, falling);
+    EXPECT_EQ(results.trends.front().verdict, "undecided");
+    EXPECT_NE(results.trends.front().reason.find("nonlocal from the local"), std::string::npos);
+    EXPECT_EQ(results.warnings.size(), 1u);
+    EXPECT_TRUE(results.advice.front().stalling.empty());
+  }
+  EXPECT_EQ(refined("m", "exact", stalled, falling, falling).trends.front().verdict,
+            "not m-convergent");
+  EXPECT_EQ(refined("delta-m", "local", stalled, falling, falling).trends.front().verdict,
+            "not delta-m-convergent");
+}
+
 TEST(Conclusions, the_weakest_proof_of_all_levels_counts)
 {
   const auto scene = make_scene(against_exact);
