@@ -46,7 +46,7 @@ namespace plumbline::app
         return u;
       };
       solid.material = scene.material.lame();
-      solid.has_surface_terms = scene.fracture.has_surface_terms;
+      solid.surface_terms = scene.fracture.surface_terms;
       solid.toughness = [toughness](const Point<2> &x) { return toughness(x); };
       solid.takes_least_toughness = scene.fracture.of_bonds == scene::BondToughness::minimum;
       for (std::size_t k = 0; k < scene.fracture.interfaces.size(); ++k)
@@ -56,16 +56,28 @@ namespace plumbline::app
       return solid;
     }
 
+    std::string surface_words(scene::SurfaceTerms terms)
+    {
+      switch (terms)
+      {
+      case scene::SurfaceTerms::published:
+        return "with surface terms (Fan et al. 2022, eq. (3.19))";
+      case scene::SurfaceTerms::consistent:
+        return "with consistent surface terms";
+      case scene::SurfaceTerms::none:
+        return "with corrected dilatations, without surface terms";
+      default:
+        return "without surface terms";
+      }
+    }
+
     /// @param is_bonds  no node has a dilatation
     std::string model_words(const scene::Scene &scene, bool is_bonds)
     {
-      if (is_bonds)
-        return scene.fracture.has_surface_terms
-                   ? "bonds (lambda = mu) with surface terms (Fan et al. 2022, eq. (3.19))"
-                   : "bond-based, for lambda = mu leaves the solid its bonds alone";
-      return std::string("LPS ") +
-             (scene.fracture.has_surface_terms ? "with surface terms (Fan et al. 2022, eq. (3.19))"
-                                               : "without surface terms") +
+      if (is_bonds && !scene.fracture.is_corrected())
+        return "bond-based, for lambda = mu leaves the solid its bonds alone";
+      return std::string(is_bonds ? "bonds (lambda = mu) " : "LPS ") +
+             surface_words(scene.fracture.surface_terms) +
              (scene.material.is_homogeneous ? ""
                                             : ", each node's dilatation with its own constants");
     }
@@ -81,7 +93,7 @@ namespace plumbline::app
       return grow_through_strip({{height, 5 * height, 2 * height, h, {}},
                                  4,
                                  lame,
-                                 scene.fracture.has_surface_terms,
+                                 scene.fracture.surface_terms,
                                  rule,
                                  influence,
                                  scene.geometry.backend})

@@ -83,7 +83,7 @@ namespace plumbline::app
             grow_through_strip({row.strip,
                                 scene.strip.n_growth,
                                 {1, 1},
-                                false,
+                                scene::SurfaceTerms::uncorrected,
                                 find_rule(row.method).of(physics::deviatoric_kernel(influence, 1)),
                                 influence,
                                 scene.geometry.backend});

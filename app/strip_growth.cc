@@ -25,20 +25,21 @@ namespace plumbline::app
   study::StripGrowth grow_through_strip(const GrowingStrip &strip)
   {
     const double h = strip.strip.h;
-    const auto make = [&](int n_crack, bool has_surface_terms)
+    const auto make = [&](int n_crack, scene::SurfaceTerms surface_terms)
     {
       method::RiceStrip shape = strip.strip;
       shape.n_crack = n_crack;
       auto solid = meshfree::make_strip(shape, strip.lame, strip.influence.horizon());
-      solid.has_surface_terms = has_surface_terms;
+      solid.surface_terms = surface_terms;
       return meshfree::BreakingNetwork(
           make_bond_network(solid, strip.rule, strip.influence, h, strip.backend),
           scene::Stretch::linear);
     };
     const int n_crack = strip.strip.n_crack;
-    const auto energy = [&](int n) { return make(n, false).response().energy; };
+    const auto energy = [&](int n)
+    { return make(n, scene::SurfaceTerms::uncorrected).response().energy; };
     const double W1 = (energy(n_crack) - energy(n_crack + 1)) / h;
-    meshfree::BreakingNetwork body = make(n_crack, strip.has_surface_terms);
+    meshfree::BreakingNetwork body = make(n_crack, strip.surface_terms);
     const double tip = n_crack * h;
     return measure_strip(growth_model(body, {tip, 0}), W1, tip + 2 * h,
                          tip + (2 + strip.n_columns) * h);

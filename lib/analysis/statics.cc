@@ -143,6 +143,8 @@ namespace plumbline::analysis
             communicator.largest(static_cast<double>(memory_.peak_bytes())));
         Solution solution{data.field(one.u), one.cost, discretisation_->diagnostics()};
         method::Diagnostics &said = solution.diagnostics;
+        if (data.tip_forces)
+          said.tip_forces = data.tip_forces(one.u);
         said.relative_residual = one.solver.relative_residual;
         said.operator_backend = one.solver.operator_backend;
         if (refinement_ > 0)

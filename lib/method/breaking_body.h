@@ -21,7 +21,8 @@ namespace plumbline::method
     struct Response
     {
       double energy = 0;   ///< stored [force]
-      double reaction = 0; ///< forces of the grips on what they do: dE/d(load) [force]
+      double reaction = 0; ///< Σ over held nodes of force times u at load 1, all forces
+                           ///< included; where there is an energy dE/d(load) [force]
       double residual =
           0; ///< largest force on a free node, over that of a bond when all were whole
       /// At which each bond breaks, infinite where it cannot or is broken; shape (n_bonds).

@@ -2,6 +2,7 @@
 
 #include "base/choice.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,16 @@ namespace plumbline::method
     static constexpr double tolerance = 1e-8; ///< for moments to count as exact
   };
 
+  /// The net force of the surface terms of a linear peridynamic solid about a crack's tip.
+  struct TipForce
+  {
+    std::array<double, 2> tip{};   ///< [length]
+    std::array<double, 2> force{}; ///< sum over nodes near it [force]
+    double sum_of_norms = 0;       ///< of the same forces, what `force` is to be compared with
+    double norm = 0;               ///< F of `force`
+    double over_root = 0;          ///< F / √horizon
+  };
+
   /// What a method says about its own solution.
   struct Diagnostics
   {
@@ -56,6 +67,7 @@ namespace plumbline::method
     bool is_outer_error_known = true;   ///< false: outer quadrature was not refined
     unsigned int n_refinements = 0;     ///< of outer quadrature
     LimitProof limit;                   ///< at this ratio of horizon to h
+    std::vector<TipForce> tip_forces;   ///< where a crack's tip has surface terms about it
     std::vector<std::string> notes;     ///< what the method had to do, e.g. clip a negative kernel
   };
 } // namespace plumbline::method

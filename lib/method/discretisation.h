@@ -28,6 +28,8 @@ namespace plumbline::method
     std::function<Field(const Vector &u)> field;
     /// ‖v - u‖ / ‖v‖, L2 over Ω. Empty where quadrature is never refined.
     std::function<double(const Vector &u, const Vector &v)> relative_change;
+    /// Of surface terms about tips of cracks; empty where there are none. Collective.
+    std::function<std::vector<TipForce>(const Vector &u)> tip_forces = {};
   };
 
   /// A discretisation's operator on its free unknowns, for spectra: Σ_j A_ij u_j = m_i b(x_i) and

@@ -63,7 +63,7 @@ namespace plumbline::report
           "What grips do is stored, or was in bonds when they reached their limit, or is released "
           "where growth is unstable: the largest difference, over the work, is " +
               rounded(results.largest_imbalance()) +
-              (results.rules.has_surface_terms ? ", for surface terms have no energy." : "."));
+              (results.rules.is_corrected() ? ", for surface terms have no energy." : "."));
       std::vector<Vertex> work, stored, bonds, released;
       result.data.columns = {"event",  "load",     "broken bonds", "work",
                              "stored", "in bonds", "released"};

@@ -71,8 +71,8 @@ namespace plumbline::report
       add("unpaired", static_cast<double>(r.n_unpaired),
           "broken bonds whose mirror image about the middle is whole");
       add("imbalance", r.largest_imbalance(),
-          r.rules.has_surface_terms ? "of the bonds' energy, over the work: surface terms have none"
-                                    : "of energy, over the work");
+          r.rules.is_corrected() ? "of the bonds' energy, over the work: surface terms have none"
+                                 : "of energy, over the work");
       add("residual", r.largest_residual(), "force on a node over a bond's at the beginning");
       add("unknowns", static_cast<double>(r.n_unknowns), "displacements");
       add("bonds", static_cast<double>(r.n_bonds), "whole at the beginning");
@@ -259,7 +259,8 @@ namespace plumbline::report
               {"breaking", base::word(r.rules.breaking)},
               {"stretch", base::word(r.rules.stretch)},
               {"criterion", base::word(r.rules.criterion)},
-              {"has_surface_terms", r.rules.has_surface_terms},
+              {"has_surface_terms", r.rules.is_corrected()},
+              {"surface_terms", base::word(r.rules.surface_terms)},
               {"lattice_toughness", r.lattice_toughness},
               {"trapping", r.trapping},
               {"n_unknowns", r.n_unknowns},

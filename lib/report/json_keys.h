@@ -31,6 +31,16 @@ namespace plumbline::report
   }
 
   template <typename Archive>
+  void visit(Archive &a, method::TipForce &force)
+  {
+    a("tip", force.tip);
+    a("force", force.force);
+    a("sum_of_norms", force.sum_of_norms);
+    a("norm", force.norm);
+    a("over_root_horizon", force.over_root);
+  }
+
+  template <typename Archive>
   void visit(Archive &a, study::Diagnostics &diagnostics)
   {
     a("n_neighbours", diagnostics.n_neighbours);
@@ -47,6 +57,7 @@ namespace plumbline::report
     a("is_outer_error_known", diagnostics.is_outer_error_known);
     a("n_refinements", diagnostics.n_refinements);
     a("limit", diagnostics.limit);
+    a("tip_forces", diagnostics.tip_forces);
     a("notes", diagnostics.notes);
   }
 

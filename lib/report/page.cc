@@ -198,6 +198,7 @@ namespace plumbline::report
         data["reference"] = reference(results);
         data["model"] = model(results);
         data["diagnostics"] = table(diagnostics_table(results));
+        data["tip_forces"] = table(tip_force_table(results));
         data["provenance"] = provenance(results);
         data["scene_text"] = results.scene_text;
         return data;

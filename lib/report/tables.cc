@@ -277,6 +277,20 @@ namespace plumbline::report
     return table;
   }
 
+  Table tip_force_table(const study::Results &results)
+  {
+    Table table;
+    table.columns = {"method", "case",  "series",    "h [length]",        "horizon [length]",
+                     "tip x",  "tip y", "F [force]", "F / sqrt(horizon)", "sum of norms"};
+    for (const study::Run &run : results.runs)
+      for (const method::TipForce &one : run.diagnostics.tip_forces)
+        table.rows.push_back({text_cell(run.method), text_cell(run.problem), text_cell(run.series),
+                              number_cell(run.h), number_cell(run.horizon), number_cell(one.tip[0]),
+                              number_cell(one.tip[1]), error_cell(one.norm),
+                              error_cell(one.over_root), error_cell(one.sum_of_norms)});
+    return table;
+  }
+
   Table saving_table(const study::Results &results)
   {
     Table table;
@@ -325,5 +339,7 @@ namespace plumbline::report
     estimates.insert(estimates.end(), results.estimates.begin(), results.estimates.end());
     if (!estimates.empty())
       write_table(estimate_table(estimates), folder / "estimates");
+    if (const Table tips = tip_force_table(results); !tips.rows.empty())
+      write_table(tips, folder / "tip_forces");
   }
 } // namespace plumbline::report

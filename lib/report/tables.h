@@ -34,6 +34,9 @@ namespace plumbline::report
   /// Of each method over all its runs: neighbours, weights, residual, backend, notes.
   Table diagnostics_table(const study::Results &results);
 
+  /// The net force of surface terms about each tip of a crack, of each run that has them.
+  Table tip_force_table(const study::Results &results);
+
   /// What the smallest model saved, where the full one was solved too.
   Table saving_table(const study::Results &results);
 

@@ -6,21 +6,26 @@
 
 namespace plumbline::scene
 {
+  std::function<double(const dealii::Point<2> &)> outside(const Damage &damage, double horizon)
+  {
+    if (damage.outside.empty())
+      return {};
+    return physics::Expression("Domain/outside", damage.outside, {{"delta", horizon}});
+  }
+
   std::vector<char> find_ghosts(const Damage &damage, double horizon,
                                 const geometry::NodeCells &cells)
   {
     std::vector<char> is_ghost;
-    if (damage.outside.empty())
-      return is_ghost;
-    const physics::Expression outside("Domain/outside", damage.outside, {{"delta", horizon}});
-    for (const dealii::Point<2> &x : cells.nodes)
-      is_ghost.push_back(static_cast<char>(outside(x) > 0));
+    const auto is_outside = outside(damage, horizon);
+    for (const dealii::Point<2> &x : is_outside ? cells.nodes : std::vector<dealii::Point<2>>())
+      is_ghost.push_back(static_cast<char>(is_outside(x) > 0));
     return is_ghost;
   }
 
   void check_damage(const Scene &scene, double horizon, const geometry::NodeCells &cells)
   {
-    const Damage damage{scene.domain.cracks, scene.domain.outside};
+    const Damage damage{scene.domain.cracks, scene.domain.outside, SurfaceTerms::published};
     const auto is_ghost = find_ghosts(damage, horizon, cells);
     std::string key = "Domain/outside";
     try

@@ -5,6 +5,10 @@
 
 namespace plumbline::scene
 {
+  /// Positive beyond free surfaces; empty where there are none. Copies share nothing: give each
+  /// thread its own.
+  std::function<double(const dealii::Point<2> &)> outside(const Damage &damage, double horizon);
+
   /// Of each node whether it lies beyond a free surface; empty where there is none.
   std::vector<char> find_ghosts(const Damage &damage, double horizon,
                                 const geometry::NodeCells &cells);

@@ -2,6 +2,7 @@
 
 #include "base/choice.h"
 #include "geometry/lattice.h"
+#include "scene/surface_terms.h"
 
 #include <limits>
 #include <string>
@@ -76,7 +77,7 @@ namespace plumbline::scene
     Criterion criterion = Criterion::toughness;
     BreakMode breaking = BreakMode::events;
     Stretch stretch = Stretch::linear;
-    bool has_surface_terms = false; ///< what makes free surfaces free of traction
+    SurfaceTerms surface_terms = SurfaceTerms::automatic; ///< resolved by `complete`
     GrowthSolver solver = GrowthSolver::automatic;
     double load_step = 0; ///< of steps
     double largest_load = std::numeric_limits<double>::infinity();
@@ -92,11 +93,17 @@ namespace plumbline::scene
     }
     /// Without a factor pieces that turn about a node are not found, where finite stretches and
     /// surface terms mean nothing.
-    bool can_iterate() const { return stretch == Stretch::linear && !has_surface_terms; }
+    bool can_iterate() const { return stretch == Stretch::linear && !is_corrected(); }
+    /// Dilatations at surfaces are corrected, whatever terms there are: no energy has the forces.
+    bool is_corrected() const
+    {
+      return surface_terms != SurfaceTerms::automatic && surface_terms != SurfaceTerms::uncorrected;
+    }
 
     void declare(Keys &keys);
-    /// @throws InputError  a number that is out of range
-    void complete() const;
+    /// @param of_material  Material/surface terms
+    /// @throws InputError  a number that is out of range; two keys that contradict each other
+    void complete(SurfaceTerms of_material);
   };
 } // namespace plumbline::scene
 

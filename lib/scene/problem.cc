@@ -70,7 +70,10 @@ namespace plumbline::scene
       problem.is_periodic = scene.domain.is_periodic;
       problem.is_floating = scene.domain.is_floating;
       problem.has_collar_dilatation = scene.material.has_collar_dilatation;
-      problem.damage = {scene.domain.cracks, scene.domain.outside};
+      problem.damage = {scene.domain.cracks, scene.domain.outside,
+                        scene.material.surface_terms == SurfaceTerms::automatic
+                            ? SurfaceTerms::published
+                            : scene.material.surface_terms};
       scene.material.model->complete(scene, level, problem);
       problem.settings = method_settings(scene);
       return problem;

@@ -36,6 +36,7 @@ namespace plumbline::scene
   {
     std::vector<std::vector<dealii::Point<2>>> cracks; ///< lines that break the bonds across them
     std::string outside; ///< an expression that is positive beyond free surfaces; empty: none
+    SurfaceTerms surface_terms = SurfaceTerms::published; ///< of a linear peridynamic solid
 
     bool is_there() const { return !cracks.empty() || !outside.empty(); }
   };

@@ -6,6 +6,7 @@
 #include "physics/kernel.h"
 #include "physics/state_based.h"
 #include "scene/choices.h"
+#include "scene/surface_terms.h"
 
 #include <array>
 #include <functional>
@@ -110,7 +111,8 @@ namespace plumbline::scene
     bool is_homogeneous = true;                      ///< they do not depend on the place
     physics::Names names = {};                       ///< in them, of what is random
     bool has_collar_dilatation = true; ///< else θ counts as 0 there: wrong, to be shown
-    double c = 1, beta = 1;            ///< of double wells, > 0, see physics::DoubleWell
+    SurfaceTerms surface_terms = SurfaceTerms::automatic; ///< never uncorrected
+    double c = 1, beta = 1; ///< of double wells, > 0, see physics::DoubleWell
     BoundaryFunction boundary_function = BoundaryFunction::one; ///< ω of double wells
 
     /// λ and μ as a function of the place. Copies share nothing: give each thread its own.

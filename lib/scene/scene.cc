@@ -59,7 +59,7 @@ namespace plumbline::scene
       scene.material.complete();
       scene.time.complete();
       scene.crack.complete();
-      scene.fracture.complete();
+      scene.fracture.complete(scene.material.surface_terms);
       scene.strip.complete();
       if (scene.solver.is_full_model)
         scene = full_model(std::move(scene));

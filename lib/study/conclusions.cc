@@ -5,6 +5,7 @@
 #include "study/cheapest.h"
 #include "study/expectations.h"
 #include "study/target_words.h"
+#include "study/tip_forces.h"
 #include "study/trend.h"
 #include "study/weigh_proof.h"
 
@@ -286,6 +287,7 @@ namespace plumbline::study
     results.omissions.clear();
     make_trends(scene, results);
     warn_of_target(results);
+    warn_of_tip_forces(results);
     check_expectations(scene, results);
     give_advice(scene, results);
     list_omissions(scene, results);

@@ -255,7 +255,7 @@ namespace plumbline::study
       faults.push_back("Expected/growth ends = " + base::word(expected.growth_end) +
                        ", but it ends " + base::word(results.growth.end));
     if (const double found = results.largest_imbalance();
-        !results.rules.has_surface_terms && !(found <= worst_imbalance))
+        !results.rules.is_corrected() && !(found <= worst_imbalance))
       faults.push_back("work differs from stored, bond and released energy by " +
                        base::to_text(found, 3) + " of it, more than " +
                        base::to_text(worst_imbalance, 3));
@@ -274,7 +274,7 @@ namespace plumbline::study
         "fewer neighbours there are (Study/m)",
         "nothing of contact, friction or large rotations; Fracture/stretch = finite takes the "
         "finite stretch of small displacements"};
-    result.push_back(rules.has_surface_terms
+    result.push_back(rules.is_corrected()
                          ? "the balance of energy: no energy has the forces of surface terms"
                          : "free surfaces and faces of cracks end families: no correction of the "
                            "dilatation, no terms that make them free of traction (Fracture/surface "

@@ -314,10 +314,10 @@ namespace plumbline::study
       results.findings.push_back(finding);
     if (scene.fracture.is_there() && scene.sampling.analysis == scene::SampledAnalysis::of_scene)
       results.findings.push_back(
-          std::string("cracks grow ") + (scene.fracture.has_surface_terms ? "with" : "without") +
+          std::string("cracks grow ") + (scene.fracture.is_corrected() ? "with" : "without") +
           " surface terms (Fan et al. 2022, eq. (3.19)), which lower K by some 7 % at nu = 1/4: "
           "hold it against numbers that are made " +
-          (scene.fracture.has_surface_terms ? "with them" : "without them"));
+          (scene.fracture.is_corrected() ? "with them" : "without them"));
     return results;
   }
 

@@ -104,7 +104,7 @@ namespace plumbline::meshfree
     {
     public:
       Crossing(const std::vector<geometry::Polyline> &lines, const BondNetwork &network)
-          : broken_({lines, {}, false}, cells(network), network.horizon)
+          : broken_({lines, {}, scene::SurfaceTerms::none}, cells(network), network.horizon)
       {
       }
 
@@ -277,8 +277,8 @@ namespace plumbline::meshfree
           a,           b,      half.xi, half.way, h * h * 8 * materials.mean(a, b).mu * half.weight,
           half.weight, endless};
     };
-    if (solid.has_surface_terms)
-      network.surfaces.emplace();
+    if (solid.surface_terms != scene::SurfaceTerms::uncorrected)
+      network.surfaces = {solid.surface_terms, {}, solid.notch, materials.lame};
     const auto lack = [&](const NetworkBond &bond)
     {
       if (network.surfaces)

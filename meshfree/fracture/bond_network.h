@@ -3,6 +3,7 @@
 #include "geometry/cracks.h"
 #include "meshfree/rules/quadrature_rule.h"
 #include "physics/state_based.h"
+#include "scene/surface_terms.h"
 
 #include <array>
 #include <functional>
@@ -23,7 +24,8 @@ namespace plumbline::meshfree
     std::function<Tensor<1, 2>(const Point<2> &)> held; ///< u in the grips at load 1
     std::function<physics::Lame(const Point<2> &)> material;
     std::function<double(const Point<2> &)> toughness; ///< G [force/length]
-    bool has_surface_terms = false;                    ///< see SurfaceForces
+    /// Published, none or consistent, see SurfaceForces; else the forces have an energy.
+    scene::SurfaceTerms surface_terms = scene::SurfaceTerms::uncorrected;
     bool takes_least_toughness = false; ///< of a bond: of samples along it; else its ends' mean
     /// A line that bonds across have this G from, across several the smallest.
     struct Interface
@@ -67,11 +69,15 @@ namespace plumbline::meshfree
     std::vector<std::array<unsigned int, 2>> cut; ///< nodes of bonds that the notch has cut
     std::vector<double> dilatation;               ///< τ of each node; empty where λ = μ
 
-    /// Of a solid with surface terms: bonds that each node lacks from the beginning, from it to
-    /// where no node is, or a notch is between.
+    /// Of a solid whose dilatations are corrected at surfaces.
     struct Surfaces
     {
-      std::vector<Bond> gaps;
+      scene::SurfaceTerms terms = scene::SurfaceTerms::published;
+      /// Bonds that each node lacks from the beginning, from it to where no node is, or a notch is
+      /// between.
+      std::vector<Bond> gaps = {};
+      std::vector<geometry::Polyline> notch = {};
+      std::vector<physics::Lame> lame = {}; ///< of each node
     };
     std::optional<Surfaces> surfaces;
 

@@ -189,6 +189,12 @@ namespace plumbline::meshfree
     }
     for (std::size_t i = 0; i < theta_.size(); ++i)
       response_.energy += .5 * network_.dilatation[i] * square(theta_[i]);
+    if (surfaces_) // they act on nodes in grips too
+    {
+      const NodeField terms = surfaces_->terms(u_);
+      for (std::size_t i = 0; i < terms.size(); ++i)
+        response_.reaction -= terms[i] * network_.held[i];
+    }
     if (force_scale_ == 0)
       force_scale_ = std::sqrt(largest_force);
     response_.residual = residual();

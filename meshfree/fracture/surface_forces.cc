@@ -1,11 +1,15 @@
 #include "meshfree/fracture/surface_forces.h"
 
 #include "meshfree/fracture/equilibrium.h"
+#include "meshfree/fracture/network_faces.h"
+#include "meshfree/scattered/surface_terms.h"
 
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 namespace plumbline::meshfree
 {
@@ -35,23 +39,78 @@ namespace plumbline::meshfree
   SurfaceForces::SurfaceForces(const BondNetwork &network, const Connections &connections)
       : network_(&network), connections_(&connections),
         correction_(network.nodes.size(), Tensor<2, 2>(dealii::unit_symmetric_tensor<2>())),
-        pull_(network.nodes.size())
+        pull_(network.nodes.size()), dilating_(network.nodes.size())
   {
+    std::iota(dilating_.begin(), dilating_.end(), 0U);
     const std::vector<NetworkBond> missing = missing_bonds(network, connections);
     const NodeField normal = correct(missing);
-    const double V = network.h * network.h;
+    if (network.surfaces->terms == scene::SurfaceTerms::published)
+      add_published(missing, normal);
+    if (network.surfaces->terms == scene::SurfaceTerms::consistent)
+      add_consistent(missing);
+  }
+
+  void SurfaceForces::add_published(const std::vector<NetworkBond> &missing,
+                                    const NodeField &normal)
+  {
+    const double V = network_->h * network_->h;
     for (const NetworkBond &bond : missing)
     {
       const double excess = // λ - μ
-          network.dilatation.empty() ? 0 : network.dilatation[bond.from] / V;
-      const double mu = bond.stiffness / (8 * V * bond.share), lambda = mu + excess;
-      const Tensor<1, 2> &n = normal[bond.from], &way = bond.way;
-      const double along = way * n, across = way[0] * n[1] - way[1] * n[0];
+          network_->dilatation.empty() ? 0 : network_->dilatation[bond.from] / V;
+      const double mu = bond.stiffness / (8 * V * bond.share);
+      const Tensor<1, 2> &n = normal[bond.from];
+      pull_[bond.from] += V * bond.share *
+                          (2 * excess * bond.xi +
+                           4 * (bond.xi * n) * uniaxial_strain({mu + excess, mu}, bond.way, n) * n);
+    }
+  }
+
+  void SurfaceForces::add_consistent(const std::vector<NetworkBond> &missing)
+  {
+    const double V = network_->h * network_->h;
+    const Faces faces = find_faces(*network_, *connections_);
+    std::vector<std::optional<Faces::Foot>> feet(network_->nodes.size());
+    std::vector<char> is_known(network_->nodes.size(), 0);
+    for (const NetworkBond &bond : missing)
+    {
+      std::optional<Faces::Foot> &foot = feet[bond.from];
+      if (is_known[bond.from] == 0)
+      {
+        foot = faces.foot(network_->nodes[bond.from], network_->horizon + network_->h);
+        is_known[bond.from] = 1;
+        if (foot && !foot->is_near_end)
+          dilating_[bond.from] = node_of_face(bond.from, foot->place);
+      }
+      if (!foot || foot->is_near_end)
+        continue;
+      const physics::Lame &own = network_->surfaces->lame[bond.from];
       pull_[bond.from] +=
           V * bond.share *
-          (2 * excess * bond.xi +
-           4 * (bond.xi * n) * ((lambda + 2 * mu) * across * across - lambda * along * along) * n);
+          (2 * (own.lambda - own.mu) + 4 * uniaxial_strain(own, bond.way, foot->normal)) * bond.xi;
     }
+  }
+
+  /// Of a node and its neighbours by whole bonds the one that is nearest to its foot.
+  unsigned int SurfaceForces::node_of_face(unsigned int node, const Point<2> &foot) const
+  {
+    const double rounding = geometry::on_crack * network_->horizon;
+    unsigned int nearest = node;
+    double distance = network_->nodes[node].distance(foot);
+    const auto [begin, end] = connections_->bonds_of(node);
+    for (const unsigned int *b = begin; b != end; ++b)
+    {
+      const NetworkBond &bond = network_->bonds[*b];
+      const unsigned int other = bond.from == node ? bond.to : bond.from;
+      const double from_other = network_->nodes[other].distance(foot);
+      if (connections_->is_whole(*b) && !connections_->is_loose(other) &&
+          from_other < distance - rounding)
+      {
+        nearest = other;
+        distance = from_other;
+      }
+    }
+    return nearest;
   }
 
   /// M of nodes that lack bonds; their normals, 0 where bonds are missing on all sides alike.
@@ -106,7 +165,16 @@ namespace plumbline::meshfree
     const std::vector<double> theta = dilatations(u);
     NodeField force = meshfree::forces(*network_, *connections_, u, theta);
     for (std::size_t i = 0; i < u.size(); ++i)
-      force[i] += theta[i] * pull_[i];
+      force[i] += theta[dilating_[i]] * pull_[i];
     return force;
+  }
+
+  NodeField SurfaceForces::terms(const NodeField &u) const
+  {
+    const std::vector<double> theta = dilatations(u);
+    NodeField result(u.size());
+    for (std::size_t i = 0; i < u.size(); ++i)
+      result[i] = theta[dilating_[i]] * pull_[i];
+    return result;
   }
 } // namespace plumbline::meshfree

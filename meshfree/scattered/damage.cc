@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace plumbline::meshfree
@@ -82,6 +83,32 @@ namespace plumbline::meshfree
         is_intact[k] = all = false;
     }
     return all;
+  }
+
+  Faces find_faces(const Damage &damage, const geometry::NodeCells &cells, double horizon)
+  {
+    std::vector<Face> faces = faces_of(damage.cracks);
+    const auto is_in_body = [&](const Point<2> &x)
+    { return !damage.outside || damage.outside(x) <= 0; };
+    std::vector<Point<2>> tips = tips_of(damage.cracks, faces, horizon, 0, is_in_body);
+    if (damage.outside && damage.surface_terms == scene::SurfaceTerms::consistent)
+    {
+      const auto where_it_is = [&](const Point<2> &x) // it need not be defined beyond all nodes
+      {
+        try
+        {
+          return damage.outside(x);
+        }
+        catch (const InputError &)
+        {
+          return std::numeric_limits<double>::quiet_NaN();
+        }
+      };
+      const geometry::Box all = geometry::bounding_box({cells.nodes.data(), cells.nodes.size()});
+      for (const Face &face : zero_line(where_it_is, all, .5 * horizon))
+        faces.push_back(face);
+    }
+    return {std::move(faces), std::move(tips), horizon};
   }
 
   void check_held(const std::vector<char> &is_intact, const geometry::NodeCells &cells,

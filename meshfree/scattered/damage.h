@@ -2,6 +2,8 @@
 
 #include "geometry/cracks.h"
 #include "meshfree/rules/quadrature_rule.h"
+#include "meshfree/scattered/faces.h"
+#include "scene/surface_terms.h"
 
 namespace plumbline::meshfree
 {
@@ -11,10 +13,12 @@ namespace plumbline::meshfree
   struct Damage
   {
     std::vector<geometry::Polyline> cracks;
-    std::vector<char> is_ghost;    ///< of each node: beyond a free surface, where it only completes
-                                   ///< the balls of others; empty: none is
-    bool has_surface_terms = true; ///< what makes surfaces free of traction, eq. (3.19); false to
-                                   ///< see what it is good for
+    std::vector<char> is_ghost; ///< of each node: beyond a free surface, where it only completes
+                                ///< the balls of others; empty: none is
+    scene::SurfaceTerms surface_terms = scene::SurfaceTerms::published;
+    /// Positive beyond free surfaces: where they are; empty: there are none, or only ghosts say so,
+    /// and consistent terms find no face there.
+    std::function<double(const Point<2> &)> outside = {};
   };
 
   /// Tells which bonds are broken: those that cross a crack and those to ghosts. A bond through an
@@ -47,6 +51,9 @@ namespace plumbline::meshfree
     std::vector<Segment> segments_;
     geometry::BoxSearch search_; ///< over the segments
   };
+
+  /// The faces of a body on nodes, and the tips of its cracks.
+  Faces find_faces(const Damage &damage, const geometry::NodeCells &cells, double horizon);
 
   /// @throws InputError  of a node whose family is not whole: nothing of it is left
   void check_held(const std::vector<char> &is_intact, const geometry::NodeCells &cells,

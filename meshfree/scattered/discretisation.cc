@@ -46,6 +46,7 @@ namespace plumbline::meshfree
              {&matrix.rows.free, &matrix.rows.held}) // ranks that gave none
           rows->start.resize(n + 1, rows->column.size());
         set_rows(std::move(matrix.rows));
+        tips_ = std::move(matrix.tips);
         diagnostics_ = matrix.statistics.diagnostics(communicator);
         diagnostics_.limit = method::limit_of(problem, diagnostics_.limit);
         if (problem.damage.is_there() && problem.dilatation)
@@ -58,6 +59,9 @@ namespace plumbline::meshfree
         result.load.reinit(static_cast<unsigned int>(n_unknowns()));
         communicator().together([&] { add_data(problem, result.load); });
         result.field = [this](const Vector &u) { return field(u); };
+        if (communicator().any(!tips_.empty()))
+          result.tip_forces = [this, held = collar(problem), horizon = problem.horizon()](
+                                  const Vector &u) { return tip_forces(u, held, horizon); };
         return result;
       }
 
@@ -126,6 +130,41 @@ namespace plumbline::meshfree
         return values;
       }
 
+      /// Of tips that have surface terms about them.
+      /// @param held  u of the collar
+      std::vector<method::TipForce> tip_forces(const Vector &u, const std::vector<double> &held,
+                                               double horizon) const
+      {
+        const auto n_free = static_cast<std::ptrdiff_t>(cells_->n_free * n_components_);
+        std::vector<double> all(u.begin(), u.begin() + n_free); // dilatations come after
+        all.insert(all.end(), held.begin(), held.end());
+        const auto n_tips =
+            static_cast<std::size_t>(communicator().largest(static_cast<double>(tips_.size())));
+        std::vector<method::TipForce> result;
+        for (std::size_t t = 0; t < n_tips; ++t)
+        {
+          method::TipForce one;
+          dealii::Tensor<1, 2> sum;
+          if (t < tips_.size())
+            for (const dealii::Tensor<1, 2> &force : tips_[t].forces(all))
+            {
+              sum += force;
+              one.sum_of_norms += force.norm();
+            }
+          one.sum_of_norms = communicator().sum(one.sum_of_norms);
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            one.tip[d] = t < tips_.size() ? tips_[t].place[d] : 0;
+            one.force[d] = sum[d] = communicator().sum(sum[d]);
+          }
+          one.norm = sum.norm();
+          one.over_root = one.norm / std::sqrt(horizon);
+          if (one.sum_of_norms > 0)
+            result.push_back(one);
+        }
+        return result;
+      }
+
       std::vector<Point<2>> free_nodes() const
       {
         const auto n = static_cast<std::ptrdiff_t>(cells_->n_free);
@@ -165,6 +204,7 @@ namespace plumbline::meshfree
       bool is_mixed_;
       mutable method::PartedRows moving_; ///< rows by volumes, once there is a motion
       std::vector<char> is_ghost_;        ///< of each node, or empty
+      std::vector<TipRows> tips_;
       method::Diagnostics diagnostics_;
     };
 
@@ -206,7 +246,8 @@ namespace plumbline::meshfree
       const StateBasedBody body{
           problem.cells.get(),
           *problem.dilatation,
-          {problem.damage.cracks, find_ghosts(problem.damage, problem.horizon(), *problem.cells)},
+          {problem.damage.cracks, find_ghosts(problem.damage, problem.horizon(), *problem.cells),
+           problem.damage.surface_terms, scene::outside(problem.damage, problem.horizon())},
           problem.has_collar_dilatation,
           problem.settings.ball_order};
       if (!problem.settings.solver.is_mixed)

@@ -7,12 +7,30 @@
 
 namespace plumbline::meshfree
 {
+  /// Surface forces of a linear peridynamic solid on the nodes about a crack's tip.
+  struct TipRows
+  {
+    /// Of the tip: how far the feet of nodes are away [horizons]. Larger than 1, as consistent
+    /// terms begin there.
+    static constexpr double reach = 2;
+
+    dealii::Point<2> place;
+    std::vector<double> volume; ///< of each node
+    /// Force densities, two rows for each node, columns by all nodes, those of the collar too.
+    algebra::CsrMatrix rows;
+
+    /// On each node [force].
+    /// @param u  of all nodes, shape (n_nodes, 2)
+    std::vector<dealii::Tensor<1, 2>> forces(const std::vector<double> &u) const;
+  };
+
   /// Part of a rule's linear system over the free nodes, numbered node by node; held are the nodes
   /// of the collar. CsrMatrix of a share of the nodes, the others empty.
   struct ScatteredOperator
   {
     method::PartedRows rows;
     FamilyStatistics statistics; ///< of these families
+    std::vector<TipRows> tips;   ///< of all cracks, of nodes of the share; the same on all ranks
   };
 
   /// Yields the family of a free node, as Families::make does: neighbours ascending.

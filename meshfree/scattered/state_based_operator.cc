@@ -1,94 +1,14 @@
 #include "meshfree/scattered/state_based_operator.h"
 
-#include "base/error.h"
+#include "meshfree/scattered/surface_terms.h"
 
 #include <algorithm>
-#include <sstream>
 
 namespace plumbline::meshfree
 {
   namespace
   {
     using physics::Lame;
-
-    /// A bond of the body.
-    struct Link
-    {
-      unsigned int node; ///< at its other end
-      bool is_intact;
-      double strength; ///< w K
-      Tensor<1, 2> xi, direction;
-    };
-
-    struct Node
-    {
-      std::size_t first = 0, last = 0; ///< of its links
-      Remainder remainder;
-    };
-
-    /// The families of a share of Ω and of the nodes that it reaches.
-    class Links
-    {
-    public:
-      Links(const FamilySource &families, const StateBasedBody &body,
-            std::pair<std::size_t, std::size_t> share)
-          : statistics(*body.cells, body.ball_order), nodes_(body.cells->size())
-      {
-        const Kernel<2> &influence = body.dilatation.influence;
-        const BrokenBonds broken(body.damage, *body.cells, influence.horizon());
-        const Kernel<2> deviatoric = physics::deviatoric_kernel(influence, 1);
-        Family family;
-        std::vector<char> is_intact;
-        const auto add = [&](std::size_t i)
-        {
-          families(i, family);
-          Node &node = nodes_[i];
-          node.first = links_.size();
-          for (std::size_t d = 0; d < 2; ++d)
-            node.remainder.correction[d][d] = 1;
-          if (!broken.find(i, family, is_intact))
-            node.remainder = meshfree::remainder(influence, family, is_intact);
-          for (std::size_t k = 0; k < family.bonds.size(); ++k)
-          {
-            const Bond &bond = family.bonds[k];
-            links_.push_back({family.neighbours[k], is_intact[k] != 0,
-                              bond.weight * radial_value(influence, bond), bond.xi,
-                              bond.kernel_point / bond.kernel_point.norm()});
-          }
-          node.last = links_.size();
-        };
-        for (std::size_t i = share.first; i < share.second; ++i)
-        {
-          add(i);
-          statistics.add(deviatoric, body.cells->nodes[i], family);
-          check_held(is_intact, *body.cells, i);
-        }
-        const std::size_t n_own = links_.size();
-        for (std::size_t k = 0; k < n_own; ++k)
-          if (const Link link = links_[k]; link.is_intact && !has(link.node))
-            add(link.node);
-      }
-
-      bool has(std::size_t node) const { return nodes_[node].last > nodes_[node].first; }
-      const Remainder &remainder(std::size_t node) const { return nodes_[node].remainder; }
-
-      dealii::ArrayView<const Link> of(std::size_t node) const
-      {
-        return {links_.data() + nodes_[node].first, nodes_[node].last - nodes_[node].first};
-      }
-
-      /// θ = Σ g·(u_j - u_i).
-      Tensor<1, 2> gradient(std::size_t node, const Link &link) const
-      {
-        return link.strength * (nodes_[node].remainder.correction * link.xi);
-      }
-
-      FamilyStatistics statistics; ///< of the share
-
-    private:
-      std::vector<Node> nodes_;
-      std::vector<Link> links_;
-    };
 
     /// The couplings of (u_1, u_2, θ) of one node to those of others.
     class BlockRow
@@ -137,10 +57,9 @@ namespace plumbline::meshfree
       Assembly(const FamilySource &families, const StateBasedBody &body,
                std::pair<std::size_t, std::size_t> share, bool keeps_dilatation)
           : cells_(*body.cells), dilatation_(body.dilatation),
-            has_surface_terms_(body.damage.has_surface_terms),
             has_collar_dilatation_(body.has_collar_dilatation), keeps_dilatation_(keeps_dilatation),
             share_(share), links_(families, body, share), row_(cells_.size()),
-            n_unknowns_(2 * cells_.n_free)
+            n_unknowns_(2 * cells_.n_free), surface_terms_(body, links_, material_)
       {
         for (const Point<2> &x : cells_.nodes)
           material_.push_back(dilatation_.is_homogeneous && !material_.empty()
@@ -153,7 +72,7 @@ namespace plumbline::meshfree
 
       ScatteredOperator make()
       {
-        result_.statistics = links_.statistics;
+        result_.statistics = links_.statistics();
         result_.rows.free.start.assign(2 * share_.first + 1, 0);
         result_.rows.held.start = result_.rows.free.start;
         for (auto i = static_cast<unsigned int>(share_.first); i < share_.second; ++i)
@@ -167,6 +86,7 @@ namespace plumbline::meshfree
           }
         for (algebra::CsrMatrix *rows : {&result_.rows.free, &result_.rows.held})
           rows->start.resize(n_unknowns_ + 1, rows->column.size());
+        result_.tips = surface_terms_.take_tips();
         return std::move(result_);
       }
 
@@ -178,24 +98,16 @@ namespace plumbline::meshfree
                (node < cells_.n_free || has_collar_dilatation_);
       }
 
-      Lame between(const Lame &a, const Lame &b) const
-      {
-        const auto kind =
-            dilatation_.is_two_point ? physics::Mean::harmonic : physics::Mean::arithmetic;
-        return {physics::mean(kind, a.lambda, b.lambda), physics::mean(kind, a.mu, b.mu)};
-      }
-
       /// The force on a node of Ω.
       void add_node(unsigned int i)
       {
         row_.clear();
         const Lame &own = material_[i];
-        const Tensor<1, 2> n = links_.remainder(i).normal;
         Tensor<1, 2> own_factor;
         for (const Link &link : links_.of(i))
         {
           const unsigned int j = link.node;
-          const Lame &other = material_[j], pair = between(own, other);
+          const Lame &other = material_[j], pair = pair_constants(dilatation_, own, other);
           if (link.is_intact)
           {
             own_factor -= link.strength * dilatation_.factor(own, other) * link.xi;
@@ -205,16 +117,13 @@ namespace plumbline::meshfree
             add(j, -bond);
             add(i, bond);
           }
-          else if (has_surface_terms_)
-          {
-            const double normal = link.direction * n, along = link.xi * n,
-                         tangential = link.direction[0] * n[1] - link.direction[1] * n[0];
-            own_factor -= 2 * (pair.lambda - pair.mu) * link.strength * link.xi;
-            own_factor -= 4 * link.strength * along *
-                          ((pair.lambda + 2 * pair.mu) * tangential * tangential -
-                           pair.lambda * normal * normal) *
-                          n;
-          }
+        }
+        if (const auto surface = surface_terms_.force(i))
+        {
+          if (surface->node == i)
+            own_factor -= surface->factor;
+          else
+            add_dilatation(surface->node, -surface->factor);
         }
         add_dilatation(i, own_factor);
         put_row(0);
@@ -296,12 +205,13 @@ namespace plumbline::meshfree
 
       const geometry::NodeCells &cells_;
       const physics::Dilatation &dilatation_;
-      bool has_surface_terms_, has_collar_dilatation_, keeps_dilatation_;
+      bool has_collar_dilatation_, keeps_dilatation_;
       std::pair<std::size_t, std::size_t> share_;
       Links links_;
       BlockRow row_;
       std::vector<Lame> material_;
       std::size_t n_unknowns_;
+      SurfaceTerms surface_terms_;
       std::vector<unsigned int> number_of_dilatation_; ///< θ of each node is this unknown, if any
       ScatteredOperator result_;
     };

@@ -24,8 +24,11 @@ namespace plumbline::meshfree
   /// on a share [first, last) of the free nodes, θ eliminated: rows reach twice the horizon. θ is
   /// taken of neighbours in the collar too. μ_ij is the mean of both ends that `Dilatation` says.
   /// Broken bonds: sums over the intact ones, θ with the correction M, and in each row what the
-  /// broken ones add at a free surface, (3.19), with Lamé constants that `Dilatation` gives at
-  /// ghosts too. Not symmetric in general.
+  /// surface terms add for the broken ones. Published: (3.19), with Lamé constants that
+  /// `Dilatation` gives at ghosts too. Consistent, d = ξ/|ξ|, n and p across and along the nearest
+  /// face, node k the nearest to the foot among i and its intact neighbours:
+  ///   Σ_broken w K ξ {2 (λ_i - μ_i) + 4 [(λ_i + 2μ_i) (d·p)² - λ_i (d·n)²]} θ_k,
+  /// and none where the foot is near an end of a crack, see Faces. Not symmetric in general.
   /// @param families  of nodes of Ω and of those they reach; of the deviatoric kernel
   /// Accuracy: with exact moments of degree 2 (OPT, IPA-AC-R2) linear fields are reproduced to
   /// round-off, next to a straight free surface those of uniaxial stress along it.

@@ -95,7 +95,39 @@ TEST(GrowCommand, tells_what_surface_terms_do)
   const std::string page = read(folder / "grow.html");
   expect_found(page, "with surface terms");
   expect_found(page, "no energy has the forces of surface terms");
+  // the words are aliases, and Material's key is taken where Fracture's says nothing
+  const std::string scene = "grow " + plate() +
+                            " --quiet --set 'Fracture/least reaction=0.999' --set Expected/growth= "
+                            "-o " +
+                            folder.string();
+  std::vector<nlohmann::json> all;
+  for (const char *const keys :
+       {" --set 'Fracture/surface terms=yes'", " --set 'Fracture/surface terms=published'",
+        " --set 'Material/surface terms=published'", " --set 'Fracture/surface terms=consistent'",
+        " --set 'Fracture/surface terms=none'", " --set 'Fracture/surface terms=no'"})
+  {
+    ASSERT_EQ(run(scene + keys).exit_code, 0) << keys;
+    all.push_back(results(folder));
+  }
+  for (const std::size_t i : {0, 1, 2})
+  {
+    EXPECT_EQ(all[i]["surface_terms"], "published");
+    EXPECT_EQ(all[i]["events"][0]["load"], with["events"][0]["load"]);
+  }
+  EXPECT_EQ(all[3]["surface_terms"], "consistent");
+  EXPECT_EQ(all[4]["surface_terms"], "none");
+  EXPECT_EQ(all[5]["surface_terms"], "uncorrected");
+  EXPECT_EQ(all[5]["events"][0]["load"], without["events"][0]["load"]);
+  // bonds alone, lambda = mu, have no dilatation to correct
+  EXPECT_NEAR(all[4]["events"][0]["load"].get<double>() /
+                  without["events"][0]["load"].get<double>(),
+              1, 1e-9);
   fs::remove_all(folder);
+  expect_refused(
+      "grow " + plate() +
+          " --set 'Fracture/surface terms=consistent' --set 'Material/surface terms=none'",
+      "Fracture/surface terms = consistent contradicts Material/surface terms = none");
+  expect_refused("grow " + plate() + " --set 'Fracture/surface terms=perhaps'", "consistent");
 }
 
 TEST(GrowCommand, does_without_a_factor)

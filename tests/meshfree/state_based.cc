@@ -130,7 +130,7 @@ namespace
     const Square square(1, 3, .5, 2);
     const auto problem = quadratics[0];
     const StateBasedCase one(problem, square, full_area);
-    const BrokenBonds bonds({{crack}, {}, true}, square.cells, square.horizon);
+    const BrokenBonds bonds({{crack}, {}}, square.cells, square.horizon);
     std::vector<std::array<int, 2>> result;
     Family family, other;
     std::vector<char> is_intact, of_other;
@@ -389,22 +389,19 @@ TEST(Damage, names_nodes_on_a_crack_ghosts_in_the_domain_and_isolated_nodes)
     return message_of([&] { (void)StateBasedCase(problem, square).system(); });
   };
   const std::string node = number_of_node(square, Point<2>(.125, .375));
-  EXPECT_NE(make({{{Point<2>(-5, .375), Point<2>(5, .375)}}, {}, true}).find("move the crack"),
+  EXPECT_NE(make({{{Point<2>(-5, .375), Point<2>(5, .375)}}, {}}).find("move the crack"),
             std::string::npos);
-  EXPECT_NE(make({{{Point<2>(0, 0), Point<2>(.125, .375)}}, {}, true}).find(node),
-            std::string::npos);
+  EXPECT_NE(make({{{Point<2>(0, 0), Point<2>(.125, .375)}}, {}}).find(node), std::string::npos);
   EXPECT_NE(make({{{Point<2>(0, 0), Point<2>(.2, .3), Point<2>(.2, .45), Point<2>(0, .45),
                     Point<2>(0, 0)}},
-                  {},
-                  true})
+                  {}})
                 .find("all bonds of " + node),
             std::string::npos);
-  EXPECT_NE(make({{}, std::vector<char>(square.cells.size(), 1), true})
+  EXPECT_NE(make({{}, std::vector<char>(square.cells.size(), 1)})
                 .find("lies in the domain and is a ghost"),
             std::string::npos);
-  EXPECT_NE(make({{{Point<2>(0, 0)}}, {}, true}).find("crack 0"), std::string::npos);
-  EXPECT_NE(make({{{Point<2>(0, 0), Point<2>(0, 0)}}, {}, true}).find("crack 0"),
-            std::string::npos);
+  EXPECT_NE(make({{{Point<2>(0, 0)}}, {}}).find("crack 0"), std::string::npos);
+  EXPECT_NE(make({{{Point<2>(0, 0), Point<2>(0, 0)}}, {}}).find("crack 0"), std::string::npos);
 }
 
 TEST(Damage, the_correction_makes_dilatations_of_linear_fields_exact)

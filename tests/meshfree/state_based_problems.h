@@ -121,13 +121,14 @@ namespace plumbline::meshfree
       return Point<2>(std::sqrt(r / (2 * M_PI)) *
                       (std::cos(angle) * first + std::sin(angle) * second));
     };
-    return {material, solution, no_load, {{{Point<2>(-10, 0), Point<2>()}}, {}, true}};
+    return {material, solution, no_load, {{{Point<2>(-10, 0), Point<2>()}}, {}}};
   }
 
   struct System
   {
     algebra::CsrMatrix rows;
     std::vector<double> right_hand_side;
+    std::vector<TipRows> tips = {};
   };
 
   /// A problem with a rule on a square.
@@ -169,7 +170,7 @@ namespace plumbline::meshfree
         for (unsigned int c = 0; c < 2; ++c)
           load[2 * i + c] = problem.load(square.cells.nodes[i])[c];
       method::subtract_held(made.rows.held, data, load);
-      return {std::move(made.rows.free), {load.begin(), load.end()}};
+      return {std::move(made.rows.free), {load.begin(), load.end()}, std::move(made.tips)};
     }
 
     /// √(h² Σ |u_i - u0|²); dilatations may come after the displacements.

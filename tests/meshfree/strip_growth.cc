@@ -27,7 +27,7 @@ namespace
     meshfree::QuadratureRule rule;
     int height = 0, length = 0;
     physics::Lame lame{1, 1};
-    bool has_surface_terms = false;
+    scene::SurfaceTerms surface_terms = scene::SurfaceTerms::uncorrected;
 
     Strip(int m, int n_height, int n_length)
         : K(physics::influence_function(physics::kernel_type("1/r").profile, m * h)),
@@ -39,7 +39,7 @@ namespace
     BreakingNetwork with_crack(int n_crack, double toughness = 1) const
     {
       BreakingSolid solid = meshfree::make_strip({height, length, n_crack, h}, lame, K.horizon());
-      solid.has_surface_terms = has_surface_terms;
+      solid.surface_terms = surface_terms;
       solid.toughness = [toughness](const Point<2> &) { return toughness; };
       return {make_bond_network(solid, rule, K, h, geometry::Backend::fast),
               scene::Stretch::linear};
@@ -137,7 +137,7 @@ TEST(StripGrowth, needs_less_where_surfaces_are_free_of_traction)
     Strip strip(3, 24, 144);
     strip.lame = physics::lame_from_young(1, nu, physics::PlaneState::strain);
     const study::StripGrowth without = strip.growth(104);
-    strip.has_surface_terms = true;
+    strip.surface_terms = scene::SurfaceTerms::published;
     const study::StripGrowth with = strip.growth(104);
     EXPECT_NEAR(with.peak / without.peak, peak, .01) << nu;
     EXPECT_NEAR(with.mean / without.mean, mean, .01) << nu;

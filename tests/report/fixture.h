@@ -174,6 +174,7 @@ namespace plumbline::report::fixture
     run("FA", 4).errors.clear();
     run("IPA-AC", 3).diagnostics.notes = {"kernel clipped at <0>, 12 nodes"};
     run("IPA-AC", 3).diagnostics.n_negative_weights = 2;
+    run("IPA-AC", 3).diagnostics.tip_forces = {{{0, .5}, {3e-3, -4e-3}, .1, 5e-3, .05}};
     return results;
   }
 

@@ -18,7 +18,8 @@ TEST(SampleStatistics, OfGrowthSayWhichSchemeTheyAreOf)
   {
     scene::Scene scene;
     scene.fracture.toughness = "1";
-    scene.fracture.has_surface_terms = has_surface_terms;
+    scene.fracture.surface_terms =
+        has_surface_terms ? scene::SurfaceTerms::published : scene::SurfaceTerms::uncorrected;
     const auto said = [&]
     {
       const auto findings =

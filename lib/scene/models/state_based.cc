@@ -108,6 +108,19 @@ namespace plumbline::scene
                  "Lame's first constant in the plane, instead of E and nu. [force/length^2]");
         keys.add("mu", given[1][1],
                  "The shear modulus > 0, given with lambda, which is > -mu. [force/length^2]");
+        keys.add(
+            "surface terms", base::word(material.surface_terms),
+            one_of({"automatic", "published", "none", "consistent"}),
+            [&material](const std::string &text)
+            { material.surface_terms = *base::from_word<SurfaceTerms>(text); },
+            "Forces of missing bonds at crack faces and free surfaces (Domain/cracks, "
+            "Domain/outside). The dilatation is corrected in any case. published: Fan et al. 2022, "
+            "eqs. (3.19)-(3.22); they exert a net force of sqrt(delta) at crack tips, so that the "
+            "observed order tends to 1/2, and are inexact across interfaces and on oblique faces. "
+            "none: no pair terms; first order at cracks, but uniaxial stress along a face is not "
+            "exact. consistent: exact in uniaxial stress along straight faces, also oblique ones "
+            "and on interfaces, and no net force at tips of cracks along rows of nodes. automatic: "
+            "published; in 'plumbline grow' as Fracture/surface terms says.");
         keys.add("collar dilatation", material.has_collar_dilatation, "zero", "from data",
                  "theta in the collar, of state-based solids on scattered nodes: from data, or "
                  "zero, which is wrong and there to show by how much.");

@@ -4,9 +4,16 @@
 #include "scene/values.h"
 
 #include <cmath>
+#include <map>
 
 namespace plumbline::scene
 {
+  namespace
+  {
+    const std::map<std::string, SurfaceTerms> surface_aliases = {{"yes", SurfaceTerms::published},
+                                                                 {"no", SurfaceTerms::uncorrected}};
+  }
+
   void FractureSection::declare(Keys &keys)
   {
     keys.add("toughness", toughness,
@@ -37,11 +44,21 @@ namespace plumbline::scene
              "step. batches: all that are over-stretched at the load of an event. steps: the same "
              "at multiples of Fracture/load step.");
     keys.add("stretch", stretch, "linear: xi.du/|xi|^2. finite: |xi + du|/|xi| - 1.");
-    keys.add("surface terms", has_surface_terms, "no", "yes",
-             "yes: bonds that are broken or missing leave surfaces free of traction, and their "
-             "nodes a dilatation that is right for linear fields (Fan et al. 2022, eqs. "
-             "(3.19)-(3.22)). A crack goes on at a smaller load then. No energy has these forces, "
-             "so that work cannot be accounted for, and an event takes some GMRES iterations.");
+    keys.add(
+        "surface terms", base::word(surface_terms),
+        one_of({"automatic", "published", "none", "consistent", "uncorrected", "yes", "no"}),
+        [this](const std::string &text)
+        {
+          const auto alias = surface_aliases.find(text);
+          surface_terms =
+              alias == surface_aliases.end() ? *base::from_word<SurfaceTerms>(text) : alias->second;
+        },
+        "Forces at free surfaces and crack faces. uncorrected (or no): none, dilatations of "
+        "incomplete families as they are, and the forces have an energy. none, published (or yes), "
+        "consistent: as Material/surface terms. A crack goes on at a smaller load with the pair "
+        "terms. No energy has these forces, so that there is no energy balance, and an event takes "
+        "some GMRES iterations. automatic: Material/surface terms, or uncorrected where that is "
+        "automatic too.");
     keys.add("solver", solver,
              "factor: a Cholesky factor, and Woodbury's formula for bonds that broke since. "
              "multigrid: conjugate gradients with ML's smoothed aggregation, which takes less "
@@ -70,8 +87,15 @@ namespace plumbline::scene
              "Events between checkpoints; a run that was killed goes on from the last one.");
   }
 
-  void FractureSection::complete() const
+  void FractureSection::complete(SurfaceTerms of_material)
   {
+    if (surface_terms == SurfaceTerms::automatic)
+      surface_terms =
+          of_material == SurfaceTerms::automatic ? SurfaceTerms::uncorrected : of_material;
+    else if (is_there() && of_material != SurfaceTerms::automatic && of_material != surface_terms)
+      throw InputError("Fracture/surface terms = " + base::word(surface_terms) +
+                       " contradicts Material/surface terms = " + base::word(of_material) +
+                       "; give one of the two keys, or the same value to both");
     const auto require =
         [](bool is_good, const std::string &key, double value, const std::string &otherwise)
     {
@@ -85,7 +109,8 @@ namespace plumbline::scene
     if (solver == GrowthSolver::multigrid && !can_iterate())
       throw InputError("Fracture/solver = multigrid does not find pieces that turn about a node, "
                        "where finite stretches and surface terms mean nothing; write "
-                       "Fracture/solver = factor, or stretch = linear and surface terms = no");
+                       "Fracture/solver = factor, or stretch = linear and surface terms = "
+                       "uncorrected");
     if (interface_toughness.size() != interfaces.size() &&
         (interfaces.empty() || interface_toughness.size() != 1))
       throw InputError("Fracture/interface toughness has " +
