@@ -4,6 +4,7 @@
 #include "base/text_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -13,21 +14,78 @@ namespace plumbline::scene
 {
   namespace
   {
-    std::vector<std::string> split(const std::string &line)
+    constexpr auto blank = " \t\r";
+
+    void trim(std::string &text)
     {
-      constexpr auto blank = " \t\r";
-      std::vector<std::string> values;
-      std::size_t from = 0, comma = 0;
-      do
+      text.erase(0, text.find_first_not_of(blank));
+      text.erase(text.find_last_not_of(blank) + 1);
+    }
+
+    std::string lower(std::string text)
+    {
+      std::transform(text.begin(), text.end(), text.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      return text;
+    }
+
+    /// Takes the quotes around a value off.
+    /// @return  whether there were some
+    bool unquote(std::string &value)
+    {
+      const bool is_quoted =
+          value.size() > 1 && (value[0] == '"' || value[0] == '\'') && value.back() == value[0];
+      if (is_quoted)
       {
-        comma = line.find(',', from);
-        std::string value = line.substr(from, comma - from);
-        value.erase(0, value.find_first_not_of(blank));
-        value.erase(value.find_last_not_of(blank) + 1);
-        values.push_back(value);
-        from = comma + 1;
-      } while (comma != std::string::npos);
+        value = value.substr(1, value.size() - 2);
+        trim(value);
+      }
+      return is_quoted;
+    }
+
+    /// Without blanks around the values. A separator in double quotes is part of the value.
+    /// @param separator  ' ': any number of blanks
+    std::vector<std::string> split_line(const std::string &line, char separator)
+    {
+      std::vector<std::string> values;
+      if (separator == ' ')
+      {
+        std::istringstream in(line);
+        for (std::string value; in >> value;)
+          values.push_back(value);
+        return values;
+      }
+      bool is_inside = false;
+      values.emplace_back();
+      for (const char c : line)
+      {
+        is_inside = c == '"' ? !is_inside : is_inside;
+        if (c == separator && !is_inside)
+          values.emplace_back();
+        else
+          values.back() += c;
+      }
+      for (std::string &value : values)
+        trim(value);
       return values;
+    }
+
+    /// The length of what opens a comment; 0: it is none.
+    std::size_t comment_mark(const std::string &line)
+    {
+      const std::size_t from = line.find_first_not_of(blank);
+      if (from == std::string::npos)
+        return 0;
+      if (line[from] == '#' || line[from] == '%')
+        return from + 1;
+      return line.compare(from, 2, "//") == 0 ? from + 2 : 0;
+    }
+
+    std::string separator_name(char separator)
+    {
+      return separator == '\t'  ? "tabs"
+             : separator == ' ' ? "blanks"
+                                : std::string("'") + separator + "'";
     }
 
     /// The finite number that a text is as a whole, if it is one.
@@ -44,26 +102,149 @@ namespace plumbline::scene
     }
   } // namespace
 
-  Csv::Csv(const std::string &file, const std::vector<std::string> &required)
-      : file_(file), in_(file)
+  void PrintedDigits::add(const std::string &number)
   {
-    std::string header;
-    std::getline(in_, header);
-    if (!in_.is_open() || in_.bad())
-      throw InputError("'" + file + "' cannot be read; check its name and folder");
-    if (header.compare(0, 3, "\xEF\xBB\xBF") == 0) // a byte order mark, as spreadsheets write it
-      header.erase(0, 3);
-    columns_ = split(header);
-    std::string names;
+    int shown = 0, behind = 0, exponent = 0;
+    bool is_behind = false;
+    for (std::size_t k = 0; k < number.size(); ++k)
+    {
+      const char c = number[k];
+      if (c == '.')
+        is_behind = true;
+      else if (c == 'e' || c == 'E')
+      {
+        const std::size_t from = k + (k + 1 < number.size() && number[k + 1] == '+' ? 2 : 1);
+        std::from_chars(number.data() + from, number.data() + number.size(), exponent);
+        break;
+      }
+      else if (c >= '0' && c <= '9')
+      {
+        shown += shown > 0 || c != '0' ? 1 : 0;
+        behind += is_behind ? 1 : 0;
+      }
+    }
+    constexpr int fewest = 3; // decimals: 1.0 may be any number
+    const std::size_t mantissa = std::min(number.find_first_of("eE"), number.size());
+    has_zeros = has_zeros || (behind >= fewest && number[mantissa - 1] == '0');
+    decimals = std::max(decimals, behind - exponent);
+    significant = std::max(significant, shown);
+  }
+
+  double PrintedDigits::rounding(double number) const
+  {
+    constexpr int fewest = 6;
+    const int n = std::max(significant, fewest),
+              n_decimals = decimals + (has_zeros ? 0 : n - significant);
+    const double fixed = .5 * std::pow(10., -n_decimals);
+    return number == 0
+               ? fixed
+               : std::max(fixed,
+                          .5 * std::pow(10., std::floor(std::log10(std::abs(number))) + 1 - n));
+  }
+
+  Csv::Csv(const std::string &file, const std::vector<std::string> &required,
+           const std::vector<std::string> &may_lack)
+      : file_(file), required_(required), may_lack_(may_lack), in_(file)
+  {
+    read_header();
     for (const std::string &column : required)
-      names += (names.empty() ? "" : ",") + column;
-    for (const std::string &column : required)
-      if (!has(column))
-        throw InputError("'" + file + "' has no column " + column + " in its first line '" +
-                         base::shown(header, 80) + "'; name the columns there: " + names);
+      if (!has(column) && std::find(may_lack.begin(), may_lack.end(), column) == may_lack.end())
+        fail_without(column);
     for (auto column = columns_.begin(); column != columns_.end(); ++column)
       if (!column->empty() && std::find(columns_.begin(), column, *column) != column)
         fail("two columns are named " + base::shown(*column) + "; rename one of them");
+  }
+
+  void Csv::read_header()
+  {
+    const auto separators = {',', ';', '\t', ' '};
+    const auto find_separator = [&](const std::string &header)
+    {
+      return std::find_if(separators.begin(), separators.end(),
+                          [&](char separator) { return names_all(header, separator); });
+    };
+    bool is_first = true;
+    while (std::getline(in_, header_))
+    {
+      ++line_;
+      if (is_first && header_.compare(0, 3, "\xEF\xBB\xBF") == 0)
+        header_.erase(0, 3); // a byte order mark, as spreadsheets write it
+      is_first = false;
+      const std::size_t mark = comment_mark(header_);
+      if (mark == 0 && header_.find_first_not_of(blank) != std::string::npos)
+        break;
+      if (mark == 0)
+        continue;
+      ++n_comments_;
+      if (const auto found = find_separator(header_.substr(mark)); found != separators.end())
+      {
+        header_.erase(0, mark);
+        is_header_comment_ = true;
+        break;
+      }
+    }
+    if (!in_.is_open() || in_.bad())
+      throw InputError("'" + file_ + "' cannot be read; check its name and folder");
+    line_ = std::max<std::size_t>(line_, 1); // of a file without lines the first is wrong
+    const auto found = find_separator(header_);
+    separator_ = found == separators.end() ? ',' : *found;
+    columns_ = split(header_, separator_);
+  }
+
+  bool Csv::names_all(const std::string &header, char separator) const
+  {
+    std::vector<std::string> names = split_line(header, separator);
+    for (std::string &name : names)
+    {
+      unquote(name);
+      name = lower(name);
+    }
+    return std::all_of(required_.begin(), required_.end(),
+                       [&](const std::string &column)
+                       {
+                         const auto has =
+                             [&](const std::vector<std::string> &list, const std::string &name)
+                         { return std::find(list.begin(), list.end(), name) != list.end(); };
+                         return has(may_lack_, column) || has(names, lower(column));
+                       });
+  }
+
+  std::vector<std::string> Csv::split(const std::string &line, char separator)
+  {
+    std::vector<std::string> values = split_line(line, separator);
+    for (std::string &value : values)
+      has_quotes_ = unquote(value) || has_quotes_;
+    return values;
+  }
+
+  std::vector<std::string> Csv::notes() const
+  {
+    std::vector<std::string> notes;
+    if (separator_ != ',' && columns_.size() > 1)
+      notes.push_back("values are separated by " + separator_name(separator_));
+    if (has_quotes_)
+      notes.emplace_back("values are in quotes");
+    for (const std::string &column : required_)
+      if (has(column) && columns_[index(column)] != column)
+      {
+        notes.emplace_back("names of columns are in upper case");
+        break;
+      }
+    if (is_header_comment_)
+      notes.emplace_back("a comment line names the columns");
+    if (const std::size_t n = n_comments_ - (is_header_comment_ ? 1 : 0); n > 0)
+      notes.push_back(std::to_string(n) + (n == 1 ? " comment line is" : " comment lines are") +
+                      " left out");
+    return notes;
+  }
+
+  void Csv::fail_without(const std::string &column) const
+  {
+    std::string names;
+    for (const std::string &one : required_)
+      names += (names.empty() ? "" : ",") + one;
+    throw InputError("'" + file_ + "' has no column " + column + " in its first line '" +
+                     base::shown(header_, 80) + "'; name the columns there: " + names);
   }
 
   bool Csv::has(const std::string &column) const
@@ -76,7 +257,12 @@ namespace plumbline::scene
     for (std::string text; std::getline(in_, text);)
     {
       ++line_;
-      row_ = split(text);
+      if (comment_mark(text) > 0)
+      {
+        ++n_comments_;
+        continue;
+      }
+      row_ = split(text, separator_);
       if (std::all_of(row_.begin(), row_.end(), [](auto &value) { return value.empty(); }))
         continue;
       if (row_.size() > columns_.size())
@@ -89,9 +275,11 @@ namespace plumbline::scene
     return false;
   }
 
-  double Csv::number(const std::string &column) const
+  double Csv::number(const std::string &column)
   {
-    return parse<double>(column, "a finite number");
+    const double number = parse<double>(column, "a finite number");
+    digits_[column].add(value(column));
+    return number;
   }
 
   std::int64_t Csv::integer(const std::string &column) const
@@ -106,7 +294,11 @@ namespace plumbline::scene
 
   std::size_t Csv::index(const std::string &column) const
   {
-    return std::find(columns_.begin(), columns_.end(), column) - columns_.begin();
+    const auto exact = std::find(columns_.begin(), columns_.end(), column);
+    const auto is_like = [&](const std::string &name) { return lower(name) == lower(column); };
+    if (exact == columns_.end() && std::count_if(columns_.begin(), columns_.end(), is_like) == 1)
+      return std::find_if(columns_.begin(), columns_.end(), is_like) - columns_.begin();
+    return exact - columns_.begin();
   }
 
   std::string Csv::value(const std::string &column) const
@@ -121,7 +313,9 @@ namespace plumbline::scene
     const std::optional<Number> number = to_finite<Number>(text);
     if (!number)
       fail(column + " = '" + base::shown(text) + "' is not " + wanted +
-           "; mend or take out the line");
+           (separator_ != ',' && text.find(',') != std::string::npos
+                ? "; write decimal points, not commas"
+                : "; mend or take out the line"));
     return *number;
   }
 
@@ -138,7 +332,7 @@ namespace plumbline::scene
       ++line;
       const auto fail = [&](const std::string &fault)
       { throw InputError(what + ", line " + std::to_string(line) + ": " + fault); };
-      const std::vector<std::string> row = split(text);
+      const std::vector<std::string> row = split_line(text, ',');
       if (row.size() == 1 && row[0].empty())
         continue;
       for (const std::string &value : row)

@@ -118,6 +118,53 @@ TEST_F(CsvFile, names_line_column_and_value_that_are_wrong)
   EXPECT_EQ(error_of([&] { csv.fail(7, "is odd"); }), ", line 7: is odd");
 }
 
+TEST_F(CsvFile, of_other_separators_quotes_cases_and_comments_is_read_and_told)
+{
+  const auto notes = [&](const std::string &text)
+  {
+    Csv csv = open(text);
+    std::string all;
+    EXPECT_TRUE(csv.next());
+    EXPECT_EQ(csv.integer("a"), 1) << text;
+    EXPECT_EQ(csv.number("b"), 2.5) << text;
+    EXPECT_FALSE(csv.next());
+    for (const std::string &note : csv.notes())
+      all += note + "; ";
+    return all;
+  };
+  EXPECT_EQ(notes("a,b\n1,2.5\n"), "");
+  EXPECT_EQ(notes("a;b\n1; 2.5\n"), "values are separated by ';'; ");
+  EXPECT_EQ(notes("b\ta\n2.5\t1\n"), "values are separated by tabs; ");
+  EXPECT_EQ(notes("  a   b\n 1  2.5 \n"), "values are separated by blanks; ");
+  EXPECT_EQ(notes("\"a\",\"b\",c\n\"1\",\"2.5\",\"x, y\"\n"), "values are in quotes; ");
+  EXPECT_EQ(notes("A,B\n1,2.5\n"), "names of columns are in upper case; ");
+  EXPECT_EQ(notes("# mine\n\na,b\n// one\n1,2.5\n% end\n"), "3 comment lines are left out; ");
+  EXPECT_EQ(notes("#mine\n# b a\n2.5 1\n"),
+            "values are separated by blanks; a comment line names the columns; 1 comment line is "
+            "left out; ");
+  EXPECT_EQ(fault("A,a\n1,2\n").find(" has no column b in its first line 'A,a'"), 0u);
+  EXPECT_EQ(fault("a;b\n1;2,5\n"),
+            ", line 2: b = '2,5' is not a finite number; write decimal points, not commas");
+}
+
+TEST_F(CsvFile, tells_the_rounding_of_its_numbers_by_their_digits)
+{
+  const auto rounding = [&](const std::vector<std::string> &numbers, double number)
+  {
+    PrintedDigits digits;
+    for (const std::string &one : numbers)
+      digits.add(one);
+    return digits.rounding(number);
+  };
+  EXPECT_NEAR(rounding({"0.250000", "-1.500000"}, 1.5), 5e-7, 1e-12); // so many decimals
+  EXPECT_NEAR(rounding({"0.250000", "-1.500000"}, .001), 5e-7, 1e-12);
+  EXPECT_NEAR(rounding({"0.010000"}, .01), 5e-7, 1e-12);
+  EXPECT_NEAR(rounding({"448249.750"}, 448249.75), 5e-4, 1e-9);
+  EXPECT_NEAR(rounding({"0.0123457", "12.3457"}, .0123457), 5e-8, 1e-12); // so many digits
+  EXPECT_NEAR(rounding({"1.234567e-05", "5"}, 1.234567e-5), 5e-12, 1e-16);
+  EXPECT_NEAR(rounding({".05", ".1"}, .05), 5e-8, 1e-12); // short numbers may be exact
+}
+
 TEST_F(CsvFile, holds_nodes)
 {
   const auto read = [&](const std::string &text)
