@@ -5,16 +5,49 @@
 #include "check_files.h"
 #include "check_text.h"
 #include "output_folder.h"
+#include "scene/scene_keys.h"
 
+#include <csignal>
 #include <iostream>
 
 namespace plumbline::app
 {
   namespace fs = std::filesystem;
 
+  namespace
+  {
+    /// Bodies with cracks or free surfaces are refused before anything else of their scenes is
+    /// looked at.
+    void refuse_other_bodies(const CheckOptions &options)
+    {
+      const auto value_of = [&](const std::string &key)
+      { return scene::value_of_key(options.scene_file, options.overrides, key); };
+      const std::string bodies = "; weights are checked of bodies without cracks and free "
+                                 "surfaces, with data in a collar or on a torus";
+      for (const auto &[key, name] :
+           {std::pair{"Domain/cracks", "cracks"}, std::pair{"Domain/outside", "free surfaces"}})
+        if (!value_of(key).empty())
+          throw InputError("check takes no " + std::string(name) + ": " + key +
+                           " is given; clear it" + bodies);
+      if (value_of("Domain/boundary") == "free")
+        throw InputError("check takes no free bodies: Domain/boundary = free; write constrained" +
+                         bodies);
+    }
+
+    /// A user's interrupt ends it at once, also where the parent process ignores it: nothing is
+    /// written before the end.
+    void obey_interrupts()
+    {
+      for (const int signal : {SIGINT, SIGTERM})
+        std::signal(signal, SIG_DFL);
+    }
+  } // namespace
+
   int check(const CheckOptions &options)
   {
     const Requirements required = parse_requirements(options.required);
+    obey_interrupts();
+    refuse_other_bodies(options);
     const scene::Scene scene = scene::read_scene(options.scene_file, options.overrides);
     if (scene.study.regime == scene::Regime::variable)
       throw InputError("Study/regime = variable: weights are those of one value of " +

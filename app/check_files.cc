@@ -21,7 +21,7 @@ namespace plumbline::app
       std::vector<double> area(n), flags(n);
       for (std::size_t i = 0; i < n; ++i)
       {
-        double sum = found.volumes[i];
+        double sum = found.mended_volumes[i];
         for (const Bond &bond : found.given.families[i].bonds)
           sum += bond.weight;
         area[i] = std::abs(sum / ball - 1);

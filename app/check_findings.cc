@@ -1,7 +1,6 @@
 #include "check_findings.h"
 
 #include "base/error.h"
-#include "meshfree/check/bond_nodes.h"
 #include "meshfree/check/bond_ramp.h"
 #include "meshfree/discretisations.h"
 #include "reference/method.h"
@@ -27,20 +26,17 @@ namespace plumbline::app
 
   namespace
   {
-    /// The level whose h is nearest to the size of the nodes.
+    /// The level whose h is nearest to the spacing of the nodes, by their ratio.
     ChosenLevel choose_level(const scene::Scene &scene, const GivenNodes &nodes)
     {
-      const auto inside =
-          nodes_inside(nodes, scene::make_mesh(scene, scene.study.series.front().levels.front()));
-      double volume = 0;
-      for (const std::size_t i : inside)
-        volume += nodes.volume[i];
-      const double size = std::sqrt(volume / static_cast<double>(inside.size()));
-      ChosenLevel chosen{scene.study.series.front().levels.front(), scene.study.series.front().name,
-                         size};
+      const scene::Series &first = scene.study.series.front();
+      const double size = node_spacing(nodes, scene::make_mesh(scene, first.levels.front()));
+      ChosenLevel chosen{first.levels.front(), first.name, size};
+      const auto distance = [&](const scene::Level &level)
+      { return std::abs(std::log(level.h / size)); };
       for (const scene::Series &series : scene.study.series)
         for (const scene::Level &level : series.levels)
-          if (std::abs(level.h - size) < std::abs(chosen.level.h - size))
+          if (distance(level) < distance(chosen.level))
             chosen = {level, series.name, size};
       return chosen;
     }
@@ -125,46 +121,126 @@ namespace plumbline::app
       return result;
     }
 
-    /// A volume that is out of line, by what is expected of it: were it left as it is, the weights
-    /// to that node would seem out of line as well, though they may be right.
-    std::vector<double> mended(std::vector<double> volumes, const std::vector<Outlier> &outliers)
+    /// The families with the volumes of their neighbours.
+    std::vector<Family> with_volumes(std::vector<Family> families,
+                                     const std::vector<double> &volumes)
     {
-      for (const Outlier &one : outliers)
-        volumes[one.node] = one.expected;
-      return volumes;
+      for (Family &family : families)
+        for (std::size_t k = 0; k < family.bonds.size(); ++k)
+          family.bonds[k].area = volumes[family.neighbours[k]];
+      return families;
     }
 
-    /// Weights as they stand, for what names their defects.
-    void find_defects(Findings &found, const scene::Case &one,
-                      const std::vector<double> &uncut_areas)
+    /// Volumes and weights that belong together, and the rule of ours that the weights are.
+    struct Recognition
     {
-      const scene::Problem &problem = one.problem;
-      const std::vector<Family> &families = found.given.families;
-      found.outliers = find_volume_outliers(
-          {families, problem.kernel, *problem.cells, found.volumes}, uncut_areas);
-      const std::vector<double> volumes = mended(found.volumes, found.outliers);
-      const GivenBonds given{families, problem.kernel, *problem.cells, volumes};
-      const auto rule = recognise(given);
-      if (rule)
+      std::vector<double> volumes; ///< that the weights were made with, as far as it is known
+      std::vector<Family> families;
+      std::optional<Recognised> rule;
+    };
+
+    /// Volumes that are wrong are mended first: were they left as they are, the weights to those
+    /// nodes would seem wrong as well, though they may be right. If no rule of ours is recognised
+    /// then, the weights may be made with the wrong volumes.
+    Recognition recognise_weights(const Findings &found, const scene::Problem &problem)
+    {
+      Recognition result;
+      std::vector<double> as_given = found.volumes;
+      for (double &volume : as_given)
+        volume /= found.volume_factor;
+      using Volumes = const std::vector<double> *;
+      for (const Volumes volumes : {&found.mended_volumes, static_cast<Volumes>(&as_given)})
       {
-        found.rule = rule->rule;
-        found.rule_factor = rule->factor;
+        std::vector<Family> families = with_volumes(found.given.families, *volumes);
+        auto rule =
+            recognise({families, problem.kernel, *problem.cells, *volumes, found.precision});
+        if (!rule && !result.volumes.empty())
+          break;
+        result = {*volumes, std::move(families), std::move(rule)};
+        if (result.rule || found.outliers.empty())
+          break;
       }
-      found.causes = find_causes(given, rule, one.scene.methods.names);
-      if (rule && rule->is_full_area() && found.causes.empty())
-        found.rule_remark = ramp_text(ramp_effects(given, families));
-      const double point_scale = found.causes.empty() ? 1 : found.causes.front().point_scale;
-      const std::size_t n_volumes = found.outliers.size();
-      for (const Outlier &one : find_outliers(given, rule, point_scale))
-        // weights that were made with a volume that is wrong are all off by its factor
-        if (std::none_of(found.outliers.begin(),
-                         found.outliers.begin() + static_cast<std::ptrdiff_t>(n_volumes),
+      return result;
+    }
+
+    /// Adds bonds and nodes that are out of line, but for what volumes explain that are: weights
+    /// that were made with a volume that is wrong are all off by its factor.
+    void add_outliers(Findings &found, const std::vector<Outlier> &outliers)
+    {
+      const std::vector<Outlier> volumes = found.outliers;
+      for (const Outlier &one : outliers)
+        if (std::none_of(volumes.begin(), volumes.end(),
                          [&](const Outlier &volume)
                          {
                            return (one.defect == Defect::neighbour && one.node == volume.node) ||
                                   (one.defect == Defect::weight && one.neighbour == volume.node);
                          }))
           found.outliers.push_back(one);
+    }
+
+    /// Weights as they stand, for what names their defects.
+    void find_defects(Findings &found, const scene::Case &one)
+    {
+      const scene::Problem &problem = one.problem;
+      const Recognition recognition = recognise_weights(found, problem);
+      const GivenBonds given{recognition.families, problem.kernel, *problem.cells,
+                             recognition.volumes, found.precision};
+      const Explanation explanation =
+          explain(given, recognition.rule,
+                  {one.scene.methods.names, found.volume_factor, found.given.of_collar});
+      found.causes = explanation.causes;
+      found.is_mended = std::any_of(found.causes.begin(), found.causes.end(),
+                                    [](const Cause &cause) { return cause.is_structural; });
+      if (const auto &rule = found.is_mended ? explanation.rule : recognition.rule)
+      {
+        found.rule = rule->rule;
+        found.rule_factor = rule->factor;
+        if (rule->is_full_area() && found.causes.empty() &&
+            found.moments.typical() > found.precision.moments)
+          found.rule_remark = ramp_text(ramp_effects(given, given.families));
+      }
+      if (found.is_mended)
+        return; // single bonds cannot be judged yet
+      double point_scale = 1;
+      for (const Cause &cause : found.causes)
+        point_scale *= cause.point_scale;
+      add_outliers(found, find_outliers(given, recognition.rule, point_scale));
+    }
+
+    /// Volumes against the areas of cells, which come before all that is relative to volumes.
+    void find_volumes(Findings &found, const scene::Problem &problem,
+                      const std::vector<double> &uncut_areas)
+    {
+      found.precision = Precision::of_files(found.nodes.rounding, found.given.weight_rounding,
+                                            found.nodes.volume_rounding, found.level.node_size,
+                                            problem.horizon());
+      const VolumeCheck volumes = check_volumes(
+          {found.given.families, problem.kernel, *problem.cells, found.volumes, found.precision},
+          uncut_areas);
+      found.volume_factor = volumes.factor;
+      found.outliers = volumes.outliers;
+      found.mended_volumes = volumes.mended;
+      found.given.families = with_volumes(std::move(found.given.families), found.mended_volumes);
+      for (CollarBond &one : found.given.of_collar)
+        one.bond.area = found.mended_volumes[one.neighbour];
+      double volume = 0, area = 0;
+      for (std::size_t i = 0; i < found.cells->n_free; ++i)
+      {
+        volume += found.volumes[i];
+        area += found.cells->area[i];
+      }
+      found.volume_defect = volume / area - 1;
+    }
+
+    /// How the files were read.
+    std::vector<std::string> all_notes(const Findings &found, const CheckOptions &options)
+    {
+      std::vector<std::string> result;
+      for (const auto &[file, notes] : {std::pair{options.nodes_file, found.nodes.notes},
+                                        std::pair{options.bonds_file, found.given.notes}})
+        for (const std::string &note : notes)
+          result.push_back("'" + file + "': " + note);
+      return result;
     }
   } // namespace
 
@@ -201,19 +277,14 @@ namespace plumbline::app
       found.ids.push_back(found.nodes.id[i]);
       found.volumes.push_back(found.nodes.volume[i]);
     }
-    double volume = 0, area = 0;
-    for (std::size_t i = 0; i < found.cells->n_free; ++i)
-    {
-      volume += found.volumes[i];
-      area += found.cells->area[i];
-    }
-    found.volume_defect = volume / area - 1;
+    found.notes = all_notes(found, options);
+    find_volumes(found, problem, cells.uncut_areas);
 
     const std::vector<Family> &families = found.given.families;
     found.moments = check_moments(families, problem.kernel);
-    found.weights = check_weights(families, problem.kernel, found.volumes);
-    found.symmetry = check_symmetry(families, problem.kernel);
-    find_defects(found, first, cells.uncut_areas);
+    found.weights = check_weights(families, problem.kernel, found.mended_volumes);
+    found.symmetry = check_symmetry(families, problem.kernel, found.mended_volumes);
+    find_defects(found, first);
     const FamilySource source = [&](std::size_t i, Family &family) { family = families[i]; };
     try
     {

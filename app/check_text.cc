@@ -25,8 +25,11 @@ namespace plumbline::app
           << found.weights.largest_family << " of a node";
       if (found.given.n_ignored > 0)
         out << "; " << found.given.n_ignored << " of collar nodes ignored";
-      out << "\nlevel     " << found.level.text() << ", nearest to the nodes' mean size "
-          << found.level.node_size << "\n\n";
+      out << "\nlevel     " << found.level.text() << ", nearest to the nodes' spacing "
+          << found.level.node_size << '\n';
+      for (const std::string &note : found.notes)
+        out << "read      " << note << '\n';
+      out << '\n';
     }
 
     void tell_moments(std::ostream &out, const Findings &found)
@@ -53,7 +56,9 @@ namespace plumbline::app
       if (found.symmetry.asymmetry > 0)
         out << ", between nodes " << id(found.symmetry.nodes[0]) << " and "
             << id(found.symmetry.nodes[1]);
-      out << "; " << found.symmetry.n_unpaired << " bonds without a partner\n"
+      out << "; " << found.symmetry.n_unpaired
+          << " bonds without a partner; V_i w_ij C and V_j w_ji C by "
+          << base::to_percent(found.symmetry.imbalance) << '\n'
           << "matrix    " << found.matrix.n_positive
           << " rows with positive off-diagonal entries (no M-matrix if any), "
           << found.matrix.n_weak
@@ -113,6 +118,8 @@ namespace plumbline::app
       json["horizon"] = found.level.level.horizon;
       json["node_size"] = found.level.node_size;
       json["volume_defect"] = found.volume_defect;
+      json["volume_factor"] = found.volume_factor;
+      json["notes"] = found.notes;
     }
 
     void add_moments(Json &json, const Findings &found)
@@ -139,7 +146,9 @@ namespace plumbline::app
                                   {"text", cause.text},
                                   {"factor", cause.factor},
                                   {"defect_before", cause.before},
-                                  {"defect_after", cause.after}});
+                                  {"defect_after", cause.after},
+                                  {"worst_before", cause.worst_before},
+                                  {"worst_after", cause.worst_after}});
       json["outliers"] = Json::array();
       for (const Outlier &o : found.outliers)
         json["outliers"].push_back(
@@ -159,6 +168,7 @@ namespace plumbline::app
                          {"area_defect", to_json(found.weights.area, found)}};
       json["symmetry"] = {
           {"asymmetry", found.symmetry.asymmetry},
+          {"imbalance", found.symmetry.imbalance},
           {"nodes", {found.ids[found.symmetry.nodes[0]], found.ids[found.symmetry.nodes[1]]}},
           {"n_unpaired", found.symmetry.n_unpaired}};
       json["matrix"] = {{"n_rows_with_positive_entries", found.matrix.n_positive},

@@ -134,6 +134,7 @@ namespace
         "Output folder (default: results/check_<scene>; with --json or --quiet: none)");
     check.add_option("--require", options->required, requirements_help)->allow_extra_args(false);
     check.add_option("--set", request.settings, "Section/key=value, instead of what the file says");
+    check.add_option("--threads", request.n_threads, "Threads (default: all cores)");
     check.add_flag("--quiet", options->quiet, "Print nothing but errors, write nothing without -o");
     check.add_flag("--json", options->json, "Print a JSON object, write nothing without -o");
     set_action(check, request, options, plumbline::app::check, true);

@@ -26,9 +26,6 @@ namespace plumbline::app
 
   namespace
   {
-    /// Weights written with six digits have moments that are exact to this.
-    constexpr double written = 1e-5;
-
     constexpr std::size_t most_named = 5;
 
     std::string point(const dealii::Point<2> &x)
@@ -81,19 +78,27 @@ namespace plumbline::app
 
     bool is_too_inexact(const Findings &found, const Requirements &required)
     {
-      return (required.ac && worst_of_both(found) > written) ||
+      return (required.ac && worst_of_both(found) > found.precision.moments) ||
              (required.moments && worst_of_both(found) > *required.moments);
     }
 
     /// What the moments make of the solution.
     std::string consequence(const Findings &found)
     {
-      if (found.moments.typical() < written)
+      const MomentCheck &moments = found.moments;
+      const double limit = std::abs(moments.mean_ratio - 1), first = moments.defects[0].median;
+      constexpr double much_less = .05;
+      if (moments.typical() <= found.precision.moments)
         return "at most nodes they are right";
-      return found.moments.mean_ratio > 0
+      if (moments.mean_ratio == 0)
+        return "there is no operator";
+      if (first > found.precision.moments && limit < much_less * first)
+        return "first moments of most nodes are off: a drift that grows as 1 / horizon, so that "
+               "there is no limit as horizon and h go to 0 together";
+      return moments.mean_ratio > 0
                  ? "as horizon and h go to 0 together the solution tends to a wrong limit, off by "
                    "about " +
-                       base::to_percent(std::abs(1 / found.moments.mean_ratio - 1))
+                       base::to_percent(std::abs(1 / moments.mean_ratio - 1))
                  : "as horizon and h go to 0 together there is no limit, the operator has the "
                    "wrong sign";
     }
@@ -184,6 +189,82 @@ namespace plumbline::app
            base::to_text(o.expected, 5) + " is usual, and no bond explains it";
   }
 
+  namespace
+  {
+    /// Nodes whose volume is off by one factor.
+    struct Band
+    {
+      double ratio;
+      std::vector<const Outlier *> nodes;
+    };
+
+    std::vector<Band> volume_bands(const Findings &found)
+    {
+      constexpr double same = 1e-3;
+      std::vector<Band> bands;
+      for (const Outlier &one : found.outliers)
+        if (one.defect == Defect::volume)
+        {
+          const double ratio = one.found / one.expected;
+          const auto band = std::find_if(bands.begin(), bands.end(),
+                                         [&](const Band &other)
+                                         { return std::abs(ratio / other.ratio - 1) < same; });
+          if (band == bands.end())
+            bands.push_back({ratio, {&one}});
+          else
+            band->nodes.push_back(&one);
+        }
+      return bands;
+    }
+
+    std::string text_of_band(const Band &band, const Findings &found)
+    {
+      std::vector<std::size_t> nodes;
+      for (const Outlier *one : band.nodes)
+        nodes.push_back(one->node);
+      std::sort(nodes.begin(), nodes.end()); // those of the collar come last
+      const std::size_t n_free = static_cast<std::size_t>(
+          std::lower_bound(nodes.begin(), nodes.end(), found.cells->n_free) - nodes.begin());
+      const auto list = [&](std::size_t from, std::size_t to)
+      {
+        std::string ids;
+        for (std::size_t k = from; k < std::min(from + most_named, to); ++k)
+          ids += (k == from ? "" : ", ") + found.id(nodes[k]);
+        return std::to_string(to - from) + " nodes (" + ids +
+               (to - from > most_named ? " ..." : "") + ")";
+      };
+      const std::size_t n = nodes.size();
+      return "the volumes of " + (n_free > 0 ? list(0, n_free) : "") +
+             (n_free > 0 && n > n_free ? " and of " : "") +
+             (n > n_free ? list(n_free, n) + " in the collar" : "") + " are " +
+             base::to_text(band.ratio, 3) + " times the areas of their cells" +
+             (found.volume_factor == 1
+                  ? ""
+                  : ", besides the factor " + base::to_text(found.volume_factor, 4) + " of all");
+    }
+
+    void add_outliers(const Findings &found, std::vector<std::string> &complaints)
+    {
+      std::size_t n_named = 0, n_lines = 0;
+      const auto add = [&](const std::string &text, std::size_t n)
+      {
+        if (n_lines++ >= most_named)
+          return;
+        complaints.push_back("out of line: " + text);
+        n_named += n;
+      };
+      for (const Band &band : volume_bands(found))
+        add(band.nodes.size() == 1 ? text(*band.nodes.front(), found) : text_of_band(band, found),
+            band.nodes.size());
+      for (const Outlier &one : found.outliers)
+        if (one.defect != Defect::volume)
+          add(text(one, found), 1);
+      if (n_named < found.outliers.size())
+        complaints.push_back("out of line: " + std::to_string(found.outliers.size() - n_named) +
+                             " more (outliers.csv in the output folder has all)");
+    }
+  } // namespace
+
   std::vector<std::string> complaints(const Findings &found, const Requirements &required)
   {
     std::vector<std::string> result;
@@ -191,13 +272,8 @@ namespace plumbline::app
     for (const Cause &cause : found.causes)
       if (!cause.is_own_error || is_too_inexact(found, required))
         result.push_back("cause: " + cause.text);
-    const std::size_t n = found.outliers.size();
-    for (std::size_t k = 0; k < std::min(most_named, n); ++k)
-      result.push_back("out of line: " + text(found.outliers[k], found));
-    if (n > most_named)
-      result.push_back("out of line: " + std::to_string(n - most_named) +
-                       " more (outliers.csv in the output folder has all)");
-    if (required.ac && worst_of_both(found) > written)
+    add_outliers(found, result);
+    if (required.ac && worst_of_both(found) > found.precision.moments)
       result.push_back("required ac: " + off(found) + "; " + consequence(found));
     if (required.consistent && found.moments.typical() > ratio)
       result.push_back("required consistent: moments of most nodes are off by " +
@@ -206,7 +282,8 @@ namespace plumbline::app
     if (required.moments && worst_of_both(found) > *required.moments)
       result.push_back("required moments=" + base::to_text(*required.moments, 5) + ": " +
                        off(found));
-    if (required.symmetric && (found.symmetry.asymmetry > written || found.symmetry.n_unpaired > 0))
+    if (required.symmetric &&
+        (found.symmetry.asymmetry > found.precision.moments || found.symmetry.n_unpaired > 0))
       result.push_back("required symmetric: w C of a pair differs from end to end by up to " +
                        base::to_percent(found.symmetry.asymmetry) +
                        " of the largest, between nodes " + found.id(found.symmetry.nodes[0]) +
@@ -232,21 +309,26 @@ namespace plumbline::app
     std::vector<std::string> result;
     const MomentDefect &first = moments.defects[0];
     if (!found.rule.empty())
-      result.push_back("the weights are those of " + found.rule +
+      result.push_back((found.is_mended ? "once that is mended the weights are those of "
+                                        : "the weights are those of ") +
+                       found.rule +
                        (std::abs(found.rule_factor - 1) > file_tolerance
                             ? " times " + base::to_text(found.rule_factor, 5)
                             : "") +
                        (found.outliers.empty() ? "" : ", but for what is out of line"));
     if (!found.rule_remark.empty())
       result.push_back(found.rule_remark);
-    if (!moments.is_first_exact())
+    const double exact = std::max(MomentCheck::tolerance, found.precision.moments);
+    const bool is_first_exact = first.worst.value <= exact,
+               is_second_exact = moments.second.value <= exact;
+    if (!is_first_exact)
       result.push_back("first moments off by up to " + base::to_percent(first.worst.value) +
                        " at node " + found.id(first.worst.node) +
                        ": the operator has a drift there that grows as 1 / horizon");
-    if (moments.is_second_exact())
+    if (is_second_exact)
       result.push_back(
           std::string("second moments exact") +
-          (moments.is_first_exact() ? ": asymptotically compatible as far as moments tell" : ""));
+          (is_first_exact ? ": asymptotically compatible as far as moments tell" : ""));
     else
       result.push_back("second moments off by " + base::to_percent(moments.mean_ratio - 1) +
                        " on average (worst " + base::to_percent(moments.second.value) +

@@ -11,6 +11,7 @@
 #include "scene/keys.h"
 #include "scene/models/model.h"
 #include "scene/scene_file.h"
+#include "scene/scene_keys.h"
 #include "scene/unused_keys.h"
 
 #include <algorithm>
@@ -252,22 +253,44 @@ namespace plumbline::scene
     return scene.material.model->kernel(scene, horizon);
   }
 
+  namespace
+  {
+    /// The file by which a scene is named; what a pipe names is found from the working directory.
+    std::string place_of(const std::string &file)
+    {
+      return is_read_once(file) ? std::string(piped_name) + ".prm" : file;
+    }
+
+    std::vector<Setting> settings_of_file(const std::string &file)
+    {
+      const std::string what = opening(file);
+      const bool is_pipe = is_read_once(file);
+      if (is_pipe && base::Communicator::all().n_ranks() > 1)
+        throw InputError(what +
+                         " is a pipe, which one of several ranks alone can read; give a file");
+      const std::string text = base::read_text_file(file, what, most_bytes, "a .prm or .json file");
+      const bool is_json = is_pipe ? text.find_first_not_of(" \t\r\n") == text.find('{')
+                                   : base::has_ending(file, ".json");
+      return is_json ? read_json_settings(text, what) : read_settings(place_of(file), text, what);
+    }
+  } // namespace
+
   Scene read_scene(const std::string &file, const std::vector<Override> &overrides)
   {
     const std::string what = opening(file);
-    const bool is_pipe = is_read_once(file);
-    if (is_pipe && base::Communicator::all().n_ranks() > 1)
-      throw InputError(what + " is a pipe, which one of several ranks alone can read; give a file");
-    const std::string text = base::read_text_file(file, what, most_bytes, "a .prm or .json file");
-    const bool is_json = is_pipe ? text.find_first_not_of(" \t\r\n") == text.find('{')
-                                 : base::has_ending(file, ".json");
-    // files that a piped scene names are found from here
-    const std::string place = is_pipe ? std::string(piped_name) + ".prm" : file;
-    return checked(
-        build(place, what,
-              is_json ? read_json_settings(text, what) : read_settings(place, text, what),
-              overrides),
-        what);
+    return checked(build(place_of(file), what, settings_of_file(file), overrides), what);
+  }
+
+  std::string value_of_key(const std::string &file, const std::vector<Override> &overrides,
+                           const std::string &key)
+  {
+    std::string value;
+    if (!is_read_once(file)) // its text is still to be read
+      for (const Setting &one : settings_of_file(file))
+        value = one.key == key ? one.value : value;
+    for (const Override &one : overrides)
+      value = one.key == key ? one.value : value;
+    return value;
   }
 
   Scene parse_scene(const std::string &name, const std::string &text,

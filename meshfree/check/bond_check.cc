@@ -93,7 +93,7 @@ namespace plumbline::meshfree
     std::vector<double> values(families.size()), &second = check.second_defects;
     for (int degree = 1; degree <= highest; ++degree)
     {
-      const double size = kernel_size(kernel, degree);
+      const double size = degree == 2 ? std::abs(second_moment) : kernel_size(kernel, degree);
       for (std::size_t i = 0; i < families.size(); ++i)
         values[i] = moment_defect(families[i], kernel, degree) / size;
       check.defects.push_back({degree, largest(values), median(values), values});
@@ -110,7 +110,7 @@ namespace plumbline::meshfree
       const double ratio = second_moment_ratio(families[i], kernel);
       sum += ratio;
       check.ratios.push_back(ratio);
-      second[i] = std::max(second[i] * second_size / std::abs(second_moment), std::abs(ratio - 1));
+      second[i] = std::max(second[i], std::abs(ratio - 1));
     }
     check.mean_ratio = sum / static_cast<double>(families.size());
     check.second = largest(second);
@@ -145,15 +145,18 @@ namespace plumbline::meshfree
     return check;
   }
 
-  SymmetryCheck check_symmetry(const std::vector<Family> &families, const Kernel<2> &kernel)
+  SymmetryCheck check_symmetry(const std::vector<Family> &families, const Kernel<2> &kernel,
+                               const std::vector<double> &volumes)
   {
     SymmetryCheck check;
-    double scale = 0;
+    double scale = 0, scale_of_forces = 0;
     for (std::size_t i = 0; i < families.size(); ++i)
       for (std::size_t k = 0; k < families[i].bonds.size(); ++k)
       {
         const Bond &bond = families[i].bonds[k];
-        scale = std::max(scale, std::abs(bond.weight * radial_value(kernel, bond)));
+        const double size = std::abs(bond.weight * radial_value(kernel, bond));
+        scale = std::max(scale, size);
+        scale_of_forces = std::max(scale_of_forces, volumes[i] * size);
         const std::size_t j = families[i].neighbours[k];
         if (j >= families.size())
           continue;
@@ -167,9 +170,11 @@ namespace plumbline::meshfree
         for (unsigned int a = 0; a < kernel.n_components(); ++a)
           for (unsigned int b = a; b < kernel.n_components(); ++b)
           {
-            const double there = bond.weight * kernel_value(kernel, bond, a, b);
-            const double difference =
-                std::abs(there - (back ? back->weight * kernel_value(kernel, *back, a, b) : 0));
+            const double there = bond.weight * kernel_value(kernel, bond, a, b),
+                         other = back ? back->weight * kernel_value(kernel, *back, a, b) : 0,
+                         difference = std::abs(there - other);
+            check.imbalance =
+                std::max(check.imbalance, std::abs(volumes[i] * there - volumes[j] * other));
             if (difference > check.asymmetry)
             {
               check.asymmetry = difference;
@@ -178,6 +183,7 @@ namespace plumbline::meshfree
           }
       }
     check.asymmetry /= scale > 0 ? scale : 1;
+    check.imbalance /= scale_of_forces > 0 ? scale_of_forces : 1;
     return check;
   }
 } // namespace plumbline::meshfree

@@ -12,7 +12,8 @@ namespace plumbline::meshfree
   };
 
   /// How far sums Σ w C_ab(kernel_point) ξ^α over the families are from ∫ C_ab(ξ) ξ^α dξ, the
-  /// largest over |α| = degree and a, b, relative to ∫ |C| |ξ|^degree.
+  /// largest over |α| = degree and a, b, relative to ∫ |C| |ξ|^degree; of degree 2 relative to the
+  /// largest exact moment ∫ C_11 ξ_1², as in what `run` says of a method's moments.
   struct MomentDefect
   {
     int degree = 0;
@@ -34,8 +35,8 @@ namespace plumbline::meshfree
     int exact_degree = 0;
     /// Mean over the families of the ratio of Σ w tr C |ξ|² to its exact value.
     double mean_ratio = 1;
-    /// Second-moment defect: the defect of degree 2 relative to ∫ C_11 ξ_1², or |ratio - 1| where
-    /// that is larger. Both are the same for scalars where all directions are alike.
+    /// Second-moment defect: the defect of degree 2, or |ratio - 1| where that is larger. Both are
+    /// the same for scalars where all directions are alike.
     Worst second;
     std::vector<double> ratios, second_defects; ///< of each node: what mean_ratio and second are of
 
@@ -65,9 +66,14 @@ namespace plumbline::meshfree
   struct SymmetryCheck
   {
     double asymmetry = 0; ///< largest |w_ij C(q_ij) - w_ji C(q_ji)| relative to the largest |w C|
+    /// Largest |V_i w_ij C(q_ij) - V_j w_ji C(q_ji)| relative to the largest |V w C|: 0 where the
+    /// forces of a pair balance.
+    double imbalance = 0;
     std::array<std::size_t, 2> nodes{}; ///< of that pair
     std::size_t n_unpaired = 0;         ///< bonds i to j without one from j to i
   };
 
-  SymmetryCheck check_symmetry(const std::vector<Family> &families, const Kernel<2> &kernel);
+  /// @param volumes  of the free nodes, shape (n_families)
+  SymmetryCheck check_symmetry(const std::vector<Family> &families, const Kernel<2> &kernel,
+                               const std::vector<double> &volumes);
 } // namespace plumbline::meshfree

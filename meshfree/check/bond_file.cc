@@ -1,11 +1,15 @@
 #include "meshfree/check/bond_file.h"
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "geometry/cell_locator.h"
+#include "meshfree/check/given_rows.h"
 #include "meshfree/rules/families.h"
 #include "scene/csv.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <sstream>
@@ -22,25 +26,55 @@ namespace plumbline::meshfree
       return text.str();
     }
 
-    /// A bond as it stands in the file.
+    /// A bond of a node.
     struct Row
     {
       unsigned int neighbour;
       Bond bond;
       std::size_t line;
     };
+
+    /// Rounding of a double, as of coordinates far from the origin.
+    double last_digit(double number)
+    {
+      return std::numeric_limits<double>::epsilon() * std::abs(number);
+    }
+
+    /// Of all values of a column.
+    double largest_rounding(const scene::PrintedDigits &digits, double number)
+    {
+      return std::max(digits.rounding(number), last_digit(number));
+    }
+
+    /// @param z  of the first node, if the file has z
+    void check_plane(scene::Csv &csv, std::optional<double> &z)
+    {
+      if (!csv.has("z"))
+        return;
+      const double own = csv.number("z");
+      if (z && own != *z)
+        csv.fail("z = " + base::to_text(own, 6) + " where other nodes have " +
+                 base::to_text(*z, 6) + "; give the nodes of one plane, check is for 2D");
+      z = own;
+    }
   } // namespace
 
   GivenNodes read_given_nodes(const std::string &file)
   {
-    scene::Csv csv(file, {"id", "x", "y", "volume"});
+    scene::Csv csv(file, {"id", "x", "y", "volume"}, {"id"});
+    const bool is_numbered = csv.has("id");
+    if (!is_numbered && !csv.has("block_id"))
+      csv.fail_without("id");
     GivenNodes nodes;
+    std::optional<double> z;
     nodes.file = file;
     std::unordered_map<std::int64_t, std::size_t> line_of_id;
     std::map<std::pair<double, double>, std::size_t> line_of_place;
     while (csv.next())
     {
-      const std::int64_t id = csv.integer("id");
+      const std::int64_t id =
+          is_numbered ? csv.integer("id") : static_cast<std::int64_t>(nodes.size() + 1);
+      check_plane(csv, z);
       const Point<2> x(csv.number("x"), csv.number("y"));
       const double volume = csv.number("volume");
       if (!(volume > 0))
@@ -58,6 +92,19 @@ namespace plumbline::meshfree
       nodes.volume.push_back(volume);
       nodes.line.push_back(csv.line());
     }
+    for (const unsigned int d : {0U, 1U})
+      for (const Point<2> &x : nodes.places)
+        nodes.rounding =
+            std::max(nodes.rounding, largest_rounding(csv.digits(d == 0 ? "x" : "y"), x[d]));
+    for (const double volume : nodes.volume)
+      nodes.volume_rounding =
+          std::max(nodes.volume_rounding, csv.digits("volume").rounding(volume) / volume);
+    nodes.notes = csv.notes();
+    if (!is_numbered)
+      nodes.notes.emplace_back("there is no column id, as in Peridigm's text: ids are the numbers "
+                               "of the rows, from 1; block_id is left out");
+    if (z)
+      nodes.notes.push_back("z = " + base::to_text(*z, 6) + " of all nodes is left out");
     return nodes;
   }
 
@@ -131,6 +178,18 @@ namespace plumbline::meshfree
     }
   } // namespace
 
+  double node_spacing(const GivenNodes &nodes, const geometry::Mesh &mesh)
+  {
+    const std::vector<bool> is_on_boundary = on_boundary(nodes, mesh);
+    double n = 0, area = 0;
+    for (const std::size_t i : nodes_inside(nodes, mesh))
+      n += is_on_boundary[i] ? .5 : 1;
+    for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+      if (mesh.cells[cell].is_inside)
+        area += geometry::area(geometry::view(mesh.polygon(cell)));
+    return std::sqrt(area / n);
+  }
+
   GivenCells given_cells(const GivenNodes &nodes, const geometry::Mesh &mesh, bool boundary_is_data)
   {
     const std::vector<bool> is_on_boundary = on_boundary(nodes, mesh);
@@ -168,39 +227,72 @@ namespace plumbline::meshfree
 
   namespace
   {
-    /// What stands in the file, by the row's first node.
-    std::vector<std::vector<Row>> read_rows(scene::Csv &csv, const GivenNodes &nodes,
-                                            const geometry::NodeCells &cells)
+    /// Of the weights by their digits, relative to most of them.
+    double weight_rounding(const std::vector<GivenRow> &rows, const scene::PrintedDigits &digits)
     {
-      std::unordered_map<std::int64_t, unsigned int> node_of_id;
-      for (unsigned int k = 0; k < cells.size(); ++k)
-        node_of_id[nodes.id[cells.source[k]]] = k;
-      const auto node = [&](const std::string &name)
-      {
-        const std::int64_t id = csv.integer(name);
-        const auto found = node_of_id.find(id);
-        if (found == node_of_id.end())
-          csv.fail(name + " = " + std::to_string(id) + " is no node of '" + nodes.file +
-                   "'; take the bond out, or add the node");
-        return found->second;
-      };
+      std::vector<double> sizes;
+      for (const GivenRow &row : rows)
+        if (row.weight != 0)
+          sizes.push_back(std::abs(row.weight));
+      if (sizes.empty())
+        return 0;
+      const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+      std::nth_element(sizes.begin(), middle, sizes.end());
+      return digits.rounding(*middle) / *middle;
+    }
 
-      std::vector<std::vector<Row>> rows(cells.size());
+    std::vector<GivenRow> read_rows(scene::Csv &csv)
+    {
+      std::vector<GivenRow> rows;
       while (csv.next())
       {
-        const unsigned int i = node("i"), j = node("j");
-        if (i == j)
-          csv.fail("a bond of node " + std::to_string(csv.integer("i")) +
-                   " with itself; take it out, it has no part in the operator");
-        const Point<2> xi(cells.nodes[j] - cells.nodes[i]);
-        Bond bond{xi, csv.number("weight"), xi, nodes.volume[cells.source[j]]};
+        GivenRow row{csv.integer("i"), csv.integer("j"), csv.number("weight"), {}, csv.line()};
         if (csv.has("qx") && !(csv.is_empty("qx") && csv.is_empty("qy")))
-          bond.kernel_point = Point<2>(csv.number("qx"), csv.number("qy"));
-        if (bond.kernel_point.square() == 0)
+          row.kernel_point = Point<2>(csv.number("qx"), csv.number("qy"));
+        if (row.kernel_point && row.kernel_point->square() == 0)
           csv.fail(
               "the kernel point (qx, qy) is 0, the place of node i itself, where kernels may be "
               "infinite; give a point of the neighbour's cell, relative to node i");
-        rows[i].push_back({j, bond, csv.line()});
+        rows.push_back(row);
+      }
+      return rows;
+    }
+
+    /// Why bonds cannot be used, given twice apart.
+    /// @return  line and fault of the first row that is wrong, if one is
+    std::optional<std::pair<std::size_t, std::string>> find_fault(const std::vector<GivenRow> &rows,
+                                                                  const NodeIndex &index,
+                                                                  const std::string &nodes_file)
+    {
+      for (const GivenRow &row : rows)
+      {
+        for (const auto &[name, id] : {std::pair{"i", row.i}, std::pair{"j", row.j}})
+          if (!index.find(id))
+            return std::pair{row.line, std::string(name) + " = " + std::to_string(id) +
+                                           " is no node of '" + nodes_file +
+                                           "'; take the bond out, or add the node"};
+        if (row.i == row.j)
+          return std::pair{row.line, "a bond of node " + std::to_string(row.i) +
+                                         " with itself; take it out, it has no part in the "
+                                         "operator"};
+      }
+      return {};
+    }
+
+    /// By the first node of the bonds.
+    std::vector<std::vector<Row>> rows_by_node(const std::vector<GivenRow> &given,
+                                               const NodeIndex &index, const GivenNodes &nodes,
+                                               const geometry::NodeCells &cells)
+    {
+      std::vector<std::vector<Row>> rows(cells.size());
+      for (const GivenRow &row : given)
+      {
+        const unsigned int i = *index.find(row.i), j = *index.find(row.j);
+        const Point<2> xi(cells.nodes[j] - cells.nodes[i]);
+        rows[i].push_back(
+            {j,
+             {xi, row.weight, row.kernel_point.value_or(xi), nodes.volume[cells.source[j]]},
+             row.line});
       }
       return rows;
     }
@@ -230,25 +322,40 @@ namespace plumbline::meshfree
     scene::Csv csv(file, {"i", "j", "weight"});
     if (csv.has("qx") != csv.has("qy"))
       csv.fail("one of the columns qx and qy is missing; give both or none");
-    std::vector<std::vector<Row>> rows = read_rows(csv, nodes, cells);
+    const std::vector<GivenRow> given = read_rows(csv);
+    const NodeIndex index(nodes, cells);
+    const auto fail_unless_shifted = [&](const std::string &message)
+    {
+      const std::string shift = shifted_ids(given, index, cells);
+      throw InputError(shift.empty() ? message : "'" + file + "': " + shift);
+    };
+    if (const auto fault = find_fault(given, index, nodes.file))
+      fail_unless_shifted("'" + file + "', line " + std::to_string(fault->first) + ": " +
+                          fault->second);
+    std::vector<std::vector<Row>> rows = rows_by_node(given, index, nodes, cells);
     const auto id = [&](std::size_t cell) { return std::to_string(nodes.id[cells.source[cell]]); };
 
     GivenFamilies result{std::vector<Family>(cells.n_free)};
     result.lines.resize(cells.n_free);
+    result.is_half_list = is_half_list(given, index, cells.n_free);
+    result.weight_rounding = weight_rounding(given, csv.digits("weight"));
+    result.notes = csv.notes();
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       sort_bonds(rows[i], i, csv, id);
       if (i >= cells.n_free)
       {
         result.n_ignored += rows[i].size();
+        for (const Row &row : rows[i])
+          result.of_collar.push_back({i, row.neighbour, row.bond});
         continue;
       }
-      if (rows[i].empty())
-        throw InputError("'" + nodes.file + "', line " +
-                         std::to_string(nodes.line[cells.source[i]]) + ": node " + id(i) +
-                         " lies in the domain but has no bonds in '" + file +
-                         "'; add them, or, where nodes on the boundary carry data, write "
-                         "Methods/nodes = vertices");
+      if (rows[i].empty() && !result.is_half_list)
+        fail_unless_shifted("'" + nodes.file + "', line " +
+                            std::to_string(nodes.line[cells.source[i]]) + ": node " + id(i) +
+                            " lies in the domain but has no bonds in '" + file +
+                            "'; add them, or, where nodes on the boundary carry data, write "
+                            "Methods/nodes = vertices");
       for (const Row &row : rows[i])
       {
         result.families[i].neighbours.push_back(row.neighbour);

@@ -4,6 +4,8 @@
 #include "meshfree/rules/quadrature_rule.h"
 
 #include <cstdint>
+#include <optional>
+#include <unordered_map>
 
 namespace plumbline::meshfree
 {
@@ -12,14 +14,19 @@ namespace plumbline::meshfree
   {
     std::string file;
     std::vector<std::int64_t> id;
-    std::vector<Point<2>> places;  ///< [length]
-    std::vector<double> volume;    ///< [length^2]
-    std::vector<std::size_t> line; ///< in the file, for messages
+    std::vector<Point<2>> places;        ///< [length]
+    std::vector<double> volume;          ///< [length^2]
+    std::vector<std::size_t> line;       ///< in the file, for messages
+    double rounding = 0;                 ///< of the places, by their digits [length]
+    double volume_rounding = 0;          ///< of the volumes, relative
+    std::vector<std::string> notes = {}; ///< how the file was read, where it is not plain CSV
 
     std::size_t size() const { return id.size(); }
   };
 
-  /// Nodes from a CSV file with the columns id (an integer), x, y and volume, others ignored.
+  /// Nodes from a CSV file with the columns id (an integer), x, y and volume, others ignored; or
+  /// from a text file of Peridigm, "# x y z block_id volume", where the ids are the numbers of the
+  /// rows, from 1. A column z must be constant.
   /// @throws InputError  file not readable, missing columns, not a number, volume <= 0, an id given
   /// twice, two nodes in one place; naming file, line and value
   GivenNodes read_given_nodes(const std::string &file);
@@ -27,6 +34,11 @@ namespace plumbline::meshfree
   /// Which of the nodes lie in Ω.
   /// @throws InputError  none does
   std::vector<std::size_t> nodes_inside(const GivenNodes &nodes, const geometry::Mesh &mesh);
+
+  /// The spacing of the nodes in Ω: √ of the area of Ω over their number, nodes on its boundary
+  /// counted half. It does not depend on the volumes that are given.
+  /// @throws InputError  no node lies in Ω
+  double node_spacing(const GivenNodes &nodes, const geometry::Mesh &mesh);
 
   /// @param level  which the mesh is of, for the message
   /// @throws InputError  a node outside of Ω and its collar
@@ -46,6 +58,13 @@ namespace plumbline::meshfree
   GivenCells given_cells(const GivenNodes &nodes, const geometry::Mesh &mesh,
                          bool boundary_is_data);
 
+  /// A bond of a node in the collar, whose family has no part in the operator.
+  struct CollarBond
+  {
+    std::size_t node = 0, neighbour = 0; ///< numbered as the cells
+    Bond bond;
+  };
+
   /// Families of another code.
   struct GivenFamilies
   {
@@ -53,6 +72,10 @@ namespace plumbline::meshfree
                                   ///< volume
     std::size_t n_ignored = 0;    ///< bonds of nodes in the collar
     std::vector<std::vector<std::size_t>> lines = {}; ///< of the bonds in the file
+    std::vector<CollarBond> of_collar = {};           ///< those that are ignored
+    bool is_half_list = false;  ///< every pair stands once: some nodes may have no bonds
+    double weight_rounding = 0; ///< of the weights by their digits, relative to most of them
+    std::vector<std::string> notes = {}; ///< as of GivenNodes
   };
 
   /// Bonds from a CSV file with the columns i and j (ids), weight [length^2] and, if they are
@@ -60,7 +83,8 @@ namespace plumbline::meshfree
   /// them empty, or the file has no such columns, it is taken at node j.
   /// @param cells  of the nodes, where source is the index into them
   /// @throws InputError  file not readable, missing columns, not a finite number, unknown ids, a
-  /// bond of a node with itself or given twice, a kernel point at 0, a free node without bonds
+  /// bond of a node with itself or given twice, a kernel point at 0, a free node without bonds (but
+  /// in half lists); ids that are off those of the nodes by one are told as such
   GivenFamilies read_given_families(const std::string &file, const GivenNodes &nodes,
                                     const geometry::NodeCells &cells);
 } // namespace plumbline::meshfree

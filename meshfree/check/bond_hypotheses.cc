@@ -2,284 +2,185 @@
 
 #include "base/number_text.h"
 #include "meshfree/check/bond_check.h"
-#include "meshfree/check/bond_pairs.h"
 #include "meshfree/check/bond_profile.h"
-#include "meshfree/check/bond_ramp.h"
+#include "meshfree/check/hypothesis.h"
+#include "meshfree/check/volume_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
 
 namespace plumbline::meshfree
 {
   namespace
   {
-    /// To be explained by a cause, a defect must shrink to this part of itself ...
-    constexpr double much_closer = .25;
-    /// ... or to round-off of a file.
     constexpr double exact = file_tolerance;
+
+    constexpr std::array<Hypothesis, 10> hypotheses = {
+        all_zero,          half_list, kernel_in_weights,  own_volume,  kernel_points, whole_ball,
+        factor_of_weights, drift,     missing_at_horizon, missing_ramp};
+
+    std::string percent(double defect)
+    {
+      return defect < exact ? "nothing" : base::to_percent(defect);
+    }
 
     std::string closer(const Cause &cause)
     {
-      return "; without that the moments are off by " +
-             (cause.after < exact ? "nothing" : base::to_percent(cause.after)) + " instead of " +
-             base::to_percent(cause.before);
+      const auto with_worst = [](double typical, double worst)
+      {
+        constexpr double like = 1.05;
+        return percent(typical) +
+               (worst > exact && worst > like * typical ? " (worst " + percent(worst) + ")" : "");
+      };
+      return "; without that the moments are off by " + with_worst(cause.after, cause.worst_after) +
+             " instead of " + with_worst(cause.before, cause.worst_before);
     }
 
-    bool explains(const Cause &cause)
+    struct Defect
     {
-      return cause.before > exact &&
-             (cause.after < exact || cause.after <= much_closer * cause.before);
-    }
-
-    double typical(const std::vector<Family> &families, const Kernel<2> &kernel)
-    {
-      return check_moments(families, kernel).typical();
-    }
-
-    using Change = std::function<void(Bond &bond, std::size_t node)>;
-
-    std::vector<Family> changed(std::vector<Family> families, const Change &change)
-    {
-      for (std::size_t i = 0; i < families.size(); ++i)
-        for (Bond &bond : families[i].bonds)
-          change(bond, i);
-      return families;
-    }
-
-    /// How far kernel points of most bonds are from the neighbours, in sizes of their cells.
-    double misplacement(const std::vector<Family> &families)
-    {
-      std::vector<double> distances;
-      for (const Family &family : families)
-        for (const Bond &bond : family.bonds)
-          distances.push_back(bond.kernel_point.distance(bond.xi) / std::sqrt(bond.area));
-      return spread_of(distances).median;
-    }
-
-    /// What was done to kernel points, and how it is undone.
-    struct PointHypothesis
-    {
-      const char *name, *text;
-      double scale;
-      Change undo;
+      double typical, worst;
     };
 
-    std::optional<Cause> find_point_cause(const GivenBonds &given, std::vector<Family> &families)
+    Defect defect_of(const std::vector<Family> &families, const Kernel<2> &kernel)
     {
-      constexpr double in_place = .5;
-      const geometry::NodeCells &cells = given.cells;
-      const std::vector<PointHypothesis> hypotheses = {
-          {"kernel at midpoints",
-           "the kernel is taken at the midpoints of the bonds, not at the neighbours", .5,
-           [](Bond &bond, std::size_t) { bond.kernel_point *= 2; }},
-          {"kernel points reversed",
-           "the kernel points (qx, qy) are reversed: on the other side of node i, as if taken from "
-           "the neighbour to it",
-           -1, [](Bond &bond, std::size_t) { bond.kernel_point *= -1; }},
-          {"kernel points absolute",
-           "the kernel points (qx, qy) are absolute places, not relative to node i", 1,
-           [&cells](Bond &bond, std::size_t i)
-           { bond.kernel_point -= dealii::Tensor<1, 2>(cells.nodes[i]); }},
-          {"kernel points from the neighbour",
-           "the kernel points (qx, qy) are relative to node j, not to node i", 1,
-           [](Bond &bond, std::size_t) { bond.kernel_point += dealii::Tensor<1, 2>(bond.xi); }}};
-      const double given_misplacement = misplacement(families);
-      if (given_misplacement < in_place)
-        return {};
-      for (const PointHypothesis &hypothesis : hypotheses)
-      {
-        std::vector<Family> undone = changed(families, hypothesis.undo);
-        const double left = misplacement(undone);
-        if (left > in_place || left > much_closer * given_misplacement)
-          continue;
-        Cause cause{hypothesis.name, hypothesis.text};
-        cause.before = typical(families, given.kernel);
-        cause.after = typical(undone, given.kernel);
-        cause.point_scale = hypothesis.scale;
-        if (std::abs(cause.before - cause.after) > exact)
-          cause.text += closer(cause);
-        else
-          cause.text += "; the moments do not feel it with this kernel";
-        families = std::move(undone);
-        return cause;
-      }
-      return {};
+      const MomentCheck check = check_moments(families, kernel);
+      return {check.typical(), std::max(check.defects[0].worst.value, check.second.value)};
     }
 
-    std::string limit_text(const Kernel<2> &kernel, double factor)
+    /// Moments of most nodes, or of the worst where most stay.
+    bool is_better(const Cause &cause)
     {
-      const double diffusion = kernel.limit().diffusion;
-      if (kernel.n_components() > 1 || !(diffusion > 0))
-        return {};
-      const auto laplace = [](double d)
+      const double gain = cause.before - cause.after;
+      return std::abs(gain) > exact * std::min(1., cause.before)
+                 ? gain > 0
+                 : cause.worst_before - cause.worst_after > exact;
+    }
+
+    /// Sets what each cause does to the moments, the others being undone.
+    void weigh(const GivenBonds &given, std::vector<Mend> &mends)
+    {
+      const auto undo_all_but = [&](const Mend *left)
       {
-        return std::abs(d - 1) < exact ? std::string("-Laplace")
-                                       : "-" + base::to_text(d, 4) + " Laplace";
+        std::vector<Family> families = given.families;
+        for (const Mend &mend : mends)
+          if (&mend != left)
+            mend.undo(families);
+        return defect_of(families, given.kernel);
       };
-      return ", as if made for the limit " + laplace(factor * diffusion) + ", not " +
-             laplace(diffusion);
-    }
-
-    struct FactorHypothesis
-    {
-      double factor;
-      std::string name, text;
-    };
-
-    /// From simple to far-fetched.
-    std::vector<FactorHypothesis> factor_hypotheses(const GivenBonds &given)
-    {
-      const double m = given.kernel.horizon() / node_size(given);
-      return {{2, "factor 2", "all weights are twice too large" + limit_text(given.kernel, 2)},
-              {.5, "factor 1/2",
-               "all weights are half of what they should be" + limit_text(given.kernel, .5)},
-              {.75 / m, "volume of a ball",
-               "all weights carry the factor 3/(4 m) = " + base::to_text(.75 / m, 4) +
-                   ", the volume of the horizon in 2D, pi delta^2 h, over that of a ball, 4/3 pi "
-                   "delta^3: a formula for 3D on a plane of nodes"},
-              {1.25 / m, "bond constant of 3D",
-               "all weights carry the factor 5/(4 m) = " + base::to_text(1.25 / m, 4) +
-                   ", the bond constant of 3D, 18 k / (pi delta^4), times h over that of plane "
-                   "strain"}};
-    }
-
-    /// Negative where the weights are.
-    double typical_ratio(const std::vector<Family> &families, const Kernel<2> &kernel)
-    {
-      return spread_of(check_moments(families, kernel).ratios).median;
-    }
-
-    std::optional<Cause> find_own_volume(const GivenBonds &given,
-                                         const std::vector<Family> &families)
-    {
-      const double ball = M_PI * given.kernel.horizon() * given.kernel.horizon();
-      std::vector<double> sums;
-      for (const Family &family : families)
+      const Defect after = undo_all_but(nullptr);
+      for (Mend &mend : mends)
       {
-        double sum = 0;
-        for (const Bond &bond : family.bonds)
-          sum += bond.weight;
-        sums.push_back(std::abs(sum / ball - 1));
+        const Defect before = undo_all_but(&mend);
+        mend.cause.before = before.typical;
+        mend.cause.worst_before = before.worst;
+        mend.cause.after = after.typical;
+        mend.cause.worst_after = after.worst;
       }
-      if (spread_of(sums).median > exact)
-        return {};
-      Cause cause{"own volume counted", "the weights of a node add up to the whole ball: its own "
-                                        "volume is counted in, though it has no bond"};
-      cause.before = typical(families, given.kernel);
-      cause.after = typical(changed(families, [&](Bond &bond, std::size_t i)
-                                    { bond.weight *= 1 - given.volumes[i] / ball; }),
-                            given.kernel);
-      if (cause.before < exact || cause.after > cause.before)
-        return {};
-      cause.factor = 1 / (1 - given.volumes[0] / ball);
-      cause.text += closer(cause);
-      return cause;
     }
 
-    std::optional<Cause> find_factor(const GivenBonds &given, const std::vector<Family> &families,
-                                     const std::optional<Recognised> &rule)
+    /// The one place where causes are dropped whose removal does not make the moments better.
+    void keep_what_helps(const GivenBonds &given, std::vector<Mend> &mends)
     {
-      constexpr double same = 1e-3; // m is that of the mean volume
-      const double found = rule ? rule->factor : typical_ratio(families, given.kernel);
-      const double size = std::abs(found), sign = found < 0 ? -1 : 1;
-      const auto undone = [&](double factor)
+      const auto helps = [](const Mend &mend)
       {
-        return typical(changed(families, [&](Bond &bond, std::size_t) { bond.weight /= factor; }),
-                       given.kernel);
+        return mend.need == Need::nothing || is_better(mend.cause) ||
+               (mend.need == Need::not_worse && mend.cause.after <= mend.cause.before + exact);
       };
-      const double before = typical(families, given.kernel);
-      std::vector<FactorHypothesis> hypotheses = {{1, "", ""}}; // but for the sign
-      for (const FactorHypothesis &one : factor_hypotheses(given))
-        hypotheses.push_back(one);
-      std::optional<Cause> best;
-      for (const FactorHypothesis &one : hypotheses)
-      {
-        if (one.factor == 1 && sign > 0)
-          continue;
-        Cause cause{one.name, one.text, before, undone(sign * one.factor), sign * one.factor};
-        const bool fits = rule ? std::abs(size / one.factor - 1) < same : explains(cause);
-        if (fits && (!best || cause.after < .5 * best->after))
-          best = cause;
+      weigh(given, mends);
+      while (!std::all_of(mends.begin(), mends.end(), helps))
+      { // the last one first: earlier ones leave the stronger marks
+        mends.erase(std::find_if_not(mends.rbegin(), mends.rend(), helps).base() - 1);
+        weigh(given, mends);
       }
-      // a rule's own error is no factor: beyond it, or exact between weights
-      const double m = given.kernel.horizon() / node_size(given);
-      if (!best && (rule ? std::abs(found - 1) > exact : std::abs(found - 1) > 1 / m))
-      {
-        Cause cause{"common factor",
-                    "all weights carry a common factor of " + base::to_text(size, 4), before,
-                    undone(found), found};
-        if (rule || explains(cause))
-          best = cause;
-      }
-      if (!best)
-        return {};
-      if (sign < 0)
-      {
-        best->name = best->name.empty() ? "negated" : "negated, " + best->name;
-        best->text =
-            "all weights have the wrong sign" + (best->text.empty() ? "" : ", and " + best->text);
-      }
-      best->text += closer(*best);
-      return best;
     }
 
-    std::optional<Cause> find_missing_ramp(const GivenBonds &given,
-                                           const std::vector<Family> &families,
-                                           const std::optional<Recognised> &rule,
-                                           const std::vector<std::string> &meant)
+    /// What there is to say of a factor of the volumes.
+    void add_volume_factor(double factor, std::vector<Cause> &causes)
     {
-      if (!rule || !rule->is_full_area())
-        return {};
-      const auto is_meant = [&](const std::string &name)
-      { return std::find(meant.begin(), meant.end(), name) != meant.end(); };
-      std::optional<Cause> best;
-      for (const RampEffect &effect : ramp_effects(given, families))
-      {
-        Cause cause{"missing ramp",
-                    "all weights are whole cells where the horizon cuts them: the partial areas "
-                    "of " +
-                        effect.rule + " are missing",
-                    effect.before, effect.after};
-        cause.is_own_error = true;
-        if (is_meant(effect.rule) && !is_meant("FA") && !is_meant("all") && effect.is_seen())
+      constexpr double same = 1e-3;
+      if (factor == 1)
+        return;
+      const std::string times =
+          base::to_text(factor, 4) + " times the areas of their cells, " + unit_text(factor);
+      for (Cause &cause : causes)
+        if (std::abs(std::abs(cause.factor) / factor - 1) < same)
         {
-          cause.is_own_error = false;
-          cause.text += " at " + std::to_string(effect.n_changed) + " of " +
-                        std::to_string(effect.n_bonds) +
-                        " bonds, though Methods/names has that rule and not FA";
-          cause.text += explains(cause) ? closer(cause)
-                                        : "; the moments do not tell: they are off by " +
-                                              base::to_percent(cause.before) + ", and by " +
-                                              base::to_percent(cause.after) + " with them";
-          return cause;
+          cause.text = "the volumes are " + times + ", and " + cause.text;
+          return;
         }
-        if (explains(cause) && (!best || cause.after < best->after))
-          best = cause;
-      }
-      if (best)
-        best->text += closer(*best);
-      return best;
+      Cause cause{"volumes", "the volumes are " + times + "; the weights do not carry that factor"};
+      causes.insert(causes.begin(), cause);
     }
   } // namespace
+
+  Explanation explain(const GivenBonds &given, const std::optional<Recognised> &rule,
+                      const Circumstances &circumstances)
+  {
+    Explanation result{{}, rule};
+    std::vector<Mend> mends;
+    std::vector<Family> families = given.families;
+    const GivenBonds mended{families, given.kernel, given.cells, given.volumes, given.precision};
+    for (const Hypothesis &hypothesis : hypotheses)
+    {
+      const bool has_factor = std::any_of(mends.begin(), mends.end(),
+                                          [](const Mend &mend) { return mend.cause.factor != 1; });
+      auto mend = hypothesis({mended, result.rule, circumstances, has_factor});
+      if (!mend)
+        continue;
+      mend->undo(families);
+      if (mend->changes_rule)
+        result.rule = recognise(mended);
+      mends.push_back(*mend);
+      if (mend->cause.factor == 0)
+        break; // of weights that are all 0 there is nothing else to say
+    }
+    keep_what_helps(given, mends);
+    for (const Mend &mend : mends)
+    {
+      result.causes.push_back(mend.cause);
+      if (mend.says_closer)
+        result.causes.back().text += is_better(mend.cause)
+                                         ? closer(mend.cause)
+                                         : "; the moments do not feel it with this kernel";
+    }
+    add_volume_factor(circumstances.volume_factor, result.causes);
+    return result;
+  }
 
   std::vector<Cause> find_causes(const GivenBonds &given, const std::optional<Recognised> &rule,
                                  const std::vector<std::string> &meant)
   {
-    std::vector<Cause> causes;
-    std::vector<Family> families = given.families;
-    if (const auto cause = find_point_cause(given, families))
-      causes.push_back(*cause);
-    for (const auto &find :
-         {std::function<std::optional<Cause>()>([&] { return find_own_volume(given, families); }),
-          std::function<std::optional<Cause>()>([&] { return find_factor(given, families, rule); }),
-          std::function<std::optional<Cause>()>(
-              [&] { return find_missing_ramp(given, families, rule, meant); })})
-      if (const auto cause = find())
-      {
-        causes.push_back(*cause);
-        break;
-      }
-    return causes;
+    return explain(given, rule, {meant}).causes;
+  }
+
+  std::function<void(std::vector<Family> &)> for_each_bond(Change change)
+  {
+    return [change = std::move(change)](std::vector<Family> &families)
+    {
+      for (std::size_t i = 0; i < families.size(); ++i)
+        for (std::size_t k = 0; k < families[i].bonds.size(); ++k)
+          change(families[i].bonds[k], i, families[i].neighbours[k]);
+    };
+  }
+
+  double typical(const std::vector<Family> &families, const Kernel<2> &kernel)
+  {
+    return check_moments(families, kernel).typical();
+  }
+
+  double common_ratio(const std::vector<Family> &families)
+  {
+    std::vector<double> ratios;
+    for (const Family &family : families)
+      for (const Bond &bond : family.bonds)
+        ratios.push_back(bond.weight / bond.area);
+    return spread_of(ratios).median;
+  }
+
+  bool explains(double before, double after)
+  {
+    constexpr double much_closer = .25;
+    return before > exact && (after < exact || after <= much_closer * before);
   }
 } // namespace plumbline::meshfree

@@ -20,7 +20,7 @@ namespace plumbline::meshfree
     {
       constexpr double steep = .2; // usual weights change by more over half a node's size
       std::vector<double> values = weights_over_volumes(given, pairs);
-      const auto usual = profile.usual(values, file_tolerance);
+      const auto usual = profile.usual(values, given.precision.weight);
       for (std::size_t k = 0; k < pairs.size(); ++k)
       {
         const double middle = .5 * (usual[k].low + usual[k].high);
@@ -85,48 +85,5 @@ namespace plumbline::meshfree
           if (one.node == (one.defect == Defect::family ? i : families[i].neighbours[k]))
             families[i].bonds[k].weight /= one.found;
     return families;
-  }
-
-  std::vector<Outlier> find_volume_outliers(const GivenBonds &given,
-                                            const std::vector<double> &uncut_areas)
-  {
-    const auto &[families, kernel, cells, volumes] = given;
-    std::vector<Outlier> outliers;
-    const std::size_t n_free = families.size(), n = cells.size();
-    for (const auto &[first, last] : {std::pair{std::size_t{0}, n_free}, std::pair{n_free, n}})
-    {
-      // what is expected of each: its cell, its cell uncut, or one volume for all
-      const std::vector<double> ones(n, 1);
-      std::vector<double> values;
-      const std::vector<double> *best = nullptr;
-      Spread spread;
-      for (const auto *areas : {&cells.area, &uncut_areas, &ones})
-      {
-        std::vector<double> ratios;
-        for (std::size_t i = first; i < last; ++i)
-          ratios.push_back(volumes[i] / (*areas)[i]);
-        const double middle = spread_of(ratios).median;
-        for (double &ratio : ratios)
-          ratio /= middle;
-        const Spread own = spread_of(ratios);
-        if (best && own.allowed(file_tolerance) >= spread.allowed(file_tolerance))
-          continue;
-        best = areas;
-        spread = own;
-        spread.median = middle;
-        values = std::move(ratios);
-      }
-      for (std::size_t i = first; i < last; ++i)
-        if (const double away = std::abs(values[i - first] - 1) / spread.allowed(file_tolerance);
-            away > 1)
-        {
-          Outlier one{Defect::volume, i};
-          one.found = volumes[i];
-          one.expected = spread.median * (*best)[i];
-          one.distance = away;
-          outliers.push_back(one);
-        }
-    }
-    return outliers;
   }
 } // namespace plumbline::meshfree

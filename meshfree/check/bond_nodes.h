@@ -17,10 +17,4 @@ namespace plumbline::meshfree
   /// The families with the weights of such nodes divided by their factors.
   std::vector<Family> without_factors(std::vector<Family> families,
                                       const std::vector<Outlier> &scaled);
-
-  /// Nodes whose volume is not what the others' volumes tell: that of the Voronoi cell, cut at the
-  /// boundary of Ω or not, or one for all, whichever fits most nodes.
-  /// @param uncut_areas  of the Voronoi cells that the boundary of Ω does not cut
-  std::vector<Outlier> find_volume_outliers(const GivenBonds &given,
-                                            const std::vector<double> &uncut_areas);
 } // namespace plumbline::meshfree

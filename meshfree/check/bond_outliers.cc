@@ -3,7 +3,9 @@
 #include "meshfree/check/bond_nodes.h"
 #include "meshfree/check/bond_pairs.h"
 #include "meshfree/check/bond_profile.h"
+#include "meshfree/check/exact_families.h"
 #include "meshfree/check/node_moments.h"
+#include "meshfree/check/rule_comparison.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,20 +39,30 @@ namespace plumbline::meshfree
       return result;
     }
 
+    /// That a bond is there, as others like it are.
+    bool has_weight(const GivenBonds &given, const Pair &pair, const BondProfile::Usual &usual,
+                    double floor)
+    {
+      return pair.bond != Outlier::none && usual.low > floor && bond_of(given, pair).weight != 0;
+    }
+
     /// Weights over volumes, absent bonds as 0, against the profile.
     void compare_weights(const GivenBonds &given, const std::vector<Pair> &pairs,
                          const BondProfile &profile, std::vector<Outlier> &outliers)
     {
       const std::vector<double> values = weights_over_volumes(given, pairs);
-      const auto usual = profile.usual(values, file_tolerance);
+      const double floor = given.precision.weight;
+      const auto usual = profile.usual(values, floor);
       for (std::size_t k = 0; k < pairs.size(); ++k)
         if (const double away = distance(values[k], usual[k]); away > 1)
         {
+          if (is_at_horizon(given, pairs[k].xi) && !has_weight(given, pairs[k], usual[k], floor))
+            continue; // r < horizon or r <= horizon: a choice
           const double volume = given.volumes[pairs[k].neighbour],
                        expected = nearest(values[k], usual[k]);
-          const Defect defect = pairs[k].bond == Outlier::none        ? Defect::missing
-                                : std::abs(expected) < file_tolerance ? Defect::spurious
-                                                                      : Defect::weight;
+          const Defect defect = pairs[k].bond == Outlier::none ? Defect::missing
+                                : std::abs(expected) < floor   ? Defect::spurious
+                                                               : Defect::weight;
           outliers.push_back(outlier(defect, pairs[k], away));
           outliers.back().found = values[k] * volume;
           outliers.back().expected = expected * volume;
@@ -76,6 +88,12 @@ namespace plumbline::meshfree
       return spread_of(to_nodes).median <= spread_of(to_centroids).median ? nodes : centroids;
     }
 
+    /// Of kernel points, in sizes of a node.
+    double point_tolerance(const GivenBonds &given)
+    {
+      return file_tolerance + 4 * given.precision.length / node_size(given);
+    }
+
     /// Where the kernel is taken: along the bond and beside it, in sizes of the neighbour.
     void compare_points(const GivenBonds &given, const std::vector<Pair> &pairs, double point_scale,
                         std::vector<Outlier> &outliers)
@@ -97,9 +115,10 @@ namespace plumbline::meshfree
         along.push_back(away * xi[k] / (r * size));
         beside.push_back(std::abs(away[0] * xi[k][1] - away[1] * xi[k][0]) / (r * size));
       }
-      const BondProfile profile(xi, node_size(given));
-      const auto usual_along = profile.usual(along, file_tolerance),
-                 usual_beside = profile.usual(beside, file_tolerance);
+      const BondProfile profile(xi, node_size(given), given.precision.length);
+      const double floor = point_tolerance(given);
+      const auto usual_along = profile.usual(along, floor),
+                 usual_beside = profile.usual(beside, floor);
       for (std::size_t k = 0; k < bonds.size(); ++k)
         if (const double away =
                 std::max(distance(along[k], usual_along[k]), distance(beside[k], usual_beside[k]));
@@ -149,9 +168,10 @@ namespace plumbline::meshfree
           xi_of_twos.push_back(xi[k]);
           differences.push_back(values[k] - values[back->second]);
         }
-      const double floor = file_tolerance * scale, size = node_size(given);
-      const auto usual_value = BondProfile(xi, size).usual(values, floor);
-      const auto usual = BondProfile(xi_of_twos, size).usual(differences, floor);
+      const double floor = given.precision.weight * scale, size = node_size(given),
+                   rounding = given.precision.length;
+      const auto usual_value = BondProfile(xi, size, rounding).usual(values, floor);
+      const auto usual = BondProfile(xi_of_twos, size, rounding).usual(differences, floor);
       for (std::size_t two = 0; two < twos.size(); ++two)
         if (const double away = distance(differences[two], usual[two]); away > 1)
         {
@@ -164,48 +184,6 @@ namespace plumbline::meshfree
         }
     }
 
-    /// Weights, and kernel points where they are the rule's, against those of the rule.
-    void compare_with_rule(const GivenBonds &given, const Recognised &rule,
-                           std::vector<Outlier> &outliers)
-    {
-      for (std::size_t i = 0; i < given.families.size(); ++i)
-      {
-        const Family &mine = given.families[i], &right = rule.families[i];
-        std::size_t a = 0, b = 0;
-        while (a < mine.bonds.size() || b < right.bonds.size())
-        {
-          const bool has_a = a < mine.bonds.size(), has_b = b < right.bonds.size();
-          const bool is_mine = has_a && (!has_b || mine.neighbours[a] <= right.neighbours[b]),
-                     is_right = has_b && (!has_a || right.neighbours[b] <= mine.neighbours[a]);
-          const std::size_t j = is_mine ? mine.neighbours[a] : right.neighbours[b];
-          const double found = is_mine ? mine.bonds[a].weight : 0,
-                       expected = is_right ? right.bonds[b].weight : 0,
-                       allowed = file_tolerance * given.volumes[j] * std::abs(rule.factor);
-          Outlier one{Defect::weight, i, j, is_mine ? a : Outlier::none};
-          one.found = found;
-          one.expected = expected;
-          one.distance = std::abs(found - expected) / allowed;
-          if (one.distance > 1)
-          {
-            one.defect = !is_mine ? Defect::missing : !is_right ? Defect::spurious : Defect::weight;
-            outliers.push_back(one);
-          }
-          if (is_mine && is_right && rule.has_kernel_points)
-          {
-            one.found_point = mine.bonds[a].kernel_point;
-            one.expected_point = right.bonds[b].kernel_point;
-            one.distance = one.found_point.distance(one.expected_point) /
-                           (file_tolerance * std::sqrt(given.volumes[j]));
-            one.defect = Defect::kernel_point;
-            if (one.distance > 1)
-              outliers.push_back(one);
-          }
-          a += is_mine ? 1 : 0;
-          b += is_right ? 1 : 0;
-        }
-      }
-    }
-
     /// Weight outliers of one node, or to one node, that are most of its bonds: one outlier.
     void gather(const GivenBonds &given, std::vector<Outlier> &outliers)
     {
@@ -213,7 +191,7 @@ namespace plumbline::meshfree
       constexpr std::size_t few = 4;
       // of 0 any factor makes 0
       const auto is_nothing = [&](double weight, std::size_t j)
-      { return std::abs(weight) <= file_tolerance * given.volumes[j]; };
+      { return std::abs(weight) <= given.precision.weight * given.volumes[j]; };
       std::vector<std::size_t> n_of(given.families.size()), n_to(given.cells.size());
       for (std::size_t i = 0; i < given.families.size(); ++i)
         for (std::size_t k = 0; k < given.families[i].bonds.size(); ++k)
@@ -310,40 +288,73 @@ namespace plumbline::meshfree
   namespace
   {
     void find_by_rule(const GivenBonds &given, const Recognised &rule,
-                      const std::vector<Pair> &pairs, double point_scale,
-                      std::vector<Outlier> &outliers)
+                      const std::vector<Pair> &pairs, const ExactFamilies &exact,
+                      double point_scale, std::vector<Outlier> &outliers)
     {
-      compare_with_rule(given, rule, outliers);
+      outliers = compare_with_rule(given, rule);
       if (!rule.has_kernel_points)
       {
         std::vector<Outlier> points;
         compare_points(given, pairs, point_scale, points);
         add_new(points, outliers);
       }
+      exact.acquit(outliers);
       gather(given, outliers);
     }
 
     /// Without a rule to compare with. Nodes with a factor of their own first, since it hides what
     /// else there is.
-    void find_by_others(const GivenBonds &raw, const std::vector<Pair> &pairs, double point_scale,
+    void find_by_others(const GivenBonds &raw, const std::vector<Pair> &pairs,
+                        const ExactFamilies &exact, double point_scale,
                         std::vector<Outlier> &outliers)
     {
       std::vector<Point<2>> xi;
       for (const Pair &pair : pairs)
         xi.push_back(pair.xi);
-      const BondProfile profile(xi, node_size(raw));
+      const BondProfile profile(xi, node_size(raw), raw.precision.length);
       outliers = find_scaled_nodes(raw, pairs, profile);
+      exact.acquit(outliers);
       const std::vector<Family> families = without_factors(raw.families, outliers);
-      const GivenBonds given{families, raw.kernel, raw.cells, raw.volumes};
+      const GivenBonds given{families, raw.kernel, raw.cells, raw.volumes, raw.precision};
       compare_weights(given, pairs, profile, outliers);
       std::vector<Outlier> more;
       compare_points(given, pairs, point_scale, more);
       add_new(more, outliers);
+      exact.acquit(outliers);
       gather(given, outliers);
       more.clear();
       compare_ends(given, pairs, more);
+      exact.acquit(more);
       add_new(more, outliers);
-      add_new(find_moment_outliers(given, pairs), outliers);
+      more = find_moment_outliers(given, pairs);
+      exact.acquit(more);
+      add_new(more, outliers);
+    }
+
+    std::vector<Family> scaled(std::vector<Family> families, double scale)
+    {
+      for (Family &family : families)
+        for (Bond &bond : family.bonds)
+          bond.weight *= scale;
+      return families;
+    }
+
+    /// What makes most weights about as large as the volumes, whatever their unit is.
+    double weight_scale(const GivenBonds &given, const std::vector<Pair> &pairs)
+    {
+      constexpr double like_volumes = 4; // then the numbers stay as they are
+      std::vector<double> sizes;
+      for (const double ratio : weights_over_volumes(given, pairs))
+        if (ratio != 0)
+          sizes.push_back(std::abs(ratio));
+      const double scale = spread_of(sizes).median;
+      return scale > 0 && (scale > like_volumes || scale < 1 / like_volumes) ? scale : 1;
+    }
+
+    bool is_of_weights(Defect defect)
+    {
+      return defect == Defect::weight || defect == Defect::missing || defect == Defect::spurious ||
+             defect == Defect::symmetry;
     }
   } // namespace
 
@@ -351,11 +362,23 @@ namespace plumbline::meshfree
                                      double point_scale)
   {
     const std::vector<Pair> pairs = all_pairs(given);
+    const ExactFamilies exact(given);
     std::vector<Outlier> outliers;
     if (rule)
-      find_by_rule(given, *rule, pairs, point_scale, outliers);
+      find_by_rule(given, *rule, pairs, exact, point_scale, outliers);
     else
-      find_by_others(given, pairs, point_scale, outliers);
+    {
+      const double scale = weight_scale(given, pairs);
+      const std::vector<Family> families = scaled(given.families, 1 / scale);
+      find_by_others({families, given.kernel, given.cells, given.volumes, given.precision}, pairs,
+                     exact, point_scale, outliers);
+      for (Outlier &one : outliers)
+        if (is_of_weights(one.defect))
+        {
+          one.found *= scale;
+          one.expected *= scale;
+        }
+    }
     pair_up(outliers);
     std::stable_sort(outliers.begin(), outliers.end(),
                      [](const Outlier &a, const Outlier &b) { return a.distance > b.distance; });

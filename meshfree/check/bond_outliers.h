@@ -35,7 +35,9 @@ namespace plumbline::meshfree
   };
 
   /// Each quantity is held against its own spread over the bonds or nodes, see Spread; weights and
-  /// kernel points against the rule where one is recognised. The largest distance first.
+  /// kernel points against the rule where one is recognised. Nothing is said of nodes whose moments
+  /// of degree 1 and 2 are exact, to rounding of the files, nor of bonds as long as the horizon
+  /// that are there or not. The largest distance first.
   /// @param rule         empty: none is recognised
   /// @param point_scale  kernel points are expected at this fraction of the way to the neighbour
   /// Limits: a defect of the size of what differs from bond to bond anyway is not found; many

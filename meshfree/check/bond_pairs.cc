@@ -16,6 +16,8 @@ namespace plumbline::meshfree
       for (const Family &family : given.families)
         for (const Bond &bond : family.bonds)
           lengths.push_back(bond.xi.norm());
+      if (lengths.empty())
+        return given.kernel.horizon();
       const auto at = lengths.begin() + static_cast<std::ptrdiff_t>(.99 * (lengths.size() - 1.));
       std::nth_element(lengths.begin(), at, lengths.end());
       return *at + .5 * node_size(given);
@@ -24,10 +26,10 @@ namespace plumbline::meshfree
 
   double node_size(const GivenBonds &given)
   {
-    double volume = 0;
+    double area = 0;
     for (std::size_t i = 0; i < given.families.size(); ++i)
-      volume += given.volumes[i];
-    return std::sqrt(volume / static_cast<double>(given.families.size()));
+      area += given.cells.area[i];
+    return std::sqrt(area / static_cast<double>(given.families.size()));
   }
 
   std::vector<Pair> all_pairs(const GivenBonds &given)

@@ -12,7 +12,7 @@ namespace plumbline::meshfree
     Point<2> xi;          ///< [length]
   };
 
-  /// √ of the mean volume of the free nodes [length].
+  /// √ of the mean area of the free nodes' cells [length].
   double node_size(const GivenBonds &given);
 
   /// All bonds, and all pairs without a bond that are no longer than most bonds and a half cell.

@@ -52,19 +52,20 @@ namespace plumbline::meshfree
     return result;
   }
 
-  BondProfile::BondProfile(const std::vector<Point<2>> &xi, double size) : order_(xi.size())
+  BondProfile::BondProfile(const std::vector<Point<2>> &xi, double size, double rounding)
+      : order_(xi.size())
   {
     std::iota(order_.begin(), order_.end(), 0);
     std::sort(order_.begin(), order_.end(),
               [&](std::size_t a, std::size_t b) { return xi[a].square() < xi[b].square(); });
-    find_classes(xi, size);
+    constexpr double far_below = 1e-8; // what moves nodes, in sizes
+    find_classes(xi, std::max(far_below * size, 6 * rounding));
     if (!is_lattice_)
       find_bins(xi, size);
   }
 
-  void BondProfile::find_classes(const std::vector<Point<2>> &xi, double size)
+  void BondProfile::find_classes(const std::vector<Point<2>> &xi, double same)
   {
-    const double same = 1e-8 * size; // far above rounding, far below what moves nodes
     const auto side = [&](std::size_t k) { return shorter_side(xi[k]); };
     std::vector<std::size_t> classes = order_, start;
     for (std::size_t from = 0, to = 0; from < classes.size(); from = to)

@@ -24,9 +24,11 @@ namespace plumbline::meshfree
   class BondProfile
   {
   public:
-    /// @param xi    of the bonds [length]; those that differ by 1e-8 size are one
+    /// @param xi    of the bonds [length]; those that differ by 1e-8 size, or by the rounding of
+    ///              four coordinates, are one
     /// @param size  of the nodes [length]
-    BondProfile(const std::vector<Point<2>> &xi, double size);
+    /// @param rounding  of their coordinates [length]
+    BondProfile(const std::vector<Point<2>> &xi, double size, double rounding = 0);
 
     bool is_lattice() const { return is_lattice_; }
 
@@ -41,7 +43,7 @@ namespace plumbline::meshfree
     std::vector<Usual> usual(const std::vector<double> &values, double floor) const;
 
   private:
-    void find_classes(const std::vector<Point<2>> &xi, double size);
+    void find_classes(const std::vector<Point<2>> &xi, double same);
     void find_bins(const std::vector<Point<2>> &xi, double size);
 
     std::vector<std::size_t> order_; ///< by length; of lattices by class

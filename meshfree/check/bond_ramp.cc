@@ -15,22 +15,18 @@ namespace plumbline::meshfree
                  RampEffect &effect, double &largest)
     {
       const auto entry = [&](const Bond &bond) { return bond.weight * radial_value(kernel, bond); };
-      std::size_t a = 0, b = 0;
-      while (a < mine.bonds.size() || b < ramped.bonds.size())
-      {
-        const bool has_a = a < mine.bonds.size(), has_b = b < ramped.bonds.size();
-        const bool takes_a = has_a && (!has_b || mine.neighbours[a] <= ramped.neighbours[b]),
-                   takes_b = has_b && (!has_a || ramped.neighbours[b] <= mine.neighbours[a]);
-        const Bond *one = takes_a ? &mine.bonds[a++] : nullptr,
-                   *other = takes_b ? &ramped.bonds[b++] : nullptr;
-        const double weight = one ? one->weight : 0, ramped_weight = other ? other->weight : 0;
-        const double allowed = file_tolerance * (one ? one->area : other->area);
-        ++effect.n_bonds;
-        effect.n_changed += std::abs(weight - ramped_weight) > allowed ? 1 : 0;
-        const double before = one ? entry(*one) : 0, after = other ? entry(*other) : 0;
-        effect.change = std::max(effect.change, std::abs(before - after));
-        largest = std::max(largest, std::abs(before));
-      }
+      for_both(mine, ramped,
+               [&](const Bond *one, const Bond *other, std::size_t)
+               {
+                 const double weight = one ? one->weight : 0,
+                              ramped_weight = other ? other->weight : 0;
+                 const double allowed = file_tolerance * (one ? one->area : other->area);
+                 ++effect.n_bonds;
+                 effect.n_changed += std::abs(weight - ramped_weight) > allowed ? 1 : 0;
+                 const double before = one ? entry(*one) : 0, after = other ? entry(*other) : 0;
+                 effect.change = std::max(effect.change, std::abs(before - after));
+                 largest = std::max(largest, std::abs(before));
+               });
     }
 
   } // namespace

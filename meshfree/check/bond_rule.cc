@@ -12,21 +12,6 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    /// Calls visit(given bond or nullptr, bond of the rule or nullptr) for the neighbours of
-    /// either.
-    template <class Visit>
-    void for_both(const Family &given, const Family &rule, const Visit &visit)
-    {
-      std::size_t a = 0, b = 0;
-      while (a < given.bonds.size() || b < rule.bonds.size())
-      {
-        const bool has_a = a < given.bonds.size(), has_b = b < rule.bonds.size();
-        const bool takes_a = has_a && (!has_b || given.neighbours[a] <= rule.neighbours[b]),
-                   takes_b = has_b && (!has_a || rule.neighbours[b] <= given.neighbours[a]);
-        visit(takes_a ? &given.bonds[a++] : nullptr, takes_b ? &rule.bonds[b++] : nullptr);
-      }
-    }
-
     /// The factor between the weights of most bonds.
     double common_factor(const std::vector<Family> &given, const std::vector<Family> &rule)
     {
@@ -34,7 +19,7 @@ namespace plumbline::meshfree
       std::vector<double> ratios;
       for (std::size_t i = 0; i < given.size(); ++i)
         for_both(given[i], rule[i],
-                 [&](const Bond *a, const Bond *b)
+                 [&](const Bond *a, const Bond *b, std::size_t)
                  {
                    if (a && b && std::abs(b->weight) > small * a->area)
                      ratios.push_back(a->weight / b->weight);
@@ -47,24 +32,27 @@ namespace plumbline::meshfree
       std::size_t n_bonds = 0, n_weights = 0, n_points = 0;
     };
 
-    Agreement agreement(const std::vector<Family> &given, const std::vector<Family> &rule,
-                        double factor)
+    Agreement agreement(const GivenBonds &given, const std::vector<Family> &rule, double factor)
     {
+      const Precision &precision = given.precision;
       Agreement result;
-      for (std::size_t i = 0; i < given.size(); ++i)
-        for_both(given[i], rule[i],
-                 [&](const Bond *a, const Bond *b)
+      for (std::size_t i = 0; i < rule.size(); ++i)
+        for_both(given.families[i], rule[i],
+                 [&](const Bond *a, const Bond *b, std::size_t)
                  {
+                   if (!(a && b) && is_at_horizon(given, (a ? a : b)->xi))
+                     return;
                    const double volume = a ? a->area : b->area;
                    const double difference =
                        std::abs((a ? a->weight : 0) / factor - (b ? b->weight : 0));
                    ++result.n_bonds;
-                   result.n_weights += difference <= file_tolerance * volume ? 1 : 0;
+                   result.n_weights += difference <= precision.weight * volume ? 1 : 0;
                    if (a && b)
-                     result.n_points += a->kernel_point.distance(b->kernel_point) <=
-                                                file_tolerance * std::sqrt(volume)
-                                            ? 1
-                                            : 0;
+                     result.n_points +=
+                         a->kernel_point.distance(b->kernel_point) <=
+                                 file_tolerance * std::sqrt(volume) + 4 * precision.length
+                             ? 1
+                             : 0;
                  });
       return result;
     }
@@ -80,6 +68,13 @@ namespace plumbline::meshfree
       return result;
     }
   } // namespace
+
+  bool is_at_horizon(const GivenBonds &given, const Point<2> &xi)
+  {
+    const double horizon = given.kernel.horizon();
+    return std::abs(xi.norm() - horizon) <=
+           std::max(tie_tolerance * horizon, 4 * given.precision.length);
+  }
 
   std::vector<Family> rule_families(const std::string &name, const GivenBonds &given)
   {
@@ -109,7 +104,7 @@ namespace plumbline::meshfree
         const double factor = common_factor(given.families, families);
         if (factor == 0)
           continue;
-        const Agreement found = agreement(given.families, families, factor);
+        const Agreement found = agreement(given, families, factor);
         const double wanted = enough * static_cast<double>(found.n_bonds);
         const std::size_t score = found.n_weights + found.n_points;
         if (static_cast<double>(found.n_weights) < wanted || score <= best_score)

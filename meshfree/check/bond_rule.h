@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/node_cells.h"
+#include "meshfree/check/precision.h"
 #include "meshfree/rules/quadrature_rule.h"
 
 #include <optional>
@@ -13,11 +14,29 @@ namespace plumbline::meshfree
     const std::vector<Family> &families; ///< of the free nodes
     const Kernel<2> &kernel;
     const geometry::NodeCells &cells;   ///< of all nodes
-    const std::vector<double> &volumes; ///< as given, of all nodes, numbered as the cells
+    const std::vector<double> &volumes; ///< of all nodes, numbered as the cells
+    Precision precision = {};
   };
 
-  /// Numbers that agree to so many digits count as the same: files are often written with six.
-  constexpr double file_tolerance = 2e-5;
+  /// Calls visit(given bond or nullptr, bond of the rule or nullptr, neighbour) for the neighbours
+  /// of either.
+  template <class Visit>
+  void for_both(const Family &given, const Family &rule, const Visit &visit)
+  {
+    std::size_t a = 0, b = 0;
+    while (a < given.bonds.size() || b < rule.bonds.size())
+    {
+      const bool has_a = a < given.bonds.size(), has_b = b < rule.bonds.size();
+      const bool takes_a = has_a && (!has_b || given.neighbours[a] <= rule.neighbours[b]),
+                 takes_b = has_b && (!has_a || rule.neighbours[b] <= given.neighbours[a]);
+      const std::size_t j = takes_a ? given.neighbours[a] : rule.neighbours[b];
+      visit(takes_a ? &given.bonds[a++] : nullptr, takes_b ? &rule.bonds[b++] : nullptr, j);
+    }
+  }
+
+  /// Whether a bond is as long as the horizon, to the rounding of the nodes' places. Codes take
+  /// such bonds or leave them out, r <= horizon or r < horizon, and rounding may decide.
+  bool is_at_horizon(const GivenBonds &given, const Point<2> &xi);
 
   /// The rule of ours that weights are, but for a common factor and some bonds.
   struct Recognised
@@ -35,6 +54,7 @@ namespace plumbline::meshfree
   std::vector<Family> rule_families(const std::string &name, const GivenBonds &given);
 
   /// Of all rules and counterexamples the one that most weights and kernel points agree with, nine
-  /// of ten weights at least, relative to the neighbours' volumes and their √. Cost: .1 ms a node.
+  /// of ten weights at least, relative to the neighbours' volumes and their √. Bonds as long as the
+  /// horizon that one of both lacks do not count. Cost: .1 ms a node.
   std::optional<Recognised> recognise(const GivenBonds &given);
 } // namespace plumbline::meshfree

@@ -76,21 +76,25 @@ namespace plumbline::meshfree
       std::vector<Component> components;
       std::vector<Vector> values; ///< shape (n_components, n_nodes)
       std::vector<Spread> spreads;
+      double floor; ///< rounding of the files
 
-      explicit AllMoments(const GivenBonds &given) : components(all_components(given.kernel))
+      explicit AllMoments(const GivenBonds &given)
+          : components(all_components(given.kernel)),
+            floor(std::max(given.precision.weight, given.precision.moments))
       {
         for (const Component &component : components)
         {
           Vector own(given.families.size());
           for (std::size_t i = 0; i < own.size(); ++i)
             for (const Bond &bond : given.families[i].bonds)
-              own[i] += bond.weight * share(given.kernel, bond, component);
+              if (component.degree > 0 || !is_at_horizon(given, bond.xi))
+                own[i] += bond.weight * share(given.kernel, bond, component);
           spreads.push_back(spread_of(own));
           values.push_back(std::move(own));
         }
       }
 
-      double allowed(std::size_t c) const { return spreads[c].allowed(file_tolerance); }
+      double allowed(std::size_t c) const { return spreads[c].allowed(floor); }
 
       /// How far those of a node are from the medians, in what is allowed.
       Vector residual(std::size_t node) const

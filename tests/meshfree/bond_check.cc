@@ -80,8 +80,8 @@ TEST(CheckMoments, finds_what_partial_areas_miss)
   const MomentCheck check = check_moments(families, problem.kernel);
   EXPECT_NEAR(check.mean_ratio - 1, expected, 1e-6);
   EXPECT_NEAR(check.second.value, expected, 1e-6);
-  EXPECT_NEAR(check.defects[1].worst.value, expected / 2, 1e-6); // ∫ C |ξ|² = 2 ∫ C ξ1²
-  EXPECT_NEAR(check.defects[1].median, expected / 2, 1e-6);
+  EXPECT_NEAR(check.defects[1].worst.value, expected, 1e-6); // of ∫ C ξ1², as in what `run` says
+  EXPECT_NEAR(check.defects[1].median, expected, 1e-6);
   EXPECT_EQ(check.exact_degree, 1);
   EXPECT_TRUE(check.is_first_exact());
   EXPECT_FALSE(check.is_second_exact());
@@ -136,7 +136,7 @@ TEST(CheckMoments, of_tensors_are_off_at_least_as_much_at_worst_as_on_average)
 }
 
 // Kernel points mirrored at the x axis change the sign of C_12 and of nothing else: Σ w C_12 ξ1 ξ2
-// = -∫ C_12 ξ1 ξ2, where the mean of cos² sin² is 1/8 of ∫ |C| |ξ|² and that of cos⁴ is 3/8.
+// = -∫ C_12 ξ1 ξ2, where the mean of cos² sin² is 1/8 and that of cos⁴, of ∫ C_11 ξ1², is 3/8.
 TEST(CheckMoments, finds_mixed_entries_of_a_tensor_that_have_the_wrong_sign)
 {
   const auto problem = make_problem(true);
@@ -147,7 +147,7 @@ TEST(CheckMoments, finds_mixed_entries_of_a_tensor_that_have_the_wrong_sign)
   const MomentCheck check = check_moments(families, problem.kernel);
   EXPECT_NEAR(check.mean_ratio, 1, 1e-12);
   EXPECT_LT(check.defects[0].worst.value, 1e-12);
-  EXPECT_NEAR(check.defects[1].worst.value, 2. / 8, 1e-12);
+  EXPECT_NEAR(check.defects[1].worst.value, 2. / 3, 1e-12);
   EXPECT_NEAR(check.second.value, 2. / 3, 1e-12);
   EXPECT_EQ(check.exact_degree, 1);
 }
@@ -189,10 +189,12 @@ TEST(CheckSymmetry, finds_an_asymmetric_weight_and_a_bond_without_partner)
   {
     const auto problem = make_problem(is_tensor);
     auto families = good_families(problem);
-    EXPECT_LT(check_symmetry(families, problem.kernel).asymmetry, 1e-12);
+    const std::vector<double> volumes(families.size(), h * h);
+    EXPECT_LT(check_symmetry(families, problem.kernel, volumes).asymmetry, 1e-12);
     right_bond(families[inner]).weight *= 1.01;
-    SymmetryCheck check = check_symmetry(families, problem.kernel);
+    SymmetryCheck check = check_symmetry(families, problem.kernel, volumes);
     EXPECT_NEAR(check.asymmetry, .01 / 1.01, 1e-9); // that bond is the largest
+    EXPECT_NEAR(check.imbalance, .01 / 1.01, 1e-9);
     EXPECT_EQ(check.nodes[0] + check.nodes[1], 2 * inner + 1);
     EXPECT_EQ(check.n_unpaired, 0u);
 
@@ -200,11 +202,27 @@ TEST(CheckSymmetry, finds_an_asymmetric_weight_and_a_bond_without_partner)
     const auto left = std::find(last.neighbours.begin(), last.neighbours.end(), inner);
     last.bonds.erase(last.bonds.begin() + (left - last.neighbours.begin()));
     last.neighbours.erase(left);
-    check = check_symmetry(families, problem.kernel);
+    check = check_symmetry(families, problem.kernel, volumes);
     EXPECT_EQ(check.n_unpaired, 1u);
     EXPECT_NEAR(check.asymmetry, 1, 1e-9);
     EXPECT_EQ(check.nodes, (std::array<std::size_t, 2>{inner, inner + 1}));
   }
+}
+
+TEST(CheckSymmetry, forces_balance_where_weights_are_volumes)
+{
+  // w_ij = V_j: V_i w_ij = V_j w_ji though w_ij and w_ji differ
+  const auto problem = make_problem(false);
+  auto families = all(full_area(problem.kernel), problem);
+  std::vector<double> volumes;
+  for (std::size_t i = 0; i < problem.cells->size(); ++i)
+    volumes.push_back(h * h * (1 + .1 * static_cast<double>(i % 3)));
+  for (Family &family : families)
+    for (std::size_t k = 0; k < family.bonds.size(); ++k)
+      family.bonds[k].weight = volumes[family.neighbours[k]];
+  const SymmetryCheck check = check_symmetry(families, problem.kernel, volumes);
+  EXPECT_GT(check.asymmetry, .05);
+  EXPECT_LT(check.imbalance, 1e-12);
 }
 
 TEST(CheckMatrix, finds_the_smallest_eigenvalue_of_a_known_matrix)

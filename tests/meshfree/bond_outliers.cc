@@ -3,7 +3,7 @@
 #include "given_bonds.h"
 
 #include "base/error.h"
-#include "meshfree/check/bond_nodes.h"
+#include "meshfree/check/volume_check.h"
 
 #include <gtest/gtest.h>
 
@@ -68,7 +68,9 @@ TEST(Outliers, no_bond_of_a_sound_rule_is_named)
           for (const Outlier &o : find_outliers(weights.given(), known))
             ADD_FAILURE() << nodes.text() << ", " << name << (known ? "" : " (not recognised)")
                           << ": " << text(o);
-        EXPECT_TRUE(find_volume_outliers(weights.given(), weights.volumes).empty());
+        const VolumeCheck volumes = check_volumes(weights.given(), weights.volumes);
+        EXPECT_TRUE(volumes.outliers.empty());
+        EXPECT_EQ(volumes.factor, 1);
       }
       catch (const NumericalError &)
       {
@@ -355,7 +357,7 @@ TEST(Outliers, a_volume_that_is_wrong_is_named)
     {
       Weights weights = weights_of("FA", problem);
       weights.volumes[j] *= 2;
-      const auto volumes = find_volume_outliers(weights.given(), problem.cells->area);
+      const auto volumes = check_volumes(weights.given(), problem.cells->area).outliers;
       ASSERT_EQ(volumes.size(), 1u) << nodes.text();
       EXPECT_EQ(volumes[0].node, j);
       EXPECT_NEAR(volumes[0].found / volumes[0].expected, 2, 1e-9);

@@ -1,0 +1,45 @@
+#include "meshfree/check/exact_families.h"
+
+#include "meshfree/check/bond_check.h"
+
+#include <algorithm>
+
+namespace plumbline::meshfree
+{
+  ExactFamilies::ExactFamilies(const GivenBonds &given)
+      : is_exact_(given.families.size()), is_to_by_exact_(given.cells.size(), true)
+  {
+    const MomentCheck check = check_moments(given.families, given.kernel);
+    for (std::size_t i = 0; i < is_exact_.size(); ++i)
+    {
+      is_exact_[i] =
+          std::max(check.defects[0].values[i], check.second_defects[i]) <= given.precision.moments;
+      if (!is_exact_[i])
+        for (const unsigned int j : given.families[i].neighbours)
+          is_to_by_exact_[j] = false;
+    }
+  }
+
+  void ExactFamilies::acquit(std::vector<Outlier> &outliers) const
+  {
+    outliers.erase(std::remove_if(outliers.begin(), outliers.end(),
+                                  [this](const Outlier &one) { return is_right(one); }),
+                   outliers.end());
+  }
+
+  bool ExactFamilies::is_right(const Outlier &one) const
+  {
+    switch (one.defect)
+    {
+    case Defect::volume:
+    case Defect::kernel_point: // moments of kernels that are constant do not feel it
+      return false;
+    case Defect::neighbour:
+      return is_to_by_exact_[one.node];
+    case Defect::symmetry:
+      return is_exact_[one.node] && is_exact_[one.neighbour];
+    default:
+      return is_exact_[one.node];
+    }
+  }
+} // namespace plumbline::meshfree

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "meshfree/check/bond_file.h"
+
+namespace plumbline::meshfree
+{
+  /// A bond as it stands in the file.
+  struct GivenRow
+  {
+    std::int64_t i = 0, j = 0; ///< ids
+    double weight = 0;         ///< [length^2]
+    std::optional<Point<2>> kernel_point;
+    std::size_t line = 0;
+  };
+
+  /// Where the nodes of a file are among the cells, by their ids.
+  class NodeIndex
+  {
+  public:
+    NodeIndex(const GivenNodes &nodes, const geometry::NodeCells &cells);
+    std::optional<unsigned int> find(std::int64_t id) const;
+
+  private:
+    std::unordered_map<std::int64_t, unsigned int> node_of_id_;
+  };
+
+  /// That the ids of bonds are off those of the nodes by one, as where one file counts from 0 and
+  /// the other from 1: with the ids moved every bond is one between two nodes, all free nodes have
+  /// bonds, and the bonds are shorter, all of which fails as they stand.
+  /// @return  a sentence; empty: they are not
+  std::string shifted_ids(const std::vector<GivenRow> &rows, const NodeIndex &index,
+                          const geometry::NodeCells &cells);
+
+  /// Whether nearly no pair of free nodes has bonds both ways.
+  bool is_half_list(const std::vector<GivenRow> &rows, const NodeIndex &index, std::size_t n_free);
+} // namespace plumbline::meshfree
