@@ -60,12 +60,13 @@ namespace plumbline::app
       const auto n_outliers = flags(found);
       for (std::size_t i = 0; i < found.cells->n_free; ++i)
       {
-        table.rows.push_back(
-            {report::text_cell(found.id(i)), report::number_cell(found.cells->nodes[i][0]),
-             report::number_cell(found.cells->nodes[i][1]), report::number_cell(found.volumes[i]),
-             report::number_cell(found.cells->area[i]),
-             report::count_cell(found.given.families[i].bonds.size()),
-             report::number_cell(found.moments.ratios[i])});
+        table.rows.push_back({report::text_cell(found.id(i)),
+                              report::number_cell(found.nodes.origin[0] + found.cells->nodes[i][0]),
+                              report::number_cell(found.nodes.origin[1] + found.cells->nodes[i][1]),
+                              report::number_cell(found.volumes[i]),
+                              report::number_cell(found.cells->area[i]),
+                              report::count_cell(found.given.families[i].bonds.size()),
+                              report::number_cell(found.moments.ratios[i])});
         for (const report::NodeField &field : fields)
           table.rows.back().push_back(report::error_cell(field.values[i]));
         table.rows.back().push_back(report::count_cell(static_cast<std::uint64_t>(n_outliers[i])));

@@ -1,6 +1,7 @@
 #include "check_findings.h"
 
 #include "base/error.h"
+#include "geometry/local_coordinates.h"
 #include "meshfree/check/bond_ramp.h"
 #include "meshfree/discretisations.h"
 #include "reference/method.h"
@@ -251,6 +252,8 @@ namespace plumbline::app
     found.scene_name = scene.name;
     found.purpose = scene.purpose;
     found.nodes = read_given_nodes(options.nodes_file);
+    found.nodes.origin = scene.domain.origin;
+    geometry::move_to(found.nodes.origin, found.nodes.places);
     const bool boundary_is_data = scene.methods.nodes.are_vertices();
     if (scene.domain.mesh.is_lattice())
       scene.domain.mesh.name = "squares";

@@ -202,6 +202,7 @@ namespace plumbline::app
               CrackResults &results)
     {
       results.n = strip.n();
+      results.origin = scene.domain.origin;
       results.lower = middle(scene) + dealii::Point<2>(strip.x(0), strip.y(0));
       results.notch_tip = middle(scene)[0] + strip.notch_tip();
       results.n_bonds = strip.n_bonds();

@@ -4,12 +4,14 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/number_text.h"
+#include "geometry/crack_tips.h"
 #include "meshfree/fracture/breaking_network.h"
 #include "output_folder.h"
 #include "physics/expression.h"
 #include "report/formats.h"
 #include "report/growth_page.h"
 #include "run_parts.h"
+#include "scene/origin.h"
 #include "strip_growth.h"
 #include "study/sampling.h"
 #include "study/unseen_features.h"
@@ -184,6 +186,26 @@ namespace plumbline::app
     }
   } // namespace
 
+  namespace
+  {
+    /// The scene's body at its level.
+    meshfree::BondNetwork make_network(const scene::Scene &scene,
+                                       const meshfree::QuadratureRule &rule,
+                                       const physics::Kernel<2> &influence, double trapping)
+    {
+      try
+      {
+        return make_bond_network(make_solid(scene, influence.horizon(), trapping), rule, influence,
+                                 scene.study.series.front().levels.front().h,
+                                 scene.geometry.backend);
+      }
+      catch (const InputError &error)
+      {
+        throw InputError(scene::with_origin(error.what(), scene.domain.origin));
+      }
+    }
+  } // namespace
+
   GrowthSize expected_size(const scene::Scene &scene, unsigned int n_jobs)
   {
     const scene::Level &level = scene.study.series.front().levels.front();
@@ -251,9 +273,7 @@ namespace plumbline::app
     const double trapping = scene.fracture.criterion == scene::Criterion::calibrated
                                 ? find_trapping(scene, quadrature, influence, level.h)
                                 : 1;
-    meshfree::BreakingNetwork body(make_bond_network(make_solid(scene, level.horizon, trapping),
-                                                     quadrature, influence, level.h,
-                                                     scene.geometry.backend),
+    meshfree::BreakingNetwork body(make_network(scene, quadrature, influence, trapping),
                                    scene.fracture.stretch, solver);
     if (before_it_grows)
       before_it_grows();
@@ -280,6 +300,7 @@ namespace plumbline::app
     results.trapping = trapping;
     results.nodes = model.nodes;
     results.notch_tip = model.notch_tip;
+    results.origin = scene.domain.origin;
     results.n_bonds = body.n_bonds();
     results.n_unknowns = body.n_unknowns();
     results.work = body.work();
@@ -294,6 +315,9 @@ namespace plumbline::app
     results.warnings = std::move(warnings);
     results.toughness = model.toughness;
     results.spectrum = study::field_spectrum(scene.random);
+    for (const geometry::TipOnBonds &tip :
+         geometry::tips_on_bonds(scene.domain.cracks, results.nodes, results.horizon))
+      results.warnings.push_back(tip.text(results.origin));
     return results;
   }
 

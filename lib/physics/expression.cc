@@ -6,6 +6,7 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -50,6 +51,27 @@ namespace plumbline::physics
     double weierstrass(double x, double gamma, double n)
     {
       return weierstrass_mean(x, gamma, n, 0);
+    }
+
+    /// origin + x between two numbers of double precision.
+    struct Coordinate
+    {
+      double nearest = 0, next = 0;
+      double beyond = 0; ///< of the way from the one to the other, in [0, 1/2]
+    };
+
+    Coordinate scene_coordinate(double origin, double x)
+    {
+      Coordinate result;
+      result.nearest = origin + x;
+      // Knuth's sum of two numbers: what rounding has left out, exactly
+      const double of_x = result.nearest - origin, of_origin = result.nearest - of_x;
+      const double rest = (origin - of_origin) + (x - of_x);
+      if (rest == 0)
+        return result;
+      result.next = std::nextafter(result.nearest, std::copysign(HUGE_VAL, rest));
+      result.beyond = rest / (result.next - result.nearest);
+      return result;
     }
 
     /// What muParser does not understand, in our words.
@@ -156,6 +178,10 @@ namespace plumbline::physics
         throw InputError(key_ + " = '" + base::shown(part, 200) + "' does not parse: " +
                          reason(error) + "; write a muParser expression in " + names + ".");
       }
+    if (!(names_.origin == Point<2>()))
+      for (mu::Parser &parser : parsers_->components) // copies do not keep it
+        // it would make 3*x - 15000000 of 3*(x - 5000000), which loses the digits of x
+        parser.EnableOptimizer(false);
   }
 
   Expression::Expression(const Expression &other)
@@ -250,8 +276,32 @@ namespace plumbline::physics
 
   double Expression::operator()(const Point<2> &x, unsigned int component) const
   {
-    parsers_->x = x[0];
-    parsers_->y = x[1];
+    if (names_.origin == Point<2>())
+      return value_at(x, x, component);
+    Point<2> nearest;
+    std::array<Coordinate, 2> coordinate;
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      coordinate[d] = scene_coordinate(names_.origin[d], x[d]);
+      nearest[d] = coordinate[d].nearest;
+    }
+    const double value = value_at(x, nearest, component);
+    double result = value;
+    for (unsigned int d = 0; d < 2; ++d)
+      if (coordinate[d].beyond != 0)
+      {
+        Point<2> next = nearest;
+        next[d] = coordinate[d].next;
+        result += coordinate[d].beyond * (value_at(x, next, component) - value);
+      }
+    return result;
+  }
+
+  double Expression::value_at(const Point<2> &x, const Point<2> &in_scene,
+                              unsigned int component) const
+  {
+    parsers_->x = in_scene[0];
+    parsers_->y = in_scene[1];
     for (auto &[name, place] : parsers_->fields)
       if (place.field != nullptr)
         place.value = (*place.field)(x);
@@ -259,8 +309,11 @@ namespace plumbline::physics
     if (!std::isfinite(value))
     {
       std::ostringstream message;
-      message << key_ << " = '" << text_ << "' gives " << value << " at (x, y) = (" << x[0] << ", "
-              << x[1] << "); it must be a finite number in the domain and its collar";
+      if (!(names_.origin == Point<2>()))
+        message.precision(std::numeric_limits<double>::digits10);
+      message << key_ << " = '" << text_ << "' gives " << value << " at (x, y) = (" << in_scene[0]
+              << ", " << in_scene[1]
+              << "); it must be a finite number in the domain and its collar";
       throw InputError(message.str());
     }
     return value;

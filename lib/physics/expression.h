@@ -19,6 +19,9 @@ namespace plumbline::physics
     std::map<std::string, double> constants; ///< for example delta
     /// Fields of the place, whose functions threads may share.
     std::map<std::string, std::function<double(const Point<2> &)>> fields;
+    /// Values of x and y at the point (0, 0) [length]: expressions are written in a scene's
+    /// coordinates, and take points relative to this one, where those have lost no digits.
+    Point<2> origin;
 
     Names(std::initializer_list<std::pair<const std::string, double>> constants = {})
         : constants(constants)
@@ -50,10 +53,16 @@ namespace plumbline::physics
     /// jumps (abs, min, max, sign, rint).
     bool is_piecewise() const;
 
+    /// @param x  relative to Names::origin. Between coordinates that are numbers of double
+    /// precision the value is interpolated linearly, so that it is as smooth in x as if there were
+    /// all of them
     /// @throws InputError  the value is not a finite number
     double operator()(const Point<2> &x, unsigned int component = 0) const;
 
   private:
+    /// @param x  the same point, relative to the origin and in the scene's coordinates
+    double value_at(const Point<2> &x, const Point<2> &in_scene, unsigned int component) const;
+
     struct Parsers;
     std::string key_, text_;
     Names names_;

@@ -135,9 +135,9 @@ namespace plumbline::report
     table.columns = {"t [time]",   "tip [length]", "kinetic", "bonds",
                      "soft bonds", "dissipated",   "branches"};
     for (const CrackSample &s : results.history.samples)
-      table.rows.push_back({number_cell(s.t), number_cell(s.tip), number_cell(s.kinetic),
-                            number_cell(s.bonds), number_cell(s.soft), number_cell(s.dissipated),
-                            number_cell(s.n_branches)});
+      table.rows.push_back({number_cell(s.t), number_cell(results.origin[0] + s.tip),
+                            number_cell(s.kinetic), number_cell(s.bonds), number_cell(s.soft),
+                            number_cell(s.dissipated), number_cell(s.n_branches)});
     return table;
   }
 

@@ -188,7 +188,7 @@ namespace plumbline::report
                                     {"failure", one.failure}});
     for (const study::CrackSample &s : r.history.samples)
       json["samples"].push_back({{"t", s.t},
-                                 {"tip", s.tip},
+                                 {"tip", r.origin[0] + s.tip},
                                  {"kinetic", s.kinetic},
                                  {"bonds", s.bonds},
                                  {"soft", s.soft},

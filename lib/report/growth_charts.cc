@@ -104,7 +104,8 @@ namespace plumbline::report
         const dealii::Point<2> &tip = results.path.tips[i];
         way = tip.distance(results.notch_tip);
         result.data.rows.push_back({count_cell(i), number_cell(e.critical), number_cell(e.load),
-                                    number_cell(tip[0]), number_cell(tip[1]), number_cell(way)});
+                                    number_cell(results.origin[0] + tip[0]),
+                                    number_cell(results.origin[1] + tip[1]), number_cell(way)});
       }
       result.plot.lines = {line("", 0, std::move(points))};
       return result;
@@ -125,10 +126,12 @@ namespace plumbline::report
     {
       Table table;
       table.columns = {"event", "x0", "y0", "x1", "y1", "joined"};
+      const dealii::Point<2> &origin = results.origin;
       for (const study::CrackSide &side : results.path.sides)
-        table.rows.push_back({count_cell(side.event), number_cell(side.ends[0][0]),
-                              number_cell(side.ends[0][1]), number_cell(side.ends[1][0]),
-                              number_cell(side.ends[1][1]), count_cell(side.is_joined ? 1 : 0)});
+        table.rows.push_back(
+            {count_cell(side.event), number_cell(origin[0] + side.ends[0][0]),
+             number_cell(origin[1] + side.ends[0][1]), number_cell(origin[0] + side.ends[1][0]),
+             number_cell(origin[1] + side.ends[1][1]), count_cell(side.is_joined ? 1 : 0)});
       return table;
     }
   } // namespace

@@ -299,7 +299,7 @@ namespace plumbline::report
               {"n_resumed", r.growth.n_resumed},
               {"events", Json::array()}};
     for (std::size_t i = 0; i < r.growth.events.size(); ++i)
-      json["events"].push_back(to_json(r.growth.events[i], r.path.tips[i]));
+      json["events"].push_back(to_json(r.growth.events[i], r.origin + r.path.tips[i]));
     return json.dump(2) + "\n";
   }
 

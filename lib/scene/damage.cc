@@ -10,7 +10,9 @@ namespace plumbline::scene
   {
     if (damage.outside.empty())
       return {};
-    return physics::Expression("Domain/outside", damage.outside, {{"delta", horizon}});
+    physics::Names names = {{"delta", horizon}};
+    names.origin = damage.origin;
+    return physics::Expression("Domain/outside", damage.outside, names);
   }
 
   std::vector<char> find_ghosts(const Damage &damage, double horizon,
@@ -25,7 +27,8 @@ namespace plumbline::scene
 
   void check_damage(const Scene &scene, double horizon, const geometry::NodeCells &cells)
   {
-    const Damage damage{scene.domain.cracks, scene.domain.outside, SurfaceTerms::published};
+    const Damage damage{scene.domain.cracks, scene.domain.outside, SurfaceTerms::published,
+                        scene.domain.origin};
     const auto is_ghost = find_ghosts(damage, horizon, cells);
     std::string key = "Domain/outside";
     try

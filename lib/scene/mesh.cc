@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/number_text.h"
+#include "geometry/local_coordinates.h"
 #include "geometry/mesh_input.h"
 #include "physics/expression.h"
 #include "scene/csv.h"
@@ -41,6 +42,12 @@ namespace plumbline::scene
                            "scene allows it");
     }
 
+    geometry::Mesh moved(geometry::Mesh mesh, const Point<2> &origin)
+    {
+      geometry::move_to(origin, mesh.vertices);
+      return mesh;
+    }
+
     geometry::Mesh read_or_make(const Scene &scene, const Level &level)
     {
       const MeshSource &source = scene.domain.mesh;
@@ -48,8 +55,10 @@ namespace plumbline::scene
       if (source.is_file())
         try
         {
-          return scene.domain.mesh_files->read(path(scene, source.name), level.h, level.horizon,
-                                               !scene.domain.is_free_body, source.is_curved);
+          return moved(scene.domain.mesh_files->read(path(scene, source.name), level.h,
+                                                     level.horizon, !scene.domain.is_free_body,
+                                                     source.is_curved),
+                       scene.domain.origin);
         }
         catch (const InputError &error)
         {
@@ -59,8 +68,10 @@ namespace plumbline::scene
       {
         std::function<Point<2>(const Point<2> &)> map;
         if (!source.map.empty())
-          map = [expression = physics::Expression("Domain/map", source.map, constants)](
-                    const Point<2> &x) { return Point<2>(expression(x, 0), expression(x, 1)); };
+          map = [expression = physics::Expression("Domain/map", source.map, constants),
+                 origin = scene.domain.origin](const Point<2> &x) {
+            return geometry::local_point({expression(x, 0), expression(x, 1)}, origin);
+          };
         check_cells(scene, level);
         return geometry::lattice_mesh(scene.domain.boxes, level.h,
                                       scene.domain.is_free_body ? 0 : scene.reach(level.horizon),
@@ -69,8 +80,9 @@ namespace plumbline::scene
       const std::string everywhere = "1";
       const physics::Expression inside(
           "Domain/inside", source.inside.empty() ? everywhere : source.inside, constants);
-      return geometry::generate_mesh(source.name, source.arguments, level.h,
-                                     [&](const Point<2> &x) { return inside(x) > 0; });
+      return moved(geometry::generate_mesh(source.name, source.arguments, level.h,
+                                           [&](const Point<2> &x) { return inside(x) > 0; }),
+                   scene.domain.origin);
     }
 
     /// That cells and mesh sizes are lengths in the same unit.
@@ -117,6 +129,12 @@ namespace plumbline::scene
                                       [](const geometry::MeshCell &cell)
                                       { return !cell.is_inside; }),
                        mesh.cells.end());
+    }
+
+    /// The vertex of hZ² in the scene's coordinates that is below a point, relative to it.
+    Point<2> vertex_near(const Point<2> &x, double h)
+    {
+      return geometry::local_point({h * std::floor(x[0] / h), h * std::floor(x[1] / h)}, x);
     }
 
     /// Cells with their centroid in one of the boxes are fixed.
@@ -168,8 +186,8 @@ namespace plumbline::scene
       check_units(scene, level, mesh);
       check_node_memory(bounding_box(mesh), level, "Methods/nodes = vertices");
       fix_parts(scene.domain.fixed, mesh);
-      const Point<2> origin =
-          is_on_boxes ? geometry::Lattice(scene.domain.boxes, level.h).origin() : Point<2>();
+      const Point<2> origin = is_on_boxes ? geometry::Lattice(scene.domain.boxes, level.h).origin()
+                                          : vertex_near(scene.domain.origin, level.h);
       return geometry::vertex_cells(std::make_shared<const geometry::Mesh>(std::move(mesh)), origin,
                                     level.h, scene.domain.fixed);
     };
@@ -219,10 +237,11 @@ namespace plumbline::scene
     const bool is_file = source.kind() == NodeKind::file;
     const std::string file = is_file ? path(scene, source.file_at(level.h)) : source.name;
     std::vector<std::size_t> lines;
-    const auto nodes = source.kind() == NodeKind::mesh ? centroids(mesh)
-                       : is_file
-                           ? read_level_nodes(scene, level, &lines)
+    auto nodes = source.kind() == NodeKind::mesh ? centroids(mesh)
+                 : is_file                       ? read_level_nodes(scene, level, &lines)
                            : lattice_nodes(mesh, level.h, source.perturbation, scene.geometry.seed);
+    if (is_file)
+      geometry::move_to(scene.domain.origin, nodes);
     try
     {
       return voronoi_cells(nodes, mesh);

@@ -1,10 +1,14 @@
 #include "scene/mesh_files.h"
 
+#include "base/text_file.h"
+
 namespace plumbline::scene
 {
   const geometry::Mesh &MeshFiles::read(const std::string &file, double h, double delta,
                                         bool has_collar, bool is_curved)
   {
+    if (base::has_ending(file, ".msh"))
+      h = delta = 0; // it says its cells, whatever they are
     const auto key = std::make_tuple(file, h, delta, has_collar, is_curved);
     const auto known = meshes_.find(key);
     if (known != meshes_.end())

@@ -73,9 +73,11 @@ namespace plumbline::scene
       problem.damage = {scene.domain.cracks, scene.domain.outside,
                         scene.material.surface_terms == SurfaceTerms::automatic
                             ? SurfaceTerms::published
-                            : scene.material.surface_terms};
+                            : scene.material.surface_terms,
+                        scene.domain.origin};
       scene.material.model->complete(scene, level, problem);
       problem.settings = method_settings(scene);
+      problem.origin = scene.domain.origin;
       return problem;
     }
 

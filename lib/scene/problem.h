@@ -37,6 +37,7 @@ namespace plumbline::scene
     std::vector<std::vector<dealii::Point<2>>> cracks; ///< lines that break the bonds across them
     std::string outside; ///< an expression that is positive beyond free surfaces; empty: none
     SurfaceTerms surface_terms = SurfaceTerms::published; ///< of a linear peridynamic solid
+    dealii::Point<2> origin = {}; ///< of coordinates, see DomainSection
 
     bool is_there() const { return !cracks.empty() || !outside.empty(); }
   };
@@ -86,8 +87,9 @@ namespace plumbline::scene
     std::optional<physics::DoubleWell> double_well = {}; ///< `kernel` is that of its small strains
     std::function<double(const dealii::Point<2> &)> boundary_function = {}; ///< ω; empty: 1
     MethodSettings settings = {};
-    double mesh_seconds = 0;  ///< what making `mesh` (and a body's `cells`) took [CPU s]
-    double cells_seconds = 0; ///< what making the `cells` of nodes took besides [CPU s]
+    double mesh_seconds = 0;      ///< what making `mesh` (and a body's `cells`) took [CPU s]
+    double cells_seconds = 0;     ///< what making the `cells` of nodes took besides [CPU s]
+    dealii::Point<2> origin = {}; ///< of coordinates, see DomainSection
     double horizon() const { return kernel.horizon(); }
   };
 

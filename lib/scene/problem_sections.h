@@ -45,6 +45,10 @@ namespace plumbline::scene
 
   struct DomainSection
   {
+    /// Values of x and y where coordinates count from: those of boxes, cracks, meshes and nodes are
+    /// relative to this point, expressions see the scene's. (0, 0) unless Ω is far from there, see
+    /// geometry::local_origin; of a .geo file (0, 0) always. [length]
+    dealii::Point<2> origin;
     unsigned int dimension = 2; ///< 1: a line, the first axis of the boxes
     geometry::Domain boxes;
     MeshSource mesh;

@@ -54,6 +54,7 @@ namespace plumbline::scene
     std::vector<std::string> files;     ///< grids of numbers, named from the scene's folder
     unsigned int seed = 1;
 
+    dealii::Point<2> origin;                   ///< DomainSection's, for expressions
     std::shared_ptr<const RandomField> source; ///< of the field; copies share it
     RandomField::Place place;                  ///< the field at the values, or empty
 

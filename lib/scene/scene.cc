@@ -10,6 +10,7 @@
 #include "scene/input_files.h"
 #include "scene/keys.h"
 #include "scene/models/model.h"
+#include "scene/origin.h"
 #include "scene/scene_file.h"
 #include "scene/scene_keys.h"
 #include "scene/unused_keys.h"
@@ -54,6 +55,7 @@ namespace plumbline::scene
     /// What follows from the keys, once all are read.
     void complete(Scene &scene)
     {
+      move_to_domain(scene);
       scene.random.complete(scene.domain, scene.folder);
       scene.kernel.complete(scene.folder);
       scene.material.names = scene.random.names();

@@ -328,7 +328,7 @@ namespace plumbline::study
     map.horizon = problem.horizon();
     map.n_x = std::max(1, (n[0] + per_block - 1) / per_block);
     map.n_y = std::max(1, (n[1] + per_block - 1) / per_block);
-    map.lower = {box.lower[0], box.lower[1]};
+    map.lower = {problem.origin[0] + box.lower[0], problem.origin[1] + box.lower[1]};
     map.upper = {map.lower[0] + map.h * per_block * map.n_x,
                  map.lower[1] + map.h * per_block * map.n_y};
     map.values.assign(static_cast<std::size_t>(map.n_x) * map.n_y,
@@ -340,7 +340,7 @@ namespace plumbline::study
         // nodes on the boundary, or beyond it, belong to the last or first block
         block[d] =
             std::min<std::size_t>(static_cast<std::size_t>(std::max(
-                                      0., (x[d] - map.lower[d]) / (map.h * per_block) + 1e-9)),
+                                      0., (x[d] - box.lower[d]) / (map.h * per_block) + 1e-9)),
                                   (d == 0 ? map.n_x : map.n_y) - 1);
       double &value = map.values[block[1] * map.n_x + block[0]];
       value = std::fmax(value, std::abs(difference)); // takes the number where it is still NaN

@@ -163,6 +163,7 @@ namespace plumbline::study
     std::array<int, 2> n{};
     double strain = 0; ///< of the grips
     dealii::Point<2> lower;
+    dealii::Point<2> origin; ///< that places count from, see scene::DomainSection
     double notch_tip = 0;
     CrackHistory history;
     CrackMotion motion;

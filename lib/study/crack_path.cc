@@ -28,6 +28,18 @@ namespace plumbline::study
       return model.nodes[bond[0]].distance(model.nodes[bond[1]]) < nearest * model.h;
     }
 
+    /// Of two places the one that is farther from the notch's tip; of two that are mirror images,
+    /// which rounding tells apart, the upper one.
+    bool is_farther(const GrowthModel &model, const Point<2> &x, const Point<2> &y)
+    {
+      constexpr double rounding = 1e-6; // of h
+      const double difference = x.distance(model.notch_tip) - y.distance(model.notch_tip);
+      if (std::abs(difference) > rounding * model.h)
+        return difference > 0;
+      const Place a = place_of(model, x), b = place_of(model, y);
+      return std::make_pair(a[1], a[0]) > std::make_pair(b[1], b[0]);
+    }
+
     /// The side that the cells of two next neighbours share.
     std::array<Point<2>, 2> side_between(const GrowthModel &model,
                                          const std::array<unsigned int, 2> &bond)
@@ -124,7 +136,7 @@ namespace plumbline::study
         joined.grow(path.sides);
       for (const CrackSide &side : path.sides)
         for (const Point<2> &end : side.ends)
-          if (side.is_joined && end.distance(model.notch_tip) > tip.distance(model.notch_tip))
+          if (side.is_joined && is_farther(model, end, tip))
             tip = end;
       path.tips.push_back(tip);
     }

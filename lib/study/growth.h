@@ -108,6 +108,7 @@ namespace plumbline::study
     std::vector<double> toughness;            ///< see GrowthModel
     std::optional<random::Spectrum> spectrum; ///< of a random field of modes
     dealii::Point<2> notch_tip;
+    dealii::Point<2> origin; ///< that places count from, see scene::DomainSection
     std::size_t n_bonds = 0, n_unknowns = 0;
     analysis::Growth growth;
     method::BreakingBody::Work work;

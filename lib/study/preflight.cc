@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "scene/damage.h"
 #include "scene/mesh.h"
+#include "scene/origin.h"
 #include "scene/values.h"
 #include "study/refusal.h"
 
@@ -158,7 +159,7 @@ namespace plumbline::study
           }
           catch (const InputError &error)
           {
-            throw InputError(where.str() + error.what());
+            throw InputError(scene::with_origin(where.str() + error.what(), whole.domain.origin));
           }
         }
       }

@@ -127,7 +127,8 @@ namespace plumbline::meshfree
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if (!cells.find(nodes.places[i]))
         throw InputError("'" + nodes.file + "', line " + std::to_string(nodes.line[i]) + ": node " +
-                         std::to_string(nodes.id[i]) + " at " + to_text(nodes.places[i]) +
+                         std::to_string(nodes.id[i]) + " at " +
+                         to_text(nodes.origin + nodes.places[i]) +
                          " lies outside of the domain and its collar at the level " + level +
                          "; take it out, move it in, or choose another level (Study)");
     if (const auto twins = geometry::find_twins(nodes.places, mesh))

@@ -14,12 +14,13 @@ namespace plumbline::meshfree
   {
     std::string file;
     std::vector<std::int64_t> id;
-    std::vector<Point<2>> places;        ///< [length]
+    std::vector<Point<2>> places;        ///< relative to `origin` [length]
     std::vector<double> volume;          ///< [length^2]
     std::vector<std::size_t> line;       ///< in the file, for messages
     double rounding = 0;                 ///< of the places, by their digits [length]
     double volume_rounding = 0;          ///< of the volumes, relative
     std::vector<std::string> notes = {}; ///< how the file was read, where it is not plain CSV
+    Point<2> origin = {};                ///< in the file's coordinates
 
     std::size_t size() const { return id.size(); }
   };

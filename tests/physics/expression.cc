@@ -75,3 +75,33 @@ TEST(Expression, is_called_smooth_only_where_it_surely_is)
   random.fields["R"] = [](const dealii::Point<2> &x) { return x[0]; };
   EXPECT_FALSE(Expression("a", "1 + R", random).is_smooth());
 }
+
+// Between neighbouring numbers of double precision around 5e6, 1e-9 apart, the sine of the
+// difference would have steps; with an origin it has none, wherever that is.
+TEST(Expression, is_smooth_however_far_from_the_origin)
+{
+  physics::Names names;
+  names.origin = {5411930, -448250};
+  const Expression near("u", "sin(3*x)*cos(2*y)"),
+      far("u", "sin(3*(x - 5411930))*cos(2*(y + 448250))", names),
+      jump("u", "x > 5411930.5", names);
+  double largest = 0;
+  for (int i = 0; i < 200; ++i)
+  {
+    const dealii::Point<2> x(.1 + i * 7.3e-12, .7 - i * 1.1e-11);
+    largest = std::max(largest, std::abs(far(x) - near(x)));
+  }
+  EXPECT_LT(largest, 2e-15);
+  EXPECT_EQ(jump({.5 - 1e-8, 0}), 0);
+  EXPECT_EQ(jump({.5 + 1e-8, 0}), 1);
+  try
+  {
+    (void)Expression("u", "1/(x - 5411930.5)", names)({.5, 0});
+    ADD_FAILURE() << "no message";
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("(5411930.5, -448250)"), std::string::npos)
+        << error.what();
+  }
+}

@@ -196,6 +196,7 @@ namespace plumbline::scene
   physics::Names RandomSection::names() const
   {
     physics::Names names;
+    names.origin = origin;
     const std::vector<double> present = present_values();
     for (std::size_t i = 0; i < variables.size(); ++i)
       names.constants[variables[i].name] = present[i];
