@@ -105,9 +105,9 @@ namespace plumbline::app
                     << advice.problem << ", " << advice.series << ", against "
                     << study::target_words(results) << '\n';
           for (const study::Choice &choice : advice.choices)
-            std::cout << "  cheapest to " << choice.target << ": " << choice.method
-                      << " at h = " << choice.h << ", error " << choice.error << ", "
-                      << choice.seconds << " CPU s" << tie(choice) << '\n';
+            std::cout << "  cheapest to a relative error of " << choice.target << ": "
+                      << choice.method << " at h = " << choice.h << ", error " << choice.error
+                      << ", " << choice.seconds << " CPU s" << tie(choice) << '\n';
         }
       for (const study::Expectation &expectation : results.expectations)
         if (!expectation.holds)

@@ -11,6 +11,18 @@ namespace plumbline::algebra
 {
   namespace
   {
+    /// Products of values must be numbers of double precision.
+    void check_range(double norm)
+    {
+      constexpr double least = 1e-140, most = 1e140;
+      if (norm > least && norm < most)
+        return;
+      std::ostringstream message;
+      message << "the right-hand side has the norm " << norm << ", whose square is beyond double "
+              << "precision; take a unit in which the data (Problem) are between 1e-100 and 1e100";
+      throw NumericalError(message.str());
+    }
+
     template <class Preconditioner>
     SolveResult solve_with(const Operator &matrix, const Preconditioner &preconditioner,
                            Vector &solution, const Vector &right_hand_side, double tolerance,
@@ -24,6 +36,7 @@ namespace plumbline::algebra
         solution = 0.;
         return {0, 0};
       }
+      check_range(scale);
       dealii::SolverControl control(max_iterations, tolerance * scale, false, false);
       dealii::SolverCG<Vector> solver(control);
       try

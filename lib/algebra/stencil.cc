@@ -26,8 +26,13 @@ namespace plumbline::algebra
 
   std::uint64_t Stencil::n_entries() const
   {
-    return static_cast<std::uint64_t>(
-        std::count_if(entries_.begin(), entries_.end(), [](double a) { return a != 0; }));
+    constexpr double rounding = 1e-16; // of the largest: of sums that cancel
+    double largest = 0;
+    for (const double a : entries_)
+      largest = std::max(largest, std::abs(a));
+    return static_cast<std::uint64_t>(std::count_if(entries_.begin(), entries_.end(),
+                                                    [=](double a)
+                                                    { return std::abs(a) > rounding * largest; }));
   }
 
   bool Stencil::is_even() const

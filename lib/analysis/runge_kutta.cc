@@ -18,6 +18,16 @@ namespace plumbline::analysis
       const auto n = static_cast<std::ptrdiff_t>(y.size() / 2);
       return {{y.begin(), y.begin() + n}, {y.begin() + n, y.end()}, t};
     }
+    /// How large u becomes until the end, roughly: what it is and where speed and force take it.
+    double size_of(const Motion &motion, const State &state, double end)
+    {
+      constexpr double unknown = 1e-3; // at rest, and nothing moves it yet
+      const double time = end - state.t;
+      Vector a(motion.n);
+      motion.acceleration(state.u, state.t, a);
+      const double size = std::max({norm(state.u), time * norm(state.v), time * time * norm(a)});
+      return size > 0 ? size : unknown;
+    }
   } // namespace
 
   void runge_kutta(const Motion &motion, const Stepping &stepping, double end, State &state,
@@ -27,7 +37,7 @@ namespace plumbline::analysis
     const std::size_t n = motion.n;
     Solver::AdditionalData data(state.t, end, .01 * stepping.step, stepping.step,
                                 1e-9 * stepping.step, 8);
-    data.absolute_tolerance = stepping.tolerance * std::max(1e-3, norm(state.u));
+    data.absolute_tolerance = stepping.tolerance * size_of(motion, state, end);
     data.relative_tolerance = stepping.tolerance;
     Solver solver(data);
     Vector a(n);

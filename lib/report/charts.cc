@@ -183,9 +183,22 @@ namespace plumbline::report
       return method.name + " (" + verdict + part + ")";
     }
 
+    /// Errors of the chosen cases below this are round-off.
+    double noise_of(const study::Results &results, const std::vector<MethodName> &methods,
+                    const std::vector<const Case *> &chosen)
+    {
+      double size = 0;
+      for (const Case *one : chosen)
+        for (const MethodName &method : methods)
+          if (const study::Trend *trend = decisive_trend(results, method.name, *one))
+            size = std::max(size, trend->size);
+      return round_off * (size > 0 ? size : 1);
+    }
+
     /// The cheapest points for their error, cheap to dear; below round-off none is better. Of one
     /// method, or of all.
-    std::vector<Vertex> frontier(const std::vector<Point> &points, const std::string &method = "")
+    std::vector<Vertex> frontier(const std::vector<Point> &points, double noise,
+                                 const std::string &method = "")
     {
       std::vector<Vertex> sorted, best;
       for (const Point &point : points)
@@ -195,7 +208,7 @@ namespace plumbline::report
                 [](const Vertex &a, const Vertex &b)
                 { return a.x < b.x || (a.x == b.x && a.y < b.y); });
       for (const Vertex &v : sorted)
-        if (best.empty() || (v.y < best.back().y && best.back().y > round_off))
+        if (best.empty() || (v.y < best.back().y && best.back().y > noise))
           best.push_back(v);
       return best;
     }
@@ -221,6 +234,7 @@ namespace plumbline::report
           places.push_back(point.x);
       plot.is_x_log = is_cost(chart.kind) || is_logarithmic(axis, places);
       plot.shows_round_off = !is_iterations;
+      plot.noise = noise_of(results, methods, chosen);
 
       double least = std::numeric_limits<double>::max(), most = 0;
       for (const Point &point : points)
@@ -233,7 +247,7 @@ namespace plumbline::report
         }
       plot.is_y_log = !is_iterations || most > wide * least;
       if (is_cost(chart.kind) && results.variable.empty()) // else points are of several problems
-        plot.frontier = frontier(points);
+        plot.frontier = frontier(points, plot.noise);
 
       for (const MethodName &method : methods)
       {
@@ -242,7 +256,7 @@ namespace plumbline::report
         line.style = style_of(methods, method.name);
         line.label = legend(results, method, chosen);
         if (chosen.size() > 1)
-          line.points = frontier(points, method.name);
+          line.points = frontier(points, plot.noise, method.name);
         else
           for (const Point &point : points)
             if (point.method->name == method.name && point.is_drawn())

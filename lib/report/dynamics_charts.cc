@@ -69,6 +69,10 @@ namespace plumbline::report
     {
       chart.data.columns = {"method", "case", "series", "scheme", "x", "error"};
       chart.plot.shows_round_off = true;
+      double size = 0;
+      for (const MotionTrend &t : trends)
+        size = std::max(size, t.error == error ? t.size : 0);
+      chart.plot.noise = round_off * (size > 0 ? size : 1);
       Lines lines;
       for (const MotionTrend &t : trends)
       {

@@ -77,6 +77,7 @@ namespace plumbline::report
     a("diagnostics", run.diagnostics);
     a("size", run.size);
     a("round_off", run.round_off);
+    a("area", run.area);
     a("errors", run.errors);
     a("failure", run.failure);
   }
@@ -194,6 +195,7 @@ namespace plumbline::report
     a("upper", map.upper);
     a("n_x", map.n_x);
     a("n_y", map.n_y);
+    a("size", map.size);
     a("values", map.values);
   }
 

@@ -46,7 +46,9 @@ namespace plumbline::report
 
   ColourScale colour_scale(const std::vector<study::ErrorMap> &maps)
   {
-    double low = 0, high = 0;
+    double low = 0, high = 0, size = 0;
+    for (const study::ErrorMap &map : maps)
+      size = std::max(size, map.size);
     for (const study::ErrorMap &map : maps)
       for (const double value : map.values)
         if (std::isfinite(value) && value > 0)
@@ -54,7 +56,7 @@ namespace plumbline::report
           low = low > 0 ? std::min(low, value) : value;
           high = std::max(high, value);
         }
-    low = std::max(low, high > round_off ? round_off : smallest_drawn_error);
+    low = std::max(low, size * (high > round_off * size ? round_off : smallest_drawn_error));
     high = std::max(high, 10 * low);
     if (high > few_decades * low)
       return {low, high};

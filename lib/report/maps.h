@@ -8,7 +8,7 @@
 
 namespace plumbline::report
 {
-  /// Errors below this are drawn like it: a number of size one is rounded to as much.
+  /// Errors of solutions of size one below this are drawn like it: they are rounded to as much.
   constexpr double smallest_drawn_error = 1e-16;
 
   /// Of the colours of all maps together: from the smallest positive value, though not below

@@ -78,6 +78,7 @@ namespace plumbline::report
                  {"setup_seconds", run.cost.setup_seconds},
                  {"solve_seconds", run.cost.solve_seconds},
                  {"size", run.size},
+                 {"area", run.area},
                  {"errors", Json::object()},
                  {"energy_imbalance", known_number(run.imbalance)},
                  {"facts", run.facts}};
@@ -119,6 +120,7 @@ namespace plumbline::report
     run.cost.setup_seconds = json.at("setup_seconds");
     run.cost.solve_seconds = json.at("solve_seconds");
     run.size = json.at("size");
+    run.area = json.at("area");
     for (const auto &[name, error] : json.at("errors").items())
       run.errors[name] = number(error);
     run.imbalance = number(json.at("energy_imbalance"));

@@ -199,16 +199,16 @@ namespace plumbline::report
       View view;
       view.x_ticks = plot.x_ticks;
       view.x = x_range(xs, view.x_ticks, plot.is_x_log);
-      view.has_strip = plot.shows_round_off && plot.is_y_log && span(ys).low < round_off &&
-                       span(ys).high >= round_off;
+      view.has_strip = plot.shows_round_off && plot.is_y_log && span(ys).low < plot.noise &&
+                       span(ys).high >= plot.noise;
       if (view.has_strip)
-        ys.erase(std::remove_if(ys.begin(), ys.end(), [](double y) { return y < round_off; }),
+        ys.erase(std::remove_if(ys.begin(), ys.end(), [&](double y) { return y < plot.noise; }),
                  ys.end());
       view.y = plot.is_y_log  ? log_range(ys)
                : plot.y_range ? *plot.y_range
                               : Range{0, 1.12 * std::max(1., span(ys).high)};
-      view.strip =
-          view.has_strip ? make_strip(plot.lines, view.y) : Strip{{}, {view.y.low, view.y.low}};
+      view.strip = view.has_strip ? make_strip(plot.lines, view.y, plot.noise)
+                                  : Strip{{}, {view.y.low, view.y.low}};
       return view;
     }
 
@@ -230,7 +230,7 @@ namespace plumbline::report
     std::string slopes_commands(const Plot &plot, const View &view)
     {
       const std::vector<Line> lines =
-          view.has_strip ? parts_above(plot.lines, round_off) : plot.lines;
+          view.has_strip ? parts_above(plot.lines, plot.noise) : plot.lines;
       std::vector<SlopeTriangle> triangles;
       std::string text;
       for (const unsigned int slope : {2, 1})

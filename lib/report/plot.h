@@ -42,6 +42,10 @@ namespace plumbline::report
         {}; ///< how far error bars reach up and down from the points, or empty
   };
 
+  /// Errors of fields of size one below this are of the size of rounding; the value by which
+  /// lib/study/trend.cc judges, so that pictures and verdicts agree.
+  constexpr double round_off = 1e-10;
+
   struct Plot
   {
     std::string file; ///< name of the picture, without folder
@@ -49,6 +53,7 @@ namespace plumbline::report
     bool is_y_log = true, is_x_log = true;
     bool has_slopes = false;
     bool shows_round_off = false; ///< what is smaller than that goes into a strip, see Strip
+    double noise = round_off;     ///< the same of fields of the size of these
     std::vector<double> x_ticks;  ///< empty: powers of ten
     std::optional<Range> y_range; ///< of a linear axis; empty: from 0
     std::vector<Vertex> frontier; ///< drawn broad and grey behind the lines
@@ -56,16 +61,13 @@ namespace plumbline::report
     std::vector<Line> lines; ///< at least one point in all
   };
 
-  /// Errors of fields of size one below this are of the size of rounding; the value by which
-  /// lib/study/trend.cc judges, so that pictures and verdicts agree.
-  constexpr double round_off = 1e-10;
-
   /// A strip below a logarithmic axis for errors of the size of rounding, beside others that are
   /// not. How small they are says nothing, and over the decades between the others would lie flat.
   struct Strip
   {
-    std::vector<Style> rows; ///< from above, one for each method that has such errors
-    Range range;             ///< of y, high is where the axis ends
+    std::vector<Style> rows;  ///< from above, one for each method that has such errors
+    Range range;              ///< of y, high is where the axis ends
+    double noise = round_off; ///< as of the plot
 
     /// The line with its errors below round-off moved into its row.
     std::vector<Vertex> enter(const Line &line) const;
@@ -73,7 +75,7 @@ namespace plumbline::report
     /// The line with its errors below round-off moved through the whole strip, straight down.
     std::vector<Vertex> cut(const std::vector<Vertex> &points) const;
   };
-  Strip make_strip(const std::vector<Line> &lines, const Range &y);
+  Strip make_strip(const std::vector<Line> &lines, const Range &y, double noise = round_off);
 
   /// Of a logarithmic axis: the values with a margin, and two powers of ten at least.
   Range log_range(const std::vector<double> &values);

@@ -76,8 +76,8 @@ namespace plumbline::report
         const study::CheapestPair &pair = r.cheapest.back();
         text +=
             std::string("Cheapest to ") +
-            (is_own(r) ? "a difference of the mean" : "an error of the mean") + " of " +
-            short_power(pair.target) + ": " + pair.method + " at h = " + rounded(pair.h) +
+            (is_own(r) ? "a relative difference of the mean" : "a relative error of the mean") +
+            " of " + short_power(pair.target) + ": " + pair.method + " at h = " + rounded(pair.h) +
             " with count " + std::to_string(pair.count) +
             (r.sampling.modes.empty() ? "" : " and " + std::to_string(pair.n_modes) + " modes") +
             ", error " + rounded(pair.error) + ", " + rounded_seconds(pair.seconds) + " of CPU. ";

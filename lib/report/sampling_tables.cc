@@ -116,7 +116,7 @@ namespace plumbline::report
   Table sampling_cheapest_table(const SamplingResults &r)
   {
     Table table;
-    table.columns = {"error of the mean below",
+    table.columns = {"relative error of the mean below",
                      "method",
                      "problem",
                      "series",

@@ -89,10 +89,12 @@ namespace plumbline::report
     std::size_t most = 0;
     for (const Case &one : cases(results))
     {
-      const auto n = static_cast<std::size_t>(std::count_if(
-          results.runs.begin(), results.runs.end(),
-          [&](const study::Run &run)
-          { return run.problem == one.problem && decisive_error(results, run) > round_off; }));
+      const auto n = static_cast<std::size_t>(
+          std::count_if(results.runs.begin(), results.runs.end(),
+                        [&](const study::Run &run) {
+                          return run.problem == one.problem &&
+                                 decisive_error(results, run) > round_off * run.size;
+                        }));
       if (best.empty() || n > most)
       {
         best = one.problem;

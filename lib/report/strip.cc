@@ -16,12 +16,13 @@ namespace plumbline::report
     }
   } // namespace
 
-  Strip make_strip(const std::vector<Line> &lines, const Range &y)
+  Strip make_strip(const std::vector<Line> &lines, const Range &y, double noise)
   {
     Strip strip;
+    strip.noise = noise;
     for (const Line &line : lines)
       if (std::any_of(line.points.begin(), line.points.end(),
-                      [](const Vertex &v) { return v.y < round_off; }) &&
+                      [&](const Vertex &v) { return v.y < noise; }) &&
           std::none_of(strip.rows.begin(), strip.rows.end(),
                        [&](const Style &style) { return is_same(style, line.style); }))
         strip.rows.push_back(line.style);
@@ -39,7 +40,7 @@ namespace plumbline::report
         (static_cast<double>(row - rows.begin()) + 1) / (static_cast<double>(rows.size()) + 1);
     std::vector<Vertex> points = line.points;
     for (Vertex &v : points)
-      if (v.y < round_off)
+      if (v.y < noise)
         v.y = range.high * std::pow(range.low / range.high, depth);
     return points;
   }
@@ -48,7 +49,7 @@ namespace plumbline::report
   {
     std::vector<Vertex> result;
     for (const Vertex &v : points)
-      if (v.y >= round_off)
+      if (v.y >= noise)
         result.push_back(v);
       else
       {

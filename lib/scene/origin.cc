@@ -99,6 +99,8 @@ namespace plumbline::scene
     for (auto &crack : domain.cracks)
       geometry::move_to(origin, crack);
     geometry::move_to(origin, scene.fracture.unbreaking);
+    for (auto &line : scene.fracture.interfaces)
+      geometry::move_to(origin, line);
     geometry::move_to(origin, scene.random.box);
   }
 } // namespace plumbline::scene

@@ -19,7 +19,7 @@ namespace plumbline::study
       const auto is_below = [&](const SetStatistics &other)
       {
         return other.count < set.count || other.n_modes < set.n_modes || other.is_target ||
-               (other.mean_error && *other.mean_error <= target);
+               (other.mean_error && *other.mean_error <= target * other.mean_size);
       };
       return std::all_of(cases.begin(), cases.end(),
                          [&](const CaseStatistics &other)

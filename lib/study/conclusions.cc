@@ -98,8 +98,9 @@ namespace plumbline::study
         }
         if (value == run.errors.end())
           continue;
-        trend.size = std::max(trend.size, run.size);
-        trend.round_off = std::max(trend.round_off, run.round_off);
+        const double unit = norm_of_one(error, run.area);
+        trend.size = std::max(trend.size, unit * run.size);
+        trend.round_off = std::max(trend.round_off, unit * run.round_off);
         const LimitProof &proof = run.diagnostics.limit;
         trend.proof = trend.x.empty() ? proof : weaker(trend.proof, proof);
         trend.x.push_back(coordinate(trend.axis, run));
@@ -164,7 +165,7 @@ namespace plumbline::study
     }
 
     /// The cheapest runs of methods that converge, to this field and to others, with an error of at
-    /// most a target.
+    /// most a target times how far their solution varies.
     std::vector<const Run *> cheapest_to(const Results &results,
                                          const std::set<std::string> &methods,
                                          const std::string &problem, const std::string &series,
@@ -175,7 +176,8 @@ namespace plumbline::study
       {
         const auto error = run.errors.find(results.decisive_error);
         if (run.problem == problem && run.series == series && methods.count(run.method) > 0 &&
-            error != run.errors.end() && error->second <= target)
+            error != run.errors.end() &&
+            error->second <= target * norm_of_one(error->first, run.area) * run.size)
           runs.push_back(&run);
       }
       return cheapest(runs);

@@ -38,6 +38,7 @@ namespace plumbline::study
     analysis::Counts counts;
     base::Cost cost; ///< setup: what does not depend on scheme and step; solve: the steps alone
     double size = 0; ///< of u at the end: largest less least value of a component
+    double area = 1; ///< of Ω, as of Run; of a line its length
     /// At the final time, by "norm | target" of u, "velocity norm | target" of its rate; and
     /// "nodal L2 | time" against the same lattice's motion exact in time, at the finest level.
     std::map<std::string, double> errors;

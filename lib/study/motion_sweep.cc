@@ -307,6 +307,7 @@ namespace plumbline::study
       {
         const Vector u = equation.nodal(state.u), v = equation.nodal(state.v);
         run.size = extent_of(u, equation.n_components());
+        run.area = area_;
         const auto against = [&](scene::Target target, const Vector &exact_u, const Vector &exact_v)
         {
           for (const scene::Norm norm : scene_.study.norms)

@@ -80,8 +80,8 @@ namespace plumbline::study
         {
           trend.x.push_back(coordinate(trend.axis, *run));
           trend.values.push_back(found->second);
-          trend.size = run->size;
-          trend.round_off = rounding * run->size;
+          trend.size = norm_of_one(error, run->area) * run->size;
+          trend.round_off = rounding * trend.size;
         }
       }
       judge(trend, scene.study.variable);
@@ -118,8 +118,8 @@ namespace plumbline::study
           all.back().axis = Axis::time_step;
         }
         MotionTrend &trend = all[place];
-        trend.size = run.size;
-        trend.round_off = rounding * run.size;
+        trend.size = norm_of_one(time_error, run.area) * run.size;
+        trend.round_off = rounding * trend.size;
         trend.x.push_back(run.step);
         trend.values.push_back(found->second);
       }

@@ -36,6 +36,7 @@ namespace plumbline::study
     /// nothing, as for the operator.
     double size = 0;
     double round_off = 0; ///< errors up to this are round-off, see study/round_off.h
+    double area = 1;      ///< of Ω: the L2 norm of a constant 1 is its root [length^2]
     std::map<std::string, double> errors; ///< by "norm | target", e.g. "nodal Linf | exact"
     std::string failure;                  ///< empty, or why there is no solution
   };
@@ -70,8 +71,8 @@ namespace plumbline::study
     Axis axis = Axis::mesh_size;
     std::vector<double> x;      ///< values on the axis, coarse to fine
     std::vector<double> values; ///< the errors
-    double size = 0;            ///< of the solution, how far it varies: see Run
-    std::vector<double> rates;  ///< between neighbours, size x.size() - 1
+    double size = 0; ///< of the solution, how far it varies, see Run; in the unit of the errors
+    std::vector<double> rates; ///< between neighbours, size x.size() - 1
     /// Slope of the last three levels, log over log, and a of the fit; NaN where nothing is fitted:
     /// fewer than four levels above round-off, or no refinement.
     double rate = not_fitted, rate_uncertainty = not_fitted;
@@ -81,7 +82,7 @@ namespace plumbline::study
     /// ...
     std::string verdict;
     std::string reason;    ///< one sentence with the numbers
-    double round_off = 0;  ///< errors up to this are round-off
+    double round_off = 0;  ///< errors up to this are round-off, in their unit
     LimitProof proof = {}; ///< apart from this field; of the level with the worst moments
     /// Where errors are differences to the own finest level: its place on the axis; else 0.
     double finest = 0;
@@ -137,7 +138,7 @@ namespace plumbline::study
   /// The cheapest run of a method that converges with an error of at most a target, see `cheapest`.
   struct Choice
   {
-    double target = 0;
+    double target = 0; ///< relative to how far the solution varies
     std::string method;
     double h = 0, error = 0, seconds = 0; ///< [length], of the decisive error, CPU [s]
     std::vector<std::string> tied = {};   ///< other methods that cost the same, to noise
@@ -161,6 +162,7 @@ namespace plumbline::study
     double h = 0, horizon = 0;
     std::array<double, 2> lower{}, upper{}; ///< corners of the bounding box [length]
     unsigned int n_x = 0, n_y = 0;          ///< blocks, at most 32 each
+    double size = 1;                        ///< of the solution, see Run
     std::vector<double> values;             ///< shape (n_y, n_x), NaN outside the domain
   };
 

@@ -5,6 +5,8 @@
 #include "study/comparison.h"
 #include "study/conclusions.h"
 #include "study/contradiction.h"
+#include "study/crack_warnings.h"
+#include "study/motion_norms.h"
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
 #include "study/round_off.h"
@@ -167,6 +169,9 @@ namespace plumbline::study
         for (const OpenCase &one : open)
           if (const auto found = measure_contradiction(one); found && found->is_clear())
             results_.warnings.push_back(cases_[one.index] + ": " + found->text());
+        if (!open.empty())
+          for (const std::string &text : tip_warnings(open.front().problem, methods_))
+            results_.warnings.push_back(text);
       }
 
       void say(const std::string &name, const scene::Series &series, unsigned int level,
@@ -297,6 +302,7 @@ namespace plumbline::study
         run.cost = solution.cost;
         run.size = variation(problem, solution);
         run.round_off = round_off_error(problem, solution);
+        run.area = area_of(problem);
         run.diagnostics = solution.diagnostics;
         run.errors = errors(scene_.study.norms, problem, solution, one.targets);
         if (control_.on_solution)
@@ -373,6 +379,7 @@ namespace plumbline::study
         map.method = run.method;
         map.problem = run.problem;
         map.series = run.series;
+        map.size = run.size;
         results_.maps.push_back(map);
       }
 

@@ -141,6 +141,21 @@ namespace plumbline::study
              " levels that a verdict needs";
     }
 
+    /// Round-off is erratic. Errors near its bound that fall from level to level as a plateau and a
+    /// power do, to a part in a thousand, are none: the bound is for the worst case.
+    bool shows_a_law(const std::vector<double> &x, const std::vector<double> &e, double bound)
+    {
+      constexpr double near = .01, digits = 1e-3;
+      if (e.size() < levels_for_verdict || !(e.back() > near * bound) ||
+          !std::is_sorted(e.rbegin(), e.rend()) || !(e.front() > (1 + digits) * e.back()))
+        return false;
+      const PlateauFit fit = best_fit(x, e);
+      for (std::size_t i = 0; i < x.size(); ++i)
+        if (!(std::abs(fit.a + fit.b * std::pow(x[i], fit.p) - e[i]) <= digits * e[i]))
+          return false;
+      return true;
+    }
+
     /// Of errors whose last one is no larger than round-off.
     void judge_round_off(Trend &trend, double largest)
     {
@@ -288,7 +303,7 @@ namespace plumbline::study
       return;
     }
 
-    const double floor = trend.round_off;
+    const double floor = shows_a_law(trend.x, values, trend.round_off) ? 0 : trend.round_off;
     if (values.back() <= floor)
       return judge_round_off(trend, *std::max_element(values.begin(), values.end()));
     std::vector<double> x, e; // a level that is exact by chance does not count
@@ -304,6 +319,15 @@ namespace plumbline::study
       return;
     }
     judge_errors(trend, x, e);
+  }
+
+  double norm_of_one(const std::string &error, double area)
+  {
+    for (const scene::Norm norm :
+         {scene::Norm::nodal_l2, scene::Norm::averages_l2, scene::Norm::field_l2})
+      if (error.find(base::word(norm) + " |") != std::string::npos)
+        return std::sqrt(area);
+    return 1;
   }
 
   bool is_against(const std::string &error, scene::Target target)

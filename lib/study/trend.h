@@ -15,6 +15,10 @@ namespace plumbline::study
   /// @pre at least four levels, x decreasing, e > 0
   PlateauFit fit_plateau(const std::vector<double> &x, const std::vector<double> &e);
 
+  /// What a constant 1 is in the norm of an error 'norm | target', perhaps after other words: 1 for
+  /// maxima, the root of Ω's area [length] for L2 norms.
+  double norm_of_one(const std::string &error, double area);
+
   /// An error as 'norm | target' is held against this target.
   bool is_against(const std::string &error, scene::Target target);
 
@@ -44,6 +48,7 @@ namespace plumbline::study
   ///   (see find_approach) or logarithm fits as well; or the error grew to twice the smallest one;
   /// - undecided: neither, or fewer than four levels, or round-off hides the answer. A slow power
   ///   below 3/4 and an error that is either a plateau or a slow power are named in the reason.
+  ///   Errors that fall by a law to 1e-3 are not taken for round-off down to 1/100 of its bound.
   /// The answer is about the given solution: a method may do better for one than for another.
   /// Where trend.finest > 0 the values are differences to the finest level; what is judged is C
   /// x^p, see `own_rate`: whether the solutions have a limit, not which.

@@ -81,11 +81,11 @@ namespace plumbline::report
                             "class=\"no\">✗ Stall everywhere, however fine the mesh: FA, IPA-AC, "
                             "P0.</b> </p>"));
     // Targets that the same run serves share a row; another mesh size is another run.
-    EXPECT_TRUE(holds(html, "<td>error ≤ 1e-2 … 1e-4</td>"));
+    EXPECT_TRUE(holds(html, "<td>relative error ≤ 1e-2 … 1e-4</td>"));
     EXPECT_TRUE(holds(html,
                       "<b>Q1</b></td><td>h = 0.1</td><td title=\"its error is 3.000e-5\">0.51 "
                       "ms</td>"));
-    EXPECT_TRUE(holds(html, "<td>error ≤ 1e-6</td>"));
+    EXPECT_TRUE(holds(html, "<td>relative error ≤ 1e-6</td>"));
     EXPECT_TRUE(holds(html, "<td>h = 0.025</td><td title=\"its error is 4.000e-7\">3.2 s</td>"));
     EXPECT_EQ(fixture::count(html, "No converging method is accurate enough yet"), 1u);
     EXPECT_EQ(fixture::count(html, "✗ stalls: "), 3u);
@@ -119,7 +119,8 @@ namespace plumbline::report
                                  {1e-4, "Q1", .1, 3e-5, 5.1e-4}};
     std::string html = page_of(results);
     EXPECT_TRUE(holds(html, "<b>Q1</b><small> a tie with A&lt;B, FA</small></td>"));
-    EXPECT_FALSE(holds(html, "<td>error ≤ 1e-2 … 1e-4</td>")); // another answer, so another row
+    EXPECT_FALSE(
+        holds(html, "<td>relative error ≤ 1e-2 … 1e-4</td>")); // another answer, so another row
     EXPECT_TRUE(holds(html, "<b>Warning.</b> solution &amp; load contradict each other."));
     EXPECT_FALSE(holds(html, "Not in it, since methods share it")); // nothing was made
     results.warnings.clear();

@@ -351,6 +351,34 @@ TEST(Conclusions, the_cheapest_run_meets_its_target)
   EXPECT_EQ(choices.at(1e-4), std::pair(std::string("B"), .05));
 }
 
+// In a unit of 1e-9, and by an L2 norm on a domain of 1e-6 x 1e-6, errors are 1e-15 times as large.
+TEST(Conclusions, targets_are_relative_to_the_solution)
+{
+  const auto scene = make_scene(against_exact);
+  for (const auto &[size, side] : {std::pair(1e-9, 1.), std::pair(1e6, 1.), std::pair(1e-9, 1e-6)})
+  {
+    Results results = make_results(scene);
+    std::vector<double> errors = {8e-2, 2e-2, 5e-3, 1.25e-3};
+    for (double &error : errors)
+      error *= size * side;
+    add_runs(results, "A", errors);
+    for (study::Run &run : results.runs)
+    {
+      run.size = size;
+      run.area = side * side;
+      run.round_off = 1e-13 * size;
+    }
+    conclude(scene, results);
+    const auto choices = advised(results);
+    ASSERT_EQ(choices.size(), 1u) << size << ' ' << side;
+    EXPECT_EQ(choices.at(1e-2), std::pair(std::string("A"), .05));
+    ASSERT_FALSE(results.trends.empty());
+    EXPECT_EQ(results.trends[0].outcome, Outcome::converges) << results.trends[0].reason;
+    EXPECT_DOUBLE_EQ(results.trends[0].size, size * side);
+    EXPECT_DOUBLE_EQ(results.trends[0].round_off, 1e-13 * size * side);
+  }
+}
+
 TEST(Conclusions, advice_names_methods_that_converge_by_the_decisive_error_alone)
 {
   const auto scene = make_scene(against_exact);

@@ -89,6 +89,25 @@ TEST(Judge, round_off_converges_and_levels_at_round_off_do_not_count)
   EXPECT_EQ(judged(h, {1e-3, 6.25e-5, 3.9e-6, 2.4e-7, 2e-11}).outcome, Outcome::converges);
 }
 
+// Of x³ at 450000 < x < 450001: the bound on round-off, for values of 1e17, is above errors that
+// are smooth.
+TEST(Judge, errors_that_follow_a_law_are_no_round_off)
+{
+  Trend trend;
+  trend.x = {.1, .05, .025, .0125};
+  trend.size = 6e11;
+  trend.round_off = 1.6e5;
+  trend.values = {12734, 11237, 10521, 10170};
+  judge(trend);
+  EXPECT_EQ(trend.outcome, Outcome::stalls) << trend.reason;
+  trend.values = {12734, 9237, 10521, 10170}; // erratic
+  judge(trend);
+  EXPECT_EQ(trend.outcome, Outcome::converges) << trend.reason;
+  trend.values = {1e-12, 1e-12, 1e-12, 1e-12}; // a last digit
+  judge(trend);
+  EXPECT_EQ(trend.outcome, Outcome::converges) << trend.reason;
+}
+
 TEST(Judge, round_off_that_is_not_small_beside_the_solution_decides_nothing)
 {
   Trend trend;
