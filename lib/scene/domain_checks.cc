@@ -152,6 +152,11 @@ namespace plumbline::scene
               "Material/collar dilatation = zero needs a state-based solid with lambda != mu on "
               "scattered nodes with a collar; write from data, or Material/model = LPS with "
               "Domain/mesh = squares");
+      require(scene.material.surface_terms == SurfaceTerms::automatic ||
+                  (domain.is_damaged() && scene.has_dilatation()),
+              "Material/surface terms = " + base::word(scene.material.surface_terms) +
+                  " has no effect: there is no surface, or its model has none of them; clear it, "
+                  "or give Domain/cracks or Domain/outside with Material/model = LPS");
       require(!domain.is_damaged() || !domain.mesh.is_lattice(),
               "Domain/cracks or Domain/outside is given with Domain/mesh = lattice: " +
                   mesh_remedy);
