@@ -91,28 +91,41 @@ namespace plumbline::geometry
       : degree_(degree)
   {
     constexpr std::size_t most_seen = 400;
-    constexpr double most_points = 1e6;
+    constexpr double most_points = 1e6, negligible = 1e-10; // of the largest mean of |f|
     constexpr unsigned int deepest = 8;
     const std::size_t n_seen = std::min(n_cells, most_seen);
-    std::size_t n_rough = 0, n_points = 1;
-    Sampled sampled;
-    depth_ = 1; // sample() tells by one cut whether a cell is rough
+    const double n_each =
+        static_cast<double>(n_cells) / static_cast<double>(std::max<std::size_t>(n_seen, 1));
+    std::vector<Polygon> seen;
+    double largest = 0;
     for (std::size_t k = 0; k < n_seen; ++k)
     {
-      const Polygon polygon = cell((2 * k + 1) * n_cells / (2 * n_seen));
-      sample(polygon, f, sampled);
-      const std::size_t n_of_rule = polygon_rule(view(polygon), degree_).points.size();
-      n_points = std::max(n_points, n_of_rule);
-      n_rough += sampled.values.size() > n_of_rule ? 1 : 0;
+      seen.push_back(cell((2 * k + 1) * n_cells / (2 * n_seen)));
+      largest = std::max(largest, part(seen.back(), f).size() / area(view(seen.back())));
     }
-    // at least a line of cells
-    const double n_expected = std::max(static_cast<double>(n_rough) /
-                                           static_cast<double>(std::max<std::size_t>(1, n_seen)) *
-                                           static_cast<double>(n_cells),
-                                       std::sqrt(static_cast<double>(n_cells)));
-    const double of_depth_0 = 8 * static_cast<double>(n_points) * n_expected;
-    depth_ = static_cast<unsigned int>(
-        std::clamp(std::floor(std::log2(most_points / of_depth_0)), 1., double{deepest}));
+    negligible_ = negligible * largest;
+    // points of rough cells, once cut and twice cut: along lines they double, elsewhere they become
+    // four times as many
+    double n_line = 0, n_once = 0, n_twice = 0;
+    Sampled sampled;
+    for (const Polygon &polygon : seen)
+    {
+      const auto n_plain = static_cast<double>(polygon_rule(view(polygon), degree_).points.size());
+      n_line = std::max(n_line, 4 * n_plain * std::sqrt(static_cast<double>(n_cells)));
+      depth_ = 1;
+      sample(polygon, f, sampled);
+      const auto n = static_cast<double>(sampled.values.size());
+      if (n <= n_plain)
+        continue;
+      depth_ = 2;
+      sample(polygon, f, sampled);
+      n_once += n_each * n;
+      n_twice += n_each * static_cast<double>(sampled.values.size());
+    }
+    const double growth = n_once > 0 ? std::clamp(n_twice / n_once, 2., 4.) : 2;
+    const double n_first = std::max({n_once, n_line, 1.}); // at least a line of cells
+    depth_ = static_cast<unsigned int>(std::clamp(
+        1 + std::floor(std::log(most_points / n_first) / std::log(growth)), 1., double{deepest}));
   }
 
   void RoughRule::sample(const Polygon &cell, const Value &f, Sampled &result) const
@@ -143,7 +156,8 @@ namespace plumbline::geometry
       size += one.size();
     }
     if (depth == 0)
-      tolerance = same * std::max(size, whole.size());
+      tolerance =
+          std::max(same * std::max(size, whole.size()), negligible_ * area(view(whole.polygon)));
     bool is_smooth = true;
     for (unsigned int k = 0; k < 3; ++k)
       is_smooth = is_smooth && std::abs(of_whole[k] - of_parts[k]) <= tolerance;

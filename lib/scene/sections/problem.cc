@@ -23,7 +23,7 @@ namespace plumbline::scene
         },
         "The body load b: manufactured (the nonlocal operator applied to the solution), or "
         "expressions written like the solution. Loads that jump or have kinks are integrated in "
-        "parts of cells; what is narrower than an eighth of a cell may be missed by integrals, and "
+        "parts of cells; what is narrower than a seventh of a cell may be missed by integrals, and "
         "what lies between nodes by rules that take nodes.");
     keys.add(
         "constraint", solution, any_text(),
