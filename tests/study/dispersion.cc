@@ -151,6 +151,7 @@ TEST(Dispersion, critical_steps_of_rules_on_ring_shaped_ridges_are_those_of_anot
     const double p = 6 * std::pow(along(row, 0, 1).local_speed, 2);
     EXPECT_NEAR(row.critical_step() * std::sqrt(p * 1.9 / .91), step, 6e-7) << name;
   }
+  EXPECT_NEAR(waves("PA-AC", false, 5.35, 1. / 16).range.largest, 144.930, 6e-4);
 }
 
 TEST(Dispersion, the_largest_eigenvalue_is_that_of_a_fine_grid_of_waves)

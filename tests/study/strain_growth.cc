@@ -125,6 +125,10 @@ TEST(CriticalSteps, are_those_of_the_symbol_and_of_both_masses)
   EXPECT_TRUE(fa.is_oscillating);
   const auto heavy = steps_of("FA", torus({{"Methods/names", "FA"}, {"Time/density", "9"}}));
   EXPECT_NEAR(heavy.own(), 3 * fa.own(), 1e-12);
+  // of double wells by Galerkin both are of waves on a lattice without end
+  const auto wells = steps_of("Q1", torus({{"Methods/names", "Q1"}, {"Study/h", "0.1"}}));
+  EXPECT_GT(wells.largest, 1.2 * wells.largest_lumped);
+  EXPECT_GT(wells.largest_lumped, 0);
 
   const auto line = [](const std::string &method, const std::string &mesh)
   {
