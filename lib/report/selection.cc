@@ -2,6 +2,7 @@
 
 #include "report/formats.h"
 #include "report/plot.h"
+#include "study/trend.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,16 +86,19 @@ namespace plumbline::report
 
   std::string telling_problem(const study::Results &results)
   {
+    const auto noise = [&](const study::Run &run)
+    {
+      return round_off * study::norm_of_one(results.decisive_error, run.area) *
+             (run.size > 0 ? run.size : 1);
+    };
     std::string best;
     std::size_t most = 0;
     for (const Case &one : cases(results))
     {
-      const auto n = static_cast<std::size_t>(
-          std::count_if(results.runs.begin(), results.runs.end(),
-                        [&](const study::Run &run) {
-                          return run.problem == one.problem &&
-                                 decisive_error(results, run) > round_off * run.size;
-                        }));
+      const auto n = static_cast<std::size_t>(std::count_if(
+          results.runs.begin(), results.runs.end(),
+          [&](const study::Run &run)
+          { return run.problem == one.problem && decisive_error(results, run) > noise(run); }));
       if (best.empty() || n > most)
       {
         best = one.problem;

@@ -82,11 +82,12 @@ namespace plumbline::report
                             "P0.</b> </p>"));
     // Targets that the same run serves share a row; another mesh size is another run.
     EXPECT_TRUE(holds(html, "<td>relative error ≤ 1e-2 … 1e-4</td>"));
-    EXPECT_TRUE(holds(html,
-                      "<b>Q1</b></td><td>h = 0.1</td><td title=\"its error is 3.000e-5\">0.51 "
-                      "ms</td>"));
+    EXPECT_TRUE(holds(html, "<b>Q1</b></td><td>h = 0.1</td><td title=\"its error is 3.000e-5 in "
+                            "the unit of the solution\">0.51 "
+                            "ms</td>"));
     EXPECT_TRUE(holds(html, "<td>relative error ≤ 1e-6</td>"));
-    EXPECT_TRUE(holds(html, "<td>h = 0.025</td><td title=\"its error is 4.000e-7\">3.2 s</td>"));
+    EXPECT_TRUE(holds(html, "<td>h = 0.025</td><td title=\"its error is 4.000e-7 in the unit of "
+                            "the solution\">3.2 s</td>"));
     EXPECT_EQ(fixture::count(html, "No converging method is accurate enough yet"), 1u);
     EXPECT_EQ(fixture::count(html, "✗ stalls: "), 3u);
 
