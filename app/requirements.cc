@@ -15,8 +15,10 @@ namespace plumbline::app
 
   const char *const requirements_help =
       "What the weights must be, else exit code 1; a list or several times. ac: exact moments of "
-      "degree 1 and 2 at every node, to 1e-5, so that the limit is right however h and the horizon "
-      "go to 0. consistent: moments off by at most h/horizon at most nodes, as rules are whose "
+      "degree 1 and 2 at every node, to 1e-5 or the digits of the files, so that the limit is "
+      "right "
+      "however h and the horizon go to 0. consistent: moments off by at most h/horizon at most "
+      "nodes, as rules are whose "
       "limit "
       "is right only as h/horizon goes to 0. moments=TOL: off by at most TOL. symmetric: w C alike "
       "from "

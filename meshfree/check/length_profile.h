@@ -10,9 +10,9 @@ namespace plumbline::meshfree
   {
     struct Bin
     {
-      double length;    ///< median [length]
-      double ratio;     ///< median of weights over volumes
-      double deviation; ///< mean of |weight over volume - ratio|
+      double length = 0;    ///< median [length]
+      double ratio = 0;     ///< median of weights over volumes
+      double deviation = 0; ///< mean of |weight over volume - ratio|
     };
     std::vector<Bin> bins; ///< ascending lengths; empty: too few bonds
 
