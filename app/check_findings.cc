@@ -184,8 +184,8 @@ namespace plumbline::app
     {
       const scene::Problem &problem = one.problem;
       const Recognition recognition = recognise_weights(found, problem);
-      const GivenBonds given{recognition.families, problem.kernel, *problem.cells,
-                             recognition.volumes, found.precision};
+      const GivenBonds given{recognition.families, problem.kernel,  *problem.cells,
+                             recognition.volumes,  found.precision, found.nodes.origin};
       const Explanation explanation =
           explain(given, recognition.rule,
                   {one.scene.methods.names, found.volume_factor, found.given.of_collar});

@@ -120,7 +120,8 @@ namespace plumbline::meshfree
     Explanation result{{}, rule};
     std::vector<Mend> mends;
     std::vector<Family> families = given.families;
-    const GivenBonds mended{families, given.kernel, given.cells, given.volumes, given.precision};
+    const GivenBonds mended{families,      given.kernel,    given.cells,
+                            given.volumes, given.precision, given.origin};
     for (const Hypothesis &hypothesis : hypotheses)
     {
       const bool has_factor = std::any_of(mends.begin(), mends.end(),

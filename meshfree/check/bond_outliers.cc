@@ -315,7 +315,8 @@ namespace plumbline::meshfree
       outliers = find_scaled_nodes(raw, pairs, profile);
       exact.acquit(outliers);
       const std::vector<Family> families = without_factors(raw.families, outliers);
-      const GivenBonds given{families, raw.kernel, raw.cells, raw.volumes, raw.precision};
+      const GivenBonds given{families,    raw.kernel,    raw.cells,
+                             raw.volumes, raw.precision, raw.origin};
       compare_weights(given, pairs, profile, outliers);
       std::vector<Outlier> more;
       compare_points(given, pairs, point_scale, more);

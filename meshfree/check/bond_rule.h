@@ -16,6 +16,7 @@ namespace plumbline::meshfree
     const geometry::NodeCells &cells;   ///< of all nodes
     const std::vector<double> &volumes; ///< of all nodes, numbered as the cells
     Precision precision = {};
+    Point<2> origin = {}; ///< that the places of the cells count from, see GivenNodes
   };
 
   /// Calls visit(given bond or nullptr, bond of the rule or nullptr, neighbour) for the neighbours

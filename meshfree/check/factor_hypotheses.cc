@@ -42,7 +42,7 @@ namespace plumbline::meshfree
       Change undo;
     };
 
-    std::vector<PointHypothesis> point_hypotheses(const geometry::NodeCells &cells)
+    std::vector<PointHypothesis> point_hypotheses(const GivenBonds &given)
     {
       return {{"kernel at midpoints",
                "the kernel is taken at the midpoints of the bonds, not at the neighbours", .5,
@@ -53,8 +53,8 @@ namespace plumbline::meshfree
                -1, [](Bond &bond, std::size_t, std::size_t) { bond.kernel_point *= -1; }},
               {"kernel points absolute",
                "the kernel points (qx, qy) are absolute places, not relative to node i", 1,
-               [&cells](Bond &bond, std::size_t i, std::size_t)
-               { bond.kernel_point -= dealii::Tensor<1, 2>(cells.nodes[i]); }},
+               [&given](Bond &bond, std::size_t i, std::size_t)
+               { bond.kernel_point -= given.origin + given.cells.nodes[i]; }},
               {"kernel points from the neighbour",
                "the kernel points (qx, qy) are relative to node j, not to node i", 1,
                [](Bond &bond, std::size_t, std::size_t)
@@ -69,7 +69,7 @@ namespace plumbline::meshfree
     const double given_misplacement = misplacement(families);
     if (given_misplacement < in_place)
       return {};
-    for (const PointHypothesis &hypothesis : point_hypotheses(evidence.given.cells))
+    for (const PointHypothesis &hypothesis : point_hypotheses(evidence.given))
     {
       const auto undo = for_each_bond(hypothesis.undo);
       const double left = misplacement(undone(families, undo));
