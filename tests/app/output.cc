@@ -71,3 +71,46 @@ TEST(Output, files_that_are_not_whole_are_named_and_results_and_page_stay)
   fill("results.json");
   fs::remove_all(folder);
 }
+
+TEST(Output, has_the_net_force_of_surface_terms_at_each_level)
+{
+  const fs::path folder = temporary("tips");
+  const std::string scene = "run " + std::string(PLUMBLINE_SCENES) +
+                            "/lps/crack_mode_2.prm --set 'Solver/linear solver=direct' -o " +
+                            folder.string();
+  const auto last = [&]
+  {
+    const auto results = nlohmann::json::parse(read(folder / "results.json"));
+    return results["runs"].back()["diagnostics"]["tip_forces"];
+  };
+  const Outcome whole = run(scene + " --levels 3");
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  expect_found(whole.err, "the surface terms exert a net force at the tip (0, 0); the order "
+                          "tends to 1/2");
+  const auto published = last();
+  ASSERT_EQ(published.size(), 1u);
+  EXPECT_GT(published[0]["over_root_horizon"], .1);
+  expect_found(read(folder / "report.html"), "Net force of the surface terms about crack tips");
+  expect_found(read(folder / "tables/tip_forces.csv"), "F / sqrt(horizon)");
+  fs::remove_all(folder);
+  const std::string one_level = " --levels 1 --quiet";
+  for (const std::string &variant : {std::string(" --set Solver/dilatation=kept"),
+                                     std::string()}) // another system, the same force
+  {
+    ASSERT_EQ(run(scene + one_level + variant).exit_code, 0);
+    const auto found = last();
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NEAR(found[0]["over_root_horizon"].get<double>() /
+                    published[0]["over_root_horizon"].get<double>(),
+                1, .05)
+        << variant;
+    fs::remove_all(folder);
+  }
+  ASSERT_EQ(run(scene + one_level + " --set 'Material/surface terms=consistent'").exit_code, 0);
+  const auto balanced = last();
+  ASSERT_EQ(balanced.size(), 1u);
+  EXPECT_LT(balanced[0]["norm"], 1e-9 * balanced[0]["sum_of_norms"].get<double>());
+  fs::remove_all(folder);
+  expect_refused("run " + small_scene() + " --set 'Material/surface terms=none'",
+                 "Material/surface terms = none has no effect");
+}
