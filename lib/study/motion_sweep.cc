@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <new>
 #include <utility>
 
 namespace plumbline::study

@@ -5,8 +5,8 @@
 #include "study/comparison.h"
 #include "study/conclusions.h"
 #include "study/contradiction.h"
-#include "study/crack_warnings.h"
 #include "study/motion_norms.h"
+#include "study/node_warnings.h"
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
 #include "study/round_off.h"
@@ -14,7 +14,6 @@
 #include "study/saving.h"
 #include "study/self_convergence.h"
 #include "study/timing.h"
-#include "study/unseen_features.h"
 
 #include <algorithm>
 #include <cmath>
@@ -159,19 +158,16 @@ namespace plumbline::study
       /// Of the finest level, where the horizon is the shortest and limits are near.
       void warn(const std::vector<OpenCase> &open, const scene::Series &series, unsigned int level)
       {
-        if (level + 1 < n_levels(series) || series.name != scene_.study.series.front().name)
-          return;
+        if (open.empty() || level + 1 < n_levels(series) ||
+            series.name != scene_.study.series.front().name)
+          return; // warnings of an earlier run are taken over with its cases
         if (const auto spectrum = field_spectrum(scene_.random); spectrum && spectrum->is_grey())
           results_.warnings.push_back("Random/modes: " + words_of(*spectrum));
-        if (!open.empty())
-          for (const std::string &one : unseen_features(open.front()))
-            results_.warnings.push_back(one);
+        for (const std::string &text : node_warnings(open.front(), methods_))
+          results_.warnings.push_back(text);
         for (const OpenCase &one : open)
           if (const auto found = measure_contradiction(one); found && found->is_clear())
             results_.warnings.push_back(cases_[one.index] + ": " + found->text());
-        if (!open.empty())
-          for (const std::string &text : tip_warnings(open.front().problem, methods_))
-            results_.warnings.push_back(text);
       }
 
       void say(const std::string &name, const scene::Series &series, unsigned int level,

@@ -1,19 +1,20 @@
-#include "study/crack_warnings.h"
+#include "study/node_warnings.h"
 
 #include "base/number_text.h"
 #include "geometry/crack_tips.h"
+#include "study/unseen_features.h"
 
 #include <algorithm>
 
 namespace plumbline::study
 {
-  std::vector<std::string> tip_warnings(const scene::Problem &problem,
-                                        const method::Methods &methods)
+  std::vector<std::string> node_warnings(const scene::Case &one, const method::Methods &methods)
   {
+    const scene::Problem &problem = one.problem;
     const bool has_bonds =
         std::any_of(methods.begin(), methods.end(),
-                    [](const auto &one) { return one->side() == method::Side::meshfree; });
-    std::vector<std::string> warnings;
+                    [](const auto &method) { return method->side() == method::Side::meshfree; });
+    std::vector<std::string> warnings = unseen_features(one);
     if (!has_bonds || !problem.cells)
       return warnings;
     for (const geometry::TipOnBonds &tip :
