@@ -1,5 +1,8 @@
 #include "report/motion_json.h"
 
+#include "report/json_archive.h"
+#include "report/json_keys.h"
+
 #include <limits>
 
 namespace plumbline::report
@@ -28,6 +31,13 @@ namespace plumbline::report
           json["error"].push_back(known_number(error));
       }
       return json;
+    }
+
+    Json limit_json(study::LimitProof limit)
+    {
+      JsonWriter writer;
+      visit(writer, limit);
+      return writer.take();
     }
 
     double number(const Json &json, double otherwise = std::numeric_limits<double>::quiet_NaN())
@@ -81,7 +91,8 @@ namespace plumbline::report
                  {"area", run.area},
                  {"errors", Json::object()},
                  {"energy_imbalance", known_number(run.imbalance)},
-                 {"facts", run.facts}};
+                 {"facts", run.facts},
+                 {"limit", limit_json(run.limit)}};
     for (const auto &[name, error] : run.errors)
       json["errors"][name] = known_number(error);
     if (run.estimate)
@@ -131,6 +142,11 @@ namespace plumbline::report
     }
     for (const auto &[name, fact] : json.at("facts").items())
       run.facts[name] = number(fact);
+    if (json.contains("limit"))
+    {
+      JsonReader reader(json.at("limit"), "limit", "motions");
+      visit(reader, run.limit);
+    }
     read_history(json.at("history"), run);
     return run;
   }

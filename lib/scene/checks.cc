@@ -52,6 +52,14 @@ namespace plumbline::scene
                        "take samples (Sampling/rule = equidistant), or write another regime");
     }
 
+    /// Of two whole numbers that rise, e.g. h = 1,5.
+    std::string hint_of_order(const Series &series, std::size_t i, bool is_h)
+    {
+      const auto text = [&](const Level &level)
+      { return short_number(is_h ? level.h : level.horizon); };
+      return comma_hint(text(series.levels[i - 1]) + "," + text(series.levels[i]));
+    }
+
     /// Coarse to fine and nothing twice: rates and names rest on it.
     void check_order(const Scene &scene)
     {
@@ -68,7 +76,7 @@ namespace plumbline::scene
                      : series.levels[i].horizon < series.levels[i - 1].horizon))
             throw InputError(std::string(is_h ? "Study/h" : "Study/horizon") +
                              " must run from large to small without repetition (series '" +
-                             series.name + "')");
+                             series.name + "')" + hint_of_order(series, i, is_h));
       }
       std::set<std::string> cases;
       for (const std::string &name : scene.problem.case_names())
@@ -143,10 +151,12 @@ namespace plumbline::scene
       const std::string given = key + " = '" + text + "' has " +
                                 std::to_string(parsed.n_components()) + " component(s), ";
       require(parsed.n_components() == n,
-              given + (needed_by.empty() ? "not " + std::to_string(n)
-                                         : "but the " + needed_by + " needs " + std::to_string(n) +
-                                               "; give one expression a component, separated by "
-                                               "','"));
+              given +
+                  (needed_by.empty() ? "not " + std::to_string(n)
+                                     : "but the " + needed_by + " needs " + std::to_string(n) +
+                                           "; give one expression a component, separated by "
+                                           "','") +
+                  comma_hint(text));
     }
 
     void check_problem(const Scene &scene)

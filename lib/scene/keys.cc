@@ -8,7 +8,6 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <regex>
 #include <sstream>
 
 namespace plumbline::scene
@@ -63,25 +62,6 @@ namespace plumbline::scene
       const Numbers point("'x, y'", Patterns::Double(), 2, 2, ",");
       const Patterns::List line(point, 2, most_points, ":");
       return std::make_shared<InWords<Patterns::List>>(words, line, 0, any_length, ";");
-    }
-
-    /// The number that a decimal comma stands in, with a point, e.g. 3.015 for '3,015'; empty where
-    /// commas separate numbers. A number that begins with 0 and goes on with digits is part of
-    /// another one.
-    std::string with_point(const std::string &text, const std::string &first,
-                           const std::string &second)
-    {
-      const std::regex number("(^|[^0-9A-Za-z_.])([+-]?" + first + "),\\s*(" + second +
-                              "([eE][+-]?[0-9]+)?)(?![0-9.])");
-      std::smatch found;
-      return std::regex_search(text, found, number) ? found[2].str() + "." + found[3].str() : "";
-    }
-
-    std::string question(const std::string &number)
-    {
-      return number.empty() ? ""
-                            : "; did you mean " + number +
-                                  "? Decimals have a point, a comma separates numbers";
     }
 
     bool is_list(const Patterns::PatternBase &allowed)
@@ -270,16 +250,16 @@ namespace plumbline::scene
       throw InputError(
           given + "cannot be written in a scene: '#' begins a comment, a '\\' at the end "
                   "continues the line; take them, line breaks and other control characters out");
-    if (const std::string meant = with_point(value, "[0-9]+", "0[0-9]+");
-        !meant.empty() && !key.section.empty())
-      throw InputError(given + "is not allowed" + question(meant));
+    if (const std::string hint = comma_hint(value, Comma::before_0);
+        !hint.empty() && !key.section.empty())
+      throw InputError(given + "is not allowed" + hint);
     const std::string bad = culprit(value, *key.allowed);
     if (!key.allowed->match(value))
-      throw InputError(
-          given + "is not allowed" +
-          (bad == value ? "" : ", for '" + base::shown(bad) + "' in it") + "; write " +
-          key.allowed->description() + ", or take the key out: its default is '" + key.by_default +
-          "'" + question(with_point(value, is_list(*key.allowed) ? "0" : "[0-9]+", "[0-9]+")));
+      throw InputError(given + "is not allowed" +
+                       (bad == value ? "" : ", for '" + base::shown(bad) + "' in it") + "; write " +
+                       key.allowed->description() + ", or take the key out: its default is '" +
+                       key.by_default + "'" +
+                       comma_hint(value, is_list(*key.allowed) ? Comma::after_0 : Comma::any));
     key.value = value;
     key.is_given = true;
     enter(key.section);

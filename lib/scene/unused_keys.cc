@@ -28,6 +28,8 @@ namespace plumbline::scene
               {"Study/horizon", takes_horizon,
                "Study/regime = m or horizon; with " + base::word(regime) +
                    " the horizon is Study/m times Study/h"},
+              {"Domain/boxes", scene.domain.mesh.is_of_boxes(),
+               "Domain/mesh = lattice, squares or triangles: other meshes say what the domain is"},
               {"Time/critical fractions", scene.time.steps.empty(),
                "Time/steps to be empty, which gives the steps themselves"},
               {"Fracture/load step", scene.fracture.breaking == BreakMode::steps,
@@ -94,6 +96,18 @@ namespace plumbline::scene
                                           {"Sampling", "Sampling/rule"},
                                           {"Time", "Time/final time", "Time/density"}};
 
+    /// A key that is of use where another says that its section is there.
+    struct Companion
+    {
+      std::string key, other;
+    };
+
+    const std::vector<Companion> companions = {{"Expected/crack", "Crack/notch"},
+                                               {"Expected/growth", "Fracture/toughness"},
+                                               {"Expected/growth ends", "Fracture/toughness"},
+                                               {"Expected/strip", "Strip/length"},
+                                               {"Expected/sampling", "Sampling/rule"}};
+
     [[noreturn]] void refuse(const Keys &keys, const std::string &key, const std::string &needs)
     {
       throw InputError(key + " = " + keys.value(key) + " has no effect here: it needs " + needs +
@@ -113,5 +127,8 @@ namespace plumbline::scene
         for (const std::string &key : keys.changed_keys(one.section))
           if (key != one.needed_alone)
             refuse(keys, key, one.key);
+    for (const Companion &one : companions)
+      if (!keys.is_given(one.other) && keys.is_changed(one.key))
+        refuse(keys, one.key, one.other);
   }
 } // namespace plumbline::scene

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <regex>
 #include <sstream>
 
 namespace plumbline::scene
@@ -16,6 +17,23 @@ namespace plumbline::scene
   std::string trim(const std::string &text)
   {
     return split_outside_brackets(text, '\0')[0];
+  }
+
+  std::string comma_hint(const std::string &text, Comma kind)
+  {
+    if (text.find(',') == std::string::npos)
+      return "";
+    // blanks behind it are those of a list
+    const std::string first = kind == Comma::after_0 ? "0" : "[0-9]+",
+                      comma = kind == Comma::before_0 ? ",\\s*" : ",",
+                      second = kind == Comma::before_0 ? "0[0-9]+" : "[0-9]+";
+    const std::regex number("(^|[^0-9A-Za-z_.])([+-]?" + first + ")" + comma + "(" + second +
+                            "([eE][+-]?[0-9]+)?)(?![0-9.])");
+    std::smatch found;
+    return std::regex_search(text, found, number)
+               ? "; did you mean " + found[2].str() + "." + found[3].str() +
+                     "? Decimals have a point, a comma separates numbers"
+               : "";
   }
 
   namespace
@@ -32,7 +50,8 @@ namespace plumbline::scene
       {
       }
       if (used == 0 || used != text.size() || !std::isfinite(value))
-        throw InputError("'" + base::shown(text) + "' is not a number; " + remedy);
+        throw InputError("'" + base::shown(text) + "' is not a number; " + remedy +
+                         comma_hint(text));
       return value;
     }
   } // namespace

@@ -14,6 +14,18 @@ namespace plumbline::scene
   constexpr const char *const none = "none", *const automatic = "auto", *const all = "all";
 
   std::string trim(const std::string &text);
+
+  /// Between whole numbers, the first that may be a decimal comma.
+  enum class Comma
+  {
+    any,     ///< 3,5: where one number is due
+    after_0, ///< 0,5: where numbers are above 0
+    before_0 ///< 3,05: no number of a list begins with 0 and goes on with digits
+  };
+
+  /// "; did you mean 3.5? ..." of a text with such a comma, else empty.
+  std::string comma_hint(const std::string &text, Comma kind = Comma::any);
+
   double to_number(const std::string &text);
   std::vector<double> to_numbers(const std::string &text);    ///< separated by blanks
   std::vector<std::string> to_names(const std::string &text); ///< separated by commas

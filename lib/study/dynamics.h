@@ -47,6 +47,7 @@ namespace plumbline::study
     double imbalance = 0;        ///< of energies, see analysis::EnergyLog
     std::optional<MotionEstimate> estimate; ///< of Galerkin methods, where the scene wants it
     std::map<std::string, double> facts;    ///< what a method says of itself
+    LimitProof limit;                       ///< of rules, see method::Diagnostics
     std::string failure;                    ///< empty, or what became of it
   };
 

@@ -155,8 +155,7 @@ namespace plumbline::study
           const MotionData data = motion_data(scene_, *equation, problems);
           const Transient transient(*equation, data.drive, scene_.time.density,
                                     scene_.time.damping);
-          run.facts = equation->facts();
-          run.is_symmetric = equation->is_symmetric();
+          describe_method(run, *discretisation, *equation);
           run.cost.setup_seconds = timer.seconds() - (problems.seconds() - shared);
           const auto torus = torus_of(run, problems);
           const auto in_time =

@@ -3,6 +3,7 @@
 #include "study/dynamics.h"
 #include "study/expectations.h"
 #include "study/trend.h"
+#include "study/weigh_proof.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,6 +72,7 @@ namespace plumbline::study
       trend.axis = level_axis(scene.study.regime);
       trend.proven = proven_rate(scene, trend);
       std::string failure;
+      std::vector<LimitProof> proofs;
       for (const MotionRun *run : runs)
       {
         const auto found = run->errors.find(error);
@@ -80,6 +82,8 @@ namespace plumbline::study
         {
           trend.x.push_back(coordinate(trend.axis, *run));
           trend.values.push_back(found->second);
+          trend.proof = proofs.empty() ? run->limit : weaker(trend.proof, run->limit);
+          proofs.push_back(run->limit);
           trend.size = norm_of_one(error, run->area) * run->size;
           trend.round_off = rounding * trend.size;
         }
@@ -90,6 +94,13 @@ namespace plumbline::study
         trend.outcome = Outcome::failed;
         trend.reason = failure;
       }
+      const scene::Regime regime = scene.study.regime;
+      if (regime == scene::Regime::m || regime == scene::Regime::delta_m)
+        trend.proof = prove_by_levels(regime, trend, proofs);
+      // of small strains alone, where a law is not linear: enough to be wrong
+      if (scene.material.model->is_linear() ||
+          trend.proof.answer == LimitProof::Answer::incompatible)
+        weigh_proof(trend);
       trend.verdict = verdict_of(scene.study.regime, trend);
       return trend;
     }

@@ -85,6 +85,12 @@ TEST_F(BadKeys, with_decimal_commas_are_refused_with_the_number_that_was_meant)
                    meant("Problem/load", "x + 1,05*y", "1.05"),
                    meant("Domain/boxes", "0, 0 : 1,05", "1.05"),
                    meant("Kernel/coefficients", "1, 0,05", "0.05")});
+  // where one number is due
+  expect_refusals(
+      {{set("Domain/collar", "1,5"), {"'1,5' is not a number", "did you mean 1.5?"}},
+       {set("Problem/solution", "x^2 + 1,5"), {"has 2 component(s)", "did you mean 1.5?"}},
+       {set("Study/h", "1,5"), {"must run from large to small", "did you mean 1.5?"}},
+       {set("Expected/errors", "FA: 2,5"), {"'2,5' is not a number", "did you mean 2.5?"}}});
   // lists are lists
   const Outcome outcome = run({{set("Study/m", "2,3") + set("Study/h", "0.25,0.125"), {}}})[0];
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -112,7 +118,10 @@ TEST_F(BadKeys, without_effect_are_refused_with_what_they_need)
        unused("Random/overlap", "no", "Random/field = ellipses"),
        unused("Time/damping", "1", "Time/final time"),
        unused("Sampling/counts", "3", "Sampling/rule"),
-       unused("Fracture/ties", "0.01", "Fracture/toughness")});
+       unused("Fracture/ties", "0.01", "Fracture/toughness"),
+       unused("Expected/growth ends", "parted", "Fracture/toughness"),
+       unused("Domain/boxes", "0, 0 : 2, 1", "Domain/mesh = lattice, squares or triangles",
+              set("Domain/mesh", "hyper_ball") + set("Domain/inside", "1"))});
   // defaults may stand, and what is turned off keeps its keys
   for (const std::string &more :
        {set("Study/horizon", "0.4"), set("Study/horizon", "4e-1"), set("Kernel/constant", "1.0"),

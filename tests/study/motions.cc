@@ -114,6 +114,18 @@ TEST(Motions, converge_in_space_at_the_order_of_their_method)
   EXPECT_NEAR(last_rate(errors(results, "Q1", "velocity ")), 2, .3);
 }
 
+// x y is harmonic at all times: no second moment is seen.
+TEST(Motions, that_hide_wrong_moments_are_right_for_this_field_only)
+{
+  const auto results = run(wave("scalar", "x*y*cos(2*t) + x",
+                                {{"Methods/names", "FA, IPA-AC-R2, Q1"},
+                                 {"Study/h", "0.25, 0.2, 0.125, 0.1"},
+                                 {"Time/schemes", "Runge-Kutta"}}));
+  for (const MotionTrend &trend : results.trends)
+    EXPECT_EQ(trend.verdict, trend.method == "FA" ? "AC for this field only" : "AC")
+        << trend.method << ": " << trend.reason;
+}
+
 TEST(Motions, of_solids_agree_on_both_sides)
 {
   const auto results = run(
