@@ -86,6 +86,7 @@ namespace plumbline::scene
     bool is_changed(const std::string &path) const { return is_changed(find(path)); }
     std::vector<std::string> changed_keys(const std::string &section) const;
     std::string value(const std::string &path) const; ///< as it was set, or the default
+    const std::string &default_of(const std::string &path) const { return find(path).by_default; }
 
     /// What a key means, its default and what it allows; for "Section" all its keys.
     /// @throws InputError  unknown key; the message names similar ones

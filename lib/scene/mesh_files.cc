@@ -8,7 +8,7 @@ namespace plumbline::scene
                                         bool has_collar, bool is_curved)
   {
     if (base::has_ending(file, ".msh"))
-      h = delta = 0; // it says its cells, whatever they are
+      h = delta = 1; // any: its cells do not depend on them
     const auto key = std::make_tuple(file, h, delta, has_collar, is_curved);
     const auto known = meshes_.find(key);
     if (known != meshes_.end())

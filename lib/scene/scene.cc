@@ -80,11 +80,53 @@ namespace plumbline::scene
       scene.expected.complete(scene.problem.case_names());
     }
 
+    struct KeyWithoutEffect : InputError
+    {
+      using InputError::InputError;
+    };
+
+    Scene build(const std::string &file, const std::string &what,
+                const std::vector<Setting> &settings, const std::vector<Override> &overrides,
+                const std::shared_ptr<const RandomField> &field = {});
+
+    /// Whether a scene's file, with nothing overridden, gives keys in vain.
+    bool has_unused_keys(const std::string &file, const std::vector<Setting> &settings,
+                         const std::shared_ptr<const RandomField> &field)
+    try
+    {
+      (void)build(file, "", settings, {}, field);
+      return false;
+    }
+    catch (const KeyWithoutEffect &)
+    {
+      return true;
+    }
+    catch (const InputError &) // what it lacks may be among the overrides
+    {
+      return false;
+    }
+
+    /// The scene without a key of its file that an override has made useless.
+    /// @throws KeyWithoutEffect  it is one that is overridden, or useless in the file as it stands
+    Scene build_without(const UnusedKey &unused, const std::string &by_default,
+                        const std::string &file, const std::string &what,
+                        const std::vector<Setting> &settings, std::vector<Override> overrides,
+                        const std::shared_ptr<const RandomField> &field)
+    {
+      const bool is_overridden =
+          std::any_of(overrides.begin(), overrides.end(),
+                      [&](const Override &one) { return one.key == unused.key; });
+      if (overrides.empty() || is_overridden || has_unused_keys(file, settings, field))
+        throw KeyWithoutEffect(what + ": " + unused.text);
+      overrides.push_back({unused.key, by_default});
+      return build(file, what, settings, overrides, field);
+    }
+
     /// @param what  opens messages
     /// @param field  that is known already, of the same scene; or nothing
     Scene build(const std::string &file, const std::string &what,
                 const std::vector<Setting> &settings, const std::vector<Override> &overrides,
-                const std::shared_ptr<const RandomField> &field = {})
+                const std::shared_ptr<const RandomField> &field)
     {
       Scene scene;
       scene.random.source = field;
@@ -115,7 +157,9 @@ namespace plumbline::scene
              });
       scene.text = keys.text(false);
       saying("", [&] { complete(scene); });
-      saying("", [&] { check_unused_keys(keys, scene); });
+      if (const auto unused = find_unused_key(keys, scene))
+        return build_without(*unused, keys.default_of(unused->key), file, what, settings, overrides,
+                             field);
       scene.text += describe_files(scene);
       return scene;
     }

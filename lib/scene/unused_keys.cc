@@ -108,27 +108,28 @@ namespace plumbline::scene
                                                {"Expected/strip", "Strip/length"},
                                                {"Expected/sampling", "Sampling/rule"}};
 
-    [[noreturn]] void refuse(const Keys &keys, const std::string &key, const std::string &needs)
+    UnusedKey unused(const Keys &keys, const std::string &key, const std::string &needs)
     {
-      throw InputError(key + " = " + keys.value(key) + " has no effect here: it needs " + needs +
-                       "; take it out, or give what it needs");
+      return {key, key + " = " + keys.value(key) + " has no effect here: it needs " + needs +
+                       "; take it out, or give what it needs"};
     }
   } // namespace
 
-  void check_unused_keys(const Keys &keys, const Scene &scene)
+  std::optional<UnusedKey> find_unused_key(const Keys &keys, const Scene &scene)
   {
     for (const auto &uses : {uses_of_study(scene), uses_of_material(scene), uses_of_field(scene)})
       for (const Use &use : uses)
         if (!use.is_there && keys.is_changed(use.key))
-          refuse(keys, use.key, use.needs);
+          return unused(keys, use.key, use.needs);
     // what is turned off by its key, e.g. on the command line, may keep its other keys
     for (const Switch &one : switches)
       if (!keys.is_given(one.key))
         for (const std::string &key : keys.changed_keys(one.section))
           if (key != one.needed_alone)
-            refuse(keys, key, one.key);
+            return unused(keys, key, one.key);
     for (const Companion &one : companions)
       if (!keys.is_given(one.other) && keys.is_changed(one.key))
-        refuse(keys, one.key, one.other);
+        return unused(keys, one.key, one.other);
+    return {};
   }
 } // namespace plumbline::scene

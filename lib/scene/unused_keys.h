@@ -2,13 +2,22 @@
 
 #include "scene/scene.h"
 
+#include <optional>
+#include <string>
+
 namespace plumbline::scene
 {
   class Keys;
 
-  /// That no key is given in vain: with another value than its default where nothing asks for it,
-  /// or in a section whose first key, which turns it on, is not given.
-  /// @param keys   those that were given, with the scene as their members
-  /// @throws InputError  naming the key, its value, and what it would need
-  void check_unused_keys(const Keys &keys, const Scene &scene);
+  /// A key that is given in vain.
+  struct UnusedKey
+  {
+    std::string key;  ///< "Section/key"
+    std::string text; ///< its value and what it would need
+  };
+
+  /// The first key with another value than its default where nothing asks for it, or in a section
+  /// whose first key, which turns it on, is not given.
+  /// @param keys  those that were given, with the scene as their members
+  std::optional<UnusedKey> find_unused_key(const Keys &keys, const Scene &scene);
 } // namespace plumbline::scene

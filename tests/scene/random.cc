@@ -145,7 +145,8 @@ TEST(RandomScene, FieldsFillTheBoxThatIsGiven)
 {
   const auto field = [](const std::string &mesh, const std::string &box)
   {
-    return solid({{"Domain/arguments", mesh == "squares" ? "" : "-3 : 3 : false"},
+    return solid({{"Domain/boxes", mesh == "squares" ? "0, 0 : 2, 1" : "0, 0 : 1, 1"},
+                  {"Domain/arguments", mesh == "squares" ? "" : "-3 : 3 : false"},
                   {"Domain/inside", mesh == "squares" ? "" : "1 - x^2 - y^2"},
                   {"Random/field", "exponential"},
                   {"Random/modes", "3"},

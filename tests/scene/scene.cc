@@ -309,3 +309,32 @@ TEST(Materials, are_those_of_the_cells_and_of_nothing_outside)
         << error.what();
   }
 }
+
+TEST(Scene, keeps_a_file_whose_keys_an_override_makes_useless)
+{
+  const std::string file =
+      "subsection Study\n  set regime = m\n  set horizon = 0.2\n"
+      "  set h = 0.1, 0.05\nend\nsubsection Problem\n  set solution = x\nend\n";
+  const Scene scene = parse_scene("t.prm", file, {{"Study/regime", "delta"}});
+  EXPECT_EQ(scene.study.regime, Regime::delta);
+  // its text is that of a scene that stands by itself
+  EXPECT_EQ(parse_scene("t.prm", scene.text).study.regime, Regime::delta);
+  const auto expect_refused = [](const std::string &text, const std::vector<Override> &overrides)
+  {
+    try
+    {
+      (void)parse_scene("t.prm", text, overrides);
+      ADD_FAILURE() << "not refused";
+    }
+    catch (const InputError &error)
+    {
+      EXPECT_NE(std::string(error.what()).find("Study/horizon = 0.2 has no effect here"),
+                std::string::npos)
+          << error.what();
+    }
+  };
+  const std::string in_vain = file + "subsection Study\n  set regime = delta\nend\n";
+  expect_refused(in_vain, {});
+  expect_refused(in_vain, {{"Study/h", "0.1"}});
+  expect_refused(scene.text, {{"Study/horizon", "0.2"}});
+}
