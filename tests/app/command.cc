@@ -56,7 +56,7 @@ TEST(Command, a_solution_that_contradicts_its_load_is_warned_of)
   const std::string command = "run " + std::string(PLUMBLINE_SCENES) +
                               "/lps/cracked_plate.prm --methods FA --set Study/h=0.125,0.0625 -o " +
                               folder.string();
-  EXPECT_EQ(run(command).err.find("warning"), std::string::npos); // no solution is given
+  EXPECT_EQ(run(command).err.find("contradict"), std::string::npos); // no solution is given
   const Outcome outcome = run(command + " --set 'Problem/solution=0, y - 0.5'");
   EXPECT_EQ(outcome.exit_code, 0);
   expect_found(outcome.err, "warning: u: solution and load contradict each other: at 32 points");

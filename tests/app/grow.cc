@@ -230,8 +230,9 @@ TEST(GrowCommand, warns_of_what_nodes_do_not_see_and_takes_weak_lines)
              line = grown("--set Fracture/toughness=1 --set 'Fracture/interfaces=-1, 0 : 3, 0' "
                           "--set 'Fracture/interface toughness=0.05'");
   const double peak = uniform["peak_load"];
-  EXPECT_TRUE(uniform["warnings"].empty());
-  ASSERT_EQ(unseen["warnings"].size(), 1u);
+  // the notch ends on bonds; that is said of each body
+  ASSERT_EQ(uniform["warnings"].size(), 1u);
+  ASSERT_EQ(unseen["warnings"].size(), 2u);
   expect_found(unseen["warnings"][0], "Fracture/toughness varies between nodes where no node sees "
                                       "it: at h = 0.05 it is 0.05 in ");
   EXPECT_EQ(unseen["peak_load"], peak);
@@ -240,7 +241,7 @@ TEST(GrowCommand, warns_of_what_nodes_do_not_see_and_takes_weak_lines)
   { return json["events"][0]["load"].get<double>(); };
   for (const auto &one : {least, line})
   {
-    EXPECT_TRUE(one["warnings"].empty());
+    EXPECT_EQ(one["warnings"].size(), 1u);
     EXPECT_NEAR(first(one), std::sqrt(.05) * first(uniform), 1e-9);
     EXPECT_LT(one["peak_load"].get<double>(), .3 * peak);
     EXPECT_NEAR(one["G_by_bonds"].get<double>(), .05, .02);

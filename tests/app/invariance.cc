@@ -150,7 +150,7 @@ namespace
   bool is_same(double was, double is, const Change &change)
   {
     constexpr double rounding = 1e-8;  // of numbers of size one, roots of rounding among them
-    constexpr double tolerance = 1e-5; // relative: eigenvalues are found by iterations
+    constexpr double tolerance = 1e-4; // relative: that of eigenvalues found by iterations
     if (!std::isfinite(was) || std::abs(was) < rounding)
       return true;
     if (was * is < 0 || is == 0)

@@ -17,7 +17,7 @@ namespace
   using study::GrowthModel;
   using study::GrowthResults;
 
-  /// CsrMatrix at y = -1.5, -.5, .5, 1.5 of so many columns, bonds between next neighbours along y;
+  /// Rows at y = -1.5, -.5, .5, 1.5 of so many columns, bonds between next neighbours along y;
   /// the notch cuts those of the first three columns.
   GrowthModel comb(unsigned int n_columns)
   {
@@ -47,6 +47,14 @@ namespace
         return b;
     }
     throw InputError("no such bond");
+  }
+
+  /// G of each bond is the mean of its ends'.
+  void take_means(GrowthModel &model)
+  {
+    model.toughness_of_bonds.clear();
+    for (const auto &[from, to] : model.bonds)
+      model.toughness_of_bonds.push_back(.5 * (model.toughness[from] + model.toughness[to]));
   }
 
   Event event(const std::vector<std::size_t> &bonds, double load = 1)
@@ -117,6 +125,7 @@ TEST(Growth, toughness_counts_bonds_over_the_width_of_what_parted)
   const std::size_t along = model.bonds.size() - 1;
   model.toughness.assign(model.nodes.size(), 2);
   model.toughness[8 + 4] = 8; // one end of the second bond that breaks, and of the third
+  take_means(model);
   const std::vector<std::size_t> broken = {bond(model, 3.5, 0), bond(model, 4.5, 0),
                                            bond(model, 4.5, 1), along};
   EXPECT_EQ(bonds_across(model), 1);
@@ -153,6 +162,7 @@ TEST(Growth, lengths_are_those_within_phases_and_between_them)
       bond(model, 3.5, 0),  bond(model, 4.5, 0),  bond(model, 5.5, 0), bond(model, 6.5, 0),
       bond(model, 4.5, -1), bond(model, 5.5, -1), bond(model, 4.5, 1)};
   GrowthResults results;
+  take_means(model);
   results.toughness = model.toughness;
   results.parts = broken_parts(model, broken);
   EXPECT_EQ(results.phases(), (std::vector<double>{2, 8}));
@@ -166,6 +176,7 @@ TEST(Growth, lengths_are_those_within_phases_and_between_them)
   EXPECT_EQ(results.quantity("Li"), 1);
   // one phase is all
   model.toughness.assign(model.nodes.size(), 8);
+  take_means(model);
   results.toughness = model.toughness;
   results.parts = broken_parts(model, broken);
   EXPECT_EQ(results.phases(), (std::vector<double>{8}));
@@ -175,6 +186,7 @@ TEST(Growth, lengths_are_those_within_phases_and_between_them)
   // three are none that have names
   model.toughness[0] = 1;
   model.toughness[1] = 3;
+  take_means(model);
   results.toughness = model.toughness;
   results.parts = broken_parts(model, broken);
   EXPECT_TRUE(results.phases().empty());
