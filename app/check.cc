@@ -22,16 +22,19 @@ namespace plumbline::app
     {
       const auto value_of = [&](const std::string &key)
       { return scene::value_of_key(options.scene_file, options.overrides, key); };
-      const std::string bodies = "; weights are checked of bodies without cracks and free "
-                                 "surfaces, with data in a collar or on a torus";
+      const std::string bodies = ". Bodies must have no cracks and no free surfaces, with a "
+                                 "volume constraint in the interaction domain (collar) or "
+                                 "periodic boundaries";
       for (const auto &[key, name] :
            {std::pair{"Domain/cracks", "cracks"}, std::pair{"Domain/outside", "free surfaces"}})
         if (!value_of(key).empty())
-          throw InputError("check takes no " + std::string(name) + ": " + key +
+          throw InputError("'plumbline check' does not support " + std::string(name) + ": " + key +
                            " is given; clear it" + bodies);
       if (value_of("Domain/boundary") == "free")
-        throw InputError("check takes no free bodies: Domain/boundary = free; write constrained" +
-                         bodies);
+        throw InputError(
+            "'plumbline check' does not support free bodies: Domain/boundary = free; write "
+            "constrained" +
+            bodies);
     }
 
     /// A user's interrupt ends it at once, also where the parent process ignores it: nothing is

@@ -107,11 +107,11 @@ namespace
     auto &run = *app.add_subcommand("run", "Run a scene and write its report");
     run.add_option("SCENE", options->scene_file, "Scene file (.prm or .json)")->required();
     run.add_option("-o,--output", options->output, "Output folder (default: results/<scene>)");
-    run.add_option("--set", request.settings, "Section/key=value, instead of what the file says");
+    run.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
     run.add_option("--methods", options->methods,
-                   "Methods, comma separated, instead of the scene's");
-    run.add_option("--model", options->model, "smallest (what the scene needs) or full");
-    run.add_option("--levels", options->n_levels, "The first so many levels of each sweep only");
+                   "Methods, comma separated; overrides Methods/names");
+    run.add_option("--model", options->model, "smallest (only what the scene needs) or full");
+    run.add_option("--levels", options->n_levels, "Only the first N levels of each sweep");
     run.add_option("--budget", options->budget,
                    "Leave out solves that are expected to take more CPU seconds");
     run.add_option("--threads", request.n_threads, "Threads (default: all cores)");
@@ -124,7 +124,8 @@ namespace
   void add_check(CLI::App &app, Request &request)
   {
     const auto options = std::make_shared<CheckOptions>();
-    auto &check = *app.add_subcommand("check", "Check quadrature weights of another code");
+    auto &check =
+        *app.add_subcommand("check", "Check the weights of another code: a page of their defects");
     check.add_option("NODES", options->nodes_file, "Its nodes: CSV with id,x,y,volume")->required();
     check.add_option("BONDS", options->bonds_file, "Its bonds: CSV with i,j,weight[,qx,qy]")
         ->required();
@@ -133,7 +134,7 @@ namespace
         "-o,--output", options->output,
         "Output folder (default: results/check_<scene>; with --json or --quiet: none)");
     check.add_option("--require", options->required, requirements_help)->allow_extra_args(false);
-    check.add_option("--set", request.settings, "Section/key=value, instead of what the file says");
+    check.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
     check.add_option("--threads", request.n_threads, "Threads (default: all cores)");
     check.add_flag("--quiet", options->quiet, "Print nothing but errors, write nothing without -o");
     check.add_flag("--json", options->json, "Print a JSON object, write nothing without -o");
@@ -147,10 +148,10 @@ namespace
     auto &command = *app.add_subcommand(name, help);
     command.add_option("SCENE", options.scene_file, "Scene file (.prm or .json)")->required();
     command.add_option("-o,--output", options.output, "Output folder (default: results/<scene>)");
-    command.add_option("--set", request.settings,
-                       "Section/key=value, instead of what the file says");
-    command.add_option("--methods", options.methods, "Methods, instead of the scene's");
-    command.add_option("--levels", options.n_levels, "The first so many levels of each sweep");
+    command.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
+    command.add_option("--methods", options.methods,
+                       "Methods, comma separated; overrides Methods/names");
+    command.add_option("--levels", options.n_levels, "Only the first N levels of each sweep");
     command.add_flag("--quiet", options.quiet, "Print nothing but errors");
     command.add_flag("--json", options.json, "Print " + name + ".json instead of the table");
     return command;
@@ -162,7 +163,9 @@ namespace
   {
     const auto options = std::make_shared<DispersionOptions>();
     auto &command =
-        add_measuring(app, "dispersion", "How waves move by each method", *options, request);
+        add_measuring(app, "dispersion",
+                      "Dispersion analysis: wave speeds and critical time steps of each method",
+                      *options, request);
     const auto angles = std::make_shared<std::vector<std::string>>();
     command
         .add_option(angles_option, *angles,
@@ -194,12 +197,12 @@ namespace
   void add_sample(CLI::App &app, Request &request)
   {
     const auto options = std::make_shared<SampleOptions>();
-    auto &command = add_measuring(app, "sample", "Take a random scene at many samples; statistics",
+    auto &command = add_measuring(app, "sample",
+                                  "Uncertainty quantification: means, deviations, errors and costs",
                                   *options, request);
     command.add_flag("--check", options->check, "Exit with 1 if Expected/sampling fails");
     command
-        .add_option("--jobs", options->n_jobs,
-                    "Processes that take samples side by side (default: 1)")
+        .add_option("--jobs", options->n_jobs, "Number of parallel sampling processes (default: 1)")
         ->check(CLI::Range(1u, 4096u));
     command.add_option("--threads", options->n_threads,
                        "Threads of each process (default: all cores, shared among them)");
@@ -235,7 +238,7 @@ namespace
                return 0;
              });
     app.get_subcommand("list")->add_flag("--matrix", *as_matrix,
-                                         "Methods by what they can do, as a table");
+                                         "Capabilities of methods, as a table");
     const auto print = [](std::string (*text)(const std::string &))
     {
       return [=](const std::string &word)
@@ -244,10 +247,10 @@ namespace
         return 0;
       };
     };
-    add_word(app, request, "template", "Print a scene with all keys and their help", "MODEL",
+    add_word(app, request, "template", "Print a scene with every key and its help", "MODEL",
              "scalar, tensor, LPS, variational or double-well",
              print(plumbline::scene::scene_template));
-    add_word(app, request, "describe", "What a key of a scene means", "KEY",
+    add_word(app, request, "describe", "Print meaning, default and allowed values of a key", "KEY",
              "Section or Section/key", print(plumbline::scene::describe));
   }
 
@@ -257,14 +260,18 @@ namespace
     app.require_subcommand(1);
     add_run(app, request);
     add_check(app, request);
-    add_checked(app, request, "stability", "Where methods fail, and how",
+    add_checked(app, request, "stability",
+                "Stability analysis: eigenvalues, signs, modes, weights, time steps",
                 "Expected/stability fails", stability);
     add_dispersion(app, request);
-    add_checked(app, request, "crack", "How a crack moves through a strip, in time",
+    add_checked(app, request, "crack",
+                "Dynamic fracture of a notched strip: tip, energies, contour plots",
                 "Expected/crack fails", crack);
-    add_checked(app, request, "grow", "How a crack grows in equilibrium, bond by bond",
+    add_checked(app, request, "grow",
+                "Quasi-static fracture, bond by bond: load, energies, contour plots",
                 "Expected/growth fails", grow);
-    add_checked(app, request, "strip", "What the tip of a standing crack costs, by each method",
+    add_checked(app, request, "strip",
+                "Stationary crack: tip energy by meshfree and Galerkin methods",
                 "Expected/strip fails, or a strip is too short", strip);
     add_sample(app, request);
     add_words(app, request);
@@ -305,8 +312,7 @@ namespace
 
 int plumbline::app::command(int argc, char **argv)
 {
-  CLI::App app(
-      "Plumbline: reference solutions for nonlocal models, and which meshfree rule to trust.");
+  CLI::App app("Plumbline: verification of discretisations of nonlocal models and peridynamics.");
   Request request;
   add_commands(app, request);
   try

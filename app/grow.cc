@@ -77,7 +77,7 @@ namespace plumbline::app
     std::string model_words(const scene::Scene &scene, bool is_bonds)
     {
       if (is_bonds && !scene.fracture.is_corrected())
-        return "bond-based, for lambda = mu leaves the solid its bonds alone";
+        return "bond-based: for lambda = mu the dilatation term vanishes";
       return std::string(is_bonds ? "bonds (lambda = mu) " : "LPS ") +
              surface_words(scene.fracture.surface_terms) +
              (scene.material.is_homogeneous ? ""
@@ -160,7 +160,7 @@ namespace plumbline::app
                                           .5 * (model.nodes[bond[1]] - model.nodes[bond[0]]));
       std::vector<std::string> warnings = study::unseen_features(values, places, model.h);
       for (std::string &one : warnings)
-        one += "; refine Study/h, or make it wider than h" +
+        one += "; refine Study/h, or make the features wider than h" +
                std::string(one.find("Fracture/") == 0
                                ? ", or write Fracture/toughness of bonds = minimum, or give a weak "
                                  "line as Fracture/interfaces"

@@ -213,7 +213,8 @@ namespace plumbline::app
       return;
     }
     std::ofstream out(next);
-    out << "# which files of this folder are whose; those of a scene go when another's come\n";
+    out << "# files in this folder, with the command and scene that wrote them; results of one "
+           "scene are removed when those of another are written\n";
     for (const Entry &entry : all)
     {
       out << base::word(entry.is_whole ? Record::whole : Record::begun) << ' ' << entry.command

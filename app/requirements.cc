@@ -14,17 +14,15 @@ namespace plumbline::app
   using namespace meshfree;
 
   const char *const requirements_help =
-      "What the weights must be, else exit code 1; a list or several times. ac: exact moments of "
-      "degree 1 and 2 at every node, to 1e-5 or the digits of the files, so that the limit is "
-      "right "
-      "however h and the horizon go to 0. consistent: moments off by at most h/horizon at most "
-      "nodes, as rules are whose "
-      "limit "
-      "is right only as h/horizon goes to 0. moments=TOL: off by at most TOL. symmetric: w C alike "
-      "from "
-      "both ends, to 1e-5 of the largest, no bond without its partner. m-matrix: a maximum "
-      "principle. Default: ac. Whatever is required, bonds and nodes out of line with the others, "
-      "a cause common to all weights, and a matrix that is not positive definite are exit code 1.";
+      "Properties that the weights must have; otherwise the exit code is 1. A list; may be "
+      "repeated. ac: moments of degree 1 and 2 are exact at every node, to 1e-5 or to the digits "
+      "of the files; the limit is then correct for every path of h and horizon to 0. consistent: "
+      "at most nodes moments are wrong by at most h/horizon; the limit is then correct only for "
+      "h/horizon -> 0. moments=TOL: moments are wrong by at most TOL at every node. symmetric: "
+      "w C is equal from both ends, to 1e-5 of the largest, and no bond is without its partner. "
+      "m-matrix: a maximum principle holds. Default: ac. In every case, outliers among bonds and "
+      "nodes, an error common to all weights, and a matrix that is not positive definite give "
+      "exit code 1.";
 
   namespace
   {
@@ -95,8 +93,8 @@ namespace plumbline::app
       if (moments.mean_ratio == 0)
         return "there is no operator";
       if (first > found.precision.moments && limit < much_less * first)
-        return "first moments of most nodes are off: a drift that grows as 1 / horizon, so that "
-               "there is no limit as horizon and h go to 0 together";
+        return "first moments are wrong at most nodes; they act as a drift that grows like 1 / "
+               "horizon, so the operator has no limit as horizon and h tend to 0 together";
       return moments.mean_ratio > 0
                  ? "as horizon and h go to 0 together the solution tends to a wrong limit, off by "
                    "about " +
@@ -186,9 +184,11 @@ namespace plumbline::app
     case Defect::moments:
       break;
     }
-    return "the weights of " + node + " are out of line with the others: moments of degree " +
-           std::to_string(o.degree) + " are " + base::to_text(o.found, 5) + " where " +
-           base::to_text(o.expected, 5) + " is usual, and no bond explains it";
+    return "the weights of " + node +
+           " are inconsistent with those of the other nodes: moments of degree " +
+           std::to_string(o.degree) + " are " + base::to_text(o.found, 5) +
+           ", the usual value is " + base::to_text(o.expected, 5) +
+           ", and no single bond explains the difference";
   }
 
   namespace
@@ -252,7 +252,7 @@ namespace plumbline::app
       {
         if (n_lines++ >= most_named)
           return;
-        complaints.push_back("out of line: " + text);
+        complaints.push_back("outlier: " + text);
         n_named += n;
       };
       for (const Band &band : volume_bands(found))
@@ -262,8 +262,8 @@ namespace plumbline::app
         if (one.defect != Defect::volume)
           add(text(one, found), 1);
       if (n_named < found.outliers.size())
-        complaints.push_back("out of line: " + std::to_string(found.outliers.size() - n_named) +
-                             " more (outliers.csv in the output folder has all)");
+        complaints.push_back("outliers: " + std::to_string(found.outliers.size() - n_named) +
+                             " more (outliers.csv in the output folder lists all)");
     }
   } // namespace
 
@@ -311,13 +311,13 @@ namespace plumbline::app
     std::vector<std::string> result;
     const MomentDefect &first = moments.defects[0];
     if (!found.rule.empty())
-      result.push_back((found.is_mended ? "once that is mended the weights are those of "
+      result.push_back((found.is_mended ? "after this correction the weights are those of "
                                         : "the weights are those of ") +
                        found.rule +
                        (std::abs(found.rule_factor - 1) > file_tolerance
                             ? " times " + base::to_text(found.rule_factor, 5)
                             : "") +
-                       (found.outliers.empty() ? "" : ", but for what is out of line"));
+                       (found.outliers.empty() ? "" : ", except for the outliers listed below"));
     if (!found.rule_remark.empty())
       result.push_back(found.rule_remark);
     const double exact = std::max(MomentCheck::tolerance, found.precision.moments);

@@ -79,7 +79,7 @@ namespace plumbline::app
     void print_summary(const study::Results &results, const fs::path &folder)
     {
       std::cout << results.scene_name << ": " << results.purpose << "\n\n"
-                << results.decisive_error << " (held against " << study::target_words(results)
+                << results.decisive_error << " (compared with " << study::target_words(results)
                 << ")\n";
       std::array<std::size_t, 4> width{};
       std::vector<std::array<std::string, 5>> rows;

@@ -29,8 +29,8 @@ namespace plumbline::app
     {
       if (scene::is_read_once(options.scene_file))
         throw InputError("scene '" + options.scene_file +
-                         "' is a pipe, but the processes that take samples read it again; write "
-                         "it to a file, and give that");
+                         "' is a pipe, but each sampling process must read the scene again; save "
+                         "it to a file and pass the name of that file");
       auto overrides = options.overrides;
       if (!options.methods.empty())
         overrides.push_back({"Methods/names", options.methods});

@@ -137,8 +137,9 @@ namespace plumbline::report
 
   std::string crack_outcome_words(scene::CrackOutcome outcome)
   {
-    return outcome == scene::CrackOutcome::too_short ? "was followed for a time too short to tell"
-                                                     : base::word(outcome);
+    return outcome == scene::CrackOutcome::too_short
+               ? "was simulated for too short a time to classify"
+               : base::word(outcome);
   }
 
   std::string crack_text(const CrackResults &results)

@@ -7,7 +7,8 @@
 
 namespace plumbline::report
 {
-  /// To follow "the crack" or "it": "runs", "arrests", "was followed for a time too short to tell".
+  /// To follow "the crack" or "it": "runs", "arrests", "was simulated for too short a time to
+  /// classify".
   std::string crack_outcome_words(scene::CrackOutcome outcome);
 
   /// Tables for a terminal.

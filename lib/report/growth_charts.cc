@@ -59,11 +59,13 @@ namespace plumbline::report
     DataChart energy_chart(const GrowthResults &results)
     {
       DataChart result = chart(
-          "energies", "Where the work goes", "broken bonds", "energy [force]",
-          "What grips do is stored, or was in bonds when they reached their limit, or is released "
-          "where growth is unstable: the largest difference, over the work, is " +
+          "energies", "Energy balance", "broken bonds", "energy [force]",
+          "Energy balance: the external work is stored, dissipated in broken bonds, or released in "
+          "unstable crack growth. The maximum imbalance relative to the work is " +
               rounded(results.largest_imbalance()) +
-              (results.rules.is_corrected() ? ", for surface terms have no energy." : "."));
+              (results.rules.is_corrected()
+                   ? ", because the surface terms do not derive from an energy."
+                   : "."));
       std::vector<Vertex> work, stored, bonds, released;
       result.data.columns = {"event",  "load",     "broken bonds", "work",
                              "stored", "in bonds", "released"};

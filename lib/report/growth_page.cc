@@ -71,8 +71,9 @@ namespace plumbline::report
       add("unpaired", static_cast<double>(r.n_unpaired),
           "broken bonds whose mirror image about the middle is whole");
       add("imbalance", r.largest_imbalance(),
-          r.rules.is_corrected() ? "of the bonds' energy, over the work: surface terms have none"
-                                 : "of energy, over the work");
+          r.rules.is_corrected() ? "maximum imbalance of the bonds' energy relative to the work; "
+                                   "surface terms derive from no energy"
+                                 : "maximum imbalance of energy relative to the work");
       add("residual", r.largest_residual(), "force on a node over a bond's at the beginning");
       add("unknowns", static_cast<double>(r.n_unknowns), "displacements");
       add("bonds", static_cast<double>(r.n_bonds), "whole at the beginning");
@@ -134,12 +135,13 @@ namespace plumbline::report
     std::string phase_words(const GrowthResults &r)
     {
       const std::vector<double> phases = r.phases();
-      return phases.size() == 2 ? " Phase 1 has G = " + rounded(phases[0]) +
-                                      ", phase 2 G = " + rounded(phases[1]) +
-                                      (r.rules.of_bonds == scene::BondToughness::mean
-                                           ? ", bonds between them the mean of both."
-                                           : ", bonds the least along them.")
-                                : "";
+      return phases.size() == 2
+                 ? " Phase 1 has G = " + rounded(phases[0]) +
+                       " and phase 2 has G = " + rounded(phases[1]) +
+                       (r.rules.of_bonds == scene::BondToughness::mean
+                            ? "; a bond between the phases has the mean of both values."
+                            : "; each bond has the minimum of G along its length.")
+                 : "";
     }
 
     std::string interface_words(const GrowthResults &r)

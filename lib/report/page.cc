@@ -29,8 +29,8 @@ namespace plumbline::report
           return std::string(regime == scene::Regime::m ? "m-convergence: δ is fixed and h → 0"
                              : regime == scene::Regime::delta ? "m = δ/h is fixed and δ → 0"
                                                               : "δ → 0 and m = δ/h → ∞ together") +
-                 "; each method is held against its own finest level, which tells whether it has a "
-                 "limit, not which";
+                 "; each method is compared with its own finest level, which tells whether it has "
+                 "a limit, not which";
         if (regime == scene::Regime::variable)
           return "h and δ are fixed and " + results.variable + " varies: how errors depend on it";
         static const std::array<const char *, 4> texts = {

@@ -83,11 +83,11 @@ namespace plumbline::report
   }
 
   const char *const time_steps_words =
-      "dt: the longest stable time step of central differences, 2 / sqrt(lambda / rho), lambda the "
-      "largest eigenvalue of small motions about rest, of double wells on a lattice over the waves "
-      "of a lattice without end; of Galerkin methods with the mass matrix, and with lumped masses. "
-      "grows: eigenvalues that are complex or negative let waves grow at "
-      "any step.";
+      "dt: critical time step of central differences, 2 / sqrt(lambda / rho), with the largest "
+      "eigenvalue lambda of the equations linearised at rest (double-well bonds on a lattice: over "
+      "all waves of the infinite lattice); of Galerkin methods with the mass matrix, and with "
+      "lumped masses. grows: some eigenvalues are complex or negative, so solutions grow with any "
+      "time step.";
 
   Table time_steps_table(const study::StabilityResults &results)
   {

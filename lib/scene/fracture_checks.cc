@@ -21,8 +21,7 @@ namespace plumbline::scene
                                         scene.random.names());
     needs(toughness.n_components() == 1, "one component");
     if (toughness.is_constant() && !(toughness({}) > 0))
-      throw InputError(given + " must be positive: it is the energy that a crack takes for its "
-                               "area");
+      throw InputError(given + " must be positive: it is the fracture energy per unit area");
     needs(!scene.crack.is_there() && !scene.time.is_dynamic(),
           "Crack/notch = 0 and Time/final time = 0: 'plumbline grow' follows equilibria");
     needs(scene.material.model == &lps(),

@@ -20,8 +20,8 @@ namespace plumbline::study
   namespace
   {
     const std::string other_targets =
-        "hold it against exact, reference or own finest level (Study/decisive error), or let the "
-        "horizon fall with h (Study/regime = delta or delta-m)";
+        "compare with exact, reference or own finest level (Study/decisive error), or decrease the "
+        "horizon with h (Study/regime = delta or delta-m)";
 
     bool is_against_reference(const std::string &error)
     {

@@ -237,9 +237,9 @@ namespace plumbline::study
         if (!run.is_symmetric && methods.insert(run.method).second)
           results.warnings.push_back(
               run.method +
-              ": the operator is not symmetric, since a bond has different weights at its two "
-              "ends. The critical step is that of the symmetric part; complex eigenvalues can "
-              "make motions grow at any step. 'plumbline stability' finds them.");
+              ": the operator is not symmetric, because a bond has different weights at its two "
+              "ends. The critical time step is that of the symmetric part. Complex eigenvalues can "
+              "make the solution grow with any time step; 'plumbline stability' computes them.");
     }
   } // namespace
 

@@ -99,10 +99,13 @@ namespace plumbline::study
         break;
     }
     if (missed > of_data)
-      throw InputError("Reference/method = torus: its " + std::to_string(estimate.n_points) +
-                       " points a side miss " + base::to_text(missed, 2) +
-                       " of the load or of what the motion begins with; give smoother fields, or "
-                       "write Reference/method = none and take the target own finest level");
+      throw InputError(
+          "Reference/method = torus: " + std::to_string(estimate.n_points) +
+          " points per side do not resolve the load or the initial data (relative error " +
+          base::to_text(missed, 2) +
+          "); use smoother fields, or set Reference/method = none and the target exact "
+          "(Study/decisive error); without Problem/solution the errors of Galerkin methods are "
+          "then estimated");
     estimate.seconds = timer.seconds();
     return {fine, estimate};
   }

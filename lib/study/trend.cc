@@ -189,8 +189,8 @@ namespace plumbline::study
       if (fit.p < slowest_rest && last_rate > rate_of_logarithms)
       {
         trend.leaning = Leaning::plateau_or_power;
-        trend.reason =
-            "a plateau or a logarithm: the rest falls like " + power(fit.p) + " only; " + numbers;
+        trend.reason = "a plateau or a logarithm: the remainder decreases only like " +
+                       power(fit.p) + "; " + numbers;
       }
       else if (approach.kind == Approach::Kind::plateau)
       {

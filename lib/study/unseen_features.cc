@@ -187,11 +187,12 @@ namespace plumbline::study
       { return std::to_string(n) + " of " + std::to_string(all) + " " + what; };
       std::string where = of(found.n_cells, places.cells.size(), "cells");
       if (!places.middles_of_bonds.empty())
-        where +=
-            " and at the middle of " + of(found.n_bonds, places.middles_of_bonds.size(), "bonds");
-      return key + " varies between nodes where no node sees it: at h = " + base::to_text(h, 4) +
-             " it is " + found.there.text() + " in " + where + ", and " + found.at_nodes.text() +
-             " at the nodes about them";
+        where += " and at the midpoints of " +
+                 of(found.n_bonds, places.middles_of_bonds.size(), "bonds");
+      return key +
+             " has features between nodes that no node resolves: at h = " + base::to_text(h, 4) +
+             " it is " + found.there.text() + " in " + where + ", but " + found.at_nodes.text() +
+             " at the surrounding nodes";
     }
   } // namespace
 
@@ -241,8 +242,9 @@ namespace plumbline::study
     std::vector<std::string> result =
         unseen_features(values, {problem.cells->nodes, problem.cells->pieces, {}}, problem.h);
     for (std::string &sentence : result)
-      sentence += "; methods that take it at nodes know nothing of that, and quadrature may miss "
-                  "it, too: refine Study/h, or place nodes there";
+      sentence +=
+          "; methods that evaluate it at nodes ignore these features, and quadrature may miss "
+          "them, too; refine Study/h, or place nodes there";
     return result;
   }
 } // namespace plumbline::study

@@ -81,9 +81,9 @@ namespace plumbline::study
     proof = levels.back();
     proof.answer = LimitProof::Answer::incompatible;
     proof.defect = proof.ball_defect;
-    proof.reason = "weights stay off the areas that they stand for, by " +
+    proof.reason = "the weights do not tend to the areas of the cells: the mean deviation is " +
                    base::to_text(100 * proof.area_defect, 3) +
-                   " % on average, and moments off those of the ball by " +
+                   " %, and the moments deviate from those of the ball by " +
                    base::to_text(100 * proof.ball_defect, 3) + " %";
     return proof;
   }
@@ -107,7 +107,7 @@ namespace plumbline::study
     else
       beside = trend.outcome == Outcome::undecided    ? "its limit is wrong for most fields: "
                : trend.outcome == Outcome::field_only ? "other fields tend to a wrong limit: "
-               : proof.area_defect > 0                ? "seen in its weights too: "
+               : proof.area_defect > 0                ? "confirmed by the weights: "
                                                       : "proven: ";
     trend.reason += "; " + beside + proof.reason;
   }

@@ -143,7 +143,7 @@ namespace plumbline::meshfree
       if (mend.says_closer)
         result.causes.back().text += is_better(mend.cause)
                                          ? closer(mend.cause)
-                                         : "; the moments do not feel it with this kernel";
+                                         : "; for this kernel the moments do not depend on it";
     }
     add_volume_factor(circumstances.volume_factor, result.causes);
     return result;

@@ -272,9 +272,9 @@ namespace plumbline::meshfree
                            " bonds, though Methods/names has that rule and not FA";
         mend.says_closer = explains(effect.before, effect.after);
         if (!mend.says_closer)
-          mend.cause.text += "; the moments do not tell: they are off by " +
-                             base::to_percent(effect.before) + ", and by " +
-                             base::to_percent(effect.after) + " with them";
+          mend.cause.text += "; the moments cannot decide: their error is " +
+                             base::to_percent(effect.before) + ", and " +
+                             base::to_percent(effect.after) + " with partial areas";
         return mend;
       }
       mend.cause.is_own_error = true;

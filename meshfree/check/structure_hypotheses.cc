@@ -125,8 +125,9 @@ namespace plumbline::meshfree
     if (n < fewest || static_cast<double>(n_paired) > nearly_none * static_cast<double>(n))
       return {};
     Mend mend{
-        {"half list", "every pair of nodes stands once (a half list): give each bond from i "
-                      "to j and from j to i"},
+        {"half list",
+         "each pair of nodes is listed only once (a half list): list each bond both from i "
+         "to j and from j to i"},
         [&given_volumes = given.volumes, &kernel = given.kernel, &cells = given.cells,
          precision = given.precision,
          &of_collar = evidence.circumstances.of_collar](std::vector<Family> &families) {
@@ -203,17 +204,19 @@ namespace plumbline::meshfree
     std::string kernel_text(const LengthProfile &profile, const BestProfile &best)
     {
       const LengthProfile::Bin &first = profile.bins.front(), &last = profile.bins.back();
-      return "weights over volumes fall with the length of bonds " +
+      return "the ratio of weight to volume decreases with bond length " +
              (best.name.empty() ? "(from " + base::to_text(first.ratio, 3) +
                                       " at r = " + base::to_text(first.length, 3) + " to " +
                                       base::to_text(last.ratio, 3) +
                                       " at r = " + base::to_text(last.length, 3) + ")"
                                 : "like " + best.name) +
              (best.is_own
-                  ? ", as the scene's kernel does: it is in the weights already and counts twice"
-                  : ", which is not the scene's kernel but another one: a kernel or influence "
-                    "function is in the weights already, and the scene's counts besides") +
-             "; give the volumes as weights";
+                  ? ", as the scene's kernel does: the weights already contain the kernel, which "
+                    "is then applied twice"
+                  : ", which is not the scene's kernel but another one: the weights already "
+                    "contain a kernel or influence function, and the scene's kernel is applied in "
+                    "addition") +
+             "; give volumes as weights";
     }
   } // namespace
 

@@ -193,8 +193,8 @@ namespace plumbline::meshfree
           return G;
         std::ostringstream message;
         message << "Fracture/toughness = " << G << " at (" << x
-                << ") must be positive: it is the energy that a crack takes for its area; "
-                << "give each phase its own";
+                << ") must be positive: it is the fracture energy per unit area; "
+                << "give a positive value for each phase";
         throw InputError(message.str());
       }
 

@@ -142,7 +142,8 @@ TEST(Descriptions, say_what_is_allowed_in_our_words)
       EXPECT_EQ(outcome.out.find(raw), std::string::npos) << section << ": " << raw;
   }
   expect_found(run("describe Solver/tolerance").out, "allowed: a number from 1e-15 to 0.001\n");
-  expect_found(run("describe Study/h").out, "allowed: numbers such as 0.05 or 1e-3, separated");
+  expect_found(run("describe Study/h").out,
+               "allowed: numbers above 0 such as 0.05 or 1e-3, separated");
   expect_found(run("describe Problem/load").out, "allowed: any text\n");
 }
 

@@ -50,7 +50,7 @@ TEST(Check, names_the_node_with_the_wrong_weight)
   const Outcome outcome = check(nodes_file, bonds);
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   expect_found(outcome.out, "first moments off by up to 4.23 % at node 77");
-  expect_found(outcome.out, "out of line: the bond from node 77 to node 79 (line ");
+  expect_found(outcome.out, "outlier: the bond from node 77 to node 79 (line ");
   expect_found(outcome.out, "is expected: 2 times\n");
 
   const Outcome json = check(nodes_file, bonds, "--json");

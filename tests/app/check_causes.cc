@@ -81,7 +81,7 @@ TEST(CheckCauses, volumes_in_other_units_are_told_before_all_else)
     expect_found(both.out, "cause: the volumes are");
     expect_found(both.out, "all weights carry the same factor; without that the moments are off by "
                            "nothing");
-    expect_not_found(both.out, "out of line: ");
+    expect_not_found(both.out, "outlier: ");
     const Outcome volumes = check(volumes_times(factor), bonds_file, "--json");
     EXPECT_EQ(volumes.exit_code, 1) << volumes.err;
     expect_found(volumes.out, "the weights do not carry that factor");
@@ -119,8 +119,8 @@ TEST(CheckCauses, half_lists_are_told_even_if_some_nodes_have_no_bonds)
       half.push_back(row);
   Outcome outcome = check(nodes_file, write_rows("half.csv", half), "--json");
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
-  expect_found(outcome.out, "cause: every pair of nodes stands once (a half list)");
-  expect_not_found(outcome.out, "out of line: ");
+  expect_found(outcome.out, "cause: each pair of nodes is listed only once (a half list)");
+  expect_not_found(outcome.out, "outlier: ");
   // the same of free nodes alone, numbered first: the last has no bond of its own
   Rows inner{half[0]};
   std::map<std::string, bool> is_free;
@@ -147,7 +147,7 @@ TEST(CheckCauses, bands_of_volumes_are_one_line)
   ASSERT_EQ(n, 8u);
   const Outcome outcome = check(write_rows("bands.csv", rows), bonds_file, "--json");
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
-  expect_found(outcome.out, "out of line: the volumes of 8 nodes (");
+  expect_found(outcome.out, "outlier: the volumes of 8 nodes (");
   expect_found(outcome.out, "are 1.2 times the areas of their cells");
 }
 
@@ -217,7 +217,7 @@ TEST(CheckCauses, weights_that_are_printed_with_few_digits_are_right)
         check(write_rows("few_nodes.csv", printed(files.nodes, {1, 2, 3})),
               write_rows("few_bonds.csv", printed(files.bonds, {2, 3, 4})), "--json");
     EXPECT_EQ(outcome.exit_code, 0) << n_digits << outcome.err << outcome.out;
-    expect_not_found(outcome.out, "out of line: ");
+    expect_not_found(outcome.out, "outlier: ");
   }
 }
 
@@ -230,7 +230,7 @@ TEST(CheckCauses, what_is_found_does_not_depend_on_the_origin_and_the_units)
     std::string result;
     std::istringstream in(json);
     for (std::string line; std::getline(in, line);)
-      if (line.find("out of line: ") != std::string::npos)
+      if (line.find("outlier: ") != std::string::npos)
         result += line + '\n';
       else if (line.find("the weights are those of FA") != std::string::npos)
         result += "those of FA\n";
@@ -238,7 +238,7 @@ TEST(CheckCauses, what_is_found_does_not_depend_on_the_origin_and_the_units)
   };
   const std::string plain = lines(check(files.nodes, files.bonds, "--json").out);
   expect_found(plain, "those of FA");
-  expect_not_found(plain, "out of line");
+  expect_not_found(plain, "outlier");
   struct Change
   {
     double origin, unit, weight;
@@ -278,8 +278,8 @@ TEST(CheckCauses, bodies_that_are_not_checked_are_refused_before_all_else)
   // keys that would be refused, too, come later
   const std::string more = "--set Methods/nodes=vertices --set Problem/load=1 ";
   for (const auto &[key, text] :
-       {std::pair{"'Domain/cracks=.2,.5 : .8,.5'", "check takes no cracks"},
-        std::pair{"Domain/boundary=free", "check takes no free bodies"}})
+       {std::pair{"'Domain/cracks=.2,.5 : .8,.5'", "'plumbline check' does not support cracks"},
+        std::pair{"Domain/boundary=free", "'plumbline check' does not support free bodies"}})
   {
     const Outcome outcome = check(nodes_file, bonds_file, more + "--set " + key);
     EXPECT_EQ(outcome.exit_code, 2);

@@ -137,8 +137,8 @@ namespace plumbline::scene
         "or critical fractions.");
     keys.add(
         "crack", crack,
-        "What becomes of the crack of 'plumbline crack': it arrests, runs, "
-        "branches, or is followed for a time too short to tell; unknown: nothing is expected.");
+        "Expected outcome of 'plumbline crack': arrests, runs, branches, or too short to tell (the "
+        "simulated time is too short to classify the crack). unknown: no expectation.");
     keys.add(
         "growth", "", any_text(), [this](const std::string &text) { growth = to_growth(text); },
         "'quantity: value' separated by ';', of 'plumbline grow': " + growth_words() +

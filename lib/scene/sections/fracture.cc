@@ -16,16 +16,17 @@ namespace plumbline::scene
 
   void FractureSection::declare(Keys &keys)
   {
-    keys.add("toughness", toughness,
-             "G > 0, the energy that a crack takes for its area, an expression in x and y; a bond "
-             "has the mean of its ends (Fracture/toughness of bonds). It says at which stretch it "
-             "breaks, "
-             "s0^2 = pi G / (3 delta (lambda + mu)) for the influence function 1/r. 'plumbline "
-             "grow' runs the scene. Empty: nothing breaks. [force/length]");
-    keys.add("toughness of bonds", of_bonds,
-             "mean: of G at the two ends of a bond, so that what lies between nodes is not seen. "
-             "minimum: the smallest G at samples along the bond, eight to a mesh size: weak lines "
-             "and layers weaken all bonds across them.");
+    keys.add(
+        "toughness", toughness,
+        "Fracture toughness G > 0 (energy per unit area of crack), an expression in x and y. Each "
+        "bond has the mean of G at its two ends (Fracture/toughness of bonds) and breaks at the "
+        "critical stretch s0, s0^2 = pi G / (3 delta (lambda + mu)) for the influence function "
+        "1/r. 'plumbline grow' runs the scene. Empty: nothing breaks. [force/length]");
+    keys.add(
+        "toughness of bonds", of_bonds,
+        "mean: the mean of G at the two ends of a bond; features between nodes are not resolved. "
+        "minimum: the smallest G at sample points along the bond, eight per mesh size; weak "
+        "lines and layers then weaken all bonds that cross them.");
     keys.add(
         "interfaces", "", scene::lines(),
         [this](const std::string &text) { interfaces = to_lines(text, scene::lines()); },

@@ -22,9 +22,9 @@ namespace plumbline::scene
               text == manufactured ? std::vector<NamedExpression>() : to_named_expressions(text);
         },
         "The body load b: manufactured (the nonlocal operator applied to the solution), or "
-        "expressions written like the solution. Loads that jump or have kinks are integrated in "
-        "parts of cells; what is narrower than a seventh of a cell may be missed by integrals, and "
-        "what lies between nodes by rules that take nodes.");
+        "expressions written like the solution. Loads with jumps or kinks are integrated over "
+        "parts of cells. Integrals may miss features narrower than a seventh of a cell, and rules "
+        "that evaluate at nodes miss features between nodes.");
     keys.add(
         "constraint", solution, any_text(),
         [this, solution](const std::string &text)
