@@ -2,7 +2,8 @@
 # what is there is not taken again. A crack in the first sample's microstructure stands at each fraction that has one.
 file(REMOVE_RECURSE ${OUTPUT})
 set(study ${TOUGHNESS} -b ${BUILD} -o ${OUTPUT} -j 2 -f "0 0.5" -n 2 -m 1 -r 20 -c 10
-    ${SCENES}/glass_ceramics/half_plate.prm --set Study/h=10)
+    ${SCENES}/glass_ceramics/half_plate.prm --set Study/h=10
+    --set "Domain/fixed=0, 90 : 400, 100\; 0, -100 : 400, -90") # a row of cells each
 foreach(run first second)
   execute_process(COMMAND ${study} OUTPUT_VARIABLE messages ERROR_VARIABLE messages RESULT_VARIABLE code)
   if(NOT code EQUAL 0)
