@@ -14,10 +14,10 @@ namespace plumbline::app
   };
 
   /// Check quadrature weights of another code on its own nodes: moments, symmetry, matrix,
-  /// solutions; bonds and nodes that are out of line with the others; what was done to all weights.
+  /// solutions; outliers among bonds and nodes; what was done to all weights.
   /// Print what is found, and write report.html with maps, nodes.csv, outliers.csv, cells.vtu and
   /// check.json.
-  /// @return exit code: 0, or 1: a requirement that does not hold, a bond or node out of line, a
+  /// @return exit code: 0, or 1: a requirement that does not hold, an outlier, a
   ///         cause found, or a matrix that is not positive definite
   /// @throws InputError  files, a scene or a requirement that cannot be used
   /// @throws NumericalError  no solution, where the weights are not found wrong; maps that cannot

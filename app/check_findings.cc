@@ -164,7 +164,7 @@ namespace plumbline::app
       return result;
     }
 
-    /// Adds bonds and nodes that are out of line, but for what volumes explain that are: weights
+    /// Adds outliers among bonds and nodes, except those that volumes explain: weights
     /// that were made with a volume that is wrong are all off by its factor.
     void add_outliers(Findings &found, const std::vector<Outlier> &outliers)
     {

@@ -23,7 +23,7 @@ namespace plumbline::app
   extern const char *const requirements_help;
 
   /// What makes the exit code 1: requirements that do not hold; a matrix that is not positive
-  /// definite, a cause of all weights, bonds and nodes out of line, whatever is required.
+  /// definite, a cause of all weights, outliers, whatever is required.
   std::vector<std::string> complaints(const Findings &found, const Requirements &required);
 
   /// What else there is to say.

@@ -14,10 +14,10 @@ namespace plumbline::meshfree
     family,       ///< most weights of a node
     neighbour,    ///< most weights to a node, as if its volume were another
     volume,       ///< the volume of a node against its cell's area, or the others' volumes
-    moments       ///< of a node, no bond of which is out of line
+    moments       ///< of a node, no bond of which is an outlier
   };
 
-  /// One bond or node that is out of line with the others.
+  /// One bond or node that is inconsistent with the others.
   struct Outlier
   {
     static constexpr std::size_t none = static_cast<std::size_t>(-1);

@@ -81,7 +81,7 @@ namespace plumbline::meshfree
       return one.spread.allowed(floor) < other.spread.allowed(floor);
     }
 
-    /// Adds nodes [first, last) whose volume is out of line.
+    /// Adds nodes [first, last) whose volume is an outlier.
     /// @param band_fits  a node that fits one of them is in no band; empty: there are none
     void add_outliers(const GivenBonds &given, const VolumeFit &best,
                       const std::vector<VolumeFit> &band_fits, std::size_t first, std::size_t last,

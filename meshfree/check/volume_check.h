@@ -4,7 +4,7 @@
 
 namespace plumbline::meshfree
 {
-  /// What is wrong with the volumes of nodes: a factor that all carry, and nodes out of line.
+  /// What is wrong with the volumes of nodes: a factor that all carry, and outliers.
   struct VolumeCheck
   {
     /// The volumes are the cells' areas times this: 1, or what a third of the free nodes share, to
