@@ -30,13 +30,13 @@ namespace plumbline::app
     /// The level whose h is nearest to the spacing of the nodes, by their ratio.
     ChosenLevel choose_level(const scene::Scene &scene, const GivenNodes &nodes)
     {
-      const scene::Series &first = scene.study.series.front();
+      const problem::Series &first = scene.study.series.front();
       const double size = node_spacing(nodes, scene::make_mesh(scene, first.levels.front()));
       ChosenLevel chosen{first.levels.front(), first.name, size};
-      const auto distance = [&](const scene::Level &level)
+      const auto distance = [&](const problem::Level &level)
       { return std::abs(std::log(level.h / size)); };
-      for (const scene::Series &series : scene.study.series)
-        for (const scene::Level &level : series.levels)
+      for (const problem::Series &series : scene.study.series)
+        for (const problem::Level &level : series.levels)
           if (distance(level) < distance(chosen.level))
             chosen = {level, series.name, size};
       return chosen;
@@ -61,7 +61,7 @@ namespace plumbline::app
     }
 
     /// @throws NumericalError  there is none, naming method, case and level
-    analysis::Solution reference_solution(const scene::Problem &problem,
+    analysis::Solution reference_solution(const problem::Problem<2> &problem,
                                           const method::Method &method, const std::string &place)
     {
       try
@@ -85,10 +85,10 @@ namespace plumbline::app
     public:
       explicit GivenWeights(const FamilySource &families) : families_(families) {}
       std::string name() const override { return "given"; }
-      method::Side side() const override { return method::Side::meshfree; }
+      method::MethodFamily family() const override { return method::MethodFamily::meshfree; }
       std::string help() const override { return "weights of a file"; }
       std::unique_ptr<method::Discretisation>
-      discretise(const scene::Problem &problem,
+      discretise(const problem::Problem<2> &problem,
                  const base::Communicator &communicator) const override
       {
         return discretise_on_scattered_nodes(
@@ -104,7 +104,7 @@ namespace plumbline::app
     CaseCheck check_case(const scene::Case &one, const std::string &place,
                          const FamilySource &families)
     {
-      const scene::Problem &problem = one.problem;
+      const problem::Problem<2> &problem = one.problem;
       const auto &norms = one.scene.study.norms;
       const auto method = reference_method(one);
       const analysis::Solution reference = reference_solution(problem, *method, place);
@@ -143,7 +143,7 @@ namespace plumbline::app
     /// Volumes that are wrong are mended first: were they left as they are, the weights to those
     /// nodes would seem wrong as well, though they may be right. If no rule of ours is recognised
     /// then, the weights may be made with the wrong volumes.
-    Recognition recognise_weights(const Findings &found, const scene::Problem &problem)
+    Recognition recognise_weights(const Findings &found, const problem::Problem<2> &problem)
     {
       Recognition result;
       std::vector<double> as_given = found.volumes;
@@ -182,7 +182,7 @@ namespace plumbline::app
     /// Weights as they stand, for what names their defects.
     void find_defects(Findings &found, const scene::Case &one)
     {
-      const scene::Problem &problem = one.problem;
+      const problem::Problem<2> &problem = one.problem;
       const Recognition recognition = recognise_weights(found, problem);
       const GivenBonds given{recognition.families, problem.kernel,  *problem.cells,
                              recognition.volumes,  found.precision, found.nodes.origin};
@@ -209,7 +209,7 @@ namespace plumbline::app
     }
 
     /// Volumes against the areas of cells, which come before all that is relative to volumes.
-    void find_volumes(Findings &found, const scene::Problem &problem,
+    void find_volumes(Findings &found, const problem::Problem<2> &problem,
                       const std::vector<double> &uncut_areas)
     {
       found.precision = Precision::of_files(found.nodes.rounding, found.given.weight_rounding,
@@ -272,7 +272,7 @@ namespace plumbline::app
       return one;
     };
     const scene::Case first = case_of(0);
-    const scene::Problem &problem = first.problem;
+    const problem::Problem<2> &problem = first.problem;
 
     found.given = read_given_families(options.bonds_file, found.nodes, *found.cells);
     for (const std::size_t i : found.cells->source)

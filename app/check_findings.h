@@ -7,6 +7,7 @@
 #include "meshfree/check/bond_hypotheses.h"
 #include "meshfree/check/bond_outliers.h"
 #include "meshfree/check/volume_check.h"
+#include "scene/scene.h"
 
 #include <map>
 #include <memory>
@@ -16,7 +17,7 @@ namespace plumbline::app
   /// A level of a scene, and what led to it.
   struct ChosenLevel
   {
-    scene::Level level;
+    problem::Level level;
     std::string series;
     double node_size; ///< spacing of the nodes in Ω: √ of the mean area of their cells [length]
 

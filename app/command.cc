@@ -3,15 +3,14 @@
 #include "arguments.h"
 #include "base/communicator.h"
 #include "base/error.h"
+#include "analyse.h"
 #include "check.h"
 #include "crack.h"
-#include "dispersion.h"
 #include "grow.h"
 #include "list.h"
 #include "requirements.h"
 #include "run.h"
 #include "sample.h"
-#include "stability.h"
 #include "strip.h"
 #include "unexpected.h"
 
@@ -161,7 +160,7 @@ namespace
 
   void add_dispersion(CLI::App &app, Request &request)
   {
-    const auto options = std::make_shared<DispersionOptions>();
+    const auto options = std::make_shared<AnalyseOptions>();
     auto &command =
         add_measuring(app, "dispersion",
                       "Dispersion analysis: wave speeds and critical time steps of each method",
@@ -173,12 +172,12 @@ namespace
                     "0,22.5,45); may be repeated")
         ->allow_extra_args(false);
     set_action(command, request, options,
-               [angles](const DispersionOptions &given)
+               [angles](const AnalyseOptions &given)
                {
-                 DispersionOptions all = given;
-                 if (!angles->empty())
-                   all.angles = to_numbers(angles_option, *angles);
-                 return dispersion(all);
+                 return analyse(dispersion_row(angles->empty()
+                                                   ? plumbline::study::usual_angles
+                                                   : to_numbers(angles_option, *angles)),
+                                given);
                });
   }
 
@@ -186,7 +185,7 @@ namespace
   template <class Options>
   void add_checked(CLI::App &app, Request &request, const std::string &name,
                    const std::string &help, const std::string &check,
-                   int (*action)(const Options &))
+                   const std::function<int(const Options &)> &action)
   {
     const auto options = std::make_shared<Options>();
     auto &command = add_measuring(app, name, help, *options, request);
@@ -260,17 +259,19 @@ namespace
     app.require_subcommand(1);
     add_run(app, request);
     add_check(app, request);
-    add_checked(app, request, "stability",
-                "Stability analysis: eigenvalues, signs, modes, weights, time steps",
-                "Expected/stability fails", stability);
+    add_checked<AnalyseOptions>(
+        app, request, "stability",
+        "Stability analysis: eigenvalues, signs, modes, weights, time steps",
+        "Expected/stability fails",
+        [](const AnalyseOptions &options) { return analyse(stability_row(), options); });
     add_dispersion(app, request);
-    add_checked(app, request, "crack",
+    add_checked<CrackOptions>(app, request, "crack",
                 "Dynamic fracture of a notched strip: tip, energies, contour plots",
                 "Expected/crack fails", crack);
-    add_checked(app, request, "grow",
+    add_checked<GrowOptions>(app, request, "grow",
                 "Quasi-static fracture, bond by bond: load, energies, contour plots",
                 "Expected/growth fails", grow);
-    add_checked(app, request, "strip",
+    add_checked<StripOptions>(app, request, "strip",
                 "Stationary crack: tip energy by meshfree and Galerkin methods",
                 "Expected/strip fails, or a strip is too short", strip);
     add_sample(app, request);

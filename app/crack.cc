@@ -34,7 +34,7 @@ namespace plumbline::app
       return strip.upper - strip.lower;
     }
 
-    std::vector<meshfree::WellBond> make_bonds(const scene::Scene &scene, const scene::Level &level)
+    std::vector<meshfree::WellBond> make_bonds(const scene::Scene &scene, const problem::Level &level)
     {
       const physics::DoubleWell law = scene::make_double_well(scene, level.horizon);
       const auto kernel = law.linear_kernel();
@@ -42,8 +42,8 @@ namespace plumbline::app
       return well_bonds(law, lattice_bonds(rule, kernel, level.h, scene.geometry.backend));
     }
 
-    study::CrackThreshold find_threshold(const scene::Scene &scene, const scene::Series &series,
-                                         const scene::Level &level)
+    study::CrackThreshold find_threshold(const scene::Scene &scene, const problem::Series &series,
+                                         const problem::Level &level)
     {
       const meshfree::CrackColumn column(make_bonds(scene, level), level.h,
                                          static_cast<int>(std::lround(sides(scene)[1] / level.h)));
@@ -85,7 +85,7 @@ namespace plumbline::app
     }
 
     /// Its memory and disk are there; nothing is made before that.
-    void check_size(const scene::Scene &scene, const scene::Level &level, const CrackPlan &plan,
+    void check_size(const scene::Scene &scene, const problem::Level &level, const CrackPlan &plan,
                     unsigned int n_jobs)
     {
       // in vectors of a number a node: u, v, a and fields to which margins are added (11), a view
@@ -104,7 +104,7 @@ namespace plumbline::app
       return scene.domain.boxes.include.front().lower + .5 * sides(scene);
     }
 
-    CrackStrip make_strip(const scene::Scene &scene, const scene::Level &level)
+    CrackStrip make_strip(const scene::Scene &scene, const problem::Level &level)
     {
       const auto cells = [&](double length)
       { return static_cast<int>(std::lround(length / level.h)); };
@@ -224,7 +224,7 @@ namespace plumbline::app
   {
     const CrackPlan plan = make_plan(scene, folder);
     for_each_level(scene, n_levels,
-                   [&](const scene::Series &, const scene::Level &level, bool)
+                   [&](const problem::Series &, const problem::Level &level, bool)
                    { check_size(scene, level, plan, n_jobs); });
   }
 
@@ -241,7 +241,7 @@ namespace plumbline::app
     results.plan = make_plan(scene, folder);
     bool is_first = true;
     for_each_level(scene, n_levels,
-                   [&](const scene::Series &series, const scene::Level &level, bool is_finest)
+                   [&](const problem::Series &series, const problem::Level &level, bool is_finest)
                    {
                      results.thresholds.push_back(find_threshold(scene, series, level));
                      if (is_first && is_finest)

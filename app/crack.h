@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measures.h"
+#include "scene/scene.h"
 #include "study/crack.h"
 
 namespace plumbline::app

@@ -33,7 +33,7 @@ namespace plumbline::app
       if (scene.time.n_frames == 0)
         return;
       double n_nodes = 0;
-      for (const scene::Series &series : scene.study.series)
+      for (const problem::Series &series : scene.study.series)
       {
         const double h = series.levels.back().h;
         double area = 0;

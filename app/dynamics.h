@@ -1,6 +1,7 @@
 #pragma once
 
 #include "run.h"
+#include "scene/scene.h"
 
 namespace plumbline::app
 {

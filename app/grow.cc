@@ -37,20 +37,20 @@ namespace plumbline::app
       solid.grips = scene.domain.fixed;
       solid.unbreaking = scene.fracture.unbreaking;
       solid.notch = scene.domain.cracks;
-      const physics::Expression held("Problem/constraint", *scene.problem.constraint,
+      const physics::Expression constrained("Problem/constraint", *scene.problem.constraint,
                                      scene.names(horizon)),
           toughness("Fracture/toughness", scene.fracture.toughness, scene.names(horizon));
-      solid.held = [held](const Point<2> &x)
+      solid.constrained = [constrained](const Point<2> &x)
       {
         Tensor<1, 2> u;
         for (unsigned int d = 0; d < 2; ++d)
-          u[d] = held(x, d);
+          u[d] = constrained(x, d);
         return u;
       };
       solid.material = scene.material.lame();
       solid.surface_terms = scene.fracture.surface_terms;
       solid.toughness = [toughness](const Point<2> &x) { return toughness(x); };
-      solid.takes_least_toughness = scene.fracture.of_bonds == scene::BondToughness::minimum;
+      solid.takes_least_toughness = scene.fracture.of_bonds == problem::BondToughness::minimum;
       for (std::size_t k = 0; k < scene.fracture.interfaces.size(); ++k)
         solid.interfaces.push_back(
             {scene.fracture.interfaces[k], scene.fracture.toughness_of_interface(k)});
@@ -58,15 +58,15 @@ namespace plumbline::app
       return solid;
     }
 
-    std::string surface_words(scene::SurfaceTerms terms)
+    std::string surface_words(problem::SurfaceTerms terms)
     {
       switch (terms)
       {
-      case scene::SurfaceTerms::published:
+      case problem::SurfaceTerms::published:
         return "with surface terms (Fan et al. 2022, eq. (3.19))";
-      case scene::SurfaceTerms::consistent:
+      case problem::SurfaceTerms::consistent:
         return "with consistent surface terms";
-      case scene::SurfaceTerms::none:
+      case problem::SurfaceTerms::none:
         return "with corrected dilatations, without surface terms";
       default:
         return "without surface terms";
@@ -86,7 +86,7 @@ namespace plumbline::app
 
     /// By what G is to be divided for a crack to go on at G in this lattice: the largest energy,
     /// over G, that one needs in a strip whose height is eight horizons.
-    double find_trapping(const scene::Scene &scene, const meshfree::QuadratureRule &rule,
+    double find_trapping(const scene::Scene &scene, const meshfree::NeighbourhoodQuadrature &rule,
                          const physics::Kernel<2> &influence, double h)
     {
       const int m = static_cast<int>(std::ceil(influence.horizon() / h - 1e-9)), height = 8 * m;
@@ -145,12 +145,12 @@ namespace plumbline::app
       std::vector<study::SpatialValue> values = study::material_values(scene);
       const physics::Expression toughness("Fracture/toughness", scene.fracture.toughness,
                                           scene.names(horizon));
-      if (!toughness.is_constant() && scene.fracture.of_bonds == scene::BondToughness::mean)
+      if (!toughness.is_constant() && scene.fracture.of_bonds == problem::BondToughness::mean)
         values.push_back(
             {"Fracture/toughness", [toughness](const Point<2> &x) { return toughness(x); }});
       if (values.empty())
         return {};
-      study::Between places{model.nodes, {}, {}};
+      study::PlacesBetweenNodes places{model.nodes, {}, {}};
       const double half = .5 * model.h;
       for (const Point<2> &x : model.nodes)
         places.cells.push_back({x + Point<2>(-half, -half), x + Point<2>(half, -half),
@@ -190,7 +190,7 @@ namespace plumbline::app
   {
     /// The scene's body at its level.
     meshfree::BondNetwork make_network(const scene::Scene &scene,
-                                       const meshfree::QuadratureRule &rule,
+                                       const meshfree::NeighbourhoodQuadrature &rule,
                                        const physics::Kernel<2> &influence, double trapping)
     {
       try
@@ -208,7 +208,7 @@ namespace plumbline::app
 
   GrowthSize expected_size(const scene::Scene &scene, unsigned int n_jobs)
   {
-    const scene::Level &level = scene.study.series.front().levels.front();
+    const problem::Level &level = scene.study.series.front().levels.front();
     const double m = level.horizon / level.h;
     const Point<2> tip = scene.domain.cracks.front().back(), mouth = scene.domain.cracks.front()[0];
     GrowthSize size;
@@ -231,16 +231,16 @@ namespace plumbline::app
     size.factor_bytes = 400 * size.n_bonds + 16 * n_factor + 6400 * size.n_nodes;
     size.multigrid_bytes = 400 * size.n_bonds + 44 * n_entries;
     size.solver = scene.fracture.solver;
-    if (size.solver == scene::GrowthSolver::automatic)
+    if (size.solver == problem::GrowthSolver::automatic)
       size.solver =
           scene.fracture.can_iterate() && n_jobs * size.factor_bytes > base::available_memory()
-              ? scene::GrowthSolver::multigrid
-              : scene::GrowthSolver::factor;
+              ? problem::GrowthSolver::multigrid
+              : problem::GrowthSolver::factor;
     size.n_breaks = 2. / 3 * m * m * m * way / level.h; // 18 a column of nodes at m = 3
     // a solution for each bond, 2 ns an entry of the factor, and half of that for updates and new
     // factors; or iterations of 6.6 ns an entry of the matrix, and a fourth of that for set-ups
     const double n_iterations = 1.5 * std::pow(2 * size.n_nodes, .25);
-    size.seconds = size.n_breaks * (size.solver == scene::GrowthSolver::factor
+    size.seconds = size.n_breaks * (size.solver == problem::GrowthSolver::factor
                                         ? 1.5 * 2e-9 * n_factor
                                         : 1.25 * 6.6e-9 * n_entries * n_iterations);
     return size;
@@ -249,7 +249,7 @@ namespace plumbline::app
   GrowthSize check_growth_size(const scene::Scene &scene, unsigned int n_jobs)
   {
     const GrowthSize size = expected_size(scene, n_jobs);
-    const bool is_factor = size.solver == scene::GrowthSolver::factor;
+    const bool is_factor = size.solver == problem::GrowthSolver::factor;
     const bool may_iterate = is_factor && scene.fracture.can_iterate();
     base::require_memory(
         is_factor ? size.factor_bytes : size.multigrid_bytes,
@@ -265,12 +265,12 @@ namespace plumbline::app
   study::GrowthResults grow_body(const scene::Scene &scene, const fs::path &checkpoint,
                                  const std::function<void()> &before_it_grows)
   {
-    const scene::Level &level = scene.study.series.front().levels.front();
-    const scene::GrowthSolver solver = check_growth_size(scene).solver;
+    const problem::Level &level = scene.study.series.front().levels.front();
+    const problem::GrowthSolver solver = check_growth_size(scene).solver;
     const auto influence = physics::influence_function(scene.kernel.profile, level.horizon);
     const meshfree::Rule rule = find_rule(scene.methods.names.front());
-    const meshfree::QuadratureRule quadrature = rule.of(physics::deviatoric_kernel(influence, 1));
-    const double trapping = scene.fracture.criterion == scene::Criterion::calibrated
+    const meshfree::NeighbourhoodQuadrature quadrature = rule.of(physics::deviatoric_kernel(influence, 1));
+    const double trapping = scene.fracture.criterion == problem::Criterion::calibrated
                                 ? find_trapping(scene, quadrature, influence, level.h)
                                 : 1;
     meshfree::BreakingNetwork body(make_network(scene, quadrature, influence, trapping),

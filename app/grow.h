@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measures.h"
+#include "scene/scene.h"
 #include "study/growth.h"
 
 namespace plumbline::app
@@ -13,7 +14,7 @@ namespace plumbline::app
   /// What a growth that is not begun is expected to be.
   struct GrowthSize
   {
-    scene::GrowthSolver solver = scene::GrowthSolver::factor; ///< not automatic
+    problem::GrowthSolver solver = problem::GrowthSolver::factor; ///< not automatic
     double n_nodes = 0, n_bonds = 0;
     double factor_bytes = 0, multigrid_bytes = 0; ///< of all, by either solver
     double n_breaks = 0; ///< bonds that a straight crack breaks, the fewest; one that winds breaks

@@ -70,7 +70,7 @@ namespace plumbline::app
     {
       for (const auto &method : all_methods())
         std::cout << std::left << std::setw(11) << method->name() << std::setw(11)
-                  << base::word(method->side()) << method->help() << '\n';
+                  << base::word(method->family()) << method->help() << '\n';
     }
 
     void list_kernels()
@@ -104,9 +104,9 @@ namespace plumbline::app
     else if (listed == Listed::methods)
       list_methods();
     else if (listed == Listed::models)
-      std::cout << scene::capability_table(subject, scene::capable_models());
+      std::cout << problem::capability_table(subject, scene::capable_models());
     else if (listed == Listed::analyses)
-      std::cout << scene::capability_table(subject, scene::analyses());
+      std::cout << problem::capability_table(subject, scene::analyses());
     else if (listed == Listed::kernels)
       list_kernels();
     else if (listed == Listed::scenes)

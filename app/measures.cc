@@ -40,7 +40,7 @@ namespace plumbline::app
 
   void for_each_level(
       const scene::Scene &scene, unsigned int n_levels,
-      const std::function<void(const scene::Series &, const scene::Level &, bool is_finest)> &visit,
+      const std::function<void(const problem::Series &, const problem::Level &, bool is_finest)> &visit,
       const ShouldStop &should_stop)
   {
     for (const auto &series : scene.study.series)

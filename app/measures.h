@@ -3,6 +3,7 @@
 #include "meshfree/rules/rules.h"
 #include "report/row_journal.h"
 #include "run_parts.h"
+#include "scene/scene.h"
 
 #include <filesystem>
 #include <functional>
@@ -35,7 +36,7 @@ namespace plumbline::app
   /// @param should_stop  asked before each
   void for_each_level(
       const scene::Scene &scene, unsigned int n_levels,
-      const std::function<void(const scene::Series &, const scene::Level &, bool is_finest)> &visit,
+      const std::function<void(const problem::Series &, const problem::Level &, bool is_finest)> &visit,
       const ShouldStop &should_stop = {});
 
   /// The same, noting that it said so, and saying so from then on.
@@ -56,7 +57,7 @@ namespace plumbline::app
   /// @param is_of  whether a row is the method's
   template <class Row, class IsOf>
   std::vector<Row> known_rows(const std::vector<Row> &earlier, const std::string &series,
-                              const scene::Level &level, const IsOf &is_of)
+                              const problem::Level &level, const IsOf &is_of)
   {
     std::vector<Row> known;
     for (const Row &row : earlier)

@@ -9,6 +9,7 @@
 #include "report/journal.h"
 #include "report/report.h"
 #include "run_parts.h"
+#include "scene/capabilities.h"
 #include "study/conclusions.h"
 #include "study/preflight.h"
 #include "study/sampling.h"
@@ -36,7 +37,7 @@ namespace plumbline::app
         return scene.domain.mesh.is_lattice();
       return std::any_of(methods.begin(), methods.end(),
                          [](const auto &method)
-                         { return method->side() == method::Side::meshfree; });
+                         { return method->family() == method::MethodFamily::meshfree; });
     }
 
     /// What an interrupted run of the same scene left in the folder.
@@ -113,10 +114,10 @@ namespace plumbline::app
         if (!expectation.holds)
           std::cout << "\nnot as expected: " << expectation.subject << ": expected "
                     << expectation.expected << ", found " << expectation.found << '\n';
-      const auto n_held = std::count_if(results.expectations.begin(), results.expectations.end(),
+      const auto n_constrained = std::count_if(results.expectations.begin(), results.expectations.end(),
                                         [](const auto &e) { return e.holds; });
       if (!results.expectations.empty())
-        std::cout << "\nexpectations: " << n_held << " of " << results.expectations.size()
+        std::cout << "\nexpectations: " << n_constrained << " of " << results.expectations.size()
                   << " hold\n";
       std::cout << "\nreport: " << (folder / "report.html").string() << '\n';
     }

@@ -41,7 +41,7 @@ namespace plumbline::app
                          "Smolyak, Monte Carlo or quasi-Monte Carlo, or use 'plumbline " +
                          (scene.fracture.is_there() ? "grow'" : "run'"));
       if (options.n_levels > 0)
-        for (scene::Series &series : scene.study.series)
+        for (problem::Series &series : scene.study.series)
           series.levels.resize(std::min<std::size_t>(options.n_levels, series.levels.size()));
       return scene;
     }

@@ -3,14 +3,14 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "crack.h"
-#include "dispersion.h"
 #include "grow.h"
 #include "methods.h"
 #include "reference/lattice/torus_motion.h"
-#include "stability.h"
+#include "study/dispersion.h"
 #include "strip.h"
 #include "study/preflight.h"
 #include "study/sample_sweep.h"
+#include "study/stability.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,40 +64,24 @@ namespace plumbline::app
       return field;
     }
 
-    std::vector<SampleCase> measure_sample(const scene::Scene &scene)
+    /// The records of an analysis by the scalars that samples count.
+    std::vector<SampleCase> study_sample(const study::Analysis &analysis, const scene::Scene &scene)
     {
       std::vector<SampleCase> cases;
-      const auto methods = study::choose_methods(scene, all_methods());
-      for (const study::StabilityRow &row : measure_stability(scene, methods, 0).rows)
+      const auto methods = analysis.choose_methods(scene, all_methods(), 0, 1);
+      for (const study::Record &record : run_study(analysis, scene, methods).records)
       {
-        SampleCase one = case_of(row, cases);
-        one.quantities = {{"smallest eigenvalue", row.stability.smallest},
-                          {"largest eigenvalue", row.stability.largest},
-                          {"zero modes", row.stability.n_zero}};
-        if (row.stability.inverse_norm > 0)
-          one.quantities["inverse norm"] = row.stability.inverse_norm;
-        if (row.steps.own() > 0)
-          one.quantities["critical step"] = row.steps.own();
-        cases.push_back(std::move(one));
-      }
-      return cases;
-    }
-
-    std::vector<SampleCase> wave_sample(const scene::Scene &scene)
-    {
-      std::vector<SampleCase> cases;
-      const auto methods = study::choose_methods(scene, all_methods());
-      for (const study::DispersionRow &row :
-           measure_dispersion(scene, methods, usual_angles, 0).rows)
-      {
-        SampleCase one = case_of(row, cases);
-        add_if_finite(one, "critical step", row.critical_step());
-        for (const study::WaveCurve &curve : row.curves)
-          add_if_finite(one,
-                        "speed " + physics::name(curve.polarisation) + " at " +
-                            base::to_text(curve.angle, 4) + " degrees",
-                        curve.longest.phase);
-        cases.push_back(std::move(one));
+        const study::Key &key = record.key;
+        if (!record.failure.empty())
+          throw NumericalError(key.label() + ", " + key.series +
+                               ", h = " + base::to_text(key.h, 4) + ": " + record.failure);
+        SampleCase one{key.label(), key.problem, key.series,           key.level, key.h,
+                       key.horizon, record.cost.seconds(), {}, {}};
+        for (const auto &[name, scalar] : record.scalars)
+          if (analysis.is_sampled(name))
+            one.quantities[name] = scalar.value;
+        if (!one.quantities.empty())
+          cases.push_back(std::move(one));
       }
       return cases;
     }
@@ -185,25 +169,12 @@ namespace plumbline::app
               }};
     }
 
-    SampleTaker stability_taker()
+    SampleTaker study_taker(const study::Analysis &analysis)
     {
-      return {[](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
-              {
-                const method::Methods available = all_methods();
-                study::check_memory(scene, study::choose_methods(scene, available), available, 0,
-                                    n_jobs);
-              },
-              [](const scene::Scene &sample, const fs::path &) { return measure_sample(sample); }};
-    }
-
-    SampleTaker dispersion_taker()
-    {
-      return {[](const scene::Scene &scene, const fs::path &, unsigned int)
-              {
-                (void)study::plan_waves(scene, usual_angles);
-                (void)study::choose_methods(scene, all_methods());
-              },
-              [](const scene::Scene &sample, const fs::path &) { return wave_sample(sample); }};
+      return {[analysis](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
+              { (void)analysis.choose_methods(scene, all_methods(), 0, n_jobs); },
+              [analysis](const scene::Scene &sample, const fs::path &)
+              { return study_sample(analysis, sample); }};
     }
 
     SampleTaker strip_taker()
@@ -262,9 +233,9 @@ namespace plumbline::app
   SampleTaker sample_taker(const scene::Scene &scene)
   {
     if (scene.sampling.analysis == SampledAnalysis::stability)
-      return stability_taker();
+      return study_taker(study::stability_analysis());
     if (scene.sampling.analysis == SampledAnalysis::dispersion)
-      return dispersion_taker();
+      return study_taker(study::dispersion_analysis(study::usual_angles));
     if (is_growth(scene))
       return clean(growth_taker());
     if (scene.crack.is_there())

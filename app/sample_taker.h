@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/scene.h"
 #include "study/sampling.h"
 
 #include <filesystem>

@@ -46,7 +46,7 @@ namespace plumbline::app
       constexpr double most_cells = 10000; // along a side
       for_each_level(
           scene, n_levels,
-          [&](const scene::Series &, const scene::Level &level, bool)
+          [&](const problem::Series &, const problem::Level &level, bool)
           {
             const double m = level.horizon / level.h, n_height = scene.strip.height / level.h,
                          n_length = scene.strip.length / level.h, n_cells = n_height * n_length;
@@ -61,7 +61,7 @@ namespace plumbline::app
                          n_across = 4 * (n_height + 2 * m),
                          of_galerkin = 16 * 300 * n_cells + 16 * n_across * n_across;
             for (const auto &method : methods)
-              base::require_memory(method->side() == method::Side::meshfree ? of_rules
+              base::require_memory(method->family() == method::MethodFamily::meshfree ? of_rules
                                                                             : of_galerkin,
                                    what + " by " + method->name(), remedy, n_jobs);
           });
@@ -73,7 +73,7 @@ namespace plumbline::app
     /// Of rules, unless the strip has failed already.
     void add_growth(const scene::Scene &scene, study::StripRow &row)
     {
-      if (row.side != method::Side::meshfree || !row.failure.empty())
+      if (row.family != method::MethodFamily::meshfree || !row.failure.empty())
         return;
       const base::CpuTimer timer;
       const auto influence = physics::influence_function(scene.kernel.profile, row.horizon);
@@ -83,7 +83,7 @@ namespace plumbline::app
             grow_through_strip({row.strip,
                                 scene.strip.n_growth,
                                 {1, 1},
-                                scene::SurfaceTerms::uncorrected,
+                                problem::SurfaceTerms::uncorrected,
                                 find_rule(row.method).of(physics::deviatoric_kernel(influence, 1)),
                                 influence,
                                 scene.geometry.backend});
@@ -113,7 +113,7 @@ namespace plumbline::app
     for (const auto &method : methods)
       for_each_level(
           scene, n_levels,
-          [&](const scene::Series &series, const scene::Level &level, bool)
+          [&](const problem::Series &series, const problem::Level &level, bool)
           {
             const auto known = known_rows(control.earlier, series.name, level,
                                           [&](const study::StripRow &row)

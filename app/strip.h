@@ -2,6 +2,7 @@
 
 #include "measures.h"
 #include "method/method.h"
+#include "scene/scene.h"
 #include "study/standing_crack.h"
 
 namespace plumbline::app

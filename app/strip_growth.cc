@@ -25,7 +25,7 @@ namespace plumbline::app
   study::StripGrowth grow_through_strip(const GrowingStrip &strip)
   {
     const double h = strip.strip.h;
-    const auto make = [&](int n_crack, scene::SurfaceTerms surface_terms)
+    const auto make = [&](int n_crack, problem::SurfaceTerms surface_terms)
     {
       method::RiceStrip shape = strip.strip;
       shape.n_crack = n_crack;
@@ -33,11 +33,11 @@ namespace plumbline::app
       solid.surface_terms = surface_terms;
       return meshfree::BreakingNetwork(
           make_bond_network(solid, strip.rule, strip.influence, h, strip.backend),
-          scene::Stretch::linear);
+          problem::Stretch::linear);
     };
     const int n_crack = strip.strip.n_crack;
     const auto energy = [&](int n)
-    { return make(n, scene::SurfaceTerms::uncorrected).response().energy; };
+    { return make(n, problem::SurfaceTerms::uncorrected).response().energy; };
     const double W1 = (energy(n_crack) - energy(n_crack + 1)) / h;
     meshfree::BreakingNetwork body = make(n_crack, strip.surface_terms);
     const double tip = n_crack * h;

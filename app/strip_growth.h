@@ -12,8 +12,8 @@ namespace plumbline::app
     method::RiceStrip strip;    ///< with the crack that it begins with
     unsigned int n_columns = 4; ///< that are measured, after its first two
     physics::Lame lame;
-    scene::SurfaceTerms surface_terms = scene::SurfaceTerms::uncorrected;
-    meshfree::QuadratureRule rule; ///< of a rule, with the deviatoric kernel of μ = 1
+    problem::SurfaceTerms surface_terms = problem::SurfaceTerms::uncorrected;
+    meshfree::NeighbourhoodQuadrature rule; ///< of a rule, with the deviatoric kernel of μ = 1
     physics::Kernel<2> influence;
     geometry::Backend backend = geometry::Backend::fast;
   };

@@ -51,7 +51,7 @@ namespace plumbline::atlas
   {
     std::vector<const study::Run *> runs;
     for (const study::Run &run : question.results->runs)
-      if (run.side != study::Side::local && run.problem == question.problem &&
+      if (run.family != study::MethodFamily::local && run.problem == question.problem &&
           (question.series.empty() || run.series == question.series))
         runs.push_back(&run);
     return runs;

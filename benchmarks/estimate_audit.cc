@@ -19,7 +19,7 @@ namespace plumbline::audit
       double averages, field;
     };
 
-    Truth against_solution(const scene::Problem &problem, const analysis::Solution &solution)
+    Truth against_solution(const problem::Problem<2> &problem, const analysis::Solution &solution)
     {
       constexpr unsigned int degree = 14;
       const auto exact = study::cell_averages(*problem.solution, problem);
@@ -30,11 +30,11 @@ namespace plumbline::audit
     Truth against_finer(const scene::Case &one, const method::Method &method, unsigned int n,
                         const analysis::Solution &solution)
     {
-      const scene::Problem &problem = one.problem;
+      const problem::Problem<2> &problem = one.problem;
       const auto better = method.higher_degree();
       const study::Resized fine = study::finer(one, n);
       const auto found = study::solve_resized(fine, one, *better);
-      scene::Problem cells = problem; // ours in pieces, on which both fields are smooth
+      problem::Problem<2> cells = problem; // ours in pieces, on which both fields are smooth
       if (problem.lattice)
         cells = fine.problem;
       for (unsigned int i = n; i > 1 && !problem.lattice; i /= 2)
@@ -47,7 +47,7 @@ namespace plumbline::audit
   std::vector<Entry> audit(const scene::Case &one, const method::Method &method, unsigned int n,
                            double &seconds)
   {
-    const scene::Problem &problem = one.problem;
+    const problem::Problem<2> &problem = one.problem;
     const analysis::Solution solution = analysis::solve(method, problem);
     seconds = solution.cost.seconds();
     const std::vector<double> zero(solution.averages.size());

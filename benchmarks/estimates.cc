@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "estimate_audit.h"
 #include "reference/method.h"
+#include "scene/problem.h"
 #include "study/refusal.h"
 
 #include <deal.II/base/mpi.h>
@@ -46,7 +47,7 @@ namespace
           if (!is_wrong_on_purpose(name, scene.problem.case_names()[c]))
             for (const auto &series : scene.study.series)
               for (const auto &method : reference::methods())
-                if (method->side() == method::Side::reference)
+                if (method->family() == method::MethodFamily::reference)
                   add(name, scene, c, series, *method);
       }
       catch (const InputError &error)
@@ -78,7 +79,7 @@ namespace
   private:
     /// The levels of a series as far as they are cheap.
     void add(const std::string &name, const scene::Scene &scene, unsigned int c,
-             const scene::Series &series, const method::Method &method)
+             const problem::Series &series, const method::Method &method)
     {
       constexpr unsigned int much_finer = 8;
       constexpr double growth = 16; // of the finer solutions of an estimate

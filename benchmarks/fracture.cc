@@ -30,7 +30,7 @@ namespace
     solid.domain.include = {{{0, -half}, {length, half}}};
     solid.grips = {{{0, half - m * h}, {length, half}}, {{0, -half}, {length, m * h - half}}};
     solid.notch = {{{-h, 0}, {std::floor(.25 * n1) * h, 0}}};
-    solid.held = [](const Point<2> &x)
+    solid.constrained = [](const Point<2> &x)
     {
       Tensor<1, 2> u;
       u[1] = x[1] > 0 ? .5 : -.5;
@@ -53,7 +53,7 @@ int main(int argc, char **argv)
 {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const int n1 = argc > 2 ? std::atoi(argv[1]) : 106, n2 = argc > 2 ? std::atoi(argv[2]) : 60;
-  meshfree::BreakingNetwork body(plate(n1, n2), scene::Stretch::linear);
+  meshfree::BreakingNetwork body(plate(n1, n2), problem::Stretch::linear);
   const base::CpuTimer timer;
   const analysis::Growth growth = analysis::grow(body, {});
   const double all = timer.seconds();
@@ -80,14 +80,14 @@ int main(int argc, char **argv)
       (void)again.break_bonds(growth.events[i].bonds);
     return replaying.seconds() / static_cast<double>(n);
   };
-  meshfree::BreakingNetwork always(plate(n1, n2), scene::Stretch::linear,
-                                   scene::GrowthSolver::factor, meshfree::Refactor::always);
+  meshfree::BreakingNetwork always(plate(n1, n2), problem::Stretch::linear,
+                                   problem::GrowthSolver::factor, meshfree::Refactor::always);
   const double each = replay(always, std::min<std::size_t>(20, growth.events.size())),
                mean = all / static_cast<double>(growth.events.size());
   std::printf("factored at every event: %.0f ms an event, %.1f times as much\n", 1e3 * each,
               each / mean);
-  meshfree::BreakingNetwork iterated(plate(n1, n2), scene::Stretch::linear,
-                                     scene::GrowthSolver::multigrid);
+  meshfree::BreakingNetwork iterated(plate(n1, n2), problem::Stretch::linear,
+                                     problem::GrowthSolver::multigrid);
   const double iterating = replay(iterated, std::min<std::size_t>(300, growth.events.size()));
   const auto &cycles = iterated.work();
   std::printf("multigrid: %.1f ms an event, %.1f times as much; %lu set-ups of %.0f ms, %.1f "

@@ -10,7 +10,7 @@
 #include "geometry/mesh_input.h"
 #include "meshfree/check/bond_file.h"
 #include "report/json.h"
-#include "scene/csv.h"
+#include "base/csv.h"
 #include "scene/mesh.h"
 
 #include <deal.II/base/multithread_info.h>
@@ -63,8 +63,8 @@ namespace
     if (scene.domain.mesh.is_lattice())
       scene.domain.mesh.name = "squares";
     scene.methods.nodes = {fs::absolute(nodes).string()};
-    for (const scene::Series &series : scene.study.series)
-      for (const scene::Level &level : series.levels)
+    for (const problem::Series &series : scene.study.series)
+      for (const problem::Level &level : series.levels)
         try // levels of other nodes have other collars
         {
           const geometry::Mesh mesh = scene::make_mesh(scene, level);
@@ -115,7 +115,7 @@ namespace
       (void)meshfree::read_given_families(file(), context.nodes, context.cells);
       break;
     case Reader::pictures:
-      (void)scene::read_number_grid(file());
+      (void)base::read_number_grid(file());
       break;
     case Reader::results:
       (void)report::read_json(file());

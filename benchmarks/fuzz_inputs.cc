@@ -83,7 +83,7 @@ namespace plumbline::benchmarks
         {
           study::Run run;
           run.method = method;
-          run.side = method == "FA" ? study::Side::meshfree : study::Side::reference;
+          run.family = method == "FA" ? study::MethodFamily::meshfree : study::MethodFamily::reference;
           run.level = level;
           run.h = .1 / (1U << level);
           run.horizon = 3 * run.h;

@@ -59,7 +59,7 @@ namespace plumbline::benchmarks
     }
 
     GuardKernel family(const std::string &rule,
-                       meshfree::QuadratureRule (*of)(const physics::Kernel<2> &))
+                       meshfree::NeighbourhoodQuadrature (*of)(const physics::Kernel<2> &))
     {
       return {"family " + rule, "family", 1, 8,
               [=]

@@ -13,6 +13,7 @@
 #include "meshfree/rules/rules.h"
 #include "meshfree/scattered/state_based_operator.h"
 #include "reference/method.h"
+#include "scene/problem.h"
 #include "summary.h"
 
 #include <deal.II/base/mpi.h>
@@ -142,7 +143,7 @@ namespace
     const scene::Scene scene = scene::parse_scene(
         "benchmark", scene::scene_template(model),
         {{"Methods/names", method}, {"Study/h", "0.025"}, {"Solver/model", size}});
-    const scene::Problem problem = make_problem(scene, 0, scene.study.series[0].levels[0]);
+    const problem::Problem<2> problem = make_problem(scene, 0, scene.study.series[0].levels[0]);
     auto methods = meshfree::methods();
     for (const auto &one : reference::methods())
       methods.push_back(one);
@@ -179,7 +180,7 @@ namespace
                             {"Reference/method", "Q1"},
                             {"Solver/dilatation", dilatation},
                             {"Solver/linear solver", solver}});
-    const scene::Problem problem = make_problem(scene, 0, {h, 3 * h});
+    const problem::Problem<2> problem = make_problem(scene, 0, {h, 3 * h});
     for (const auto &one : meshfree::methods())
       if (one->name() == "OPT")
         for (auto _ : state)

@@ -4,6 +4,7 @@
 #include "base/json_text.h"
 #include "base/text_file.h"
 #include "physics/expression.h"
+#include "scene/scene_file.h"
 
 #include <nlohmann/json.hpp>
 

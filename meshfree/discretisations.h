@@ -9,33 +9,33 @@ namespace plumbline::meshfree
 {
   /// On the problem's lattice: one stencil for all nodes.
   std::unique_ptr<method::Discretisation> discretise_on_lattice(const Rule &rule,
-                                                                const scene::Problem &problem);
+                                                                const problem::Problem<2> &problem);
 
   /// On a lattice with one axis: motions of double wells.
   /// @pre is_axis_rule(rule.name)
   std::unique_ptr<method::Discretisation> discretise_on_line(const Rule &rule,
-                                                             const scene::Problem &problem);
+                                                             const problem::Problem<2> &problem);
 
   /// On the problem's scattered nodes: a sparse matrix whose rows all ranks build.
   /// @note Collective.
   std::unique_ptr<method::Discretisation>
-  discretise_on_scattered_nodes(const Rule &rule, const scene::Problem &problem,
+  discretise_on_scattered_nodes(const Rule &rule, const problem::Problem<2> &problem,
                                 const base::Communicator &communicator);
 
   /// The same with an operator of which every rank makes its share.
   /// @note Collective.
   std::unique_ptr<method::Discretisation> discretise_on_scattered_nodes(
       const std::function<ScatteredOperator(std::pair<std::size_t, std::size_t> share)> &make,
-      const scene::Problem &problem, const base::Communicator &communicator);
+      const problem::Problem<2> &problem, const base::Communicator &communicator);
 
   /// On a body with a free boundary: sums over one family for all nodes. Its data throw InputError
   /// for a constraint that is not 0.
   std::unique_ptr<method::Discretisation> discretise_on_body(const Rule &rule,
-                                                             const scene::Problem &problem);
+                                                             const problem::Problem<2> &problem);
 
   /// Of one of these, see method::Method::expected_bytes.
   double expected_bytes(const method::ProblemSize &size);
 
   /// A body's operator at its free nodes.
-  method::DiscreteOperator show(std::shared_ptr<const VariationalOperator> matrix);
+  method::DiscreteOperator make_discrete_operator(std::shared_ptr<const VariationalOperator> matrix);
 } // namespace plumbline::meshfree

@@ -18,10 +18,10 @@ namespace plumbline::meshfree
       {
       }
       std::string name() const override { return rule_.name; }
-      method::Side side() const override { return method::Side::meshfree; }
+      method::MethodFamily family() const override { return method::MethodFamily::meshfree; }
       std::string help() const override { return rule_.help; }
       bool is_in_all() const override { return !is_counterexample_; }
-      std::string why_not(const scene::Problem &problem) const override
+      std::string why_not(const problem::Problem<2> &problem) const override
       {
         if (problem.settings.solver.iteration != base::Iteration::cg || problem.lattice ||
             problem.body)
@@ -37,12 +37,12 @@ namespace plumbline::meshfree
 
       method::Capabilities can() const override
       {
-        return is_axis_rule(rule_.name) ? scene::all_capabilities()
-                                        : scene::all_but({method::Capability::line});
+        return is_axis_rule(rule_.name) ? problem::all_capabilities()
+                                        : problem::all_but({method::Capability::line});
       }
 
       std::unique_ptr<method::Discretisation>
-      discretise(const scene::Problem &problem,
+      discretise(const problem::Problem<2> &problem,
                  const base::Communicator &communicator) const override
       {
         if (problem.dimension == 1)

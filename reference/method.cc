@@ -27,7 +27,7 @@ namespace plumbline::reference
         return std::string(is_continuous_ ? "" : "DG") + (n_vertices_ == 4 ? "Q" : "P") +
                std::to_string(degree_) + (by_quadrature_ ? "-quadrature" : "");
       }
-      method::Side side() const override { return method::Side::reference; }
+      method::MethodFamily family() const override { return method::MethodFamily::reference; }
       std::string help() const override
       {
         return std::string(is_continuous_ ? "continuous" : "discontinuous") +
@@ -53,7 +53,7 @@ namespace plumbline::reference
           can.insert({Capability::double_well, Capability::periodic, Capability::line});
         return can;
       }
-      std::string why_not(const scene::Problem &problem) const override
+      std::string why_not(const problem::Problem<2> &problem) const override
       {
         if (problem.body && !problem.is_floating &&
             std::all_of(problem.mesh->cells.begin(), problem.mesh->cells.end(),
@@ -79,7 +79,7 @@ namespace plumbline::reference
                                                 by_quadrature_);
       }
       std::unique_ptr<method::Discretisation>
-      discretise(const scene::Problem &problem,
+      discretise(const problem::Problem<2> &problem,
                  const base::Communicator &communicator) const override
       {
         if (problem.dimension == 1)
@@ -118,7 +118,7 @@ namespace plumbline::reference
     {
     public:
       std::string name() const override { return "LOCAL"; }
-      method::Side side() const override { return method::Side::local; }
+      method::MethodFamily family() const override { return method::MethodFamily::local; }
       std::string help() const override
       {
         return "classical finite elements of degree 2 for the local limit (Poisson, Navier)";
@@ -131,13 +131,13 @@ namespace plumbline::reference
                 Capability::dilatation,      Capability::zero_dilatation,
                 Capability::mixed_dilatation};
       }
-      std::string why_not(const scene::Problem &problem) const override
+      std::string why_not(const problem::Problem<2> &problem) const override
       {
         return !problem.mesh || problem.mesh->wholes.empty()
                    ? ""
                    : "Domain/sides = curved is not for classical elements; write straight";
       }
-      std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
+      std::unique_ptr<method::Discretisation> discretise(const problem::Problem<2> &problem,
                                                          const base::Communicator &) const override
       {
         return discretise_local_limit(problem);

@@ -1,6 +1,6 @@
 #include "algebra/rectangle_solver.h"
 
-#include "algebra/held_nodes.h"
+#include "algebra/constrained_nodes.h"
 #include "algebra/simd.h"
 #include "base/error.h"
 #include "base/fftw.h"
@@ -98,7 +98,7 @@ namespace plumbline::algebra
       std::array<int, 2> width_{}, before_{};   ///< of the transform, and zeros before the nodes
       int stride_ = 0;                          ///< between rows of field_
       std::vector<double> inverse_eigenvalues_; ///< shape (n_components, width[1], stride)
-      std::vector<HeldNodes> held_;             ///< of each component
+      std::vector<ConstrainedNodes> constrained_;             ///< of each component
       AlignedArray<double> field_;              ///< shape (width[1], stride)
       Plan forward_, backward_;
     };
@@ -129,10 +129,10 @@ namespace plumbline::algebra
       const Axis axis0 = axis_between(sides[0], row0), axis1 = axis_between(sides[1], row1);
       const auto plan = [&](fftw_r2r_kind kind1, fftw_r2r_kind kind0)
       {
-        const std::array<int, 2> extents = {width_[1], width_[0]}, held = {width_[1], stride_};
+        const std::array<int, 2> extents = {width_[1], width_[0]}, embedding = {width_[1], stride_};
         const std::array<fftw_r2r_kind, 2> kinds = {kind1, kind0};
-        return Plan(fftw_plan_many_r2r(2, extents.data(), 1, field_.data(), held.data(), 1, 0,
-                                       field_.data(), held.data(), 1, 0, kinds.data(),
+        return Plan(fftw_plan_many_r2r(2, extents.data(), 1, field_.data(), embedding.data(), 1, 0,
+                                       field_.data(), embedding.data(), 1, 0, kinds.data(),
                                        FFTW_ESTIMATE));
       };
       forward_ = plan(axis1.forward, axis0.forward);
@@ -162,7 +162,7 @@ namespace plumbline::algebra
         for (int j = 0; j < width_[1]; ++j)
           for (int i = 0; i < width_[0]; ++i)
             inverse[static_cast<std::size_t>(j) * stride_ + i] = scale / eigenvalues(i, j);
-        held_.emplace_back(std::array<SineRow, 2>{row0, row1}, stride_, inverse);
+        constrained_.emplace_back(std::array<SineRow, 2>{row0, row1}, stride_, inverse);
       }
     }
 
@@ -190,7 +190,7 @@ namespace plumbline::algebra
           std::copy_n(input.begin() + position(c, j), n_[0], row(j));
         double_mirrored();
         fftw_execute(forward_.get());
-        held_[c].apply(field_.data(), inverse_eigenvalues_.data() + c * field_.size());
+        constrained_[c].apply(field_.data(), inverse_eigenvalues_.data() + c * field_.size());
         fftw_execute(backward_.get());
         for (int j = 0; j < n_[1]; ++j)
         {

@@ -10,7 +10,7 @@ namespace plumbline::algebra
     /// More nodes than these on either side of a row cost more iterations than any length saves.
     constexpr int most_around = 24;
 
-    /// Conjugate gradients' iterations where nodes are held, 3 to 4: waves reflected half a reach
+    /// Conjugate gradients' iterations where nodes are constrained, 3 to 4: waves reflected half a reach
     /// away meet no free node, each node more costs some.
     double iterations_held(int n_more)
     {
@@ -26,7 +26,7 @@ namespace plumbline::algebra
       return 8 + 10 * std::abs(std::log(distance / best));
     }
 
-    /// An iteration with a transform of this length; the operator, the nodes that are held and the
+    /// An iteration with a transform of this length; the operator, the nodes that are constrained and the
     /// vectors of conjugate gradients take as long as one transform at m = 3.
     double iteration_time(int length)
     {
@@ -55,18 +55,18 @@ namespace plumbline::algebra
     constexpr int longest_reach = 13; // beyond it holding takes as much time as it saves
     if (reach > longest_reach)
       return 0;
-    return n_components > 1 ? 1 : std::min((reach + 3) / 2, most_held);
+    return n_components > 1 ? 1 : std::min((reach + 3) / 2, most_constrained);
   }
 
-  SineRow fast_sine_row(int n, int reach, int n_held)
+  SineRow fast_sine_row(int n, int reach, int n_constrained)
   {
-    const int fewest = std::max(n_held, 1);
+    const int fewest = std::max(n_constrained, 1);
     int best = 0;
     double least = 0;
     for (int more = 0; more <= 2 * (most_around - fewest); ++more)
     {
       const double iterations =
-          n_held > 0 ? iterations_held(more) : iterations_by_zeros(fewest + .5 * more + .5, reach);
+          n_constrained > 0 ? iterations_held(more) : iterations_by_zeros(fewest + .5 * more + .5, reach);
       const double time = iterations * iteration_time(n + 2 * fewest + more);
       if (more == 0 || time < least)
       {
@@ -75,6 +75,6 @@ namespace plumbline::algebra
       }
     }
     const int n_before = fewest + best / 2, n_after = fewest + (best + 1) / 2;
-    return {n_before + n + n_after, n_before, n_after, n_held};
+    return {n_before + n + n_after, n_before, n_after, n_constrained};
   }
 } // namespace plumbline::algebra

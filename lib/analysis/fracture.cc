@@ -10,10 +10,10 @@ namespace plumbline::analysis
 {
   namespace
   {
-    using method::BreakingBody;
-    using scene::BreakMode;
-    using scene::FractureSection;
-    using scene::GrowthEnd;
+    using method::QuasistaticFractureModel;
+    using problem::BreakMode;
+    using problem::FractureSettings;
+    using problem::GrowthEnd;
 
     constexpr double worst_imbalance = 1e-8; ///< beyond rounding of sums of 1e6 bonds
 
@@ -23,7 +23,7 @@ namespace plumbline::analysis
     }
 
     /// The load at which bonds break that can at `critical` or before.
-    double breaking_load(const FractureSection &rules, double critical, double load)
+    double breaking_load(const FractureSettings &rules, double critical, double load)
     {
       if (rules.breaking != BreakMode::steps || critical <= load * (1 + rules.tie_tolerance))
         return std::max(load, critical);
@@ -40,18 +40,18 @@ namespace plumbline::analysis
     }
 
     /// Break them, and keep the books.
-    void carry_out(BreakingBody &body, const Event *before, Event &event)
+    void carry_out(QuasistaticFractureModel &body, const Event *before, Event &event)
     {
-      const BreakingBody::Response first = body.response();
+      const QuasistaticFractureModel::Response first = body.response();
       const double from = before ? before->load : 0;
       event.reaction_before = first.reaction * event.load;
       event.work =
           (before ? before->work : 0) + .5 * first.reaction * (square(event.load) - square(from));
-      const BreakingBody::Release release = body.break_bonds(event.bonds);
+      const QuasistaticFractureModel::Release release = body.break_bonds(event.bonds);
       double at_limits = 0;
       for (std::size_t i = 0; i < event.bonds.size(); ++i)
         at_limits += release.single[i] * square(first.critical_loads[event.bonds[i]]);
-      const BreakingBody::Response &after = body.response();
+      const QuasistaticFractureModel::Response &after = body.response();
       event.in_bonds = (before ? before->in_bonds : 0) + at_limits;
       event.released = (before ? before->released : 0) +
                        (release.bonds + release.relaxing) * square(event.load) - at_limits;
@@ -66,7 +66,7 @@ namespace plumbline::analysis
     }
 
     /// The body as it was after these events: from the last one that factored, as they went on.
-    void go_back_to(BreakingBody &body, const std::vector<Event> &events)
+    void go_back_to(QuasistaticFractureModel &body, const std::vector<Event> &events)
     {
       std::size_t first = events.size();
       while (first > 0 && !events[first - 1].is_factored)
@@ -89,10 +89,10 @@ namespace plumbline::analysis
     }
 
     /// Whether it has come to its end by what was broken.
-    GrowthEnd end_of(const BreakingBody &body, const FractureSection &rules,
+    GrowthEnd end_of(const QuasistaticFractureModel &body, const FractureSettings &rules,
                      const std::vector<Event> &events)
     {
-      if (body.is_parted())
+      if (body.is_separated())
         return GrowthEnd::parted;
       constexpr double nothing = 1e-9; // of the largest reaction: rounding, on a mechanism
       if (!events.empty() && events.back().reaction <=
@@ -116,7 +116,7 @@ namespace plumbline::analysis
     return reaction / std::max(reaction, largest_reaction(events));
   }
 
-  Growth grow(BreakingBody &body, const FractureSection &rules, std::vector<Event> earlier,
+  Growth grow(QuasistaticFractureModel &body, const FractureSettings &rules, std::vector<Event> earlier,
               const EventObserver &observe)
   {
     Growth growth;
@@ -155,7 +155,7 @@ namespace plumbline::analysis
     growth.last_load = growth.events.empty() ? 0 : growth.events.back().load;
     if (growth.end == GrowthEnd::loaded)
       growth.last_load = rules.largest_load;
-    growth.is_parted = body.is_parted();
+    growth.is_separated = body.is_separated();
     return growth;
   }
 } // namespace plumbline::analysis

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "method/breaking_body.h"
-#include "scene/fracture_section.h"
+#include "method/quasistatic_fracture_model.h"
+#include "problem/fracture.h"
 
 #include <functional>
 #include <vector>
@@ -22,8 +22,8 @@ namespace plumbline::analysis
     double in_bonds = 0; ///< of broken bonds, each at its limit
     double released = 0; ///< what broke at more than its limit had beyond it, and what was set free
                          ///< where the others moved
-    double residual = 0; ///< see BreakingBody::Response
-    bool is_factored = false; ///< see BreakingBody::Release
+    double residual = 0; ///< see QuasistaticFractureModel::Response
+    bool is_factored = false; ///< see QuasistaticFractureModel::Release
 
     /// |work - stored - in_bonds - released| / work
     double imbalance() const;
@@ -32,9 +32,9 @@ namespace plumbline::analysis
   struct Growth
   {
     std::vector<Event> events;
-    scene::GrowthEnd end = scene::GrowthEnd::unknown;
+    problem::GrowthEnd end = problem::GrowthEnd::unknown;
     double last_load = 0;       ///< where it ended
-    bool is_parted = false;     ///< no path of bonds joins the grips there, whatever ended it
+    bool is_separated = false;     ///< no path of bonds joins the grips there, whatever ended it
     double first_stiffness = 0; ///< reaction at load 1 of the whole body
     std::size_t n_resumed = 0;  ///< events that were there already
 
@@ -53,9 +53,9 @@ namespace plumbline::analysis
   /// holds to rounding; its terms are computed independently of each other.
   /// @param earlier  events of the same growth, to go on from to the same bits
   /// @throws NumericalError  an audit that is wrong by more than 1e-8, of a body that has an
-  /// energy; as BreakingBody Not for: loads that fall (what grips do at load 1 is all they do),
+  /// energy; as QuasistaticFractureModel Not for: loads that fall (what grips do at load 1 is all they do),
   /// bonds that heal. Source: sequentially linear analysis, Rots & Invernizzi 2004,
   /// doi:10.1002/nag.371.
-  Growth grow(method::BreakingBody &body, const scene::FractureSection &rules,
+  Growth grow(method::QuasistaticFractureModel &body, const problem::FractureSettings &rules,
               std::vector<Event> earlier = {}, const EventObserver &observe = {});
 } // namespace plumbline::analysis

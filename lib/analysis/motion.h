@@ -12,7 +12,7 @@ namespace plumbline::analysis
   struct Motion
   {
     std::size_t n = 0;
-    /// a(u, t); 0 where u is held. Overwrites the last argument, of size n.
+    /// a(u, t); 0 where u is constrained. Overwrites the last argument, of size n.
     std::function<void(const Vector &u, double t, Vector &a)> acceleration;
     /// ∂a/∂u v, symmetric; implicit schemes and critical steps need it.
     std::function<void(const Vector &u, const Vector &v, Vector &out)> tangent = {};

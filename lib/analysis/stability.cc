@@ -279,7 +279,7 @@ namespace plumbline::analysis
       return highest;
     }
 
-    double barrier(const DiscreteOperator &matrix, const scene::Problem &problem,
+    double barrier(const DiscreteOperator &matrix, const problem::Problem<2> &problem,
                    const std::vector<char> &is_inner)
     {
       unsigned int narrow = 0;
@@ -309,7 +309,7 @@ namespace plumbline::analysis
   } // namespace
 
   Consistency check_consistency(const method::DiscreteOperator &matrix,
-                                const scene::Problem &problem)
+                                const problem::Problem<2> &problem)
   {
     Consistency result;
     const double size = physics::operator_scale(problem.kernel);

@@ -3,7 +3,7 @@
 #include "algebra/eigenvalues.h"
 #include "algebra/spectrum.h"
 #include "method/diagnostics.h"
-#include "scene/problem.h"
+#include "problem/problem.h"
 
 namespace plumbline::method
 {
@@ -74,5 +74,5 @@ namespace plumbline::analysis
   };
 
   Consistency check_consistency(const method::DiscreteOperator &matrix,
-                                const scene::Problem &problem);
+                                const problem::Problem<2> &problem);
 } // namespace plumbline::analysis

@@ -33,7 +33,7 @@ namespace plumbline::analysis
     /// One case on its way through the refinements.
     struct Case
     {
-      const scene::Problem *problem = nullptr;
+      const problem::Problem<2> *problem = nullptr;
       Outcome outcome = {};
       Vector u = {};
       base::Cost cost = {};
@@ -45,11 +45,11 @@ namespace plumbline::analysis
     class Statics
     {
     public:
-      Statics(const method::Method &method, const std::vector<const scene::Problem *> &cases,
+      Statics(const method::Method &method, const std::vector<const problem::Problem<2> *> &cases,
               const base::Communicator &communicator)
           : method_(method), communicator_(communicator)
       {
-        for (const scene::Problem *problem : cases)
+        for (const problem::Problem<2> *problem : cases)
           cases_.push_back({problem});
       }
 
@@ -73,7 +73,7 @@ namespace plumbline::analysis
       }
 
     private:
-      const scene::MethodSettings &settings() const { return cases_.front().problem->settings; }
+      const problem::MethodSettings &settings() const { return cases_.front().problem->settings; }
 
       /// What fails for one case, others may still do.
       static std::exception_ptr failure_of(const std::function<void()> &action)
@@ -168,13 +168,13 @@ namespace plumbline::analysis
   } // namespace
 
   std::vector<Outcome> solve(const method::Method &method,
-                             const std::vector<const scene::Problem *> &cases,
+                             const std::vector<const problem::Problem<2> *> &cases,
                              const base::Communicator &communicator)
   {
     return Statics(method, cases, communicator).run();
   }
 
-  void settle_quadrature(Discretisation &discretisation, const scene::Problem &problem)
+  void settle_quadrature(Discretisation &discretisation, const problem::Problem<2> &problem)
   {
     if (!discretisation.has_quadrature_error() || problem.settings.quadrature.tolerance == 0)
       return;
@@ -196,7 +196,7 @@ namespace plumbline::analysis
     }
   }
 
-  Solution solve(const method::Method &method, const scene::Problem &problem,
+  Solution solve(const method::Method &method, const problem::Problem<2> &problem,
                  const base::Communicator &communicator)
   {
     std::vector<Outcome> outcomes = solve(method, {&problem}, communicator);

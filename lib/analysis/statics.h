@@ -30,15 +30,15 @@ namespace plumbline::analysis
   /// @note Collective.
   /// @throws InputError  data that is not finite
   std::vector<Outcome> solve(const method::Method &method,
-                             const std::vector<const scene::Problem *> &cases,
+                             const std::vector<const problem::Problem<2> *> &cases,
                              const base::Communicator &communicator = base::Communicator::all());
 
   /// Refine the quadrature of a discretisation as `solve` does for a problem.
   /// @throws NumericalError  it does not settle, or there is no solution
-  void settle_quadrature(method::Discretisation &discretisation, const scene::Problem &problem);
+  void settle_quadrature(method::Discretisation &discretisation, const problem::Problem<2> &problem);
 
   /// One case.
   /// @throws NumericalError  there is no solution
-  Solution solve(const method::Method &method, const scene::Problem &problem,
+  Solution solve(const method::Method &method, const problem::Problem<2> &problem,
                  const base::Communicator &communicator = base::Communicator::all());
 } // namespace plumbline::analysis

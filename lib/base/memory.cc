@@ -129,8 +129,8 @@ namespace plumbline::base
 
   std::string out_of_memory()
   {
-    const double held = kernel_bytes("/proc/self/status", "VmRSS:");
-    return "memory ran out: this process holds " + bytes_to_text(held < unlimited ? held : 0) +
+    const double resident = kernel_bytes("/proc/self/status", "VmRSS:");
+    return "memory ran out: this process holds " + bytes_to_text(resident < unlimited ? resident : 0) +
            ", and " + bytes_to_text(available_memory()) +
            " are left; choose a larger h or a smaller horizon (Study), or a machine with more";
   }

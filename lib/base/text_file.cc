@@ -2,8 +2,10 @@
 
 #include "base/error.h"
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 
 namespace plumbline::base
 {
@@ -77,5 +79,28 @@ namespace plumbline::base
     for (const char c : text.substr(0, longest))
       result += c >= ' ' && c <= '~' ? c : '?';
     return result + (text.size() > longest ? "..." : "");
+  }
+
+  void write_file(const std::filesystem::path &file, const std::string &text)
+  {
+    std::error_code error, ignored;
+    if (file.has_parent_path())
+      std::filesystem::create_directories(file.parent_path(), error);
+    std::filesystem::path part = file;
+    part += ".part";
+    errno = 0;
+    std::ofstream out(part, std::ios::binary);
+    out << text;
+    out.close();
+    if (out)
+      std::filesystem::rename(part, file, error);
+    else if (!error)
+      error.assign(errno, std::generic_category());
+    if (out && !error)
+      return;
+    std::filesystem::remove(part, ignored);
+    throw InputError("output file '" + file.string() + "' cannot be written" +
+                     (error ? " (" + error.message() + ")" : "") +
+                     "; free some space or choose a folder you may write to with -o");
   }
 } // namespace plumbline::base

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 
 namespace plumbline::base
@@ -19,6 +20,11 @@ namespace plumbline::base
 
   /// @param ending  e.g. ".prm"
   bool has_ending(const std::string &file, const std::string &ending);
+
+  /// Write so that a reader finds the old file or the new one, never a part: a neighbouring file
+  /// first, then a rename. Missing folders are made.
+  /// @throws InputError  the folder cannot be written
+  void write_file(const std::filesystem::path &file, const std::string &text);
 
   /// A piece of input for a message: its first characters, others than printable ones as '?'.
   std::string shown(const std::string &text, std::size_t longest = 40);

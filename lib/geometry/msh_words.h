@@ -60,7 +60,7 @@ namespace plumbline::geometry
       double number = 0;
       const auto parsed =
           std::from_chars(found.data() + (has_plus ? 1 : 0), found.data() + found.size(), number);
-      // what is too small to be held is as good as 0
+      // what is too small to be represented is as good as 0
       const bool is_tiny =
           parsed.ec == std::errc::result_out_of_range && found.find("e-") != std::string_view::npos;
       if ((parsed.ec != std::errc() && !is_tiny) || parsed.ptr != found.data() + found.size() ||

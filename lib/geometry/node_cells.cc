@@ -126,7 +126,7 @@ namespace plumbline::geometry
     return geometry::bounding_box(view(vertices));
   }
 
-  std::optional<Twins> find_twins(const std::vector<Point<2>> &nodes, const Mesh &mesh)
+  std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<2>> &nodes, const Mesh &mesh)
   {
     double whole = 0;
     for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
@@ -146,13 +146,13 @@ namespace plumbline::geometry
         if (x.distance(y) < too_near * size)
         {
           const auto [first, second] = std::minmax(order[a], order[b]);
-          return Twins{first, second, x.distance(y), size};
+          return CoincidentNodes{first, second, x.distance(y), size};
         }
       }
     return {};
   }
 
-  std::string Twins::place(const std::string &name) const
+  std::string CoincidentNodes::place(const std::string &name) const
   {
     if (distance == 0)
       return "lies where " + name + " is";
@@ -187,7 +187,7 @@ namespace plumbline::geometry
     result.source.insert(result.source.end(), in_collar.begin(), in_collar.end());
     for (const std::size_t i : result.source)
       result.nodes.push_back(nodes[i]);
-    if (const auto twins = find_twins(nodes, mesh))
+    if (const auto twins = find_coincident_nodes(nodes, mesh))
       reject(twins->second, nodes[twins->second],
              twins->place("node " + std::to_string(twins->first)) + "; take one of them out");
 

@@ -79,7 +79,7 @@ namespace plumbline::geometry
       bool hold(const Polygon &cell)
       {
         const Box around = bounding_box(view(cell));
-        bool is_held = false;
+        bool is_constrained = false;
         for (std::size_t b = 0; b < boxes_.size(); ++b)
         {
           const Box &box = boxes_[b];
@@ -91,9 +91,9 @@ namespace plumbline::geometry
           if (!is_near ||
               area(view(overlap(view(cell), view(corners(box))))) <= rounding * rounding * h_ * h_)
             continue;
-          is_used_[b] = is_held = true;
+          is_used_[b] = is_constrained = true;
         }
-        return is_held;
+        return is_constrained;
       }
 
       /// @throws InputError  boxes that hold all or nothing, or a box that holds nothing
@@ -171,7 +171,7 @@ namespace plumbline::geometry
         mesh.vertices.push_back(body.point(s, t));
     const auto vertex = [&](int i, int j) { return static_cast<unsigned int>(j * x.size() + i); };
     std::vector<Point<2>> nodes;
-    FixedBoxes held(fixed, body.h());
+    FixedBoxes constrained(fixed, body.h());
     for (int j = 0; j <= n[1]; ++j)
       for (int i = 0; i <= n[0]; ++i)
       {
@@ -179,13 +179,13 @@ namespace plumbline::geometry
         mesh.cells.push_back(
             {{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)},
              4,
-             !held.hold(corners(box))});
+             !constrained.hold(corners(box))});
         nodes.push_back(body.point(i, j));
       }
     NodeCells cells = free_first(
         nodes, {}, [&](std::size_t c) { return mesh.cells[c].is_inside; },
         [&](std::size_t c) { return std::vector<Polygon>{mesh.polygon(c)}; });
-    held.check(cells);
+    constrained.check(cells);
     return {{body.h(), body.origin(), {n[0] + 1, n[1] + 1}},
             std::make_shared<const NodeCells>(std::move(cells)),
             std::make_shared<const Mesh>(std::move(mesh))};
@@ -210,7 +210,7 @@ namespace plumbline::geometry
       for_squares_in(lattice, mesh->polygon(c),
                      [&](std::size_t i, const Polygon &common) { parts[i].push_back(common); });
 
-    FixedBoxes held(fixed, h);
+    FixedBoxes constrained(fixed, h);
     std::vector<Point<2>> nodes;
     std::vector<std::size_t> source;
     std::vector<char> is_free;
@@ -226,15 +226,15 @@ namespace plumbline::geometry
         parts[i].assign(1, square_about(node, h));
       nodes.push_back(node);
       source.push_back(i);
-      bool is_held = false;
+      bool is_constrained = false;
       for (const Polygon &part : parts[i])
-        is_held = held.hold(part) || is_held;
-      is_free.push_back(static_cast<char>(!is_held));
+        is_constrained = constrained.hold(part) || is_constrained;
+      is_free.push_back(static_cast<char>(!is_constrained));
     }
     NodeCells cells = free_first(
         nodes, source, [&](std::size_t c) { return is_free[c] != 0; },
         [&](std::size_t c) { return std::move(parts[source[c]]); });
-    held.check(cells);
+    constrained.check(cells);
     return {lattice, std::make_shared<const NodeCells>(std::move(cells)), std::move(mesh)};
   }
 

@@ -2,13 +2,12 @@
 
 namespace plumbline::method
 {
-  Capabilities needs(const scene::Case &one)
+  Capabilities needs_of_cells(const problem::Problem<2> &problem)
   {
-    Capabilities needed = scene::needs(one.scene);
-    if (const auto &mesh = one.problem.mesh)
-      needed.insert(mesh->is_quads()       ? Capability::quadrilaterals
-                    : mesh->is_triangles() ? Capability::triangles
-                                           : Capability::mixed_cells);
-    return needed;
+    if (!problem.mesh)
+      return {};
+    return {problem.mesh->is_quads()       ? Capability::quadrilaterals
+            : problem.mesh->is_triangles() ? Capability::triangles
+                                           : Capability::mixed_cells};
   }
 } // namespace plumbline::method

@@ -1,16 +1,15 @@
 #pragma once
 
-#include "scene/capabilities.h"
-#include "scene/problem.h"
+#include "problem/capabilities.h"
+#include "problem/problem.h"
 
 namespace plumbline::method
 {
-  using scene::all_but;
-  using scene::all_capabilities;
-  using scene::Capabilities;
-  using scene::Capability;
+  using problem::all_but;
+  using problem::all_capabilities;
+  using problem::Capabilities;
+  using problem::Capability;
 
-  /// What a scene needs, with the cells that its problem has.
-  /// @param one  of any case and level
-  Capabilities needs(const scene::Case &one);
+  /// What a problem needs since its mesh has cells of these kinds.
+  Capabilities needs_of_cells(const problem::Problem<2> &problem);
 } // namespace plumbline::method

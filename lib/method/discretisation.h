@@ -6,7 +6,7 @@
 #include "method/diagnostics.h"
 #include "method/equation_of_motion.h"
 #include "method/field.h"
-#include "scene/problem.h"
+#include "problem/problem.h"
 
 #include <deal.II/lac/vector.h>
 
@@ -60,7 +60,7 @@ namespace plumbline::method
     virtual std::size_t n_unknowns() const = 0;
 
     /// @throws InputError  a load or constraint that is not finite
-    virtual CaseData data(const scene::Problem &problem) const = 0;
+    virtual CaseData data(const problem::Problem<2> &problem) const = 0;
 
     /// F's derivative at any state, F being linear.
     /// @throws NumericalError  it has no solver, e.g. is not symmetric on a lattice

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/problem.h"
+#include "problem/problem.h"
 
 #include <map>
 #include <optional>
@@ -22,14 +22,14 @@ namespace plumbline::method
     virtual std::size_t size() const = 0;
 
     /// @throws InputError  a load or constraint that is not finite
-    virtual std::vector<double> drive(const scene::Problem &instant) const = 0;
+    virtual std::vector<double> drive(const problem::Problem<2> &instant) const = 0;
 
     /// The drive that ü brings, in which u of the instant's solution and constraint stands for ü.
     /// @pre instant.solution
-    virtual std::vector<double> inertia(const scene::Problem &instant) const = 0;
+    virtual std::vector<double> inertia(const problem::Problem<2> &instant) const = 0;
 
     /// A field at the nodes.
-    virtual State state(const scene::Field &field) const = 0;
+    virtual State state(const problem::Field<2> &field) const = 0;
 
     /// Overwrites a, of the same size.
     virtual void acceleration(const State &u, const std::vector<double> &g, State &a) const = 0;
@@ -46,7 +46,7 @@ namespace plumbline::method
     /// ∫ u·v: twice the kinetic energy of unit density with both the velocity.
     virtual double product(const State &u, const State &v) const = 0;
 
-    /// Of the bonds, held nodes' drive given.
+    /// Of the bonds, constrained nodes' drive given.
     virtual double energy(const State &u, const std::vector<double> &g) const = 0;
 
     /// The rate at which load and constraint do work.

@@ -21,17 +21,17 @@ namespace plumbline::method
       std::vector<double> middle; ///< of each component
     };
 
-    CollarData collar_data(const scene::Problem &problem, const geometry::NodeSet &nodes,
+    CollarData collar_data(const problem::Problem<2> &problem, const geometry::NodeSet &nodes,
                            int margin)
     {
-      std::vector<std::size_t> held; // component by component
-      CollarData data{collar_values(problem, nodes, margin, &held), {}};
+      std::vector<std::size_t> constrained; // component by component
+      CollarData data{collar_values(problem, nodes, margin, &constrained), {}};
       const std::size_t n_values = data.values.size() / nodes.n_components;
-      auto first = held.begin();
+      auto first = constrained.begin();
       for (unsigned int c = 0; c < nodes.n_components; ++c)
       {
         double low = std::numeric_limits<double>::infinity(), high = -low;
-        const auto last = std::lower_bound(first, held.end(), (c + 1) * n_values);
+        const auto last = std::lower_bound(first, constrained.end(), (c + 1) * n_values);
         for (auto place = first; place != last; ++place)
         {
           low = std::min(low, data.values[*place]);
@@ -65,7 +65,7 @@ namespace plumbline::method
     }
   } // namespace
 
-  LatticeDiscretisation::LatticeDiscretisation(const scene::Problem &problem,
+  LatticeDiscretisation::LatticeDiscretisation(const problem::Problem<2> &problem,
                                                geometry::NodeSet nodes, algebra::Stencil stencil,
                                                std::vector<double> mass)
       : lattice_(*problem.lattice), nodes_(std::move(nodes)), stencil_(std::move(stencil)),
@@ -73,7 +73,7 @@ namespace plumbline::method
   {
   }
 
-  CaseData LatticeDiscretisation::data(const scene::Problem &problem) const
+  CaseData LatticeDiscretisation::data(const problem::Problem<2> &problem) const
   {
     const int margin = stencil_.reach();
     const auto around = std::make_shared<const CollarData>(collar_data(problem, nodes_, margin));
@@ -98,7 +98,7 @@ namespace plumbline::method
     const bool is_collocated = n == 1 && mass_[0] == 1; // equations at nodes
     return move_on_lattice({lattice_, nodes_, stencil_, is_lumped ? algebra::lump(mass, n) : mass,
                             backend_,
-                            [this](const scene::Problem &instant) { return load(instant); },
+                            [this](const problem::Problem<2> &instant) { return load(instant); },
                             is_collocated ? lattice_.h() * lattice_.h() : 1});
   }
 
@@ -120,7 +120,7 @@ namespace plumbline::method
                                  places};
   }
 
-  DiscreteOperator show(const geometry::Lattice &lattice, const geometry::NodeSet &nodes,
+  DiscreteOperator make_discrete_operator(const geometry::Lattice &lattice, const geometry::NodeSet &nodes,
                         const algebra::Stencil &stencil, const std::vector<double> &mass)
   {
     constexpr std::size_t most_entries = 20000000;

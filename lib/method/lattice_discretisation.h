@@ -7,7 +7,7 @@ namespace plumbline::method
 {
   /// A stencil on the free nodes.
   /// @param mass  of the nodes of each family [length^2], or 1 where all are alike
-  DiscreteOperator show(const geometry::Lattice &lattice, const geometry::NodeSet &nodes,
+  DiscreteOperator make_discrete_operator(const geometry::Lattice &lattice, const geometry::NodeSet &nodes,
                         const algebra::Stencil &stencil, const std::vector<double> &mass);
 
   /// The places of the free nodes, family by family.
@@ -20,15 +20,15 @@ namespace plumbline::method
   {
   public:
     /// @param mass  as above
-    LatticeDiscretisation(const scene::Problem &problem, geometry::NodeSet nodes,
+    LatticeDiscretisation(const problem::Problem<2> &problem, geometry::NodeSet nodes,
                           algebra::Stencil stencil, std::vector<double> mass);
 
     std::size_t n_unknowns() const override { return nodes_.n_unknowns(); }
-    CaseData data(const scene::Problem &problem) const override;
+    CaseData data(const problem::Problem<2> &problem) const override;
     std::unique_ptr<algebra::LinearSystem> tangent() const override;
 
     /// Rows are there up to 2e7 entries.
-    DiscreteOperator matrix() const override { return show(lattice_, nodes_, stencil_, mass_); }
+    DiscreteOperator matrix() const override { return make_discrete_operator(lattice_, nodes_, stencil_, mass_); }
 
     std::optional<algebra::WaveOperator> waves() const override;
     std::unique_ptr<EquationOfMotion> motion(bool is_lumped) const override;
@@ -39,7 +39,7 @@ namespace plumbline::method
     const algebra::Stencil &stencil() const { return stencil_; }
 
   private:
-    virtual Vector load(const scene::Problem &problem) const = 0; ///< over the nodes, 0 if not free
+    virtual Vector load(const problem::Problem<2> &problem) const = 0; ///< over the nodes, 0 if not free
 
     /// The mass matrix; the masses of the families unless a method has a consistent one.
     virtual algebra::Stencil mass_stencil() const;

@@ -57,7 +57,7 @@ namespace plumbline::method
 
     /// What the collar adds to a stencil's action.
     algebra::Vector around(const algebra::Stencil &stencil, const geometry::NodeSet &nodes,
-                           const scene::Problem &instant)
+                           const problem::Problem<2> &instant)
     {
       return collar_action(stencil, nodes, collar_values(instant, nodes, stencil.reach()));
     }
@@ -85,15 +85,15 @@ namespace plumbline::method
         u.push_back(over_nodes[position]);
       return u;
     };
-    const auto load = [parts, unknowns](const scene::Problem &instant)
+    const auto load = [parts, unknowns](const problem::Problem<2> &instant)
     {
       algebra::Vector load = parts->load(instant);
       load -= around(parts->stiffness, parts->nodes, instant);
       return unknowns(load);
     };
-    const auto inertia = [parts, unknowns](const scene::Problem &instant)
+    const auto inertia = [parts, unknowns](const problem::Problem<2> &instant)
     {
-      scene::Problem of_solution = instant;
+      problem::Problem<2> of_solution = instant;
       of_solution.load = *instant.solution;
       algebra::Vector load = parts->load(of_solution);
       load -= around(parts->mass, parts->nodes, instant);
@@ -112,8 +112,8 @@ namespace plumbline::method
          parts->cell});
   }
 
-  std::vector<double> collar_values(const scene::Problem &problem, const geometry::NodeSet &nodes,
-                                    int margin, std::vector<std::size_t> *held)
+  std::vector<double> collar_values(const problem::Problem<2> &problem, const geometry::NodeSet &nodes,
+                                    int margin, std::vector<std::size_t> *constrained)
   {
     std::vector<double> values;
     values.reserve(static_cast<std::size_t>(nodes.n_blocks()) * (nodes.n[0] + 2 * margin) *
@@ -128,8 +128,8 @@ namespace plumbline::method
             {
               const auto place = nodes.place(s, i, j);
               value = problem.constraint.value(problem.lattice->point(place[0], place[1]), c);
-              if (held != nullptr)
-                held->push_back(values.size());
+              if (constrained != nullptr)
+                constrained->push_back(values.size());
             }
             values.push_back(value);
           }

@@ -16,7 +16,7 @@ namespace plumbline::method
     algebra::Stencil stiffness, mass;
     algebra::OperatorBackend backend;
     /// M b over the nodes, 0 where they are not free. Must stay valid.
-    std::function<algebra::Vector(const scene::Problem &)> load;
+    std::function<algebra::Vector(const problem::Problem<2> &)> load;
     double cell = 1; ///< of a node where M is a number: kinetic energies are sums over these
                      ///< [length^2]
   };
@@ -28,7 +28,7 @@ namespace plumbline::method
 
   /// The constraint at all positions within `margin` of the bounding box that are not free, 0 where
   /// they are: shape (n_blocks, n[1] + 2 margin, n[0] + 2 margin).
-  /// @param held  if given: where those that are not free stand, component by component
-  std::vector<double> collar_values(const scene::Problem &problem, const geometry::NodeSet &nodes,
-                                    int margin, std::vector<std::size_t> *held = nullptr);
+  /// @param constrained  if given: where those that are not free stand, component by component
+  std::vector<double> collar_values(const problem::Problem<2> &problem, const geometry::NodeSet &nodes,
+                                    int margin, std::vector<std::size_t> *constrained = nullptr);
 } // namespace plumbline::method

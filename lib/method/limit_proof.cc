@@ -15,7 +15,7 @@ namespace plumbline::method
     using Answer = LimitProof::Answer;
 
     /// T_abcd of the local operator L u_a = -T_abcd ∂_c ∂_d u_b, symmetric in c and d.
-    double local_tensor(const scene::Problem &problem, unsigned int a, unsigned int b,
+    double local_tensor(const problem::Problem<2> &problem, unsigned int a, unsigned int b,
                         unsigned int c, unsigned int d)
     {
       std::array<int, 2> alpha{};
@@ -32,7 +32,7 @@ namespace plumbline::method
     }
 
     /// Of T by a stencil, with the sums that must vanish, relative to the largest T.
-    double moment_defect(const scene::Problem &problem, const algebra::Stencil &stencil,
+    double moment_defect(const problem::Problem<2> &problem, const algebra::Stencil &stencil,
                          double mass)
     {
       const double h = problem.h, horizon = problem.horizon();
@@ -70,14 +70,14 @@ namespace plumbline::method
     }
 
     /// A homogeneous solid, or bonds whose coefficient is smooth.
-    bool is_smooth(const scene::Problem &problem)
+    bool is_smooth(const problem::Problem<2> &problem)
     {
       return problem.is_homogeneous ||
              (!problem.dilatation && problem.coefficient && problem.coefficient->is_smooth());
     }
   } // namespace
 
-  LimitProof prove_by_moments(const scene::Problem &problem, const algebra::Stencil &stencil,
+  LimitProof prove_by_moments(const problem::Problem<2> &problem, const algebra::Stencil &stencil,
                               double mass)
   {
     LimitProof proof;
@@ -94,7 +94,7 @@ namespace plumbline::method
     return proof;
   }
 
-  LimitProof limit_of(const scene::Problem &problem, const LimitProof &of_families)
+  LimitProof limit_of(const problem::Problem<2> &problem, const LimitProof &of_families)
   {
     LimitProof proof;
     proof.ball_defect = of_families.ball_defect;
@@ -116,7 +116,7 @@ namespace plumbline::method
     return proof;
   }
 
-  LimitProof prove_galerkin(const scene::Problem &problem, const Diagnostics &diagnostics)
+  LimitProof prove_galerkin(const problem::Problem<2> &problem, const Diagnostics &diagnostics)
   {
     LimitProof proof;
     if (!problem.settings.tends_to_local_limit)

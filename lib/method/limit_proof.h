@@ -2,7 +2,7 @@
 
 #include "algebra/stencil.h"
 #include "method/diagnostics.h"
-#include "scene/problem.h"
+#include "problem/problem.h"
 
 // What is known of a method's limit without solving for any field. A field may hide what is wrong:
 // a harmonic one has no second moment to miss.
@@ -15,7 +15,7 @@ namespace plumbline::method
   /// to show, which refuses stencils that are not positive definite.
   /// @param mass  1 for equations at nodes, h² for tested ones [1 or length^2]
   /// @pre  stencil.n_blocks() == problem.n_components: one family of nodes
-  LimitProof prove_by_moments(const scene::Problem &problem, const algebra::Stencil &stencil,
+  LimitProof prove_by_moments(const problem::Problem<2> &problem, const algebra::Stencil &stencil,
                               double mass);
 
   /// What the moments of the families of scattered nodes say of this problem. They are those of the
@@ -24,7 +24,7 @@ namespace plumbline::method
   /// multiply both a ∂²u and ∇a·∇u. Wrong ones are wrong for every a; right ones prove the limit
   /// where a is smooth, since bond coefficients keep their signs. Broken bonds: wrong moments of
   /// whole families are kept, for a method with them is not to be advised, but prove nothing.
-  LimitProof limit_of(const scene::Problem &problem, const LimitProof &of_families);
+  LimitProof limit_of(const problem::Problem<2> &problem, const LimitProof &of_families);
 
   /// A conforming Galerkin method of degree 1 or more. Its space holds the continuous piecewise
   /// linear (on quadrilaterals bilinear) functions, which are dense in the local energy space
@@ -37,5 +37,5 @@ namespace plumbline::method
   /// scene can have, make discontinuous spaces conforming too. Unknown elsewhere: for other
   /// coefficients, state-based solids that vary, free bodies, and entries by quadrature of unknown
   /// error.
-  LimitProof prove_galerkin(const scene::Problem &problem, const Diagnostics &diagnostics);
+  LimitProof prove_galerkin(const problem::Problem<2> &problem, const Diagnostics &diagnostics);
 } // namespace plumbline::method

@@ -33,7 +33,7 @@ namespace plumbline::method
     }
     Diagnostics diagnostics() const override { return {}; }
 
-    CaseData data(const scene::Problem &) const override { refuse(); }
+    CaseData data(const problem::Problem<2> &) const override { refuse(); }
     std::unique_ptr<algebra::LinearSystem> tangent() const override { refuse(); }
     DiscreteOperator matrix() const override { refuse(); }
 

@@ -19,17 +19,17 @@ namespace plumbline::method
 
       std::size_t size() const override { return n_; }
 
-      std::vector<double> drive(const scene::Problem &instant) const override
+      std::vector<double> drive(const problem::Problem<2> &instant) const override
       {
         return parts_.mass.of_force(parts_.load(instant));
       }
 
-      std::vector<double> inertia(const scene::Problem &instant) const override
+      std::vector<double> inertia(const problem::Problem<2> &instant) const override
       {
         return parts_.mass.of_force(parts_.inertia(instant));
       }
 
-      State state(const scene::Field &field) const override
+      State state(const problem::Field<2> &field) const override
       {
         State u(n_);
         std::size_t k = 0;

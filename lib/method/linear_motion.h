@@ -12,7 +12,7 @@ namespace plumbline::method
   struct LinearParts
   {
     using State = EquationOfMotion::State;
-    using Driven = std::function<State(const scene::Problem &)>;
+    using Driven = std::function<State(const problem::Problem<2> &)>;
 
     std::vector<dealii::Point<2>> nodes; ///< that are free
     unsigned int n_components = 1;
@@ -20,8 +20,8 @@ namespace plumbline::method
     MassRoot mass;
     algebra::Action stiffness;       ///< A
     algebra::Action transposed = {}; ///< Aᵀ where A is not symmetric
-    Driven load;                     ///< M b, less what held nodes add to A u
-    Driven inertia;                  ///< M u of the solution and of held nodes: u stands for ü
+    Driven load;                     ///< M b, less what constrained nodes add to A u
+    Driven inertia;                  ///< M u of the solution and of constrained nodes: u stands for ü
     double unit = 1;                 ///< that masses are counted in [length^2]
   };
 

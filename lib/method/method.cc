@@ -9,7 +9,7 @@ namespace plumbline::method
     throw InputError("Methods/names: " + name() + " solves no strip with a crack (Strip/length)");
   }
 
-  geometry::NodeSet comparison_nodes(const scene::Problem &problem, unsigned int n_components)
+  geometry::NodeSet comparison_nodes(const problem::Problem<2> &problem, unsigned int n_components)
   {
     const geometry::AxisSpecies nodes = problem.settings.nodes_are_vertices
                                             ? geometry::AxisSpecies{0, true, 0}

@@ -3,7 +3,7 @@
 #include "base/communicator.h"
 #include "method/capabilities.h"
 #include "method/rice_strip.h"
-#include "method/side.h"
+#include "method/method_family.h"
 
 #include <array>
 #include <memory>
@@ -17,7 +17,7 @@ namespace plumbline::method
   /// How large a problem is, which can be known before anything of it is made.
   struct ProblemSize
   {
-    scene::Level level;
+    problem::Level level;
     std::array<double, 2> extents{}; ///< of Ω's bounding box on a lattice [cells]
     double n_cells = 0, n_free = 0;  ///< of a mesh with its collar, and in Ω
     double cell_area = 0;            ///< of a mesh, in the mean [length^2]
@@ -35,7 +35,7 @@ namespace plumbline::method
   public:
     virtual ~Method() = default;
     virtual std::string name() const = 0;
-    virtual Side side() const = 0;
+    virtual MethodFamily family() const = 0;
     virtual std::string help() const = 0;
 
     /// Whether Methods/names = all takes it: not where it is there to show how it fails.
@@ -46,14 +46,14 @@ namespace plumbline::method
 
     /// Empty if the method can do the problem, of any case and level, else the reason that is none
     /// of its capabilities.
-    virtual std::string why_not(const scene::Problem &) const { return {}; }
+    virtual std::string why_not(const problem::Problem<2> &) const { return {}; }
 
     /// Collective over the communicator.
     /// @param problem  must outlive what is made
     /// @throws NumericalError  there is none, e.g. weights are infeasible; @throws InputError  data
     /// that is not finite
     virtual std::unique_ptr<Discretisation>
-    discretise(const scene::Problem &problem,
+    discretise(const problem::Problem<2> &problem,
                const base::Communicator &communicator = base::Communicator::all()) const = 0;
 
     /// A strip with a standing crack, of bonds 8 μ K ξ⊗ξ/|ξ|².
@@ -80,5 +80,5 @@ namespace plumbline::method
   /// The cells that solutions on a lattice are averaged over, one for each meshfree node: the
   /// lattice cells of Ω, or squares around its inner vertices. One family of nodes with the given
   /// number of components.
-  geometry::NodeSet comparison_nodes(const scene::Problem &problem, unsigned int n_components);
+  geometry::NodeSet comparison_nodes(const problem::Problem<2> &problem, unsigned int n_components);
 } // namespace plumbline::method

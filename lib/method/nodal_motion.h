@@ -16,7 +16,7 @@ namespace plumbline::method
     unsigned int n_components() const override { return dim; }
     const std::vector<dealii::Point<2>> &nodes() const override { return nodes_; }
 
-    State state(const scene::Field &field) const override
+    State state(const problem::Field<2> &field) const override
     {
       State u;
       for (unsigned int c = 0; c < dim; ++c)

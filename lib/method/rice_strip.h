@@ -17,7 +17,7 @@ namespace plumbline::method
     int n_crack = 0;                ///< columns that are cut, at the left
     double h = 0;                   ///< [length]
 
-    /// Instead, what is around the strip is held at the field of a crack at K = 1 whose tip is so
+    /// Instead, what is around the strip is constrained at the field of a crack at K = 1 whose tip is so
     /// many columns from the left, see physics::crack_field. Its advance gets K²/E' as h and the
     /// horizon vanish.
     std::optional<double> K_tip = {};

@@ -4,10 +4,10 @@
 
 namespace plumbline::method
 {
-  PartedRows part(algebra::CsrMatrix rows, std::size_t n_free)
+  PartitionedRows part(algebra::CsrMatrix rows, std::size_t n_free)
   {
-    algebra::CsrMatrix held;
-    held.start.assign(1, 0);
+    algebra::CsrMatrix constrained;
+    constrained.start.assign(1, 0);
     std::size_t end = 0, k = 0;
     for (std::size_t row = 0; row < rows.n_rows(); ++row)
     {
@@ -19,26 +19,26 @@ namespace plumbline::method
         }
         else
         {
-          held.column.push_back(rows.column[k] - static_cast<unsigned int>(n_free));
-          held.value.push_back(rows.value[k]);
+          constrained.column.push_back(rows.column[k] - static_cast<unsigned int>(n_free));
+          constrained.value.push_back(rows.value[k]);
         }
       rows.start[row + 1] = end;
-      held.start.push_back(held.column.size());
+      constrained.start.push_back(constrained.column.size());
     }
     rows.column.resize(end);
     rows.value.resize(end);
-    return {std::move(rows), std::move(held)};
+    return {std::move(rows), std::move(constrained)};
   }
 
-  void subtract_held(const algebra::CsrMatrix &held, const std::vector<double> &values,
+  void subtract_constrained(const algebra::CsrMatrix &constrained, const std::vector<double> &values,
                      Vector &load)
   {
-    for (std::size_t i = 0; i < held.n_rows(); ++i)
-      for (std::size_t k = held.start[i]; k < held.start[i + 1]; ++k)
-        load[i] -= held.value[k] * values[held.column[k]];
+    for (std::size_t i = 0; i < constrained.n_rows(); ++i)
+      for (std::size_t k = constrained.start[i]; k < constrained.start[i + 1]; ++k)
+        load[i] -= constrained.value[k] * values[constrained.column[k]];
   }
 
-  SparseDiscretisation::SparseDiscretisation(const scene::SolverSection &solver,
+  SparseDiscretisation::SparseDiscretisation(const problem::SolverSettings &solver,
                                              algebra::SparseOptions options,
                                              const base::Communicator &communicator)
       : options_(std::move(options)), communicator_(communicator)
@@ -47,10 +47,10 @@ namespace plumbline::method
     options_.iteration = solver.iteration;
   }
 
-  void SparseDiscretisation::set_rows(PartedRows rows)
+  void SparseDiscretisation::set_rows(PartitionedRows rows)
   {
     free_ = std::make_shared<const algebra::CsrMatrix>(std::move(rows.free));
-    held_ = std::move(rows.held);
+    constrained_ = std::move(rows.constrained);
   }
 
   std::unique_ptr<algebra::LinearSystem> SparseDiscretisation::tangent() const

@@ -5,19 +5,19 @@
 
 namespace plumbline::method
 {
-  /// Rows of the free unknowns in two parts: by columns of free ones, and of held ones, whose
+  /// Rows of the free unknowns in two parts: by columns of free ones, and of constrained ones, whose
   /// values are given. On several ranks the sum of all is the matrix.
-  struct PartedRows
+  struct PartitionedRows
   {
     algebra::CsrMatrix free; ///< shape (n_free, n_free)
-    algebra::CsrMatrix held; ///< shape (n_free, n_held)
+    algebra::CsrMatrix constrained; ///< shape (n_free, n_constrained)
   };
 
-  /// Part the columns of rows: those from n_free on are of held unknowns.
-  PartedRows part(algebra::CsrMatrix rows, std::size_t n_free);
+  /// Part the columns of rows: those from n_free on are of constrained unknowns.
+  PartitionedRows part(algebra::CsrMatrix rows, std::size_t n_free);
 
-  /// load -= held × values.
-  void subtract_held(const algebra::CsrMatrix &held, const std::vector<double> &values,
+  /// load -= constrained × values.
+  void subtract_constrained(const algebra::CsrMatrix &constrained, const std::vector<double> &values,
                      Vector &load);
 
   /// A problem whose rows differ from node to node, as both sides have it: a sparse matrix that the
@@ -26,7 +26,7 @@ namespace plumbline::method
   {
   public:
     /// What the scene chooses is added to the options given.
-    SparseDiscretisation(const scene::SolverSection &solver, algebra::SparseOptions options,
+    SparseDiscretisation(const problem::SolverSettings &solver, algebra::SparseOptions options,
                          const base::Communicator &communicator);
 
     std::size_t n_unknowns() const override { return free_->n_rows(); }
@@ -34,13 +34,13 @@ namespace plumbline::method
     base::Communicator communicator() const override { return communicator_; }
 
   protected:
-    void set_rows(PartedRows rows);
+    void set_rows(PartitionedRows rows);
     const algebra::CsrMatrix &free() const { return *free_; }
-    const algebra::CsrMatrix &held() const { return held_; }
+    const algebra::CsrMatrix &constrained() const { return constrained_; }
 
   private:
     std::shared_ptr<const algebra::CsrMatrix> free_ = std::make_shared<algebra::CsrMatrix>();
-    algebra::CsrMatrix held_;
+    algebra::CsrMatrix constrained_;
     algebra::SparseOptions options_;
     base::Communicator communicator_;
   };

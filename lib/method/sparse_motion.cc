@@ -69,19 +69,19 @@ namespace plumbline::method
   std::unique_ptr<EquationOfMotion> move_by_rows(SparseParts given)
   {
     const auto parts = std::make_shared<const SparseParts>(std::move(given));
-    const auto load = [parts](const scene::Problem &instant)
+    const auto load = [parts](const problem::Problem<2> &instant)
     {
       Vector load = parts->load(instant);
-      subtract_held(parts->held, parts->around(instant), load);
+      subtract_constrained(parts->constrained, parts->around(instant), load);
       return values(load);
     };
-    const auto inertia = [parts](const scene::Problem &instant)
+    const auto inertia = [parts](const problem::Problem<2> &instant)
     {
-      scene::Problem of_solution = instant;
+      problem::Problem<2> of_solution = instant;
       of_solution.load = *instant.solution;
       Vector load = parts->load(of_solution);
       if (parts->masses.empty())
-        subtract_held(parts->mass.held, parts->around(instant), load);
+        subtract_constrained(parts->mass.constrained, parts->around(instant), load);
       return values(load);
     };
     return move_linear(

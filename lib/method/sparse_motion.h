@@ -11,11 +11,11 @@ namespace plumbline::method
     std::vector<dealii::Point<2>> nodes; ///< that are free
     unsigned int n_components = 1;
     /// A of the equation M ü = load - A u; must stay valid.
-    const algebra::CsrMatrix &stiffness, &held;
+    const algebra::CsrMatrix &stiffness, &constrained;
     std::vector<double> masses; ///< of each node; empty: `mass` is a matrix
-    PartedRows mass;            ///< of all unknowns, by free and by held ones
-    std::function<Vector(const scene::Problem &)> load;                ///< M b
-    std::function<std::vector<double>(const scene::Problem &)> around; ///< u of held unknowns
+    PartitionedRows mass;            ///< of all unknowns, by free and by constrained ones
+    std::function<Vector(const problem::Problem<2> &)> load;                ///< M b
+    std::function<std::vector<double>(const problem::Problem<2> &)> around; ///< u of constrained unknowns
   };
 
   /// Whether A is symmetric is found out: to 1e-12 of its largest entry.

@@ -79,7 +79,7 @@ namespace plumbline::report
         if (t.error != error)
           continue;
         Line &line = lines.of(label(results, t.method, t.problem, t.series, t.scheme),
-                              t.side != study::Side::meshfree);
+                              t.family != study::MethodFamily::meshfree);
         for (std::size_t i = 0; i < t.x.size(); ++i)
         {
           chart.data.rows.push_back({text_cell(t.method), text_cell(t.problem), text_cell(t.series),
@@ -116,7 +116,7 @@ namespace plumbline::report
           const std::string name =
               label(results, run) +
               (has_several(results.runs, &MotionRun::steps) ? ", " + run.steps : "");
-          lines.of(name, run.side != study::Side::meshfree)
+          lines.of(name, run.family != study::MethodFamily::meshfree)
               .points.push_back({run.cost.seconds(), error});
           chart.data.rows.push_back({text_cell(run.method), text_cell(run.problem),
                                      text_cell(run.series), text_cell(run.scheme),
@@ -243,7 +243,7 @@ namespace plumbline::report
           if (y > floor)
             lines
                 .of(label(results, *run) + (has_steps ? ", " + run->steps : ""),
-                    run->side != study::Side::meshfree)
+                    run->family != study::MethodFamily::meshfree)
                 .points.push_back({t, y});
         }
       chart.plot.lines = lines.take();

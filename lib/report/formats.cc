@@ -1,11 +1,7 @@
 #include "report/formats.h"
 
-#include "base/error.h"
-
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <utility>
 
 namespace plumbline::report
@@ -186,29 +182,6 @@ namespace plumbline::report
     if (text.find_first_of(",\"\n\r") == std::string::npos && !has_outer_blank)
       return text;
     return "\"" + replace(text, {{"\"", "\"\""}}) + "\"";
-  }
-
-  void write_file(const std::filesystem::path &file, const std::string &text)
-  {
-    std::error_code error, ignored;
-    if (file.has_parent_path())
-      std::filesystem::create_directories(file.parent_path(), error);
-    std::filesystem::path part = file;
-    part += ".part";
-    errno = 0;
-    std::ofstream out(part, std::ios::binary);
-    out << text;
-    out.close();
-    if (out)
-      std::filesystem::rename(part, file, error);
-    else if (!error)
-      error.assign(errno, std::generic_category());
-    if (out && !error)
-      return;
-    std::filesystem::remove(part, ignored);
-    throw InputError("output file '" + file.string() + "' cannot be written" +
-                     (error ? " (" + error.message() + ")" : "") +
-                     "; free some space or choose a folder you may write to with -o");
   }
 
   Cell text_cell(const std::string &text)

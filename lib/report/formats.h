@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/text_file.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -36,10 +38,7 @@ namespace plumbline::report
   /// A field by RFC 4180: in quotes if it holds a comma, a quote, a line break or outer blanks.
   std::string quote_csv(const std::string &text);
 
-  /// Write so that a reader finds the old file or the new one, never a part: a neighbouring file
-  /// first, then a rename. Missing folders are made.
-  /// @throws InputError  the folder cannot be written
-  void write_file(const std::filesystem::path &file, const std::string &text);
+  using base::write_file;
 
   /// One entry of a table: what the CSV holds (one field or more) and what people read.
   struct Cell

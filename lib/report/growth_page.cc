@@ -55,7 +55,7 @@ namespace plumbline::report
       add("width", r.path.width, "of all sides that parted, projected onto the x-axis [length]");
       add("apart", static_cast<double>(r.path.n_elsewhere),
           "sides that parted elsewhere, not joined to the notch");
-      table.rows.push_back({text_cell("connected"), text_cell(r.growth.is_parted ? "no" : "yes"),
+      table.rows.push_back({text_cell("connected"), text_cell(r.growth.is_separated ? "no" : "yes"),
                             text_cell("paths of bonds join the grips at the end")});
       add("reaction left", r.growth.reaction_left(), "at the end, over its largest");
       const bool has_parts = r.phases().empty() && r.parts.size() <= most_parts;
@@ -65,7 +65,7 @@ namespace plumbline::report
                 " broken bonds of this toughness, as a straight crack has them [length]");
       add("G_h / G", r.lattice_toughness,
           "all bonds across a straight line of the lattice at their limits");
-      if (r.rules.criterion == scene::Criterion::calibrated)
+      if (r.rules.criterion == problem::Criterion::calibrated)
         add("G_peak / G", r.trapping,
             "at which a crack goes on in a strip of this lattice; G was divided by it");
       add("unpaired", static_cast<double>(r.n_unpaired),
@@ -77,7 +77,7 @@ namespace plumbline::report
       add("residual", r.largest_residual(), "force on a node over a bond's at the beginning");
       add("unknowns", static_cast<double>(r.n_unknowns), "displacements");
       add("bonds", static_cast<double>(r.n_bonds), "whole at the beginning");
-      const bool is_factor = r.rules.solver != scene::GrowthSolver::multigrid;
+      const bool is_factor = r.rules.solver != problem::GrowthSolver::multigrid;
       add(is_factor ? "factorisations" : "set-ups", static_cast<double>(work.n_factorisations),
           std::string(is_factor ? "of the equations; " : "of multigrid; ") +
               rounded_seconds(work.factor_seconds) + " in all");
@@ -95,14 +95,14 @@ namespace plumbline::report
     {
       switch (r.growth.end)
       {
-      case scene::GrowthEnd::parted:
+      case problem::GrowthEnd::parted:
         return "until no path of bonds joins the grips";
-      case scene::GrowthEnd::unloaded:
+      case problem::GrowthEnd::unloaded:
         return "until the reaction is " + rounded(r.rules.least_reaction) +
                " of its largest (Fracture/least reaction)";
-      case scene::GrowthEnd::loaded:
+      case problem::GrowthEnd::loaded:
         return "until the largest load, " + rounded(r.rules.largest_load);
-      case scene::GrowthEnd::whole:
+      case problem::GrowthEnd::whole:
         return "until no bond is left that can break";
       default:
         return "";
@@ -124,7 +124,7 @@ namespace plumbline::report
         text += "; bonds also part elsewhere, " + std::to_string(r.path.n_elsewhere) +
                 " sides that do not join the notch";
       if (!r.growth.events.empty())
-        text += ". At the end " + std::string(r.growth.is_parted ? "no bonds" : "bonds still") +
+        text += ". At the end " + std::string(r.growth.is_separated ? "no bonds" : "bonds still") +
                 " join the grips, and " + rounded(r.growth.reaction_left()) +
                 " of the largest reaction is left";
       for (const std::string &fault : faults)
@@ -138,7 +138,7 @@ namespace plumbline::report
       return phases.size() == 2
                  ? " Phase 1 has G = " + rounded(phases[0]) +
                        " and phase 2 has G = " + rounded(phases[1]) +
-                       (r.rules.of_bonds == scene::BondToughness::mean
+                       (r.rules.of_bonds == problem::BondToughness::mean
                             ? "; a bond between the phases has the mean of both values."
                             : "; each bond has the minimum of G along its length.")
                  : "";
@@ -161,7 +161,7 @@ namespace plumbline::report
              "μ). On this lattice they hold " +
              rounded(r.lattice_toughness) +
              " G, and a crack needs more than that to pass from one column of nodes to the next" +
-             (r.rules.criterion == scene::Criterion::calibrated
+             (r.rules.criterion == problem::Criterion::calibrated
                   ? ": " + rounded(r.trapping) +
                         " G, as a strip shows, by the root of which s0 was lowered (Fracture/"
                         "criterion = calibrated)."
@@ -270,7 +270,7 @@ namespace plumbline::report
               {"n_broken", r.n_broken()},
               {"end", base::word(r.growth.end)},
               {"last_load", known_number(r.growth.last_load)},
-              {"is_connected", !r.growth.is_parted},
+              {"is_connected", !r.growth.is_separated},
               {"reaction_left", known_number(r.growth.reaction_left())},
               {"first_stiffness", r.growth.first_stiffness},
               {"peak_load", r.quantity("peak load")},

@@ -57,7 +57,7 @@ namespace plumbline::report
     const fs::path file = results_file(folder);
     if (base::has_ending(file.string(), ".json"))
       return read_json(file);
-    const std::vector<std::string> lines = read_lines(file);
+    const std::vector<std::string> lines = io::read_lines(file);
     study::Results results = from_json(lines.empty() ? "" : lines.front(), file.string());
     for (std::size_t i = 1; i < lines.size(); ++i)
     {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "report/json_lines.h"
+#include "io/json_lines.h"
 #include "study/results.h"
 
 #include <cstddef>
@@ -30,7 +30,7 @@ namespace plumbline::report
     {
       std::size_t runs = 0, left_out = 0, references = 0, estimates = 0, savings = 0, maps = 0;
     };
-    JsonLines lines_;
+    io::JsonLines lines_;
     Sizes written_;
     bool is_begun_ = false;
   };

@@ -1,37 +1,14 @@
 #pragma once
 
+#include "io/record_keys.h"
+#include "io/study_keys.h"
 #include "study/results.h"
 
-#include <array>
-
 // The keys of results.json. Each stands here once; the same list writes and reads.
-namespace plumbline::report
+namespace plumbline::method
 {
   template <typename Archive>
-  void visit(Archive &a, base::Cost &cost)
-  {
-    a("setup_seconds", cost.setup_seconds);
-    a("solve_seconds", cost.solve_seconds);
-    a("peak_bytes", cost.peak_bytes);
-    a("n_unknowns", cost.n_unknowns);
-    a("n_bonds", cost.n_bonds);
-    a("n_iterations", cost.n_iterations);
-  }
-
-  template <typename Archive>
-  void visit(Archive &a, study::LimitProof &proof)
-  {
-    a("answer", proof.answer);
-    a("defect", proof.defect);
-    a("mean_defect", proof.mean_defect);
-    a("spread", proof.spread);
-    a("ball_defect", proof.ball_defect);
-    a("area_defect", proof.area_defect);
-    a("reason", proof.reason);
-  }
-
-  template <typename Archive>
-  void visit(Archive &a, method::TipForce &force)
+  void visit(Archive &a, TipForce &force)
   {
     a("tip", force.tip);
     a("force", force.force);
@@ -41,7 +18,7 @@ namespace plumbline::report
   }
 
   template <typename Archive>
-  void visit(Archive &a, study::Diagnostics &diagnostics)
+  void visit(Archive &a, Diagnostics &diagnostics)
   {
     a("n_neighbours", diagnostics.n_neighbours);
     a("smallest_weight_ratio", diagnostics.smallest_weight_ratio);
@@ -60,12 +37,15 @@ namespace plumbline::report
     a("tip_forces", diagnostics.tip_forces);
     a("notes", diagnostics.notes);
   }
+} // namespace plumbline::method
 
+namespace plumbline::study
+{
   template <typename Archive>
-  void visit(Archive &a, study::Run &run)
+  void visit(Archive &a, Run &run)
   {
     a("method", run.method);
-    a("family", run.side);
+    a("family", run.family);
     a("problem", run.problem);
     a("series", run.series);
     a("level", run.level);
@@ -83,32 +63,7 @@ namespace plumbline::report
   }
 
   template <typename Archive>
-  void visit(Archive &a, study::Trend &trend)
-  {
-    a("method", trend.method);
-    a("family", trend.side);
-    a("problem", trend.problem);
-    a("series", trend.series);
-    a("error", trend.error);
-    a("parameter", trend.axis);
-    a("x", trend.x);
-    a("values", trend.values);
-    a("size", trend.size);
-    a("round_off", trend.round_off);
-    a("rates", trend.rates);
-    a("rate", trend.rate);
-    a("rate_uncertainty", trend.rate_uncertainty);
-    a("plateau", trend.plateau);
-    a("plateau_uncertainty", trend.plateau_uncertainty);
-    a("outcome", trend.outcome);
-    a("verdict", trend.verdict);
-    a("reason", trend.reason);
-    a("proof", trend.proof);
-    a("finest", trend.finest);
-  }
-
-  template <typename Archive>
-  void visit(Archive &a, study::ErrorEstimate &estimate)
+  void visit(Archive &a, ErrorEstimate &estimate)
   {
     a("problem", estimate.problem);
     a("series", estimate.series);
@@ -134,7 +89,7 @@ namespace plumbline::report
   }
 
   template <typename Archive>
-  void visit(Archive &a, study::Omission &omission)
+  void visit(Archive &a, Omission &omission)
   {
     a("what", omission.what);
     a("why", omission.why);
@@ -142,7 +97,7 @@ namespace plumbline::report
   }
 
   template <typename Archive>
-  void visit(Archive &a, study::Saving &saving)
+  void visit(Archive &a, Saving &saving)
   {
     a("method", saving.method);
     a("h", saving.h);
@@ -153,16 +108,7 @@ namespace plumbline::report
   }
 
   template <typename Archive>
-  void visit(Archive &a, study::Expectation &expectation)
-  {
-    a("subject", expectation.subject);
-    a("expected", expectation.expected);
-    a("found", expectation.found);
-    a("holds", expectation.holds);
-  }
-
-  template <typename Archive>
-  void visit(Archive &a, study::Choice &choice)
+  void visit(Archive &a, Choice &choice)
   {
     a("target", choice.target);
     a("method", choice.method);
@@ -173,7 +119,7 @@ namespace plumbline::report
   }
 
   template <typename Archive>
-  void visit(Archive &a, study::Advice &advice)
+  void visit(Archive &a, Advice &advice)
   {
     a("problem", advice.problem);
     a("series", advice.series);
@@ -183,7 +129,7 @@ namespace plumbline::report
   }
 
   template <typename Archive>
-  void visit(Archive &a, study::ErrorMap &map)
+  void visit(Archive &a, ErrorMap &map)
   {
     a("method", map.method);
     a("problem", map.problem);
@@ -200,7 +146,7 @@ namespace plumbline::report
   }
 
   template <typename Archive>
-  void visit(Archive &a, study::Results &results)
+  void visit(Archive &a, Results &results)
   {
     a("scene_name", results.scene_name);
     a("purpose", results.purpose);
@@ -222,4 +168,4 @@ namespace plumbline::report
     a("warnings", results.warnings);
     a("scene_text", results.scene_text);
   }
-} // namespace plumbline::report
+} // namespace plumbline::study

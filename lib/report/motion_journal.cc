@@ -36,7 +36,7 @@ namespace plumbline::report
   study::DynamicResults read_motions(const fs::path &folder, const study::DynamicResults &begun)
   {
     study::DynamicResults results = begun;
-    const std::vector<std::string> lines = read_lines(folder / "dynamics.jsonl");
+    const std::vector<std::string> lines = io::read_lines(folder / "dynamics.jsonl");
     try
     {
       if (lines.empty() || Json::parse(lines.front()) != head(begun))

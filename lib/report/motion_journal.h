@@ -1,6 +1,6 @@
 #pragma once
 
-#include "report/json_lines.h"
+#include "io/json_lines.h"
 #include "study/dynamics.h"
 
 #include <cstddef>
@@ -27,7 +27,7 @@ namespace plumbline::report
     void remove() const { lines_.remove(); }
 
   private:
-    JsonLines lines_;
+    io::JsonLines lines_;
     std::size_t n_runs_ = 0, n_references_ = 0;
     bool is_begun_ = false;
   };

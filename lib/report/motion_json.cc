@@ -68,7 +68,7 @@ namespace plumbline::report
   Json motion_json(const study::MotionRun &run)
   {
     Json json = {{"method", run.method},
-                 {"family", base::word(run.side)},
+                 {"family", base::word(run.family)},
                  {"case", run.problem},
                  {"series", run.series},
                  {"level", run.level},
@@ -113,7 +113,7 @@ namespace plumbline::report
   {
     study::MotionRun run;
     run.method = json.at("method");
-    run.side = base::from_word<study::Side>(json.at("family").get<std::string>()).value();
+    run.family = base::from_word<study::MethodFamily>(json.at("family").get<std::string>()).value();
     run.problem = json.at("case");
     run.series = json.at("series");
     run.level = json.at("level");

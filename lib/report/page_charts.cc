@@ -32,7 +32,7 @@ namespace plumbline::report::page
       double of_mesh = 0, of_nodes = 0;
       for (const study::Run &run : results.runs)
       {
-        double &most = run.side == study::Side::meshfree ? of_nodes : of_mesh;
+        double &most = run.family == study::MethodFamily::meshfree ? of_nodes : of_mesh;
         most = std::max(most, run.geometry_seconds);
       }
       std::string text;

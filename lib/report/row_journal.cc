@@ -29,7 +29,7 @@ namespace plumbline::report
       : lines_(file), head_(Json{{"version", version}, {"subject", subject}}.dump() + "\n")
   {
     const std::string name = file.string();
-    const std::vector<std::string> lines = read_lines(file);
+    const std::vector<std::string> lines = io::read_lines(file);
     if (lines.empty() || lines.front() + "\n" != head_)
       return;
     try
@@ -59,7 +59,5 @@ namespace plumbline::report
     head_.clear();
   }
 
-  template class RowJournal<study::StabilityRow>;
-  template class RowJournal<study::DispersionRow>;
   template class RowJournal<study::StripRow>;
 } // namespace plumbline::report

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "report/json_lines.h"
+#include "io/json_lines.h"
 
 #include <filesystem>
 #include <string>
@@ -10,7 +10,7 @@ namespace plumbline::report
 {
   /// What is finished of a command that measures level by level, while it goes on: a file whose
   /// first line has what all rows depend on, and then a line for each row. Numbers read back to the
-  /// same bits. Of study::StabilityRow, DispersionRow and StripRow.
+  /// same bits. Of study::StripRow.
   template <class Row>
   class RowJournal
   {
@@ -30,7 +30,7 @@ namespace plumbline::report
     void remove() const { lines_.remove(); }
 
   private:
-    JsonLines lines_;
+    io::JsonLines lines_;
     std::string head_; ///< empty once it is written
     std::vector<Row> earlier_;
   };

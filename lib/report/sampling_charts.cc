@@ -205,8 +205,8 @@ namespace plumbline::report
     {
       constexpr std::size_t least = 16;
       const bool is_of_equal_weights =
-          results.sampling.rule == random::SampleRule::monte_carlo ||
-          results.sampling.rule == random::SampleRule::quasi_monte_carlo;
+          results.sampling.rule == uq::SampleRule::monte_carlo ||
+          results.sampling.rule == uq::SampleRule::quasi_monte_carlo;
       for (const CaseStatistics &one : results.cases)
         for (const auto &[name, of_samples] : one.values)
         {
@@ -218,7 +218,7 @@ namespace plumbline::report
             continue;
           const auto n = static_cast<unsigned int>(
               std::ceil(2 * std::cbrt(static_cast<double>(values.size()))));
-          const auto counts = random::histogram(values, n);
+          const auto counts = uq::histogram(values, n);
           const auto [least_value, largest] = std::minmax_element(values.begin(), values.end());
           if (!(*largest > *least_value))
             continue;

@@ -24,7 +24,7 @@ namespace plumbline::report
     }
 
     /// Of the mean.
-    Json interval(const random::Statistics &s)
+    Json interval(const uq::Statistics &s)
     {
       return s.confidence > 0
                  ? Json::array({known(s.mean - s.confidence), known(s.mean + s.confidence)})

@@ -40,9 +40,9 @@ namespace plumbline::report
     {
       const auto &sampling = r.sampling;
       std::string text = base::word(sampling.rule);
-      if (sampling.rule == random::SampleRule::smolyak)
+      if (sampling.rule == uq::SampleRule::smolyak)
         text += " (growth " + base::word(sampling.growth) + ")";
-      if (sampling.rule == random::SampleRule::monte_carlo)
+      if (sampling.rule == uq::SampleRule::monte_carlo)
         text += " (Sampling/seed = " + std::to_string(sampling.seed) + ")";
       text += ", " + std::to_string(r.random.laws().size()) + " variables, " +
               std::to_string(r.n_samples) + " samples in all sets";
@@ -59,7 +59,7 @@ namespace plumbline::report
                 ", noise √Σw² " + rounded(set->noise) +
                 (set->noise > 1 ? ", by which independent errors of samples grow"
                                 : ", by which independent errors of samples shrink");
-      if (sampling.rule == random::SampleRule::monte_carlo)
+      if (sampling.rule == uq::SampleRule::monte_carlo)
         text += ". Intervals hold means with 95 % confidence, by Student's t, but for the errors "
                 "that all samples have in common, as those of h";
       return text + ".";

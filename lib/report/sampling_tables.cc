@@ -30,7 +30,7 @@ namespace plumbline::report
     }
 
     /// Of the mean, with 95 % confidence: two CSV fields.
-    Cell interval_cell(const random::Statistics &s)
+    Cell interval_cell(const uq::Statistics &s)
     {
       Cell cell = empty_cell();
       cell.csv = {"", ""};
@@ -66,7 +66,7 @@ namespace plumbline::report
       for (const SetStatistics &set : one.sets)
       {
         std::vector<Cell> row = names(one);
-        const bool is_random = results.sampling.rule == random::SampleRule::monte_carlo;
+        const bool is_random = results.sampling.rule == uq::SampleRule::monte_carlo;
         const bool has_field =
             set.deviation_size || set.negative_part > 0; // else spectra are sampled
         for (const Cell &cell :

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/random_section.h"
+#include "scene/scene.h"
 
 #include <cstddef>
 #include <string>

@@ -27,12 +27,12 @@ namespace plumbline::report
       found.push_back({problem, series, unique});
     }
 
-    void add_method(std::vector<MethodName> &found, const std::string &name, study::Side side)
+    void add_method(std::vector<MethodName> &found, const std::string &name, study::MethodFamily family)
     {
       for (const MethodName &method : found)
         if (method.name == name)
           return;
-      found.push_back({name, side});
+      found.push_back({name, family});
     }
   } // namespace
 
@@ -50,9 +50,9 @@ namespace plumbline::report
   {
     std::vector<MethodName> found;
     for (const study::Run &run : results.runs)
-      add_method(found, run.method, run.side);
+      add_method(found, run.method, run.family);
     for (const study::Trend &trend : results.trends)
-      add_method(found, trend.method, trend.side);
+      add_method(found, trend.method, trend.family);
     return found;
   }
 

@@ -18,8 +18,8 @@ namespace plumbline::report
   struct MethodName
   {
     std::string name;
-    study::Side side = study::Side::meshfree;
-    bool is_reference() const { return side == study::Side::reference; }
+    study::MethodFamily family = study::MethodFamily::meshfree;
+    bool is_reference() const { return family == study::MethodFamily::reference; }
   };
 
   /// In the order in which they were run.

@@ -2,7 +2,7 @@
 
 namespace plumbline::report
 {
-  DataChart spectrum_chart(const random::Spectrum &spectrum)
+  DataChart spectrum_chart(const uq::Spectrum &spectrum)
   {
     DataChart chart = named("spectrum", "Variance that modes hold",
                             "Eigenvalues over the variance of the whole field, and their sums: " +

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "random/spectrum.h"
+#include "uq/spectrum.h"
 #include "report/data_charts.h"
 
 namespace plumbline::report
 {
   /// What each mode of a random field holds of its variance, and all up to it.
-  DataChart spectrum_chart(const random::Spectrum &spectrum);
+  DataChart spectrum_chart(const uq::Spectrum &spectrum);
 } // namespace plumbline::report

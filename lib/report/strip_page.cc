@@ -59,7 +59,7 @@ namespace plumbline::report
         if (const std::string label = label_of(row.method, row.series);
             std::none_of(lines.begin(), lines.end(),
                          [&](const MethodName &one) { return one.name == label; }))
-          lines.push_back({label, row.side});
+          lines.push_back({label, row.family});
       return lines;
     }
 
@@ -193,7 +193,7 @@ namespace plumbline::report
                   1.8,
                   {}};
         const auto &opening = row->state.opening;
-        const double shift = row->side == method::Side::meshfree ? .5 : 0; // nodes are centres
+        const double shift = row->family == method::MethodFamily::meshfree ? .5 : 0; // nodes are centres
         for (std::size_t i = 0; i < opening.size(); ++i)
         {
           const double x =
@@ -272,7 +272,7 @@ namespace plumbline::report
               {"limits", Json::array()}};
     for (const StripRow &row : results.rows)
     {
-      Json one{{"method", row.method},   {"family", base::word(row.side)},
+      Json one{{"method", row.method},   {"family", base::word(row.family)},
                {"series", row.series},   {"h", row.h},
                {"horizon", row.horizon}, {"seconds", row.seconds},
                {"failure", row.failure}};

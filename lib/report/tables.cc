@@ -266,7 +266,7 @@ namespace plumbline::report
         return text;
       };
       table.rows.push_back({text_cell(method.name),
-                            text_cell(base::word(method.side)),
+                            text_cell(base::word(method.family)),
                             {{span(fewest, most)}, span(fewest, most), true},
                             number_cell(ratio),
                             count_cell(n_negative),

@@ -102,36 +102,6 @@ namespace plumbline::scene
     }
   } // namespace
 
-  Capabilities operator|(Capabilities a, const Capabilities &b)
-  {
-    a.insert(b.begin(), b.end());
-    return a;
-  }
-
-  Capabilities of_meshes()
-  {
-    return {C::meshes, C::quadrilaterals, C::triangles, C::mixed_cells};
-  }
-
-  Capabilities of_damage()
-  {
-    return {C::cracks, C::free_surfaces, C::damaged_dilatation};
-  }
-
-  Capabilities all_capabilities()
-  {
-    return all_but({});
-  }
-
-  Capabilities all_but(const Capabilities &left_out)
-  {
-    Capabilities rest;
-    for (std::size_t i = 0; i < base::words<Capability>.size(); ++i)
-      if (left_out.count(static_cast<Capability>(i)) == 0)
-        rest.insert(static_cast<Capability>(i));
-    return rest;
-  }
-
   const std::vector<Capable> &analyses()
   {
     const Capabilities on_meshes_alone =
@@ -168,7 +138,7 @@ namespace plumbline::scene
     };
     add(domain.mesh.is_lattice() && !domain.is_free_body, C::lattice);
     add(!domain.mesh.is_lattice(), C::meshes);
-    // what grows is held by its grips: 'plumbline grow' says itself what it may be
+    // what grows is constrained by its grips: 'plumbline grow' says itself what it may be
     const bool is_free = domain.is_free_body && !scene.fracture.is_there();
     add(is_free, C::free_boundary);
     add(is_free && domain.is_floating, C::floating);
@@ -214,33 +184,5 @@ namespace plumbline::scene
     const Capable &one = analyses()[static_cast<std::size_t>(analysis)];
     if (const std::string why = refusal(scene, needs(scene), one.can, ""); !why.empty())
       throw InputError(one.name + " cannot do this scene: " + why);
-  }
-
-  std::string capability_table(const std::string &of, const std::vector<Capable> &all)
-  {
-    std::vector<Capable> rows;
-    for (const Capable &one : all)
-    {
-      const auto row = std::find_if(rows.begin(), rows.end(),
-                                    [&](const Capable &other) { return other.can == one.can; });
-      if (row == rows.end())
-        rows.push_back(one);
-      else
-        row->name += ", " + one.name;
-    }
-    std::string head = "| " + of + " |", rule = "|---|", text;
-    for (const Capability capability : all_capabilities())
-    {
-      head += " " + base::word(capability) + " |";
-      rule += "---|";
-    }
-    for (const Capable &row : rows)
-    {
-      text += "| " + row.name + " |";
-      for (const Capability capability : all_capabilities())
-        text += row.can.count(capability) > 0 ? " yes |" : " - |";
-      text += "\n";
-    }
-    return head + "\n" + rule + "\n" + text;
   }
 } // namespace plumbline::scene

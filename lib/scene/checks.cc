@@ -31,10 +31,10 @@ namespace plumbline::scene
         return;
       }
       std::string names;
-      for (const random::Variable &one : scene.random.variables)
+      for (const uq::Variable &one : scene.random.variables)
         names += (names.empty() ? "" : ", ") + one.name;
       require(std::any_of(scene.random.variables.begin(), scene.random.variables.end(),
-                          [&](const random::Variable &one) { return one.name == study.variable; }),
+                          [&](const uq::Variable &one) { return one.name == study.variable; }),
               key + " = '" + study.variable + "' is none of Random/variables" +
                   (names.empty() ? ", which is empty" : " (" + names + ")") +
                   "; name it there, e.g. 'nu: uniform 0.25 0.49', and in an expression or in "

@@ -128,7 +128,8 @@ namespace plumbline::scene
     orders, ///< in time
     growth, ///< of waves on strains
     sampling,
-    strip ///< with a standing crack
+    strip, ///< with a standing crack
+    values ///< of any scalar of an analysis
   };
 } // namespace plumbline::scene
 
@@ -164,5 +165,5 @@ namespace plumbline::base
   template <>
   inline constexpr auto words<scene::ExpectedKind> =
       std::array{"verdicts",  "errors", "rates",         "bounds",   "monotone", "jitter",
-                 "stability", "orders", "strain growth", "sampling", "strip"};
+                 "stability", "orders", "strain growth", "sampling", "strip",    "values"};
 } // namespace plumbline::base

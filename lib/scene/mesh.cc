@@ -6,7 +6,7 @@
 #include "geometry/local_coordinates.h"
 #include "geometry/mesh_input.h"
 #include "physics/expression.h"
-#include "scene/csv.h"
+#include "base/csv.h"
 #include "scene/mesh_files.h"
 
 #include <algorithm>
@@ -214,7 +214,7 @@ namespace plumbline::scene
 
   std::vector<Point<2>> read_nodes(const std::string &file, std::vector<std::size_t> *lines)
   {
-    Csv csv(file, {"x", "y"});
+    base::Csv csv(file, {"x", "y"});
     std::vector<Point<2>> nodes;
     while (csv.next())
     {
@@ -248,7 +248,7 @@ namespace plumbline::scene
     }
     catch (const InputError &error)
     {
-      if (const auto twins = is_file ? geometry::find_twins(nodes, mesh) : std::nullopt)
+      if (const auto twins = is_file ? geometry::find_coincident_nodes(nodes, mesh) : std::nullopt)
         throw InputError("node file '" + file + "', line " + std::to_string(lines[twins->second]) +
                          ": the node there " +
                          twins->place("that of line " + std::to_string(lines[twins->first])) +

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "scene/csv.h"
+#include "base/csv.h"
 #include "scene/values.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace plumbline::scene
 {
-  using random::GridField;
+  using uq::GridField;
 
   namespace
   {
@@ -22,7 +22,7 @@ namespace plumbline::scene
 
     /// From the row along the upper side first to that along the lower side first, as grids have
     /// them.
-    std::vector<double> from_below(const NumberGrid &grid)
+    std::vector<double> from_below(const base::NumberGrid &grid)
     {
       const auto width = static_cast<std::size_t>(grid.n[0]);
       std::vector<double> values(grid.values.size());
@@ -40,7 +40,7 @@ namespace plumbline::scene
     for (const std::string &name : files)
     {
       const std::string file = (std::filesystem::path(folder) / name).string();
-      const NumberGrid grid = read_number_grid(file);
+      const base::NumberGrid grid = base::read_number_grid(file);
       if (pictures.empty())
         base::require_memory(
             8. * static_cast<double>(files.size()) * static_cast<double>(grid.values.size()),
@@ -51,7 +51,7 @@ namespace plumbline::scene
                 "'" + file + "' has " + size_of(grid.n) + " numbers along x and y, and '" +
                     files.front() + "' has " + size_of(pictures.front().grid().n) +
                     "; all must have one size, mend or take out one of them");
-      pictures.emplace_back(random::Grid{box, grid.n}, from_below(grid), random::Between::constant);
+      pictures.emplace_back(uq::Grid{box, grid.n}, from_below(grid), uq::Interpolation::constant);
     }
     return pictures;
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "random/grid_field.h"
+#include "uq/grid_field.h"
 
 #include <string>
 #include <vector>
@@ -16,6 +16,6 @@ namespace plumbline::scene
   /// @return        a field for each file, all on the same grid
   /// @throws InputError  as read_number_grid, files of different sizes, not enough memory
   /// @pre files is not empty
-  std::vector<random::GridField> read_pictures(const std::vector<std::string> &files,
+  std::vector<uq::GridField> read_pictures(const std::vector<std::string> &files,
                                                const std::string &folder, const geometry::Box &box);
 } // namespace plumbline::scene

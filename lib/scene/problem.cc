@@ -41,7 +41,7 @@ namespace plumbline::scene
       return {value, ChebyshevField::resolve(value, n_components, box.lower, box.upper)};
     }
 
-    MethodSettings method_settings(const Scene &scene)
+    problem::MethodSettings method_settings(const Scene &scene)
     {
       // the local limit has the second moments alone; the nonlocal operator has all
       constexpr unsigned int of_local_limit = 2, of_nonlocal = 6;

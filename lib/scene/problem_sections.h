@@ -6,7 +6,7 @@
 #include "physics/kernel.h"
 #include "physics/state_based.h"
 #include "scene/choices.h"
-#include "scene/surface_terms.h"
+#include "scene/vocabulary.h"
 
 #include <array>
 #include <functional>

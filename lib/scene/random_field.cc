@@ -1,8 +1,8 @@
 #include "scene/random_field.h"
 
 #include "base/error.h"
-#include "random/karhunen_loeve.h"
-#include "random/principal_components.h"
+#include "uq/karhunen_loeve.h"
+#include "uq/principal_components.h"
 #include "scene/pictures.h"
 #include "scene/random_section.h"
 #include "scene/values.h"
@@ -17,14 +17,14 @@ namespace plumbline::scene
 
   namespace
   {
-    random::Covariance covariance_of(const RandomSection &section)
+    uq::Covariance covariance_of(const RandomSection &section)
     {
-      const auto shape = static_cast<random::CovarianceShape>(
+      const auto shape = static_cast<uq::CovarianceShape>(
           static_cast<int>(section.field) - static_cast<int>(FieldKind::exponential));
       return {shape, section.deviation * section.deviation, section.length, section.smoothness};
     }
 
-    random::EllipseModel ellipses_of(const RandomSection &section)
+    uq::EllipseModel ellipses_of(const RandomSection &section)
     {
       return {section.semi_axes, section.fraction, section.may_overlap};
     }
@@ -41,19 +41,19 @@ namespace plumbline::scene
   {
     RandomSection section;
     Box box;
-    std::vector<random::GridField> pictures; ///< of files
+    std::vector<uq::GridField> pictures; ///< of files
     std::once_flag once;
-    std::optional<random::Expansion> expansion;
+    std::optional<uq::Expansion> expansion;
 
-    random::Ellipses draw(std::size_t realisation) const
+    uq::Ellipses draw(std::size_t realisation) const
     {
-      return random::Ellipses::draw(ellipses_of(section), box, section.seed, realisation);
+      return uq::Ellipses::draw(ellipses_of(section), box, section.seed, realisation);
     }
 
     /// What is in ellipses at the nodes of a grid.
-    void draw(std::size_t realisation, const random::Grid &grid, std::vector<double> &values) const
+    void draw(std::size_t realisation, const uq::Grid &grid, std::vector<double> &values) const
     {
-      const random::Ellipses ellipses = draw(realisation);
+      const uq::Ellipses ellipses = draw(realisation);
       values.clear();
       for (int j = 0; j < grid.n[1]; ++j)
         for (int i = 0; i < grid.n[0]; ++i)
@@ -61,15 +61,15 @@ namespace plumbline::scene
     }
 
     /// That modes are found on.
-    random::Grid grid() const
+    uq::Grid grid() const
     {
-      return pictures.empty() ? random::make_grid(box, section.cell) : pictures.front().grid();
+      return pictures.empty() ? uq::make_grid(box, section.cell) : pictures.front().grid();
     }
 
-    random::Expansion components_of_ellipses() const
+    uq::Expansion components_of_ellipses() const
     {
-      const random::Grid grid = this->grid();
-      return random::principal_components(
+      const uq::Grid grid = this->grid();
+      return uq::principal_components(
                  grid, section.n_realisations,
                  [&](std::size_t k, std::vector<double> &values) // that no sample takes
                  { draw((std::size_t{1} << 32) + k, grid, values); },
@@ -77,18 +77,18 @@ namespace plumbline::scene
           .expansion;
     }
 
-    random::Expansion components_of_files() const
+    uq::Expansion components_of_files() const
     {
       // to more digits than realisations that must be drawn anew: passes through these are cheap
-      constexpr random::PassLimit limit{100, 1e-10};
-      return random::principal_components(
+      constexpr uq::PassLimit limit{100, 1e-10};
+      return uq::principal_components(
                  grid(), pictures.size(),
                  [&](std::size_t k, std::vector<double> &values) { values = pictures[k].values(); },
                  section.n_modes, limit)
           .expansion;
     }
 
-    const random::Expansion &find_expansion()
+    const uq::Expansion &find_expansion()
     {
       std::call_once(once,
                      [this]
@@ -98,16 +98,16 @@ namespace plumbline::scene
                        else if (section.field == FieldKind::files)
                          expansion = components_of_files();
                        else
-                         expansion = random::karhunen_loeve(covariance_of(section), grid(),
+                         expansion = uq::karhunen_loeve(covariance_of(section), grid(),
                                                             section.n_modes, section.mean);
                      });
       return *expansion;
     }
 
     /// Of files and their modes it is constant in each cell.
-    random::Between between() const
+    uq::Interpolation between() const
     {
-      return pictures.empty() ? random::Between::linear : random::Between::constant;
+      return pictures.empty() ? uq::Interpolation::linear : uq::Interpolation::constant;
     }
   };
 
@@ -132,7 +132,7 @@ namespace plumbline::scene
     const std::string field = "Random/field = " + base::word(section.field);
     if (section.field == FieldKind::files)
     {
-      std::vector<random::GridField> &pictures = shared_->pictures;
+      std::vector<uq::GridField> &pictures = shared_->pictures;
       saying("Random/files: ", [&] { pictures = read_pictures(section.files, folder, box); });
       const std::size_t n_cells = shared_->grid().size(),
                         most = std::min(pictures.size() - 1, n_cells);
@@ -161,7 +161,7 @@ namespace plumbline::scene
             field + " with modes needs Random/cell > 0, the mesh size that modes are found on");
     if (section.n_modes > 0)
     {
-      const random::Grid grid = random::make_grid(box, section.cell);
+      const uq::Grid grid = uq::make_grid(box, section.cell);
       require(section.n_modes <= grid.size(),
               "Random/modes = " + std::to_string(section.n_modes) + ", but Random/cell = " +
                   short_number(section.cell) + " makes " + std::to_string(grid.size()) +
@@ -178,7 +178,7 @@ namespace plumbline::scene
       struct Lazy
       {
         std::once_flag once;
-        random::GridField field;
+        uq::GridField field;
       };
       return [shared = shared_, lazy = std::make_shared<Lazy>(), modes](const Point<2> &x)
       {
@@ -196,7 +196,7 @@ namespace plumbline::scene
     struct Lazy
     {
       std::once_flag once;
-      std::optional<random::Ellipses> ellipses;
+      std::optional<uq::Ellipses> ellipses;
     };
     return [shared = shared_, lazy = std::make_shared<Lazy>(), realisation](const Point<2> &x)
     {
@@ -205,7 +205,7 @@ namespace plumbline::scene
     };
   }
 
-  const random::Expansion *RandomField::expansion() const
+  const uq::Expansion *RandomField::expansion() const
   {
     return shared_->section.n_modes > 0 ? &shared_->find_expansion() : nullptr;
   }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "geometry/lattice.h"
-#include "random/ellipses.h"
-#include "random/expansion.h"
+#include "uq/ellipses.h"
+#include "uq/expansion.h"
 
 #include <functional>
 #include <memory>
@@ -34,7 +34,7 @@ namespace plumbline::scene
 
     /// Its modes; nothing where it is drawn whole.
     /// @throws InputError, NumericalError  they cannot be found
-    const random::Expansion *expansion() const;
+    const uq::Expansion *expansion() const;
 
   private:
     struct Shared;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "physics/expression.h"
-#include "random/sample_points.h"
+#include "uq/sample_points.h"
 #include "scene/random_field.h"
 
 #include <array>
@@ -36,7 +36,7 @@ namespace plumbline::scene
   /// What is random in a scene: variables, and a field.
   struct RandomSection
   {
-    std::vector<random::Variable> variables;
+    std::vector<uq::Variable> variables;
     std::vector<RandomKey> random_keys; ///< in the order of the file
     std::vector<double> values;         ///< of all of them; empty: their means
     unsigned int realisation = 1;       ///< of a field that is drawn as a whole
@@ -61,7 +61,7 @@ namespace plumbline::scene
     bool is_there() const { return !variables.empty() || field != FieldKind::none; }
     /// A realisation a sample, not values of variables.
     bool is_drawn_whole() const { return field != FieldKind::none && n_modes == 0; }
-    std::vector<random::Law> laws() const; ///< of all variables
+    std::vector<uq::Law> laws() const; ///< of all variables
 
     /// The values, or the means where there are none.
     std::vector<double> present_values() const;
@@ -93,19 +93,19 @@ namespace plumbline::scene
   /// Where a random scene is taken by `plumbline sample`.
   struct SamplingSection
   {
-    random::SampleRule rule = random::SampleRule::none;
+    uq::SampleRule rule = uq::SampleRule::none;
     SampledAnalysis analysis = SampledAnalysis::of_scene;
     /// Of each set of samples: points a variable (tensor), level (Smolyak), or samples.
     std::vector<unsigned int> counts;
     /// How many modes of the field vary, few to many, each with every count; empty: all.
     std::vector<unsigned int> modes;
-    random::Growth growth = random::Growth::odd;
+    uq::Growth growth = uq::Growth::odd;
     unsigned int seed = 1;
 
-    bool is_there() const { return rule != random::SampleRule::none; }
+    bool is_there() const { return rule != uq::SampleRule::none; }
 
     /// Nothing is by chance: variables are parameters of a study.
-    bool is_axis() const { return rule == random::SampleRule::equidistant; }
+    bool is_axis() const { return rule == uq::SampleRule::equidistant; }
 
     void declare(Keys &keys);
   };

@@ -7,7 +7,7 @@
 
 namespace plumbline::scene
 {
-  using random::SampleRule;
+  using uq::SampleRule;
 
   namespace
   {
@@ -19,35 +19,35 @@ namespace plumbline::scene
       return rule == SampleRule::tensor || rule == SampleRule::equidistant;
     }
 
-    double n_samples(const SamplingSection &sampling, const std::vector<random::Law> &laws,
+    double n_samples(const SamplingSection &sampling, const std::vector<uq::Law> &laws,
                      unsigned int count)
     {
       if (is_tensor(sampling.rule))
-        return random::n_tensor_points(laws.size(), count);
+        return uq::n_tensor_points(laws.size(), count);
       if (sampling.rule == SampleRule::smolyak)
-        return random::n_smolyak_points(laws, count, sampling.growth);
+        return uq::n_smolyak_points(laws, count, sampling.growth);
       return count;
     }
 
     /// Of the largest rule of one variable; 0 where there are none.
-    double n_line_points(const SamplingSection &sampling, const std::vector<random::Law> &laws,
+    double n_line_points(const SamplingSection &sampling, const std::vector<uq::Law> &laws,
                          unsigned int count)
     {
       double most = is_tensor(sampling.rule) ? count : 0.;
       if (sampling.rule == SampleRule::smolyak)
-        for (const random::Law law : laws)
-          most = std::max(most, random::n_line_points(law, sampling.growth, count + 1));
+        for (const uq::Law law : laws)
+          most = std::max(most, uq::n_line_points(law, sampling.growth, count + 1));
       return most;
     }
 
-    void check_size(const SamplingSection &sampling, const std::vector<random::Law> &laws)
+    void check_size(const SamplingSection &sampling, const std::vector<uq::Law> &laws)
     {
       const unsigned int count = sampling.counts.back();
       const double n = n_samples(sampling, laws, count) *
                        static_cast<double>(std::max<std::size_t>(1, sampling.modes.size())),
                    n_line = n_line_points(sampling, laws, count);
       const bool is_smolyak = sampling.rule == SampleRule::smolyak,
-                 is_line_too_large = n_line > random::most_line_points;
+                 is_line_too_large = n_line > uq::most_line_points;
       const std::string key = "Sampling/counts = " + std::to_string(count) +
                               " with Sampling/rule = " + base::word(sampling.rule),
                         fewer = is_smolyak ? "take a lower level" : "take fewer";
@@ -61,7 +61,7 @@ namespace plumbline::scene
                   (is_smolyak ? ", or Sampling/rule = quasi-Monte Carlo" : ""));
       require(!is_line_too_large,
               key + " takes " + base::to_text(n_line, 4) + " points of a variable, more than " +
-                  base::to_text(random::most_line_points, 4) + ", which a rule of one may have; " +
+                  base::to_text(uq::most_line_points, 4) + ", which a rule of one may have; " +
                   fewer + ", or Sampling/rule = quasi-Monte Carlo");
     }
   } // namespace
@@ -72,7 +72,7 @@ namespace plumbline::scene
     if (!sampling.is_there())
       return;
     const std::string rule = "Sampling/rule = " + base::word(sampling.rule);
-    const std::vector<random::Law> laws = scene.random.laws();
+    const std::vector<uq::Law> laws = scene.random.laws();
     const bool is_drawn = sampling.rule == SampleRule::monte_carlo;
     require(!laws.empty() || (is_drawn && scene.random.is_there()),
             rule + " needs variables that it takes values of; give Random/variables, or Random/"
@@ -95,18 +95,18 @@ namespace plumbline::scene
                 " at most; give Random/modes the largest of them, or clear it");
     require(sampling.rule != SampleRule::equidistant ||
                 std::all_of(laws.begin(), laws.end(),
-                            [](random::Law law) { return law == random::Law::uniform; }),
+                            [](uq::Law law) { return law == uq::Law::uniform; }),
             rule + " goes from end to end, and normal variables have no ends; make them uniform in "
                    "Random/variables (and give no Random/modes), or write tensor");
     require(sampling.rule == SampleRule::smolyak || sampling.counts.front() > 0,
             "Sampling/counts = 0 with " + rule + " is no sample; write 1 or more");
-    require(sampling.rule != SampleRule::smolyak || sampling.growth != random::Growth::nested ||
-                sampling.counts.back() < random::n_genz_keister_rules ||
+    require(sampling.rule != SampleRule::smolyak || sampling.growth != uq::Growth::nested ||
+                sampling.counts.back() < uq::n_genz_keister_rules ||
                 std::all_of(laws.begin(), laws.end(),
-                            [](random::Law law) { return law == random::Law::uniform; }),
+                            [](uq::Law law) { return law == uq::Law::uniform; }),
             "Sampling/counts = " + std::to_string(sampling.counts.back()) +
                 " with Sampling/growth = nested: of normal variables there are levels 0 to " +
-                std::to_string(random::n_genz_keister_rules - 1) + " (35 points); write odd");
+                std::to_string(uq::n_genz_keister_rules - 1) + " (35 points); write odd");
     check_size(sampling, laws);
   }
 } // namespace plumbline::scene

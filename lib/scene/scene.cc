@@ -249,12 +249,12 @@ namespace plumbline::scene
 
   Scene at_level(const Scene &scene, const Level &level)
   {
-    const std::vector<random::Variable> &variables = scene.random.variables;
+    const std::vector<uq::Variable> &variables = scene.random.variables;
     if (scene.study.regime != Regime::variable)
       return scene;
     const auto varying =
         std::find_if(variables.begin(), variables.end(),
-                     [&](const random::Variable &one) { return one.name == scene.study.variable; });
+                     [&](const uq::Variable &one) { return one.name == scene.study.variable; });
     std::vector<double> values = scene.random.present_values();
     values[static_cast<std::size_t>(varying - variables.begin())] = level.value;
     try

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "base/solver_choices.h"
-#include "geometry/ball_cell.h"
+#include "problem/settings.h"
 #include "scene/choices.h"
 #include "scene/crack_section.h"
 #include "scene/fracture_section.h"
+#include "scene/vocabulary.h"
 
 #include <map>
 #include <optional>
@@ -41,20 +41,6 @@ namespace plumbline::scene
     void complete() const;
   };
 
-  /// A point of a study.
-  struct Level
-  {
-    double h = 0, horizon = 0; ///< [length]
-    double value = 0;          ///< of Study/variable, where one varies
-  };
-
-  /// Levels, from coarse to fine where they refine, with what is held fixed as name, e.g. "m = 3".
-  struct Series
-  {
-    std::string name;
-    std::vector<Level> levels;
-  };
-
   /// The error that verdicts rest on.
   struct DecisiveError
   {
@@ -89,33 +75,18 @@ namespace plumbline::scene
     void declare(Keys &keys);
   };
 
-  struct QuadratureSection
+  struct QuadratureSection : problem::QuadratureSettings
   {
-    bool exact_entries = true; ///< where an exact way is known, else by quadrature
-    double tolerance = 1e-4;   ///< relative, of the solution
-    unsigned int max_refinements = 4;
-
     void declare(Keys &keys);
   };
 
-  struct GeometrySection
+  struct GeometrySection : problem::GeometrySettings
   {
-    geometry::Backend backend = geometry::Backend::fast;
-    unsigned int n_checks = 24, seed = 1;
-
     void declare(Keys &keys);
   };
 
-  struct SolverSection
+  struct SolverSection : problem::SolverSettings
   {
-    base::OperatorBackend operator_backend = base::OperatorBackend::automatic;
-    base::SparseSolver linear_solver = base::SparseSolver::automatic;
-    base::Iteration iteration = base::Iteration::automatic;
-    bool is_full_model = false; ///< see full_model()
-    bool is_mixed = false;      ///< dilatations are unknowns of the scattered nodes besides u
-    double tolerance = 1e-12;
-    unsigned int max_iterations = 1000;
-
     void declare(Keys &keys);
   };
 

@@ -1,6 +1,8 @@
 #include "study/comparison.h"
 
+
 #include "geometry/rough_rule.h"
+#include "scene/scene.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -14,7 +16,7 @@ namespace plumbline::study
   namespace
   {
     using geometry::NodeSet;
-    using scene::Field;
+    using Field = problem::Field<2>;
     using scene::Quantity;
     using scene::Target;
 
@@ -108,7 +110,7 @@ namespace plumbline::study
                          { return scene::quantity(norm) == quantity; });
     }
 
-    Accumulator nodal_difference(const scene::Problem &problem, const Solution &solution,
+    Accumulator nodal_difference(const problem::Problem<2> &problem, const Solution &solution,
                                  const Field &field)
     {
       const double area = node_area(problem, solution);
@@ -120,7 +122,7 @@ namespace plumbline::study
       return sum;
     }
 
-    Accumulator averages_difference(const scene::Problem &problem, const std::vector<double> &a,
+    Accumulator averages_difference(const problem::Problem<2> &problem, const std::vector<double> &a,
                                     const std::vector<double> &b)
     {
       Accumulator sum;
@@ -143,7 +145,7 @@ namespace plumbline::study
 
     /// Calls f(x, weight) with a rule on every cell of Ω.
     template <class F>
-    void for_each_point(const scene::Problem &problem, const dealii::Quadrature<2> &on_square,
+    void for_each_point(const problem::Problem<2> &problem, const dealii::Quadrature<2> &on_square,
                         unsigned int degree, const F &f)
     {
       if (problem.lattice)
@@ -167,7 +169,7 @@ namespace plumbline::study
         }
     }
 
-    Accumulator field_difference(const scene::Problem &problem, const Solution &solution,
+    Accumulator field_difference(const problem::Problem<2> &problem, const Solution &solution,
                                  const Field &field)
     {
       static const dealii::QIterated<2> on_square(dealii::QGauss<1>(3), 2);
@@ -183,7 +185,7 @@ namespace plumbline::study
     }
 
     /// Bounding box of Ω.
-    geometry::Box bounding_box(const scene::Problem &problem)
+    geometry::Box bounding_box(const problem::Problem<2> &problem)
     {
       if (problem.mesh)
         return geometry::bounding_box(*problem.mesh);
@@ -231,7 +233,7 @@ namespace plumbline::study
     return result;
   }
 
-  std::vector<double> cell_averages(const Field &field, const scene::Problem &problem)
+  std::vector<double> cell_averages(const Field &field, const problem::Problem<2> &problem)
   {
     if (problem.cells)
       return cell_averages(field, *problem.cells, problem.n_components);
@@ -239,12 +241,12 @@ namespace plumbline::study
                          method::comparison_nodes(problem, problem.n_components));
   }
 
-  double cell_area(const scene::Problem &problem, std::size_t cell)
+  double cell_area(const problem::Problem<2> &problem, std::size_t cell)
   {
     return problem.cells ? problem.cells->area[cell] : problem.h * problem.h;
   }
 
-  double node_area(const scene::Problem &problem, const Solution &solution)
+  double node_area(const problem::Problem<2> &problem, const Solution &solution)
   {
     if (problem.lattice)
       return problem.h * problem.h;
@@ -254,7 +256,7 @@ namespace plumbline::study
            static_cast<double>(std::max<std::size_t>(1, solution.nodes.size()));
   }
 
-  std::vector<dealii::Point<2>> comparison_points(const scene::Problem &problem)
+  std::vector<dealii::Point<2>> comparison_points(const problem::Problem<2> &problem)
   {
     if (problem.cells)
       return {problem.cells->nodes.begin(),
@@ -296,13 +298,13 @@ namespace plumbline::study
     return result;
   }
 
-  double averages_l2(const scene::Problem &problem, const std::vector<double> &a,
+  double averages_l2(const problem::Problem<2> &problem, const std::vector<double> &a,
                      const std::vector<double> &b)
   {
     return std::sqrt(averages_difference(problem, a, b).squares);
   }
 
-  double field_l2(const scene::Problem &problem, const Values &a, const Values &b,
+  double field_l2(const problem::Problem<2> &problem, const Values &a, const Values &b,
                   unsigned int degree)
   {
     Accumulator sum;
@@ -315,7 +317,7 @@ namespace plumbline::study
     return std::sqrt(sum.squares);
   }
 
-  ErrorMap error_map(scene::Norm decisive, const scene::Problem &problem, const Solution &solution,
+  ErrorMap error_map(scene::Norm decisive, const problem::Problem<2> &problem, const Solution &solution,
                      const std::vector<double> &reference)
   {
     ErrorMap map;
@@ -364,7 +366,7 @@ namespace plumbline::study
     return map;
   }
 
-  std::map<std::string, double> errors(const Norms &norms, const scene::Problem &problem,
+  std::map<std::string, double> errors(const Norms &norms, const problem::Problem<2> &problem,
                                        const Solution &solution, const Targets &targets)
   {
     std::map<std::string, double> result;

@@ -11,24 +11,24 @@ namespace plumbline::study
 
   /// P_κ of a field: its averages over the comparison cells, shape (n_cells, n_components). By
   /// exact integration of the field's series, or 6 × 6 Gauss points on each quarter of a cell.
-  std::vector<double> cell_averages(const scene::Field &field, const geometry::Lattice &lattice,
+  std::vector<double> cell_averages(const problem::Field<2> &field, const geometry::Lattice &lattice,
                                     const geometry::NodeSet &cells);
 
   /// The same over the cells of scattered nodes: by a rule of degree 9 on each piece.
-  std::vector<double> cell_averages(const scene::Field &field, const geometry::NodeCells &cells,
+  std::vector<double> cell_averages(const problem::Field<2> &field, const geometry::NodeCells &cells,
                                     unsigned int n_components);
 
   /// Over whichever cells the problem is compared on.
-  std::vector<double> cell_averages(const scene::Field &field, const scene::Problem &problem);
+  std::vector<double> cell_averages(const problem::Field<2> &field, const problem::Problem<2> &problem);
 
   /// The node of each comparison cell.
-  std::vector<dealii::Point<2>> comparison_points(const scene::Problem &problem);
+  std::vector<dealii::Point<2>> comparison_points(const problem::Problem<2> &problem);
 
   /// Of a comparison cell [length^2].
-  double cell_area(const scene::Problem &problem, std::size_t cell);
+  double cell_area(const problem::Problem<2> &problem, std::size_t cell);
 
   /// Of Ω that each node stands for: all of them alike [length^2].
-  double node_area(const scene::Problem &problem, const Solution &solution);
+  double node_area(const problem::Problem<2> &problem, const Solution &solution);
 
   /// Averages over the comparison cells at h from averages over the lattice cells at h/2, which
   /// each square of side h is made of four of.
@@ -39,7 +39,7 @@ namespace plumbline::study
                                        const geometry::NodeSet &cells);
 
   /// √(Σ area |a - b|²): the L2 distance of two fields that are constant on the comparison cells.
-  double averages_l2(const scene::Problem &problem, const std::vector<double> &a,
+  double averages_l2(const problem::Problem<2> &problem, const std::vector<double> &a,
                      const std::vector<double> &b);
 
   /// A field by its values.
@@ -47,7 +47,7 @@ namespace plumbline::study
 
   /// The L2 distance of two fields over Ω, by a rule on each cell of the problem's lattice or mesh.
   /// @param degree  that the rule is exact to on each cell; 2 p for fields of degree p there
-  double field_l2(const scene::Problem &problem, const Values &a, const Values &b,
+  double field_l2(const problem::Problem<2> &problem, const Values &a, const Values &b,
                   unsigned int degree);
 
   /// Cell averages that solutions are held against, each empty if there is none.
@@ -61,7 +61,7 @@ namespace plumbline::study
   /// the exact solution, or else other averages: the largest in each of at most 32 × 32 blocks of
   /// cells.
   /// @param decisive  the norm
-  ErrorMap error_map(scene::Norm decisive, const scene::Problem &problem, const Solution &solution,
+  ErrorMap error_map(scene::Norm decisive, const problem::Problem<2> &problem, const Solution &solution,
                      const std::vector<double> &target);
 
   /// The errors of a solution in these norms against every target there is, by "norm |
@@ -69,6 +69,6 @@ namespace plumbline::study
   /// norms take 3 × 3 Gauss points on each quarter of a lattice cell, a rule of degree 9 on a cell
   /// of a mesh.
   std::map<std::string, double> errors(const std::vector<scene::Norm> &norms,
-                                       const scene::Problem &problem, const Solution &solution,
+                                       const problem::Problem<2> &problem, const Solution &solution,
                                        const Targets &targets);
 } // namespace plumbline::study

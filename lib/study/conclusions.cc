@@ -79,7 +79,7 @@ namespace plumbline::study
     {
       Trend trend;
       trend.method = first.method;
-      trend.side = first.side;
+      trend.family = first.family;
       trend.problem = first.problem;
       trend.series = first.series;
       trend.error = error;

@@ -24,7 +24,7 @@ namespace plumbline::study
       return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     }
 
-    bool is_cut(const scene::Damage &damage, const Point<2> &x, const Point<2> &y)
+    bool is_cut(const problem::Damage<2> &damage, const Point<2> &x, const Point<2> &y)
     {
       for (const auto &crack : damage.cracks)
         for (std::size_t i = 1; i < crack.size(); ++i)
@@ -34,7 +34,7 @@ namespace plumbline::study
       return false;
     }
 
-    double distance_to_cracks(const scene::Damage &damage, const Point<2> &x)
+    double distance_to_cracks(const problem::Damage<2> &damage, const Point<2> &x)
     {
       double least = std::numeric_limits<double>::infinity();
       for (const auto &crack : damage.cracks)
@@ -55,7 +55,7 @@ namespace plumbline::study
     };
 
     /// L u of bonds that no crack cuts: midpoints in the angle see a cut to one of them.
-    Value with_cuts(const scene::Problem &problem, const Values &u, const Point<2> &x,
+    Value with_cuts(const problem::Problem<2> &problem, const Values &u, const Point<2> &x,
                     unsigned int component)
     {
       constexpr unsigned int n_radii = 16, n_angles = 256;
@@ -91,7 +91,7 @@ namespace plumbline::study
     }
 
     /// λ = μ: what cuts do to dilatations does not matter.
-    bool is_of_bonds(const scene::Problem &problem, const Point<2> &x)
+    bool is_of_bonds(const problem::Problem<2> &problem, const Point<2> &x)
     {
       constexpr double same = 1e-12;
       if (!problem.dilatation)
@@ -130,7 +130,7 @@ namespace plumbline::study
 
   std::optional<Contradiction> measure_contradiction(const scene::Case &one)
   {
-    const scene::Problem &problem = one.problem;
+    const problem::Problem<2> &problem = one.problem;
     if (!problem.is_load_given || !problem.solution || !problem.damage.outside.empty())
       return {};
     constexpr std::size_t n_points = 16;

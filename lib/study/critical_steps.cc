@@ -9,7 +9,7 @@ namespace plumbline::study
     /// Of small motions about rest, of unit density.
     /// @param of_matrix  the largest eigenvalue of the method's matrix, whose masses are lumped
     double largest_eigenvalue(const method::EquationOfMotion &equation,
-                              const scene::Problem &problem, bool has_masses_of_matrix,
+                              const problem::Problem<2> &problem, bool has_masses_of_matrix,
                               double of_matrix)
     {
       if (has_masses_of_matrix && !equation.largest_eigenvalue())
@@ -22,7 +22,7 @@ namespace plumbline::study
   } // namespace
 
   CriticalSteps critical_steps(const method::Discretisation &discretisation,
-                               const scene::Problem &problem, const Stability &stability,
+                               const problem::Problem<2> &problem, const Stability &stability,
                                double density)
   {
     constexpr double rounding = 1e-8; // of the largest: accuracy of eigenvalues

@@ -3,6 +3,9 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "method/discretisation.h"
+#include "scene/capabilities.h"
+#include "scene/problem.h"
+#include "study/preflight.h"
 #include "study/trend.h"
 
 #include <algorithm>
@@ -11,6 +14,8 @@
 
 namespace plumbline::study
 {
+  using analysis::Curve;
+
   namespace
   {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -41,7 +46,7 @@ namespace plumbline::study
     class Measurement
     {
     public:
-      Measurement(const scene::Problem &problem, const WaveStudy &study)
+      Measurement(const problem::Problem<2> &problem, const WaveStudy &study)
           : problem_(problem), study_(study),
             polarisations_(physics::polarisations(problem.n_components == 1
                                                       ? physics::Structure::scalar
@@ -130,7 +135,7 @@ namespace plumbline::study
         }
       }
 
-      const scene::Problem &problem_;
+      const problem::Problem<2> &problem_;
       const WaveStudy &study_;
       std::vector<physics::Polarisation> polarisations_;
     };
@@ -207,8 +212,8 @@ namespace plumbline::study
               base::to_text(scene.is_vector() ? limit.mu : limit.diffusion, 4) +
               " (diffusion, or mu), which has no waves; it must be positive: change their signs");
     WaveStudy study{angles, longer_side(scene.domain.boxes), scene.time.density};
-    for (const scene::Series &series : scene.study.series)
-      for (const scene::Level &level : series.levels)
+    for (const problem::Series &series : scene.study.series)
+      for (const problem::Level &level : series.levels)
         needs(2 * level.h <= study.wavelength,
               "Study/h = " + base::to_text(level.h, 4) +
                   " carries no wave as long as the domain, " + base::to_text(study.wavelength, 4) +
@@ -216,14 +221,14 @@ namespace plumbline::study
     return study;
   }
 
-  std::vector<DispersionRow> measure_waves(const Method &method, const scene::Problem &problem,
+  std::vector<DispersionRow> measure_waves(const Method &method, const problem::Problem<2> &problem,
                                            const WaveStudy &study, const std::string &series,
                                            bool is_finest)
   {
     const Measurement measurement(problem, study);
     DispersionRow row;
     row.method = method.name();
-    row.side = method.side();
+    row.family = method.family();
     row.series = series;
     row.h = problem.h;
     row.horizon = problem.horizon();
@@ -252,41 +257,111 @@ namespace plumbline::study
     return rows;
   }
 
-  std::vector<Trend> wave_trends(const scene::Scene &scene, const std::vector<DispersionRow> &rows)
+  namespace
   {
-    std::vector<Trend> trends;
-    for (const DispersionRow &row : rows)
+    std::string name_of(const WaveCurve &curve)
     {
+      const std::string way = name(curve.polarisation);
+      return (way.empty() ? "" : way + " ") + "waves at " + base::to_text(curve.angle, 4) + "°";
+    }
+  } // namespace
+
+  Record wave_record(Record record, const DispersionRow &row)
+  {
+    record.failure = row.failure;
+    record.texts["proof"] = base::word(row.limit.answer);
+    record.texts["proof, reason"] = row.limit.reason;
+    record.set("moment defect", row.limit.defect);
+    if (!row.failure.empty())
+      return record;
+    double fastest = 0;
+    for (const WaveCurve &curve : row.curves)
+    {
+      const std::string waves = name_of(curve);
+      record.set(waves + ": error of long waves", curve.long_wave_error);
+      record.set(waves + ": phase speed", curve.longest.phase, "length/time");
+      record.set(waves + ": group speed", curve.longest.group, "length/time");
+      record.set(waves + ": nonlocal phase speed", curve.longest.exact_phase, "length/time");
+      record.set(waves + ": nonlocal group speed", curve.longest.exact_group, "length/time");
+      record.set(waves + ": local speed", curve.local_speed, "length/time");
+      fastest = std::max(fastest, curve.local_speed);
+      if (curve.samples.empty())
+        continue;
+      Curve samples = {{"k", "1/length", {}},
+                       {"phase speed", "length/time", {}},
+                       {"group speed", "length/time", {}},
+                       {"nonlocal phase speed", "length/time", {}},
+                       {"nonlocal group speed", "length/time", {}}};
+      for (const WaveSample &one : curve.samples)
+      {
+        const double values[] = {one.k, one.phase, one.group, one.exact_phase, one.exact_group};
+        for (std::size_t i = 0; i < samples.size(); ++i)
+          samples[i].values.push_back(values[i]);
+      }
+      record.curves[waves] = std::move(samples);
+    }
+    const auto names = physics::polarisations(row.anisotropy.size() == 1
+                                                  ? physics::Structure::scalar
+                                                  : physics::Structure::tensor);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      record.set("anisotropy" + (names.size() == 1 ? "" : " " + name(names[i])),
+                 row.anisotropy[i]);
+    record.set("error against the local limit", row.worst_local_error());
+    record.set("error against the nonlocal operator", row.worst_nonlocal_error());
+    record.set("round-off", row.round_off);
+    record.set("least squared frequency", row.range.least, "1/time^2");
+    record.set("largest squared frequency", row.range.largest, "1/time^2");
+    record.set("grows", row.grows() ? 1 : 0);
+    record.set("critical step", row.critical_step(), "time");
+    record.set("critical step, of the time in which a wave crosses h",
+               row.critical_step() * fastest / row.h);
+    return record;
+  }
+
+  std::vector<Trend> wave_trends(const scene::Scene &scene, const Records &records)
+  {
+    const char *const measure = "error against the nonlocal operator";
+    std::vector<Trend> trends;
+    for (const Record &record : records)
+    {
+      const Key &key = record.key;
       auto trend = std::find_if(trends.begin(), trends.end(),
                                 [&](const Trend &t)
-                                { return t.method == row.method && t.series == row.series; });
+                                { return t.method == key.label() && t.series == key.series; });
       if (trend == trends.end())
       {
         Trend first;
-        first.method = row.method;
-        first.side = row.side;
-        first.series = row.series;
+        first.method = key.label();
+        first.family = key.family;
+        first.series = key.series;
         first.error = "phase speed | nonlocal";
         first.axis = level_axis(scene.study.regime);
         first.size = 1; // errors are relative
         trend = trends.insert(trends.end(), first);
       }
-      const double error = row.worst_nonlocal_error();
-      if (!row.failure.empty() || !std::isfinite(error) || row.grows())
+      const bool grows = record.count("grows") > 0;
+      if (!record.failure.empty() || !record.has(measure) || grows)
       {
         trend->outcome = Outcome::failed;
         trend->reason =
-            !row.failure.empty()
-                ? row.failure
-                : "waves grow at h = " + base::to_text(row.h, 4) +
-                      (row.grows() ? ", the least ω² is " + base::to_text(row.range.least, 4)
-                                   : ", also those of the nonlocal operator itself");
+            !record.failure.empty()
+                ? record.failure
+                : "waves grow at h = " + base::to_text(key.h, 4) +
+                      (grows ? ", the least ω² is " +
+                                   base::to_text(record["least squared frequency"], 4)
+                             : ", also those of the nonlocal operator itself");
         continue;
       }
-      trend->x.push_back(coordinate(trend->axis, row));
-      trend->values.push_back(error);
-      trend->round_off = std::max(trend->round_off, row.round_off);
-      trend->proof = row.limit.defect >= trend->proof.defect ? row.limit : trend->proof;
+      trend->x.push_back(coordinate(trend->axis, key));
+      trend->values.push_back(record[measure]);
+      trend->round_off = std::max(trend->round_off, record["round-off"]);
+      if (record["moment defect"] >= trend->proof.defect)
+      {
+        trend->proof.defect = record["moment defect"];
+        trend->proof.answer =
+            base::from_word<LimitProof::Answer>(record.text("proof")).value_or(LimitProof::Answer());
+        trend->proof.reason = record.text("proof, reason");
+      }
     }
     for (Trend &trend : trends)
     {
@@ -295,5 +370,60 @@ namespace plumbline::study
       trend.verdict = verdict_of(scene.study.regime, trend);
     }
     return trends;
+  }
+
+  const std::vector<double> usual_angles = {0, 22.5, 45};
+
+  namespace
+  {
+    void check_angles(const std::vector<double> &angles)
+    {
+      constexpr std::size_t most = 16;
+      if (angles.empty() || angles.size() > most)
+        throw InputError("--angles has " + std::to_string(angles.size()) +
+                         " directions; give 1 to " + std::to_string(most));
+      for (const double angle : angles)
+        if (!std::isfinite(angle) || std::abs(angle) > 360)
+          throw InputError("--angles: " + base::to_text(angle, 4) +
+                           " is no direction; give degrees from -360 to 360");
+    }
+  } // namespace
+
+  Analysis dispersion_analysis(const std::vector<double> &angles)
+  {
+    check_angles(angles);
+    Analysis analysis{"dispersion", "Dispersion"};
+    for (const double angle : angles)
+      analysis.options += (analysis.options.empty() ? "" : " ") + base::to_text(angle, 17);
+    analysis.choose_methods = [angles](const scene::Scene &scene, const Methods &available,
+                                       unsigned int, unsigned int)
+    {
+      (void)plan_waves(scene, angles);
+      return study::choose_methods(scene, available);
+    };
+    analysis.analyse = [angles](const Place &place, const Method &method)
+    {
+      WaveStudy waves = plan_waves(place.scene(), angles);
+      Records records;
+      for (const DispersionRow &row : measure_waves(method, place.problem(), waves,
+                                                    place.series().name, place.is_finest()))
+      {
+        Record record = place.record("dispersion", method);
+        record.key.variant = row.method == method.name() ? "" : "lumped";
+        records.push_back(wave_record(std::move(record), row));
+      }
+      return records;
+    };
+    analysis.conclude = [angles](const scene::Scene &scene, StudyResults &results)
+    {
+      std::string directions;
+      for (const double angle : angles)
+        directions += (directions.empty() ? "" : ", ") + base::to_text(angle, 4) + "°";
+      results.facts = {{"longest wave", base::to_text(plan_waves(scene, angles).wavelength, 4)},
+                       {"directions", directions}};
+      results.trends = wave_trends(scene, results.records);
+    };
+    analysis.sampled = {"critical step", ": phase speed"};
+    return analysis;
   }
 } // namespace plumbline::study

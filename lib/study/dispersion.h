@@ -3,12 +3,10 @@
 #include "algebra/symbol.h"
 #include "method/method.h"
 #include "physics/waves.h"
-#include "study/results.h"
+#include "study/analysis.h"
 
 namespace plumbline::study
 {
-  using method::Method;
-
   /// A wave of one length on a lattice, beside the nonlocal operator's own.
   struct WaveSample
   {
@@ -35,7 +33,7 @@ namespace plumbline::study
   struct DispersionRow
   {
     std::string method;
-    Side side = Side::meshfree; ///< of the method
+    MethodFamily family = MethodFamily::meshfree; ///< of the method
     std::string series;
     double h = 0, horizon = 0;     ///< [length]
     std::vector<WaveCurve> curves; ///< for each direction one of each polarisation
@@ -76,25 +74,25 @@ namespace plumbline::study
 
   /// One row of a method's own mass matrix, and one more, lumped(NAME), where that couples cells.
   /// @param is_finest  of its series: sampled from 2 to 200 h
-  std::vector<DispersionRow> measure_waves(const Method &method, const scene::Problem &problem,
+  std::vector<DispersionRow> measure_waves(const Method &method, const problem::Problem<2> &problem,
                                            const WaveStudy &study, const std::string &series,
                                            bool is_finest);
+
+  /// Curve "waves at ANGLE°" ("L waves at ..." of a solid), of rows at a series' finest level: k,
+  /// phase and group speed, and both of the nonlocal operator. Scalars by the same names.
+  Record wave_record(Record record, const DispersionRow &row);
 
   /// For each method and series how the worst error of the longest wave's phase speed behaves,
   /// against the nonlocal operator's. That tends to the local limit's itself as the horizon falls,
   /// so that in the regime delta a method's waves tend to the right ones if and only if this error
   /// vanishes. Against the local limit errors of rule and horizon may cancel on the way.
-  /// @param rows  coarse to fine in each series
-  std::vector<Trend> wave_trends(const scene::Scene &scene, const std::vector<DispersionRow> &rows);
+  /// @param records  coarse to fine in each series
+  std::vector<Trend> wave_trends(const scene::Scene &scene, const Records &records);
 
-  /// All that is measured of a scene's waves.
-  struct DispersionResults
-  {
-    std::string scene_name, purpose;
-    WaveStudy study;
-    std::vector<DispersionRow> rows; ///< method by method, coarse to fine in each series
-    std::vector<Trend> trends;
-    std::string variable = {}; ///< that varies in its regime, else empty
-    bool is_complete = true;   ///< else it was interrupted
-  };
+  /// Waves in directions of a scene [degree].
+  /// @throws InputError  none, too many, or no angles
+  Analysis dispersion_analysis(const std::vector<double> &angles);
+
+  /// Along an axis, along the diagonal, and halfway.
+  extern const std::vector<double> usual_angles;
 } // namespace plumbline::study

@@ -2,6 +2,7 @@
 
 #include "analysis/transient.h"
 #include "method/method.h"
+#include "scene/scene.h"
 #include "study/results.h"
 
 #include <functional>
@@ -25,7 +26,7 @@ namespace plumbline::study
   struct MotionRun
   {
     std::string method; ///< as of Run
-    Side side = Side::meshfree;
+    MethodFamily family = MethodFamily::meshfree;
     std::string problem, series;
     std::string scheme;
     std::string steps; ///< as the scene says it, "dt = 0.01" or "0.5 of critical"
@@ -102,7 +103,7 @@ namespace plumbline::study
 
   /// The torus without a mesh, n points a side.
   using MakeTorus = std::function<std::unique_ptr<method::ContinuousMotion>(
-      const scene::Scene &, double horizon, unsigned int n)>;
+      const physics::DoubleWell &, const geometry::Box &, unsigned int dimension, unsigned int n)>;
 
   struct MotionControl
   {

@@ -13,7 +13,7 @@ namespace plumbline::study
   namespace
   {
     using dealii::Point;
-    using random::SamplePoints;
+    using uq::SamplePoints;
 
     constexpr std::array<unsigned int, 3> n_gauss = {60, 32, 12}; ///< of 1, 2, 3 variables
 
@@ -53,14 +53,14 @@ namespace plumbline::study
     /// The same of averages over the comparison cells.
     Evaluate averages_at(const scene::Scene &scene, std::size_t case_index, const SampleCase &one)
     {
-      const scene::Field nothing{[](const Point<2> &, unsigned int) { return 0.; }, std::nullopt};
-      const scene::Level level{one.h, one.horizon};
-      const auto place = std::make_shared<const scene::Problem>(
+      const problem::Field<2> nothing{[](const Point<2> &, unsigned int) { return 0.; }, std::nullopt};
+      const problem::Level level{one.h, one.horizon};
+      const auto place = std::make_shared<const problem::Problem<2>>(
           make_problem(scene, static_cast<unsigned int>(case_index), level, 0, &nothing));
       const bool is_local = scene.study.decisive_error.target == scene::Target::local;
       return [=](const scene::Scene &at)
       {
-        const scene::Problem problem = make_problem(at, static_cast<unsigned int>(case_index),
+        const problem::Problem<2> problem = make_problem(at, static_cast<unsigned int>(case_index),
                                                     level, 0, &nothing, place.get());
         return cell_averages(is_local && problem.local_solution ? *problem.local_solution
                                                                 : *problem.solution,
@@ -71,7 +71,7 @@ namespace plumbline::study
     std::pair<std::vector<double>, std::vector<double>>
     moments(const scene::Scene &scene, const SamplePoints &rule, const Evaluate &evaluate)
     {
-      random::FieldSums sums;
+      uq::FieldSums sums;
       for (std::size_t i = 0; i < rule.points.size(); ++i)
       {
         std::vector<double> values;
@@ -87,7 +87,7 @@ namespace plumbline::study
 
   std::optional<ExactStatistics> exact_statistics(const scene::Scene &scene, const SampleCase &one)
   {
-    const std::vector<random::Law> laws = scene.random.laws();
+    const std::vector<uq::Law> laws = scene.random.laws();
     const bool is_drawn = scene.random.field != scene::FieldKind::none;
     const std::vector<std::string> cases = scene.problem.case_names();
     const auto case_index = static_cast<std::size_t>(

@@ -125,4 +125,30 @@ namespace plumbline::study
     check(Kind::monotone, "error falls at every level", check_fall);
     check(Kind::jitter, "rises of the error over its first value", check_rises);
   }
+
+  void check_values(const scene::Scene &scene, StudyResults &results)
+  {
+    for (const scene::Expected &expected : scene.expected.all)
+    {
+      if (expected.kind != scene::ExpectedKind::values)
+        continue;
+      const std::string &quantity = expected.problem;
+      std::vector<double> found;
+      bool holds = true;
+      for (const Record &record : results.records)
+        if (record.key.method == expected.method && record.has(quantity) &&
+            (expected.series.empty() ||
+             without_blanks(record.key.series) == without_blanks(expected.series)))
+        {
+          found.push_back(record[quantity]);
+          holds = holds && found.size() <= expected.values.size() &&
+                  std::abs(found.back() / expected.values[found.size() - 1] - 1) <=
+                      scene.expected.error_tolerance;
+        }
+      results.expectations.push_back({expected.method + ", " + quantity, join(expected.values),
+                                      found.empty() ? "no such method, quantity or series was run"
+                                                    : join(found),
+                                      holds && !found.empty()});
+    }
+  }
 } // namespace plumbline::study

@@ -250,7 +250,7 @@ namespace plumbline::study
           !(std::abs(found - value) <= expected.error_tolerance * std::abs(value)))
         faults.push_back("Expected/growth = '" + name + ": " + base::to_text(value, 6) +
                          "', but it is " + base::to_text(found, 6));
-    if (expected.growth_end != scene::GrowthEnd::unknown &&
+    if (expected.growth_end != problem::GrowthEnd::unknown &&
         expected.growth_end != results.growth.end)
       faults.push_back("Expected/growth ends = " + base::word(expected.growth_end) +
                        ", but it ends " + base::word(results.growth.end));
@@ -262,7 +262,7 @@ namespace plumbline::study
     return faults;
   }
 
-  std::vector<std::string> left_out_of_growth(const scene::FractureSection &rules)
+  std::vector<std::string> left_out_of_growth(const problem::FractureSettings &rules)
   {
     std::vector<std::string> result = {
         "equilibrium throughout: no inertia, no rate, no heat; what is released where growth is "

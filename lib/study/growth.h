@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/fracture.h"
-#include "random/spectrum.h"
+#include "uq/spectrum.h"
 #include "scene/scene.h"
 
 #include <array>
@@ -15,7 +15,7 @@ namespace plumbline::study
   /// A body as one side makes it.
   struct GrowthModel
   {
-    method::BreakingBody *body = nullptr;
+    method::QuasistaticFractureModel *body = nullptr;
     double h = 0; ///< of the lattice [length]
     std::vector<dealii::Point<2>> nodes;
     std::vector<double> toughness;                       ///< G of each node [force/length]
@@ -28,7 +28,7 @@ namespace plumbline::study
 
   struct GrowthPlan
   {
-    scene::FractureSection rules;
+    problem::FractureSettings rules;
     std::string subject;              ///< of checkpoints: what grows
     std::filesystem::path checkpoint; ///< its file
   };
@@ -98,20 +98,20 @@ namespace plumbline::study
     std::string scene_name, purpose, method, model; ///< model: bond-based, or LPS
     std::string scene_text;                         ///< the scene as read, all keys
     scene::RandomSection random;                    ///< with its seed, realisation and values
-    scene::FractureSection rules;
+    problem::FractureSettings rules;
     double h = 0, horizon = 0;
     double lattice_toughness = 0; ///< energy of all bonds across a straight line, over G
-    double trapping = 1;          ///< G was divided by this, see scene::Criterion
+    double trapping = 1;          ///< G was divided by this, see problem::Criterion
     double plane_modulus = 0;     ///< mean of E/(1 - nu²) over the nodes [force/length²]
     std::vector<BrokenPart> parts;
     std::vector<dealii::Point<2>> nodes;
     std::vector<double> toughness;            ///< see GrowthModel
-    std::optional<random::Spectrum> spectrum; ///< of a random field of modes
+    std::optional<uq::Spectrum> spectrum; ///< of a random field of modes
     dealii::Point<2> notch_tip;
     dealii::Point<2> origin; ///< that places count from, see scene::DomainSection
     std::size_t n_bonds = 0, n_unknowns = 0;
     analysis::Growth growth;
-    method::BreakingBody::Work work;
+    method::QuasistaticFractureModel::Work work;
     double seconds = 0; ///< CPU time since it was taken up
     CrackPath path;
     std::vector<GrowthMoment> moments;
@@ -150,5 +150,5 @@ namespace plumbline::study
                                          const scene::ExpectedSection &expected);
 
   /// What is not in the model, for reports.
-  std::vector<std::string> left_out_of_growth(const scene::FractureSection &rules);
+  std::vector<std::string> left_out_of_growth(const problem::FractureSettings &rules);
 } // namespace plumbline::study

@@ -13,7 +13,7 @@ namespace plumbline::study
   namespace
   {
     /// What does not depend on cells.
-    method::ProblemSize size_of(const scene::Scene &scene, const scene::Level &level)
+    method::ProblemSize size_of(const scene::Scene &scene, const problem::Level &level)
     {
       method::ProblemSize size;
       size.level = level;
@@ -23,7 +23,7 @@ namespace plumbline::study
       return size;
     }
 
-    method::ProblemSize lattice_size(const scene::Scene &scene, const scene::Level &level)
+    method::ProblemSize lattice_size(const scene::Scene &scene, const problem::Level &level)
     {
       method::ProblemSize size = size_of(scene, level);
       const auto n = scene.domain.lattice(level.h).n_cells();
@@ -32,7 +32,7 @@ namespace plumbline::study
     }
 
     method::ProblemSize mesh_size(const scene::Scene &scene, const geometry::Mesh &mesh,
-                                  const scene::Level &level)
+                                  const problem::Level &level)
     {
       if (!mesh.wholes.empty())
         return mesh_size(scene, geometry::straightened(mesh), level);
@@ -48,7 +48,7 @@ namespace plumbline::study
     }
 
     /// The same body in cells of another size.
-    method::ProblemSize at_level(method::ProblemSize size, const scene::Level &level)
+    method::ProblemSize at_level(method::ProblemSize size, const problem::Level &level)
     {
       const double finer = std::pow(size.level.h / level.h, 2);
       size.level = level;
@@ -90,7 +90,7 @@ namespace plumbline::study
 
     bool is_estimated(const scene::Scene &scene, const Method &method)
     {
-      if (method.side() != method::Side::reference ||
+      if (method.family() != method::MethodFamily::reference ||
           scene.reference.estimate == scene::Estimate::none)
         return false;
       return method.name() == scene.reference.method ||
@@ -100,7 +100,7 @@ namespace plumbline::study
     }
 
     /// Of a level, measured: the coarsest one, from which that of finer ones follows.
-    method::ProblemSize measured_size(const scene::Scene &scene, const scene::Level &level)
+    method::ProblemSize measured_size(const scene::Scene &scene, const problem::Level &level)
     {
       if (scene.domain.is_free_body)
         return mesh_size(scene, *scene::make_body(scene, level).mesh, level);
@@ -120,7 +120,7 @@ namespace plumbline::study
              1.5 * coarse.n_cells;
     }
 
-    method::ProblemSize of_same_cells(method::ProblemSize size, const scene::Level &level)
+    method::ProblemSize of_same_cells(method::ProblemSize size, const problem::Level &level)
     {
       size.level = level;
       return size;

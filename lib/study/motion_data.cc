@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "method/discretisation.h"
 #include "physics/expression.h"
+#include "scene/problem.h"
 #include "study/comparison.h"
 #include "study/dynamics.h"
 
@@ -18,14 +19,14 @@ namespace plumbline::study
     using analysis::TimeSeries;
     using analysis::Vector;
 
-    scene::Field given(const std::string &key, const std::string &text, const physics::Names &names)
+    problem::Field<2> given(const std::string &key, const std::string &text, const physics::Names &names)
     {
       const physics::Expression u(key, text, names);
       return {[u](const dealii::Point<2> &x, unsigned int c) { return u(x, c); }, {}};
     }
 
     /// Places in Ω, spread evenly.
-    std::vector<dealii::Point<2>> some_places(const scene::Problem &problem)
+    std::vector<dealii::Point<2>> some_places(const problem::Problem<2> &problem)
     {
       constexpr std::size_t n_places = 128;
       const std::vector<dealii::Point<2>> all = comparison_points(problem);
@@ -35,13 +36,13 @@ namespace plumbline::study
       return places;
     }
 
-    scene::Field nothing()
+    problem::Field<2> nothing()
     {
       return {[](const dealii::Point<2> &, unsigned int) { return 0.; }, {}};
     }
   } // namespace
 
-  const scene::Problem &ProblemsInTime::at(double t)
+  const problem::Problem<2> &ProblemsInTime::at(double t)
   {
     auto &problem = problems_[t];
     if (!problem)
@@ -49,11 +50,11 @@ namespace plumbline::study
       const base::CpuTimer timer;
       const std::tuple key(case_index_, level_.horizon, t);
       const auto known = loads_.find(key);
-      problem = std::make_unique<const scene::Problem>(
+      problem = std::make_unique<const problem::Problem<2>>(
           make_problem(scene_, case_index_, level_, t,
                        known == loads_.end() ? nullptr : &known->second, first_.get()));
       if (!first_)
-        first_ = std::make_unique<const scene::Problem>(*problem);
+        first_ = std::make_unique<const problem::Problem<2>>(*problem);
       if (known == loads_.end() && problem->load.series) // a series stands on the box, not on h
         loads_.emplace(key, problem->load);
       seconds_ += timer.seconds();
@@ -109,29 +110,29 @@ namespace plumbline::study
                        : TimeSeries::resolve(at, time.final_time, tolerance, what,
                                              problems.points_in_time());
     };
-    const scene::Problem &first = problems.at(0);
+    const problem::Problem<2> &first = problems.at(0);
     MotionData data{{},
                     {},
                     {},
                     series("Problem/load",
-                           [&](const scene::Problem &instant) { return equation.drive(instant); }),
+                           [&](const problem::Problem<2> &instant) { return equation.drive(instant); }),
                     {}};
     if (!is_steady)
     {
-      const auto of = [&](const scene::Problem &instant)
+      const auto of = [&](const problem::Problem<2> &instant)
       {
         if (is_manufactured && instant.solution)
           return equation.inertia(instant);
-        scene::Problem held = instant; // a load that is given holds Ω's part itself
-        held.solution = nothing();
-        return equation.inertia(held);
+        problem::Problem<2> constrained = instant; // a load that is given holds Ω's part itself
+        constrained.solution = nothing();
+        return equation.inertia(constrained);
       };
       const TimeSeries rate = series("Problem/solution", of).derivative();
       data.drive.add(time.density, rate.derivative());
       data.drive.add(time.density * time.damping, rate);
     }
     if (first.solution)
-      data.exact = series("Problem/solution", [&](const scene::Problem &instant)
+      data.exact = series("Problem/solution", [&](const problem::Problem<2> &instant)
                           { return equation.state(*instant.solution); });
 
     physics::Names names = scene.names(first.horizon());
@@ -154,7 +155,7 @@ namespace plumbline::study
   {
     run.facts = equation.facts();
     run.is_symmetric = equation.is_symmetric();
-    if (run.side == method::Side::meshfree)
+    if (run.family == method::MethodFamily::meshfree)
       run.limit = discretisation.diagnostics().limit;
   }
 } // namespace plumbline::study

@@ -2,6 +2,8 @@
 
 #include "analysis/transient.h"
 #include "method/method.h"
+#include "scene/problem.h"
+#include "scene/scene.h"
 
 #include <map>
 #include <memory>
@@ -15,15 +17,15 @@ namespace plumbline::study
   {
   public:
     /// Loads by case, horizon and time, which lattices of several h share.
-    using Loads = std::map<std::tuple<unsigned int, double, double>, scene::Field>;
+    using Loads = std::map<std::tuple<unsigned int, double, double>, problem::Field<2>>;
 
-    ProblemsInTime(const scene::Scene &scene, unsigned int case_index, const scene::Level &level,
+    ProblemsInTime(const scene::Scene &scene, unsigned int case_index, const problem::Level &level,
                    Loads &loads)
         : scene_(scene), case_index_(case_index), level_(level), loads_(loads)
     {
     }
 
-    const scene::Problem &at(double t);
+    const problem::Problem<2> &at(double t);
 
     /// Those of another mesh size at the same horizon.
     ProblemsInTime resized(double h) const
@@ -41,10 +43,10 @@ namespace plumbline::study
   private:
     const scene::Scene &scene_;
     unsigned int case_index_;
-    scene::Level level_;
+    problem::Level level_;
     Loads &loads_;
-    std::map<double, std::unique_ptr<const scene::Problem>> problems_;
-    std::unique_ptr<const scene::Problem> first_; ///< whose place all others take
+    std::map<double, std::unique_ptr<const problem::Problem<2>>> problems_;
+    std::unique_ptr<const problem::Problem<2>> first_; ///< whose place all others take
     std::optional<std::size_t> n_points_;         ///< in time
     double seconds_ = 0;
   };
@@ -53,7 +55,7 @@ namespace plumbline::study
   struct MotionData
   {
     analysis::State start;
-    std::optional<scene::Field> displacement, velocity; ///< that it begins with, where given
+    std::optional<problem::Field<2>> displacement, velocity; ///< that it begins with, where given
     analysis::TimeSeries drive;
     std::optional<analysis::TimeSeries> exact; ///< states of the solution
   };

@@ -52,18 +52,18 @@ namespace plumbline::study
 
   bool wants_estimate(const scene::Scene &scene, const Method &method)
   {
-    if (method.side() != Side::reference || scene.time.shows_blow_up)
+    if (method.family() != MethodFamily::reference || scene.time.shows_blow_up)
       return false;
     const bool is_known = scene.reference.method.has_value() || !scene.problem.solutions.empty();
     return scene.reference.estimate == scene::Estimate::every ||
            (scene.reference.estimate == scene::Estimate::automatic && !is_known);
   }
 
-  void settle_quadrature(method::Discretisation &discretisation, const scene::Problem &first)
+  void settle_quadrature(method::Discretisation &discretisation, const problem::Problem<2> &first)
   {
     if (first.is_floating)
       return;
-    scene::Problem pulled = first;
+    problem::Problem<2> pulled = first;
     pulled.load = {[](const dealii::Point<2> &, unsigned int) { return 1.; }, {}};
     pulled.constraint = {[](const dealii::Point<2> &, unsigned int) { return 0.; }, {}};
     analysis::settle_quadrature(discretisation, pulled);

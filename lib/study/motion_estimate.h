@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/scene.h"
 #include "study/dynamics.h"
 #include "study/motion_data.h"
 
@@ -15,7 +16,7 @@ namespace plumbline::study
 
   /// Refine quadrature as statics under a load of 1 needs it, whatever moves later. A body that
   /// floats has no statics.
-  void settle_quadrature(method::Discretisation &discretisation, const scene::Problem &first);
+  void settle_quadrature(method::Discretisation &discretisation, const problem::Problem<2> &first);
 
   /// What a Galerkin method's motion may be wrong by in space and by quadrature, at the final time,
   /// L2 over nodes. Space: with the changes d to h/2 and d' from 2 h, at the nodes that both have,

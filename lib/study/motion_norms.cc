@@ -24,7 +24,7 @@ namespace plumbline::study
                       : std::sqrt(area * sum * n_components / static_cast<double>(values.size()));
   }
 
-  double area_of(const scene::Problem &problem)
+  double area_of(const problem::Problem<2> &problem)
   {
     if (problem.cells)
       return std::accumulate(

@@ -14,5 +14,5 @@ namespace plumbline::study
   std::vector<double> difference(std::vector<double> a, const std::vector<double> &b);
 
   /// Of Ω. @pre problem.lattice
-  double area_of(const scene::Problem &problem);
+  double area_of(const problem::Problem<2> &problem);
 } // namespace plumbline::study

@@ -40,9 +40,9 @@ namespace plumbline::study
 
   namespace
   {
-    void check_steps(const scene::Scene &scene, const Method &method, const scene::Level &level)
+    void check_steps(const scene::Scene &scene, const Method &method, const problem::Level &level)
     {
-      const scene::Problem problem = make_problem(scene, 0, level);
+      const problem::Problem<2> problem = make_problem(scene, 0, level);
       std::unique_ptr<method::Discretisation> discretisation;
       try
       {
@@ -96,12 +96,12 @@ namespace plumbline::study
     if (!scene.is_steady()) // else it would be said when much is done
       for (unsigned int c = 0; c < scene.problem.case_names().size(); ++c)
       {
-        const scene::Level &level = scene.study.series.front().levels.front();
+        const problem::Level &level = scene.study.series.front().levels.front();
         const scene::Scene here = at_level(scene, level);
         ProblemsInTime::Loads loads;
         (void)ProblemsInTime(here, c, level, loads).points_in_time();
       }
-    for (const scene::Series &series : scene.study.series)
+    for (const problem::Series &series : scene.study.series)
     {
       const std::size_t n_all = series.levels.size(),
                         n = n_levels == 0 ? n_all : std::min<std::size_t>(n_levels, n_all);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/transient.h"
+#include "scene/scene.h"
 
 namespace plumbline::study
 {

@@ -43,12 +43,12 @@ namespace plumbline::study
         n_all_ = static_cast<double>(names.size() * methods_.size() * scene_.time.schemes.size() *
                                      step_rules(scene_.time).size());
         double n_levels = 0;
-        for (const scene::Series &series : study_.study.series)
+        for (const problem::Series &series : study_.study.series)
           n_levels += static_cast<double>(series.levels.size());
         n_all_ *= n_levels;
         results_.is_complete = true;
         for (unsigned int c = 0; c < names.size(); ++c)
-          for (const scene::Series &series : study_.study.series)
+          for (const problem::Series &series : study_.study.series)
           {
             const std::size_t n_all = series.levels.size(),
                               n = control_.n_levels == 0
@@ -63,7 +63,7 @@ namespace plumbline::study
               {
                 MotionRun run;
                 run.method = method->name();
-                run.side = method->side();
+                run.family = method->family();
                 run.problem = names[c];
                 run.series = series.name;
                 run.level = level;
@@ -83,7 +83,7 @@ namespace plumbline::study
 
     private:
       /// What was made of the scene at another value of its variable says nothing here.
-      void take_scene_at(const scene::Level &level)
+      void take_scene_at(const problem::Level &level)
       {
         if (study_.study.regime != scene::Regime::variable)
           return;
@@ -145,7 +145,7 @@ namespace plumbline::study
         try
         {
           const double shared = problems.seconds();
-          const scene::Problem &first = problems.at(0);
+          const problem::Problem<2> &first = problems.at(0);
           area_ = area_of(first);
           const auto discretisation = method.discretise(first, base::Communicator::alone());
           settle_quadrature(*discretisation, first);

@@ -45,7 +45,7 @@ namespace plumbline::study
     {
       MotionTrend trend;
       trend.method = run.method;
-      trend.side = run.side;
+      trend.family = run.family;
       trend.problem = run.problem;
       trend.series = run.series;
       trend.scheme = run.scheme;
@@ -57,7 +57,7 @@ namespace plumbline::study
     /// Source: Jha & Lipton 2018, doi:10.1137/17M1112236, Theorems 3 and 4.
     std::string proven_rate(const scene::Scene &scene, const MotionTrend &trend)
     {
-      if (scene.material.model->is_linear() || trend.side != Side::meshfree)
+      if (scene.material.model->is_linear() || trend.family != MethodFamily::meshfree)
         return {};
       return scene.study.regime == scene::Regime::m ? "γ <= 1" : "none";
     }

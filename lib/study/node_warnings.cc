@@ -10,10 +10,10 @@ namespace plumbline::study
 {
   std::vector<std::string> node_warnings(const scene::Case &one, const method::Methods &methods)
   {
-    const scene::Problem &problem = one.problem;
+    const problem::Problem<2> &problem = one.problem;
     const bool has_bonds =
         std::any_of(methods.begin(), methods.end(),
-                    [](const auto &method) { return method->side() == method::Side::meshfree; });
+                    [](const auto &method) { return method->family() == method::MethodFamily::meshfree; });
     std::vector<std::string> warnings = unseen_features(one);
     if (!has_bonds || !problem.cells)
       return warnings;

@@ -1,6 +1,7 @@
 #include "study/preflight.h"
 
 #include "base/error.h"
+#include "scene/capabilities.h"
 #include "scene/damage.h"
 #include "scene/mesh.h"
 #include "scene/origin.h"
@@ -51,7 +52,7 @@ namespace plumbline::study
       throw InputError("scene '" + scene.name +
                        "': Strip/length is for 'plumbline strip', whose crack stands; write that, "
                        "or 0");
-    const scene::Level &level = scene.study.series.front().levels.front();
+    const problem::Level &level = scene.study.series.front().levels.front();
     const scene::Scene here = at_level(scene, level);
     const scene::Case first = make_case(here, 0, level);
     const auto reason_against = [&](const Method &method)
@@ -64,7 +65,7 @@ namespace plumbline::study
     if (scene.reference.method && !scene.time.is_dynamic()) // a motion's is no method
     {
       const auto reference = find_method(available, *scene.reference.method, "Reference/method");
-      if (reference->side() != method::Side::reference)
+      if (reference->family() != method::MethodFamily::reference)
         throw InputError("Reference/method: '" + *scene.reference.method +
                          "' is no Galerkin method, so nothing is known of its error; choose Q2, P2 "
                          "or another ('plumbline list methods')");
@@ -80,7 +81,7 @@ namespace plumbline::study
   namespace
   {
     /// The constraint is finite around Ω and the load in it, on a grid of samples.
-    void check_lattice_data(const scene::Problem &problem)
+    void check_lattice_data(const problem::Problem<2> &problem)
     {
       constexpr int n_samples = 24;
       const geometry::Lattice &lattice = *problem.lattice;
@@ -103,7 +104,7 @@ namespace plumbline::study
     }
 
     /// The same at nodes of a mesh problem.
-    void check_node_data(const scene::Problem &problem)
+    void check_node_data(const problem::Problem<2> &problem)
     {
       constexpr std::size_t n_samples = 600;
       const auto &cells = *problem.cells;
@@ -118,7 +119,7 @@ namespace plumbline::study
         }
     }
 
-    void check_data(const scene::Problem &problem)
+    void check_data(const problem::Problem<2> &problem)
     {
       if (problem.lattice)
         check_lattice_data(problem);
@@ -134,7 +135,7 @@ namespace plumbline::study
         std::size_t before = 0;
         for (std::size_t i = 0; i < series.levels.size(); ++i)
         {
-          const scene::Level &level = series.levels[i];
+          const problem::Level &level = series.levels[i];
           std::ostringstream where;
           where << "level h = " << level.h << ", horizon = " << level.horizon << ": ";
           try
@@ -175,11 +176,11 @@ namespace plumbline::study
     for (unsigned int c = 0; c < names.size(); ++c)
       for (const auto &series : scene.study.series)
       {
-        const scene::Level &widest =
+        const problem::Level &widest =
             *std::max_element(series.levels.begin(), series.levels.end(),
-                              [](const scene::Level &a, const scene::Level &b)
+                              [](const problem::Level &a, const problem::Level &b)
                               { return a.horizon + a.h < b.horizon + b.h; });
-        for (const scene::Level &level : series.levels)
+        for (const problem::Level &level : series.levels)
           if (&level == &widest || scene.study.regime == scene::Regime::variable)
             check_data(make_problem(at_level(scene, level), c, level));
       }

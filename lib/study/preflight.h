@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/statics.h"
+#include "scene/scene.h"
 
 #include <functional>
 

@@ -120,7 +120,7 @@ namespace plumbline::study
         return problem_.lattice || problem_.mesh->n_wholes() < few;
       }
 
-      Norms distance(const scene::Problem &cells, const ResizedSolution &a,
+      Norms distance(const problem::Problem<2> &cells, const ResizedSolution &a,
                      const ResizedSolution &b) const
       {
         constexpr unsigned int most = 9;
@@ -168,7 +168,7 @@ namespace plumbline::study
       {
         const Resized fine = finer(case_, 2);
         // parts of the coarse cells, on which both fields are smooth; of a mesh made anew, ours
-        scene::Problem cells = problem_;
+        problem::Problem<2> cells = problem_;
         if (fine.problem.lattice)
           cells = fine.problem;
         else
@@ -218,7 +218,7 @@ namespace plumbline::study
       }
 
       const scene::Case &case_;
-      const scene::Problem &problem_;
+      const problem::Problem<2> &problem_;
       const Method &method_;
       ResizedSolution solution_;
       Norms by_h_;
@@ -235,7 +235,7 @@ namespace plumbline::study
   ReferenceAverages solve_reference(const scene::Case &one, const Method &method)
   {
     const scene::ReferenceSection &wanted = one.scene.reference;
-    const scene::Problem &problem = one.problem;
+    const problem::Problem<2> &problem = one.problem;
     const Solution solution = analysis::solve(method, problem);
     ReferenceAverages result{solution.averages, {}};
     result.estimate = wanted.estimate == scene::Estimate::none

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/statics.h"
+#include "scene/problem.h"
 #include "study/results.h"
 
 namespace plumbline::study

@@ -1,5 +1,7 @@
 #include "study/refusal.h"
 
+#include "scene/capabilities.h"
+
 #include <algorithm>
 #include <vector>
 
@@ -24,7 +26,7 @@ namespace plumbline::study
         if (other->is_in_all() && can_do(*other, needed))
         {
           all.push_back(other->name());
-          if (other->side() == method.side())
+          if (other->family() == method.family())
             alike.push_back(other->name());
         }
       const auto &names = alike.empty() ? all : alike;
@@ -39,7 +41,7 @@ namespace plumbline::study
 
   std::string refusal(const Method &method, const scene::Case &one, const Methods &available)
   {
-    const Capabilities needed = method::needs(one);
+    const Capabilities needed = scene::needs(one.scene) | method::needs_of_cells(one.problem);
     const std::string why =
         scene::refusal(one.scene, needed, method.can(), others(method, needed, available));
     return why.empty() ? method.why_not(one.problem) : why;
@@ -47,9 +49,9 @@ namespace plumbline::study
 
   std::string capability_table(const Methods &methods)
   {
-    std::vector<scene::Capable> all;
+    std::vector<problem::Capable> all;
     for (const auto &method : methods)
       all.push_back({method->name(), method->can()});
-    return scene::capability_table("methods", all);
+    return problem::capability_table("methods", all);
   }
 } // namespace plumbline::study

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "method/method.h"
+#include "scene/capabilities.h"
+#include "scene/problem.h"
 
 namespace plumbline::study
 {

@@ -42,7 +42,7 @@ namespace plumbline::study
     /// it has none, or its mesh takes no notice of h.
     std::optional<Resized> made_anew(const scene::Case &one, double h)
     {
-      const scene::Problem &problem = one.problem;
+      const problem::Problem<2> &problem = one.problem;
       // meshes of one description at two sizes are alike to that
       constexpr double like = 1.5;
       try
@@ -63,7 +63,7 @@ namespace plumbline::study
       }
     }
 
-    Resized cut(const scene::Problem &problem, unsigned int n)
+    Resized cut(const problem::Problem<2> &problem, unsigned int n)
     {
       Resized result{problem, true};
       result.problem.settings.geometry.n_checks = 0;
@@ -85,7 +85,7 @@ namespace plumbline::study
     std::vector<double> coarsened(std::vector<double> averages, const scene::Case &one, double h)
     {
       const scene::Scene &scene = one.scene;
-      const scene::Problem &problem = one.problem;
+      const problem::Problem<2> &problem = one.problem;
       const unsigned int n = problem.n_components;
       const auto is_last = [&] { return 2 * h > .75 * problem.h; };
       for (; !is_last(); h *= 2)
@@ -105,7 +105,7 @@ namespace plumbline::study
 
   Resized finer(const scene::Case &one, unsigned int n)
   {
-    const scene::Problem &problem = one.problem;
+    const problem::Problem<2> &problem = one.problem;
     if (problem.lattice)
       return {
           scene::make_problem(centred(one.scene), one.index, {problem.h / n, problem.horizon()})};
@@ -120,7 +120,7 @@ namespace plumbline::study
   {
     // parts of a body are fixed by the centroids of cells: larger cells may fix another part
     constexpr double same = 1e-9;
-    const scene::Problem &problem = one.problem;
+    const problem::Problem<2> &problem = one.problem;
     auto result = made_anew(one, problem.h * n);
     if (result && problem.body &&
         std::abs(area(*result->problem.mesh) / area(*problem.mesh) - 1) > same)
@@ -131,12 +131,12 @@ namespace plumbline::study
   ResizedSolution solve_resized(const Resized &resized, const scene::Case &one,
                                 const Method &method)
   {
-    const scene::Problem &problem = one.problem;
+    const problem::Problem<2> &problem = one.problem;
     Solution solution = analysis::solve(method, resized.problem);
     if (problem.lattice)
       solution.averages = resized.problem.h < problem.h
                               ? coarsened(std::move(solution.averages), one, resized.problem.h)
-                              : cell_averages(scene::Field{solution.value, std::nullopt}, problem);
+                              : cell_averages(problem::Field<2>{solution.value, std::nullopt}, problem);
     return {std::move(solution.averages), std::move(solution.value)};
   }
 } // namespace plumbline::study

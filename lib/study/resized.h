@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/problem.h"
+#include "scene/scene.h"
 #include "study/comparison.h"
 
 namespace plumbline::study
@@ -10,7 +12,7 @@ namespace plumbline::study
   /// cells of the first one.
   struct Resized
   {
-    scene::Problem problem;
+    problem::Problem<2> problem;
     /// Cells cut in pieces, not made anew: they fill the same polygon, however curved the domain.
     bool is_cut = false;
   };

@@ -2,7 +2,7 @@
 
 #include "base/cost.h"
 #include "method/diagnostics.h"
-#include "method/side.h"
+#include "method/method_family.h"
 #include "study/axis.h"
 
 #include <array>
@@ -15,13 +15,13 @@ namespace plumbline::study
 {
   using method::Diagnostics;
   using method::LimitProof;
-  using method::Side;
+  using method::MethodFamily;
 
   /// One method on one case at one level.
   struct Run
   {
     std::string method;         ///< e.g. "IPA-AC"
-    Side side = Side::meshfree; ///< of the method
+    MethodFamily family = MethodFamily::meshfree; ///< of the method
     std::string problem;        ///< case name, e.g. "case1"
     std::string series;         ///< what is held fixed, e.g. "m = 3"
     unsigned int level = 0;     ///< from coarse to fine
@@ -65,7 +65,7 @@ namespace plumbline::study
   struct Trend
   {
     std::string method;
-    Side side = Side::meshfree; ///< of the method
+    MethodFamily family = MethodFamily::meshfree; ///< of the method
     std::string problem, series;
     std::string error; ///< "norm | target"
     Axis axis = Axis::mesh_size;

@@ -11,7 +11,7 @@ namespace plumbline::study
   namespace
   {
     /// The smaller side of Ω's bounding box.
-    double width(const scene::Problem &problem)
+    double width(const problem::Problem<2> &problem)
     {
       if (problem.mesh)
       {
@@ -33,7 +33,7 @@ namespace plumbline::study
     }
   } // namespace
 
-  double variation(const scene::Problem &problem, const Solution &solution)
+  double variation(const problem::Problem<2> &problem, const Solution &solution)
   {
     double most = 0;
     const unsigned int n = problem.n_components;
@@ -50,7 +50,7 @@ namespace plumbline::study
     return most;
   }
 
-  double round_off_error(const scene::Problem &problem, const Solution &solution)
+  double round_off_error(const problem::Problem<2> &problem, const Solution &solution)
   {
     constexpr double safety = 10, epsilon = std::numeric_limits<double>::epsilon();
     const double a = width(problem) / 2 + problem.horizon();

@@ -15,8 +15,8 @@ namespace plumbline::study
   /// = half the domain's smaller side and the horizon (Yang & Yin, lemma 4.2, with the bound that
   /// holds for large horizons too). The factor 10 covers sums of many terms and transforms.
   /// @return  absolute, in the unit of the solution
-  double round_off_error(const scene::Problem &problem, const Solution &solution);
+  double round_off_error(const problem::Problem<2> &problem, const Solution &solution);
 
   /// How far a solution varies: largest less least cell average, of the component where it is most.
-  double variation(const scene::Problem &problem, const Solution &solution);
+  double variation(const problem::Problem<2> &problem, const Solution &solution);
 } // namespace plumbline::study

@@ -12,7 +12,7 @@ namespace plumbline::study
   {
     using dealii::Point;
 
-    SampleField field_of(const scene::Problem &problem, const Solution &solution, bool is_nodal)
+    SampleField field_of(const problem::Problem<2> &problem, const Solution &solution, bool is_nodal)
     {
       SampleField field;
       field.n_components = problem.n_components;
@@ -37,7 +37,7 @@ namespace plumbline::study
     std::vector<SampleCase> cases;
     SweepControl control;
     control.on_solution =
-        [&](const scene::Problem &problem, const Solution &solution, const Run &run)
+        [&](const problem::Problem<2> &problem, const Solution &solution, const Run &run)
     {
       SampleCase one;
       one.method = run.method;

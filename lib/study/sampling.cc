@@ -31,7 +31,7 @@ namespace plumbline::study
     {
       std::vector<double> weights; ///< of the samples that there are
       std::map<std::string, std::vector<double>> values;
-      random::FieldSums field;
+      uq::FieldSums field;
       double seconds = 0;
     };
 
@@ -161,7 +161,7 @@ namespace plumbline::study
       const std::vector<double> weights = normalised(sums.weights);
       for (const auto &[name, values] : sums.values)
         if (values.size() == weights.size())
-          result.quantities[name] = random::statistics(values, weights, independent);
+          result.quantities[name] = uq::statistics(values, weights, independent);
       return result;
     }
 
@@ -238,11 +238,11 @@ namespace plumbline::study
     }
   } // namespace
 
-  std::optional<random::Spectrum> field_spectrum(const scene::RandomSection &section)
+  std::optional<uq::Spectrum> field_spectrum(const scene::RandomSection &section)
   {
     if (!section.source || section.n_modes == 0)
       return {};
-    return random::spectrum_of(*section.source->expansion());
+    return uq::spectrum_of(*section.source->expansion());
   }
 
   bool SampleCase::is_same_method(const SampleCase &other) const
@@ -268,7 +268,7 @@ namespace plumbline::study
     results.target = base::word(scene.study.decisive_error.target);
     results.n_samples = plan.values.size();
     results.points = plan.values;
-    for (const random::Variable &variable : scene.random.variables)
+    for (const uq::Variable &variable : scene.random.variables)
       results.variables.push_back(variable.name);
     for (unsigned int k = 1; k <= scene.random.n_modes; ++k)
       results.variables.push_back("mode " + std::to_string(k));

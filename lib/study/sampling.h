@@ -1,7 +1,7 @@
 #pragma once
 
-#include "random/spectrum.h"
-#include "random/statistics.h"
+#include "uq/spectrum.h"
+#include "uq/statistics.h"
 #include "scene/scene.h"
 
 #include <functional>
@@ -14,7 +14,7 @@
 namespace plumbline::study
 {
   /// Of a field's modes; nothing where it has none. Finds them where nobody did yet.
-  std::optional<random::Spectrum> field_spectrum(const scene::RandomSection &section);
+  std::optional<uq::Spectrum> field_spectrum(const scene::RandomSection &section);
 
   /// Samples of one rule and count.
   struct SampleSet
@@ -22,7 +22,7 @@ namespace plumbline::study
     unsigned int count = 0, n_modes = 0; ///< see scene::SamplingSection
     std::vector<std::size_t> samples;    ///< into SamplingPlan::values
     std::vector<double> weights;
-    double sum_of_sizes = 1, noise = 1; ///< see random::SamplePoints
+    double sum_of_sizes = 1, noise = 1; ///< see uq::SamplePoints
   };
 
   /// All samples that sets take, each once.
@@ -74,7 +74,7 @@ namespace plumbline::study
     std::size_t n_missing = 0; ///< that failed: independent samples do without, rules say nothing
     double sum_of_sizes = 1, noise = 1;
     double seconds = 0; ///< CPU time of its samples
-    std::map<std::string, random::Statistics> quantities;
+    std::map<std::string, uq::Statistics> quantities;
     // of the field, L2 over Ω
     double mean_size = 0;
     std::optional<double> deviation_size; ///< nothing where a variance is negative: it has no root
@@ -146,7 +146,7 @@ namespace plumbline::study
     std::size_t n_samples = 0;
     std::vector<std::string> variables;       ///< their names, those of modes last
     std::vector<std::vector<double>> points;  ///< their values, shape (n_samples, n_variables)
-    std::optional<random::Spectrum> spectrum; ///< of a field of modes
+    std::optional<uq::Spectrum> spectrum; ///< of a field of modes
     std::vector<CaseStatistics> cases;
     std::vector<SampleFailure> failures;
     std::vector<CheapestPair> cheapest;

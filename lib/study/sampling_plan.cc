@@ -2,26 +2,26 @@
 
 namespace plumbline::study
 {
-  using random::SamplePoints;
-  using random::SampleRule;
+  using uq::SamplePoints;
+  using uq::SampleRule;
 
   namespace
   {
-    SamplePoints draw(const scene::SamplingSection &sampling, const std::vector<random::Law> &laws,
+    SamplePoints draw(const scene::SamplingSection &sampling, const std::vector<uq::Law> &laws,
                       unsigned int count)
     {
       switch (sampling.rule)
       {
       case SampleRule::tensor:
-        return random::tensor_points(laws, count);
+        return uq::tensor_points(laws, count);
       case SampleRule::smolyak:
-        return random::smolyak_points(laws, count, sampling.growth);
+        return uq::smolyak_points(laws, count, sampling.growth);
       case SampleRule::equidistant:
-        return random::equidistant_points(laws.size(), count);
+        return uq::equidistant_points(laws.size(), count);
       case SampleRule::quasi_monte_carlo:
-        return random::quasi_monte_carlo_points(laws, count);
+        return uq::quasi_monte_carlo_points(laws, count);
       default:
-        return random::monte_carlo_points(laws, count, sampling.seed);
+        return uq::monte_carlo_points(laws, count, sampling.seed);
       }
     }
 
@@ -33,7 +33,7 @@ namespace plumbline::study
     {
       const scene::SamplingSection &sampling = scene.sampling;
       const scene::RandomSection &random = scene.random;
-      const std::vector<random::Law> laws = random.laws(),
+      const std::vector<uq::Law> laws = random.laws(),
                                      varying(laws.begin(), laws.end() - random.n_modes + n_modes);
       const bool is_sequence =
           plan.are_independent || sampling.rule == SampleRule::quasi_monte_carlo;

@@ -58,7 +58,7 @@ namespace plumbline::study
                                        const Solution &solution)
   {
     const scene::Scene full = scene::full_model(one.scene);
-    const scene::Level level = one.level();
+    const problem::Level level = one.level();
     const scene::Case fuller = make_case(full, one.index, level);
     if (!refusal(method, fuller, {}).empty())
       return {};

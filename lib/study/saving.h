@@ -1,6 +1,8 @@
 #pragma once
 
 #include "analysis/statics.h"
+#include "scene/problem.h"
+#include "scene/scene.h"
 #include "study/results.h"
 
 #include <optional>

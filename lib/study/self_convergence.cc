@@ -22,7 +22,7 @@ namespace plumbline::study
     }
   } // namespace
 
-  CellPieces comparison_pieces(const scene::Problem &problem)
+  CellPieces comparison_pieces(const problem::Problem<2> &problem)
   {
     CellPieces result;
     if (!problem.cells)
@@ -88,7 +88,7 @@ namespace plumbline::study
     return sum;
   }
 
-  void OwnFinest::keep(const Run &run, const scene::Problem &problem,
+  void OwnFinest::keep(const Run &run, const problem::Problem<2> &problem,
                        const std::vector<double> &averages)
   {
     if (cells_.count(place(run)) == 0)

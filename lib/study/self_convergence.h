@@ -2,6 +2,7 @@
 
 #include "geometry/polygon.h"
 #include "scene/problem.h"
+#include "scene/scene.h"
 #include "study/results.h"
 
 #include <map>
@@ -20,7 +21,7 @@ namespace plumbline::study
     std::vector<double> area;      ///< of each cell [length^2]
   };
 
-  CellPieces comparison_pieces(const scene::Problem &problem);
+  CellPieces comparison_pieces(const problem::Problem<2> &problem);
 
   /// Averages over cells from those over others, by the areas that they share: exact for what is
   /// constant on the others' cells. A cell that the others do not fill takes the mean over what
@@ -36,7 +37,7 @@ namespace plumbline::study
   class OwnFinest
   {
   public:
-    void keep(const Run &run, const scene::Problem &problem, const std::vector<double> &averages);
+    void keep(const Run &run, const problem::Problem<2> &problem, const std::vector<double> &averages);
 
     /// Enters "norm | own finest level" for the scene's norms of averages into all runs of a
     /// method, case and series that were kept, but the finest one; where that is missing, nowhere.

@@ -186,10 +186,10 @@ namespace plumbline::study
   }
 
   StripRow stand_crack(const method::Method &method, const scene::Scene &scene,
-                       const scene::Series &series, const scene::Level &level)
+                       const problem::Series &series, const problem::Level &level)
   {
     StripRow row{
-        method.name(), method.side(), series.name, level.h, level.horizon, {}, {}, 0, {}, 0, {}};
+        method.name(), method.family(), series.name, level.h, level.horizon, {}, {}, 0, {}, 0, {}};
     row.strip = {cells(scene.strip.height, level.h),
                  cells(scene.strip.length, level.h),
                  cells(scene.strip.crack, level.h),
@@ -240,7 +240,7 @@ namespace plumbline::study
         if (!limit)
           continue;
         const auto before = last > 2 ? find_limit(levels, last - 1, quantity) : std::nullopt;
-        limits.push_back({begin->method, begin->series, quantity, begin->side, limit->value,
+        limits.push_back({begin->method, begin->series, quantity, begin->family, limit->value,
                           limit->rate, before ? std::abs(limit->value - before->value) : unknown});
       }
       begin = end;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "method/method.h"
+#include "scene/scene.h"
 #include "study/results.h"
 #include "study/strip_growth.h"
 
@@ -12,7 +13,7 @@ namespace plumbline::study
   struct StripRow
   {
     std::string method;
-    method::Side side = method::Side::meshfree;
+    method::MethodFamily family = method::MethodFamily::meshfree;
     std::string series;
     double h = 0, horizon = 0; ///< [length]
     method::RiceStrip strip;
@@ -37,7 +38,7 @@ namespace plumbline::study
   struct StripLimit
   {
     std::string method, series, quantity;
-    method::Side side = method::Side::meshfree;
+    method::MethodFamily family = method::MethodFamily::meshfree;
     double limit = 0, rate = 0;
     double change = 0; ///< of the limit, were the finest level left out; NaN: three levels
   };
@@ -54,7 +55,7 @@ namespace plumbline::study
 
   /// @throws InputError  a method that solves none; what else it cannot do is in `failure`
   StripRow stand_crack(const method::Method &method, const scene::Scene &scene,
-                       const scene::Series &series, const scene::Level &level);
+                       const problem::Series &series, const problem::Level &level);
 
   /// Of each method, series over h alone, and quantity, as far as three levels show one: those
   /// whose last two steps go one way and shrink.

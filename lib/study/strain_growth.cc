@@ -11,6 +11,8 @@
 
 namespace plumbline::study
 {
+  using analysis::Curve;
+
   namespace
   {
     using physics::SymmetricMatrix;
@@ -31,7 +33,7 @@ namespace plumbline::study
 
     /// Those of a torus, one of each pair ±k, no shorter than four cells, since lattices
     /// carry shorter ones badly, nor than half a bond, beyond which symbols are near their limit.
-    std::vector<Wave> waves_of(const geometry::Box &box, const scene::Level &level)
+    std::vector<Wave> waves_of(const geometry::Box &box, const problem::Level &level)
     {
       const double largest = std::min(4 * M_PI / level.horizon, M_PI / (2 * level.h)) * (1 + 1e-9);
       std::array<double, 2> first{};
@@ -113,7 +115,7 @@ namespace plumbline::study
   }
 
   std::vector<StrainGrowth> strain_growths(const scene::Scene &scene, const std::string &series,
-                                           const scene::Level &level)
+                                           const problem::Level &level)
   {
     constexpr int n_samples = 12;
     constexpr double beyond = 1.25; // of where (64) fails
@@ -146,11 +148,11 @@ namespace plumbline::study
     return growths;
   }
 
-  void add_growth(const method::Method &method, const scene::Problem &problem, double density,
+  void add_growth(const method::Method &method, const problem::Problem<2> &problem, double density,
                   std::vector<StrainGrowth> &growths)
   {
     constexpr double longest_time = 400; // in horizons over the speed of a bond, √(p/ρ)
-    MethodGrowth result{method.name(), method.side(), {}, {}, {}};
+    MethodGrowth result{method.name(), method.family(), {}, {}, {}};
     std::unique_ptr<method::Discretisation> discretisation;
     try
     {
@@ -176,7 +178,7 @@ namespace plumbline::study
           return;
         const analysis::Vector drive(equation->drive(problem).size());
         const analysis::Transient transient(*equation, analysis::TimeSeries(drive), density, 0);
-        const scene::Field stretched{[&](const dealii::Point<2> &x, unsigned int c)
+        const problem::Field<2> stretched{[&](const dealii::Point<2> &x, unsigned int c)
                                      { return gradient[c][0] * x[0] + gradient[c][1] * x[1]; },
                                      {}};
         try
@@ -198,8 +200,51 @@ namespace plumbline::study
     }
   }
 
-  std::vector<Expectation> check_growth(const scene::Scene &scene,
-                                        const std::vector<StrainGrowth> &growths)
+  Record strain_record(Record record, const StrainGrowth &growth, const MethodGrowth &one)
+  {
+    record.key.variant = growth.name + " strain";
+    record.failure = one.failure;
+    record.set("ellipticity lost", growth.thresholds.ellipticity);
+    record.set("criterion (64)", growth.thresholds.local);
+    if (growth.first_wave > 0)
+      record.set("first wave of the torus", growth.first_wave);
+    Curve curve = {{"X", "", {}},           {"strain", "", {}},         {"k1", "1/length", {}},
+                   {"k2", "1/length", {}},  {"symbol", "1/time", {}},   {"local", "1/time", {}},
+                   {"linear", "1/time", {}}, {"observed", "1/time", {}}};
+    for (std::size_t i = 0; i < one.observed.size(); ++i)
+    {
+      const StrainSample &sample = growth.samples[i];
+      const double row[] = {sample.amplitude, sample.strain, sample.wave[0], sample.wave[1],
+                            sample.symbol,    sample.local,  one.linear[i],  one.observed[i]};
+      for (std::size_t k = 0; k < curve.size(); ++k)
+        curve[k].values.push_back(row[k]);
+      if (one.observed[i] > 0 && !record.has("first seen"))
+        record.set("first seen", sample.amplitude);
+    }
+    record.curves["growth"] = std::move(curve);
+    if (one.failure.empty())
+    {
+      record.set("difference from the symbol", growth.difference(one));
+      record.set("difference from the tangent", growth.own_difference(one));
+    }
+    return record;
+  }
+
+  Records strain_records(const Place &place, const Method &method)
+  {
+    const double density = place.scene().time.density;
+    using Growths = std::vector<StrainGrowth>;
+    Growths growths = place.shared<Growths>(
+        "strains", [&] { return strain_growths(place.scene(), place.series().name, place.level()); });
+    add_growth(method, place.problem(), density, growths);
+    Records records;
+    for (const StrainGrowth &growth : growths)
+      for (const MethodGrowth &one : growth.methods) // none: no motion about strains
+        records.push_back(strain_record(place.record("stability", method), growth, one));
+    return records;
+  }
+
+  std::vector<Expectation> check_growth(const scene::Scene &scene, const Records &records)
   {
     std::vector<Expectation> results;
     for (const scene::Expected &expected : scene.expected.all)
@@ -209,14 +254,14 @@ namespace plumbline::study
       double worst = 0;
       bool is_found = false;
       std::string failure;
-      for (const StrainGrowth &growth : growths)
-        for (const MethodGrowth &one : growth.methods)
-          if (one.method == expected.method)
-          {
-            is_found = true;
-            failure += one.failure;
-            worst = std::max(worst, growth.difference(one));
-          }
+      for (const Record &record : records)
+        if (record.key.method == expected.method && record.curves.count("growth") > 0)
+        {
+          is_found = true;
+          failure += record.failure;
+          if (record.failure.empty())
+            worst = std::max(worst, record["difference from the symbol"]);
+        }
       results.push_back({"Expected/strain growth: " + expected.text,
                          "<= " + base::to_text(expected.values.front(), 4),
                          !is_found          ? "no such method on a torus of double wells"

@@ -2,7 +2,7 @@
 
 #include "method/method.h"
 #include "physics/double_well_stability.h"
-#include "study/results.h"
+#include "study/analysis.h"
 
 #include <array>
 #include <string>
@@ -27,7 +27,7 @@ namespace plumbline::study
   struct MethodGrowth
   {
     std::string method;
-    Side side = Side::meshfree;
+    MethodFamily family = MethodFamily::meshfree;
     std::vector<double> linear;   ///< of its tangent, one for each sample [1/time]
     std::vector<double> observed; ///< of its motion
     std::string failure;          ///< empty, or why there is none
@@ -53,15 +53,22 @@ namespace plumbline::study
   /// @pre !scene.material.model->is_linear() && scene.domain.is_periodic
   /// Cost: some 3 seconds for each horizon.
   std::vector<StrainGrowth> strain_growths(const scene::Scene &scene, const std::string &series,
-                                           const scene::Level &level);
+                                           const problem::Level &level);
 
   /// Move every sample's wave by a method. Those without a motion about strains (Galerkin) are left
   /// out.
   /// @param problem  of double wells
-  void add_growth(const method::Method &method, const scene::Problem &problem, double density,
+  void add_growth(const method::Method &method, const problem::Problem<2> &problem, double density,
                   std::vector<StrainGrowth> &growths);
 
-  /// Expected/strain growth: the largest difference() of a method over all series and directions.
-  std::vector<Expectation> check_growth(const scene::Scene &scene,
-                                        const std::vector<StrainGrowth> &growths);
+  /// Variant "NAME strain". Curve "growth": amplitude X, strain, wave (k1, k2), symbol, local,
+  /// linear, observed.
+  Record strain_record(Record record, const StrainGrowth &growth, const MethodGrowth &one);
+
+  /// The growth of waves on strains at a place by one method: a record for each direction.
+  Records strain_records(const Place &place, const Method &method);
+
+  /// Expected/strain growth: the largest difference from the symbol of a method over all series and
+  /// directions.
+  std::vector<Expectation> check_growth(const scene::Scene &scene, const Records &records);
 } // namespace plumbline::study

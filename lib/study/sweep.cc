@@ -69,14 +69,14 @@ namespace plumbline::study
         Targets targets = {};
       };
 
-      unsigned int n_levels(const scene::Series &series) const
+      unsigned int n_levels(const problem::Series &series) const
       {
         const auto n = static_cast<unsigned int>(series.levels.size());
         return control_.n_levels == 0 ? n : std::min(n, control_.n_levels);
       }
 
       /// Methods that the budget allows at this level.
-      Methods affordable(const std::string &name, const scene::Series &series, unsigned int level)
+      Methods affordable(const std::string &name, const problem::Series &series, unsigned int level)
       {
         if (control_.budget == 0)
           return methods_;
@@ -103,7 +103,7 @@ namespace plumbline::study
       }
 
       /// Take over what an earlier run of the same scene has for this level.
-      bool take_earlier(const Methods &due, const std::string &name, const scene::Series &series,
+      bool take_earlier(const Methods &due, const std::string &name, const problem::Series &series,
                         unsigned int level)
       {
         if (is_against_own()) // what an earlier run held against its own finest level is not kept
@@ -130,7 +130,7 @@ namespace plumbline::study
         return true;
       }
 
-      void run_level(const scene::Series &series, unsigned int level)
+      void run_level(const problem::Series &series, unsigned int level)
       {
         const scene::Scene here = at_level(scene_, series.levels[level]);
         std::vector<OpenCase> open;
@@ -156,7 +156,7 @@ namespace plumbline::study
       }
 
       /// Of the finest level, where the horizon is the shortest and limits are near.
-      void warn(const std::vector<OpenCase> &open, const scene::Series &series, unsigned int level)
+      void warn(const std::vector<OpenCase> &open, const problem::Series &series, unsigned int level)
       {
         if (open.empty() || level + 1 < n_levels(series) ||
             series.name != scene_.study.series.front().name)
@@ -170,7 +170,7 @@ namespace plumbline::study
             results_.warnings.push_back(cases_[one.index] + ": " + found->text());
       }
 
-      void say(const std::string &name, const scene::Series &series, unsigned int level,
+      void say(const std::string &name, const problem::Series &series, unsigned int level,
                const std::string &what) const
       {
         if (control_.on_progress)
@@ -179,7 +179,7 @@ namespace plumbline::study
                                static_cast<double>(n_done_) / static_cast<double>(n_all_));
       }
 
-      void solve_targets(std::vector<OpenCase> &open, const scene::Series &series,
+      void solve_targets(std::vector<OpenCase> &open, const problem::Series &series,
                          unsigned int level)
       {
         for (OpenCase &one : open)
@@ -199,7 +199,7 @@ namespace plumbline::study
 
       /// All cases by one discretisation; on several ranks, where all must fail alike, one by one.
       void run_method(const Method &method, std::vector<OpenCase> &open,
-                      const scene::Series &series, unsigned int level)
+                      const problem::Series &series, unsigned int level)
       {
         std::vector<const OpenCase *> due;
         for (const OpenCase &one : open)
@@ -246,7 +246,7 @@ namespace plumbline::study
       }
 
       static ErrorEstimate placed(ErrorEstimate estimate, const std::string &name,
-                                  const scene::Series &series, unsigned int level)
+                                  const problem::Series &series, unsigned int level)
       {
         estimate.problem = name;
         estimate.series = series.name;
@@ -255,9 +255,9 @@ namespace plumbline::study
       }
 
       /// Besides the reference.
-      bool is_estimated(const Method &method, const scene::Problem &problem) const
+      bool is_estimated(const Method &method, const problem::Problem<2> &problem) const
       {
-        return method.side() == Side::reference && method.name() != scene_.reference.method &&
+        return method.family() == MethodFamily::reference && method.name() != scene_.reference.method &&
                (scene_.reference.estimate == scene::Estimate::every ||
                 (scene_.reference.estimate == scene::Estimate::automatic &&
                  !scene_.reference.method && !problem.solution));
@@ -270,15 +270,15 @@ namespace plumbline::study
         return run.problem == cases_.front() && run.series == scene_.study.series.front().name &&
                run.level == 0 && run.cost.n_bonds <= most_bonds && has_fuller_model(one.scene) &&
                std::none_of(results_.runs.begin(), results_.runs.end(),
-                            [&](const Run &other) { return other.side == method.side(); });
+                            [&](const Run &other) { return other.family == method.family(); });
       }
 
-      Run empty_run(const Method &method, const OpenCase &one, const scene::Series &series,
+      Run empty_run(const Method &method, const OpenCase &one, const problem::Series &series,
                     unsigned int level) const
       {
         Run run;
         run.method = method.name();
-        run.side = method.side();
+        run.family = method.family();
         run.problem = cases_[one.index];
         run.series = series.name;
         run.level = level;
@@ -286,15 +286,15 @@ namespace plumbline::study
         run.horizon = series.levels[level].horizon;
         run.value = series.levels[level].value;
         run.geometry_seconds = one.problem.mesh_seconds +
-                               (method.side() == Side::meshfree ? one.problem.cells_seconds : 0);
+                               (method.family() == MethodFamily::meshfree ? one.problem.cells_seconds : 0);
         return run;
       }
 
       /// Everything that is known of a solution.
       void evaluate(const Method &method, const OpenCase &one, const Solution &solution,
-                    const scene::Series &series, Run &run)
+                    const problem::Series &series, Run &run)
       {
-        const scene::Problem &problem = one.problem;
+        const problem::Problem<2> &problem = one.problem;
         run.cost = solution.cost;
         run.size = variation(problem, solution);
         run.round_off = round_off_error(problem, solution);
@@ -320,9 +320,9 @@ namespace plumbline::study
       }
 
       /// Averages of the local limit, by classical finite elements on the mesh refined once.
-      std::vector<double> local_averages(const scene::Problem &problem) const
+      std::vector<double> local_averages(const problem::Problem<2> &problem) const
       {
-        scene::Problem fine = problem;
+        problem::Problem<2> fine = problem;
         fine.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh));
         return analysis::solve(*find_method(available_, "LOCAL", "Problem/local solution"), fine)
             .averages;
@@ -332,7 +332,7 @@ namespace plumbline::study
       std::vector<analysis::Outcome> solve_cases(const Method &method,
                                                  const std::vector<const OpenCase *> &cases) const
       {
-        std::vector<const scene::Problem *> problems;
+        std::vector<const problem::Problem<2> *> problems;
         for (const OpenCase *one : cases)
           problems.push_back(&one->problem);
         return solve_and_time(
@@ -363,7 +363,7 @@ namespace plumbline::study
       }
 
       /// What is done with a solution of the finest level: stored, and drawn for the first series.
-      void finish_series(const Solution &solution, const Run &run, const scene::Problem &problem,
+      void finish_series(const Solution &solution, const Run &run, const problem::Problem<2> &problem,
                          const std::vector<double> &target)
       {
         if (control_.on_finest)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/statics.h"
+#include "scene/scene.h"
 #include "study/results.h"
 
 #include <functional>
@@ -23,11 +24,11 @@ namespace plumbline::study
     std::function<bool()> should_stop;              ///< asked before each solve
     std::function<void(const Solution &, const Run &)>
         on_finest; ///< solutions of the finest levels
-    std::function<void(const scene::Problem &, const Solution &, const Run &)>
+    std::function<void(const problem::Problem<2> &, const Solution &, const Run &)>
         on_solution; ///< of every level, their runs with errors
     /// How cases are solved; empty: analysis::solve.
     std::function<std::vector<analysis::Outcome>(const Method &,
-                                                 const std::vector<const scene::Problem *> &)>
+                                                 const std::vector<const problem::Problem<2> *> &)>
         solve = {};
   };
 

@@ -29,7 +29,7 @@ namespace plumbline::study
     /// The largest difference of a field to the trigonometric polynomial through its values, of its
     /// largest value, at control points.
     double unresolved_part(const method::ContinuousMotion &equation, const scene::Scene &scene,
-                           const analysis::Vector &values, const scene::Field &field)
+                           const analysis::Vector &values, const problem::Field<2> &field)
     {
       constexpr std::size_t n_line = 400, n_plane = 60; // along each axis
       const geometry::Box &box = scene.domain.boxes.include.front();
@@ -82,7 +82,9 @@ namespace plumbline::study
          scene.domain.dimension == 1 ? Sizes{32, 48, 72, 108, 162} : Sizes{16, 24, 36, 54})
     {
       coarse = std::move(fine);
-      fine.equation = control.make_torus(scene, horizon, n);
+      fine.equation = control.make_torus(make_double_well(scene, horizon),
+                                         scene.domain.boxes.include.front(),
+                                         scene.domain.dimension, n);
       const MotionData data = motion_data(scene, *fine.equation, problems);
       const Transient transient(*fine.equation, data.drive, scene.time.density, scene.time.damping);
       fine.state = move_exactly(scene, transient, data.start);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/scene.h"
 #include "study/dynamics.h"
 #include "study/motion_data.h"
 

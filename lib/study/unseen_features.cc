@@ -148,7 +148,7 @@ namespace plumbline::study
       Range there, at_nodes;
     };
 
-    Found look(const SpatialValue &value, const Between &places, const NearbyNodes &nearby)
+    Found look(const SpatialValue &value, const PlacesBetweenNodes &places, const NearbyNodes &nearby)
     {
       std::vector<double> at_nodes;
       for (const Point<2> &x : places.nodes)
@@ -180,7 +180,7 @@ namespace plumbline::study
       return found;
     }
 
-    std::string sentence(const std::string &key, const Found &found, const Between &places,
+    std::string sentence(const std::string &key, const Found &found, const PlacesBetweenNodes &places,
                          double h)
     {
       const auto of = [](std::size_t n, std::size_t all, const std::string &what)
@@ -213,7 +213,7 @@ namespace plumbline::study
   }
 
   std::vector<std::string> unseen_features(const std::vector<SpatialValue> &values,
-                                           const Between &places, double h)
+                                           const PlacesBetweenNodes &places, double h)
   {
     std::vector<std::string> result;
     if (values.empty() || places.nodes.empty())
@@ -231,7 +231,7 @@ namespace plumbline::study
 
   std::vector<std::string> unseen_features(const scene::Case &one)
   {
-    const scene::Problem &problem = one.problem;
+    const problem::Problem<2> &problem = one.problem;
     if (!problem.cells)
       return {};
     std::vector<SpatialValue> values = material_values(one.scene);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/problem.h"
+#include "scene/scene.h"
 
 #include <functional>
 #include <string>
@@ -19,7 +20,7 @@ namespace plumbline::study
   std::vector<SpatialValue> material_values(const scene::Scene &scene);
 
   /// Where values are looked for between nodes.
-  struct Between
+  struct PlacesBetweenNodes
   {
     std::vector<dealii::Point<2>> nodes;
     std::vector<geometry::Polygon> cells; ///< convex; several may belong to a node
@@ -31,7 +32,7 @@ namespace plumbline::study
   /// cells and bonds and both ranges. A feature that is thinner than the distance between samples,
   /// which is a tenth of a cell of up to 4000 and a half of a cell of many more, may be missed.
   std::vector<std::string> unseen_features(const std::vector<SpatialValue> &values,
-                                           const Between &places, double h);
+                                           const PlacesBetweenNodes &places, double h);
 
   /// The same of all values of a case on a mesh, with what to do: the constants of the material,
   /// the coefficient of the kernel. None on a lattice, where nothing varies.

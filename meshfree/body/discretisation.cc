@@ -12,7 +12,7 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    VariationalBody make_body(const scene::Problem &problem)
+    VariationalBody make_body(const problem::Problem<2> &problem)
     {
       const auto lame = problem.lame;
       return body_of_cells(*problem.body, *problem.cells,
@@ -21,7 +21,7 @@ namespace plumbline::meshfree
     }
 
     VariationalOperator make_operator(const VariationalBody &body, const Bonds &bonds,
-                                      const scene::Problem &problem)
+                                      const problem::Problem<2> &problem)
     {
       return {body, physics::influence_function(problem.kernel.profile(), problem.horizon()), bonds,
               problem.settings.solver.operator_backend};
@@ -29,7 +29,7 @@ namespace plumbline::meshfree
 
     /// ∫ b over the free cells: on each quarter by a rule of degree 5, so that loads may jump at
     /// nodes.
-    algebra::Vector cell_integrals(const VariationalBody &body, const scene::Problem &problem)
+    algebra::Vector cell_integrals(const VariationalBody &body, const problem::Problem<2> &problem)
     {
       constexpr unsigned int degree = 5;
       const geometry::NodeCells &cells = *problem.cells;
@@ -53,7 +53,7 @@ namespace plumbline::meshfree
       return result;
     }
 
-    void check_constraint(const VariationalBody &body, const scene::Problem &problem)
+    void check_constraint(const VariationalBody &body, const problem::Problem<2> &problem)
     {
       for (std::size_t i = 0; i < body.size(); ++i)
         for (unsigned int c = 0; c < 2 && body.is_fixed[i] != 0; ++c)
@@ -92,7 +92,7 @@ namespace plumbline::meshfree
     class RuleOnBody : public method::Discretisation
     {
     public:
-      RuleOnBody(const scene::Problem &problem, const Bonds &bonds)
+      RuleOnBody(const problem::Problem<2> &problem, const Bonds &bonds)
           : cells_(problem.cells), loads_are_averages_(problem.settings.loads_are_averages),
             matrix_(std::make_shared<const VariationalOperator>(
                 make_operator(make_body(problem), bonds, problem)))
@@ -103,7 +103,7 @@ namespace plumbline::meshfree
 
       std::size_t n_unknowns() const override { return 2 * cells_->n_free; }
 
-      method::CaseData data(const scene::Problem &problem) const override
+      method::CaseData data(const problem::Problem<2> &problem) const override
       {
         check_constraint(matrix_->body(), problem);
         method::CaseData result;
@@ -121,7 +121,7 @@ namespace plumbline::meshfree
       {
         return std::make_unique<BodySystem>(matrix_);
       }
-      method::DiscreteOperator matrix() const override { return show(matrix_); }
+      method::DiscreteOperator matrix() const override { return make_discrete_operator(matrix_); }
       method::Diagnostics diagnostics() const override { return diagnostics_; }
 
       /// Masses are the cells' parts in the body, lumped.
@@ -131,7 +131,7 @@ namespace plumbline::meshfree
         std::vector<double> masses;
         for (const double mass : shown.mass)
           masses.insert(masses.end(), 2, mass);
-        const auto at_free = [this](const scene::Problem &instant)
+        const auto at_free = [this](const problem::Problem<2> &instant)
         {
           const algebra::Vector load = data(instant).load;
           const VariationalBody &body = matrix_->body();
@@ -142,9 +142,9 @@ namespace plumbline::meshfree
                 result.push_back(load[c * body.size() + i]);
           return result;
         };
-        const auto inertia = [this, at_free](const scene::Problem &instant)
+        const auto inertia = [this, at_free](const problem::Problem<2> &instant)
         {
-          scene::Problem of_solution = instant;
+          problem::Problem<2> of_solution = instant;
           of_solution.load = *instant.solution;
           return at_free(of_solution);
         };
@@ -184,14 +184,14 @@ namespace plumbline::meshfree
   } // namespace
 
   std::unique_ptr<method::Discretisation> discretise_on_body(const Rule &rule,
-                                                             const scene::Problem &problem)
+                                                             const problem::Problem<2> &problem)
   {
     const Bonds bonds = lattice_bonds(rule.of(problem.kernel), problem.kernel, problem.body->h,
                                       problem.settings.geometry.backend);
     return std::make_unique<RuleOnBody>(problem, bonds);
   }
 
-  method::DiscreteOperator show(std::shared_ptr<const VariationalOperator> matrix)
+  method::DiscreteOperator make_discrete_operator(std::shared_ptr<const VariationalOperator> matrix)
   {
     const VariationalBody &body = matrix->body();
     method::DiscreteOperator result;

@@ -57,7 +57,7 @@ namespace plumbline::meshfree
   /// Solve B u = f at the free nodes by conjugate gradients from u, preconditioned component by
   /// component with sines and cosines on the rectangle around the free nodes: zero at sides beyond
   /// which nodes are fixed, mirrored at others, and scaled where cells are cut or l varies. On a
-  /// homogeneous box that is held at a side the number of iterations does not depend on h.
+  /// homogeneous box that is constrained at a side the number of iterations does not depend on h.
   /// @param tolerance  of the residual's Euclidean norm, relative to f's
   /// @throws NumericalError  as algebra::solve
   algebra::SolveResult solve(const VariationalOperator &matrix, algebra::Vector &u,

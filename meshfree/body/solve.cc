@@ -142,10 +142,10 @@ namespace plumbline::meshfree
     {
       const Frame around = frame(body);
       Stencil stencil = inner_stencil(body, family);
-      const bool is_held = std::any_of(around.sides.begin(), around.sides.end(),
+      const bool is_constrained = std::any_of(around.sides.begin(), around.sides.end(),
                                        [](const auto &side)
                                        { return side[0] == Side::zero || side[1] == Side::zero; });
-      if (!is_held) // the constant is in the kernel: as if held over the size of the body
+      if (!is_constrained) // the constant is in the kernel: as if held over the size of the body
         for (unsigned int a = 0; a < 2; ++a)
           stencil(a, a, 0, 0) *=
               1 + std::pow(static_cast<double>(stencil.reach()) / (body.n[0] + body.n[1]), 2);

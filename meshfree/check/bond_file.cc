@@ -5,7 +5,7 @@
 #include "geometry/cell_locator.h"
 #include "meshfree/check/given_rows.h"
 #include "meshfree/rules/families.h"
-#include "scene/csv.h"
+#include "base/csv.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,13 +41,13 @@ namespace plumbline::meshfree
     }
 
     /// Of all values of a column.
-    double largest_rounding(const scene::PrintedDigits &digits, double number)
+    double largest_rounding(const base::PrintedDigits &digits, double number)
     {
       return std::max(digits.rounding(number), last_digit(number));
     }
 
     /// @param z  of the first node, if the file has z
-    void check_plane(scene::Csv &csv, std::optional<double> &z)
+    void check_plane(base::Csv &csv, std::optional<double> &z)
     {
       if (!csv.has("z"))
         return;
@@ -61,7 +61,7 @@ namespace plumbline::meshfree
 
   GivenNodes read_given_nodes(const std::string &file)
   {
-    scene::Csv csv(file, {"id", "x", "y", "volume"}, {"id"});
+    base::Csv csv(file, {"id", "x", "y", "volume"}, {"id"});
     const bool is_numbered = csv.has("id");
     if (!is_numbered && !csv.has("block_id"))
       csv.fail_without("id");
@@ -131,7 +131,7 @@ namespace plumbline::meshfree
                          to_text(nodes.origin + nodes.places[i]) +
                          " lies outside of the domain and its collar at the level " + level +
                          "; take it out, move it in, or choose another level (Study)");
-    if (const auto twins = geometry::find_twins(nodes.places, mesh))
+    if (const auto twins = geometry::find_coincident_nodes(nodes.places, mesh))
       throw InputError("'" + nodes.file + "', line " + std::to_string(nodes.line[twins->second]) +
                        ": node " + std::to_string(nodes.id[twins->second]) + " " +
                        twins->place("node " + std::to_string(nodes.id[twins->first]) + " of line " +
@@ -229,7 +229,7 @@ namespace plumbline::meshfree
   namespace
   {
     /// Of the weights by their digits, relative to most of them.
-    double weight_rounding(const std::vector<GivenRow> &rows, const scene::PrintedDigits &digits)
+    double weight_rounding(const std::vector<GivenRow> &rows, const base::PrintedDigits &digits)
     {
       std::vector<double> sizes;
       for (const GivenRow &row : rows)
@@ -242,7 +242,7 @@ namespace plumbline::meshfree
       return digits.rounding(*middle) / *middle;
     }
 
-    std::vector<GivenRow> read_rows(scene::Csv &csv)
+    std::vector<GivenRow> read_rows(base::Csv &csv)
     {
       std::vector<GivenRow> rows;
       while (csv.next())
@@ -301,7 +301,7 @@ namespace plumbline::meshfree
     /// By neighbour.
     /// @param id  of a cell's node
     template <class Id>
-    void sort_bonds(std::vector<Row> &rows, std::size_t node, const scene::Csv &csv, const Id &id)
+    void sort_bonds(std::vector<Row> &rows, std::size_t node, const base::Csv &csv, const Id &id)
     {
       std::sort(rows.begin(), rows.end(),
                 [](const Row &a, const Row &b)
@@ -320,7 +320,7 @@ namespace plumbline::meshfree
   GivenFamilies read_given_families(const std::string &file, const GivenNodes &nodes,
                                     const geometry::NodeCells &cells)
   {
-    scene::Csv csv(file, {"i", "j", "weight"});
+    base::Csv csv(file, {"i", "j", "weight"});
     if (csv.has("qx") != csv.has("qy"))
       csv.fail("one of the columns qx and qy is missing; give both or none");
     const std::vector<GivenRow> given = read_rows(csv);

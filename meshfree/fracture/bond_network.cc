@@ -28,7 +28,7 @@ namespace plumbline::meshfree
       double weight = 0; ///< w K
     };
 
-    std::vector<Half> half_family(const QuadratureRule &rule, const Kernel<2> &influence, double h,
+    std::vector<Half> half_family(const NeighbourhoodQuadrature &rule, const Kernel<2> &influence, double h,
                                   Backend backend)
     {
       const Bonds all = lattice_bonds(rule, physics::deviatoric_kernel(influence, 1), h, backend);
@@ -86,7 +86,7 @@ namespace plumbline::meshfree
             number[static_cast<std::size_t>(j) * n1 + i] = static_cast<int>(network.nodes.size());
             network.nodes.push_back(x);
             network.grip.push_back(grip_of(solid.grips, x, network.h));
-            network.held.push_back(network.grip.back() < 0 ? Tensor<1, 2>() : solid.held(x));
+            network.constrained.push_back(network.grip.back() < 0 ? Tensor<1, 2>() : solid.constrained(x));
           }
       for (std::size_t g = 0; g < solid.grips.size(); ++g)
         if (std::find(network.grip.begin(), network.grip.end(), static_cast<int>(g)) ==
@@ -104,7 +104,7 @@ namespace plumbline::meshfree
     {
     public:
       Crossing(const std::vector<geometry::Polyline> &lines, const BondNetwork &network)
-          : broken_({lines, {}, scene::SurfaceTerms::none}, cells(network), network.horizon)
+          : broken_({lines, {}, problem::SurfaceTerms::none}, cells(network), network.horizon)
       {
       }
 
@@ -252,7 +252,7 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  BondNetwork make_bond_network(const BreakingSolid &solid, const QuadratureRule &rule,
+  BondNetwork make_bond_network(const BreakingSolid &solid, const NeighbourhoodQuadrature &rule,
                                 const Kernel<2> &influence, double h, Backend backend)
   {
     BondNetwork network;
@@ -277,7 +277,7 @@ namespace plumbline::meshfree
           a,           b,      half.xi, half.way, h * h * 8 * materials.mean(a, b).mu * half.weight,
           half.weight, endless};
     };
-    if (solid.surface_terms != scene::SurfaceTerms::uncorrected)
+    if (solid.surface_terms != problem::SurfaceTerms::uncorrected)
       network.surfaces = {solid.surface_terms, {}, solid.notch, materials.lame};
     const auto lack = [&](const NetworkBond &bond)
     {
@@ -344,7 +344,7 @@ namespace plumbline::meshfree
     return lost;
   }
 
-  double lattice_toughness(const QuadratureRule &rule, const Kernel<2> &influence, double h,
+  double lattice_toughness(const NeighbourhoodQuadrature &rule, const Kernel<2> &influence, double h,
                            Backend backend, std::array<int, 2> along)
   {
     const double steps = std::hypot(along[0], along[1]);

@@ -3,7 +3,7 @@
 #include "geometry/cracks.h"
 #include "meshfree/rules/quadrature_rule.h"
 #include "physics/state_based.h"
-#include "scene/surface_terms.h"
+#include "problem/surface_terms.h"
 
 #include <array>
 #include <functional>
@@ -18,14 +18,14 @@ namespace plumbline::meshfree
   struct BreakingSolid
   {
     geometry::Domain domain;          ///< with its grips
-    std::vector<geometry::Box> grips; ///< nodes are held whose cell shares area with one of them
+    std::vector<geometry::Box> grips; ///< nodes are constrained whose cell shares area with one of them
     std::vector<geometry::Box> unbreaking;              ///< bonds with an end in them do not break
     std::vector<geometry::Polyline> notch;              ///< what it is cut by from the beginning
-    std::function<Tensor<1, 2>(const Point<2> &)> held; ///< u in the grips at load 1
+    std::function<Tensor<1, 2>(const Point<2> &)> constrained; ///< u in the grips at load 1
     std::function<physics::Lame(const Point<2> &)> material;
     std::function<double(const Point<2> &)> toughness; ///< G [force/length]
     /// Published, none or consistent, see SurfaceForces; else the forces have an energy.
-    scene::SurfaceTerms surface_terms = scene::SurfaceTerms::uncorrected;
+    problem::SurfaceTerms surface_terms = problem::SurfaceTerms::uncorrected;
     bool takes_least_toughness = false; ///< of a bond: of samples along it; else its ends' mean
     /// A line that bonds across have this G from, across several the smallest.
     struct Interface
@@ -34,7 +34,7 @@ namespace plumbline::meshfree
       double toughness = 0; ///< [force/length]
     };
     std::vector<Interface> interfaces = {};
-    double trapping = 1; ///< G is divided by it for critical stretches, see scene::Criterion
+    double trapping = 1; ///< G is divided by it for critical stretches, see problem::Criterion
   };
 
   /// A solid on the nodes of a lattice, cell centres, as bonds: its energy is
@@ -63,7 +63,7 @@ namespace plumbline::meshfree
     double h = 0, horizon = 0; ///< [length]
     std::vector<Point<2>> nodes;
     std::vector<int> grip;                        ///< of each node, -1: free
-    std::vector<Tensor<1, 2>> held;               ///< u of each node at load 1, 0 where it is free
+    std::vector<Tensor<1, 2>> constrained;               ///< u of each node at load 1, 0 where it is free
     std::vector<Bond> bonds;                      ///< that are whole at the beginning, each once
     std::vector<double> toughness;                ///< G of each of them [force/length]
     std::vector<std::array<unsigned int, 2>> cut; ///< nodes of bonds that the notch has cut
@@ -72,7 +72,7 @@ namespace plumbline::meshfree
     /// Of a solid whose dilatations are corrected at surfaces.
     struct Surfaces
     {
-      scene::SurfaceTerms terms = scene::SurfaceTerms::published;
+      problem::SurfaceTerms terms = problem::SurfaceTerms::published;
       /// Bonds that each node lacks from the beginning, from it to where no node is, or a notch is
       /// between.
       std::vector<Bond> gaps = {};
@@ -95,12 +95,12 @@ namespace plumbline::meshfree
   /// G <= 0 at a bond; a notch or an interface through a node, or that crosses no bond
   /// Source: Fan et al. 2022, eqs. (2.24)-(2.26); Silling & Askari 2005 for λ = μ,
   /// doi:10.1016/j.compstruc.2004.11.026.
-  BondNetwork make_bond_network(const BreakingSolid &solid, const QuadratureRule &rule,
+  BondNetwork make_bond_network(const BreakingSolid &solid, const NeighbourhoodQuadrature &rule,
                                 const Kernel<2> &influence, double h, Backend backend);
 
   /// Energy of all bonds across an endless straight line that meets no node, each at its limit s0
   /// of G = 1, on a homogeneous lattice with λ = μ, per length: what a crack along it breaks.
   /// @param along  the line's direction in steps of the lattice, not (0, 0)
-  double lattice_toughness(const QuadratureRule &rule, const Kernel<2> &influence, double h,
+  double lattice_toughness(const NeighbourhoodQuadrature &rule, const Kernel<2> &influence, double h,
                            Backend backend, std::array<int, 2> along = {1, 0});
 } // namespace plumbline::meshfree

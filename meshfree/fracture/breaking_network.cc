@@ -22,12 +22,12 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  BreakingNetwork::BreakingNetwork(BondNetwork network, scene::Stretch stretch,
-                                   scene::GrowthSolver solver, Refactor refactor)
+  BreakingNetwork::BreakingNetwork(BondNetwork network, problem::Stretch stretch,
+                                   problem::GrowthSolver solver, Refactor refactor)
       : network_(std::move(network)), stretch_(stretch), solver_(solver), refactor_(refactor)
   {
     factor();
-    if (is_parted())
+    if (is_separated())
       throw InputError("Domain/fixed: no path of bonds joins the grips; let the notch "
                        "(Domain/cracks) end in the body, or mend Domain/boxes");
   }
@@ -37,12 +37,12 @@ namespace plumbline::meshfree
     const base::CpuTimer timer;
     connections_ = std::make_unique<Connections>(network_);
     connections_->break_bonds(broken_);
-    equations_ = solver_ == scene::GrowthSolver::multigrid
+    equations_ = solver_ == problem::GrowthSolver::multigrid
                      ? multigrid_equations(network_, *connections_)
                      : factored_equations(network_, *connections_);
     seconds_ = equations_->making_seconds();
     n_events_ = 1;
-    u_ = network_.held;
+    u_ = network_.constrained;
     if (!equilibrate())
       throw NumericalError("iterations do not find equilibrium; stop before (Fracture/largest "
                            "load, least reaction), or write Fracture/solver = factor and "
@@ -156,7 +156,7 @@ namespace plumbline::meshfree
   {
     const Tensor<1, 2> du = u_[bond.to] - u_[bond.from];
     const double b = bond.xi * du, c = bond.critical * bond.xi.norm_square();
-    if (stretch_ == scene::Stretch::linear)
+    if (stretch_ == problem::Stretch::linear)
       return b > 0 ? c / b : endless;
     if (connections_->is_loose(bond.from) || connections_->is_loose(bond.to))
       return endless; // where they are says nothing
@@ -182,7 +182,7 @@ namespace plumbline::meshfree
       const Tensor<1, 2> f = force(network_, bond, u_, theta_);
       pull_[b] = bond.way * (u_[bond.to] - u_[bond.from]);
       response_.energy += .5 * bond.stiffness * square(pull_[b]);
-      response_.reaction += f * (network_.held[bond.to] - network_.held[bond.from]);
+      response_.reaction += f * (network_.constrained[bond.to] - network_.constrained[bond.from]);
       largest_force = std::max(largest_force, f.norm_square());
       if (std::isfinite(bond.critical))
         response_.critical_loads[b] = critical_load(bond);
@@ -193,7 +193,7 @@ namespace plumbline::meshfree
     {
       const NodeField terms = surfaces_->terms(u_);
       for (std::size_t i = 0; i < terms.size(); ++i)
-        response_.reaction -= terms[i] * network_.held[i];
+        response_.reaction -= terms[i] * network_.constrained[i];
     }
     if (force_scale_ == 0)
       force_scale_ = std::sqrt(largest_force);

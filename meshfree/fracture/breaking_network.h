@@ -1,8 +1,8 @@
 #pragma once
 
 #include "meshfree/fracture/surface_forces.h"
-#include "method/breaking_body.h"
-#include "scene/fracture_section.h"
+#include "method/quasistatic_fracture_model.h"
+#include "problem/fracture.h"
 
 #include <memory>
 
@@ -19,14 +19,14 @@ namespace plumbline::meshfree
   /// A bond network in equilibrium while its bonds break. What hangs loose (see Connections)
   /// carries no force. With surface terms (see SurfaceForces) its energies are those of the bonds
   /// and dilatations that it has, but its forces have no energy.
-  class BreakingNetwork : public method::BreakingBody
+  class BreakingNetwork : public method::QuasistaticFractureModel
   {
   public:
     /// @param solver  automatic is factor: what fits is not known here
     /// @throws InputError  no path of bonds joins the grips from the beginning
     /// @throws NumericalError  the body is a mechanism
-    BreakingNetwork(BondNetwork network, scene::Stretch stretch,
-                    scene::GrowthSolver solver = scene::GrowthSolver::factor,
+    BreakingNetwork(BondNetwork network, problem::Stretch stretch,
+                    problem::GrowthSolver solver = problem::GrowthSolver::factor,
                     Refactor refactor = Refactor::when_cheaper);
 
     BreakingNetwork(const BreakingNetwork &) = delete; // its equations point to its network
@@ -36,7 +36,7 @@ namespace plumbline::meshfree
     const Response &response() const override { return response_; }
     Release break_bonds(const std::vector<std::size_t> &bonds) override;
     void restart(const std::vector<std::size_t> &broken) override;
-    bool is_parted() const override { return connections_->is_parted(); }
+    bool is_separated() const override { return connections_->is_separated(); }
     bool has_energy() const override { return !network_.surfaces; }
     const Work &work() const override { return work_; }
 
@@ -55,8 +55,8 @@ namespace plumbline::meshfree
     Release release(const std::vector<std::size_t> &bonds) const;
 
     BondNetwork network_;
-    scene::Stretch stretch_;
-    scene::GrowthSolver solver_;
+    problem::Stretch stretch_;
+    problem::GrowthSolver solver_;
     Refactor refactor_;
     std::vector<std::size_t> broken_;
     std::unique_ptr<Connections> connections_;

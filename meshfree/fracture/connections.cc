@@ -165,7 +165,7 @@ namespace plumbline::meshfree
       if (carries(b))
         sets.join(grips + network_->bonds[b].from, grips + network_->bonds[b].to);
     for (std::size_t g = 1; g < grips; ++g)
-      is_parted_ = is_parted_ || sets.find(g) != sets.find(0);
+      is_separated_ = is_separated_ || sets.find(g) != sets.find(0);
     std::vector<std::size_t> of_pieces;
     for (std::size_t b = 0; b < network_->bonds.size(); ++b)
       if (carries(b) && sets.find(grips + network_->bonds[b].from) >= grips)

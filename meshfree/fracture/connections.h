@@ -10,7 +10,7 @@ namespace plumbline::meshfree
   /// with bonds on one line, and pieces that no grip holds. Equilibrium says nothing of where they
   /// are; held in these directions they stay somewhere, which costs no force.
   /// Other mechanisms, such as pieces on a hinge, are not seen here: they leave the equations
-  /// singular, and are held when that is found.
+  /// singular, and are constrained when that is found.
   class Connections
   {
   public:
@@ -39,7 +39,7 @@ namespace plumbline::meshfree
     void hold(const std::vector<Tensor<1, 2>> &mode);
 
     /// No path of whole bonds joins all grips.
-    bool is_parted() const { return is_parted_; }
+    bool is_separated() const { return is_separated_; }
 
   private:
     bool carries(std::size_t bond) const { return is_whole_[bond] != 0 && is_idle_[bond] == 0; }
@@ -55,6 +55,6 @@ namespace plumbline::meshfree
     std::vector<char> is_idle_; ///< the bond is the last one of a node, and carries no force
     std::vector<Hold> holds_;
     std::vector<char> n_holds_, is_loose_;
-    bool is_parted_ = false;
+    bool is_separated_ = false;
   };
 } // namespace plumbline::meshfree

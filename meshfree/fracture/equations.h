@@ -51,7 +51,7 @@ namespace plumbline::meshfree
   };
 
   /// By a factorisation (CHOLMOD), and Woodbury's formula for what breaks later.
-  /// @param connections  mechanisms that are found are held
+  /// @param connections  mechanisms that are found are constrained
   /// @throws NumericalError  most of the body is a mechanism
   std::unique_ptr<NetworkEquations> factored_equations(const BondNetwork &network,
                                                        Connections &connections);

@@ -92,7 +92,7 @@ namespace plumbline::meshfree
     constexpr unsigned int most_iterations = 300, most_vectors = 100;
     constexpr double tolerance = 1e-13; // of what the grips do where nothing else moves
     Vector of_grips(2 * u.size()), residual(2 * u.size()), change(2 * u.size());
-    put(forces(network.held), network, of_grips);
+    put(forces(network.constrained), network, of_grips);
     put(forces(u), network, residual);
     const Map stiffness{network,
                         [&](const NodeField &v)

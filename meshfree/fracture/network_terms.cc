@@ -23,7 +23,7 @@ namespace plumbline::meshfree
         for (unsigned int d = 0; d < 2; ++d)
           form.entries.emplace_back(unknown_[node] + d, sign * direction[d]);
       else
-        form.offset += sign * (direction * network_->held[node]);
+        form.offset += sign * (direction * network_->constrained[node]);
   }
 
   NetworkTerms::Form NetworkTerms::dilatation(std::size_t node,
@@ -96,7 +96,7 @@ namespace plumbline::meshfree
   {
     NodeField u = expand(x);
     for (std::size_t i = 0; i < u.size(); ++i)
-      u[i] += network_->held[i];
+      u[i] += network_->constrained[i];
     return u;
   }
 

@@ -7,7 +7,7 @@ namespace plumbline::meshfree
 {
   /// The energy of a network at load 1 as squares of linear forms of its unknowns, two for each
   /// free node: E = Σ factor/2 (row·x + offset)², a term for each bond, each dilatation and each
-  /// direction that is held.
+  /// direction that is constrained.
   class NetworkTerms
   {
   public:

@@ -14,7 +14,7 @@ namespace plumbline::meshfree
   {
     using method::RiceStrip;
 
-    /// The strip with all that is held around it, which moves with the nearer grip or the field.
+    /// The strip with all that is constrained around it, which moves with the nearer grip or the field.
     BreakingSolid make_solid(const RiceStrip &strip, int reach)
     {
       const double half = .5 * strip.h * strip.n_height, length = strip.h * strip.n_length,
@@ -26,7 +26,7 @@ namespace plumbline::meshfree
                      {{-out, -half}, {0, half}},
                      {{length, -half}, {length + out, half}}};
       solid.notch = {{{-out - strip.h, 0}, {strip.h * strip.n_crack, 0}}};
-      solid.held = [strip](const Point<2> &x)
+      solid.constrained = [strip](const Point<2> &x)
       {
         if (strip.K_tip)
           return physics::crack_field(Point<2>(x[0] - strip.h * *strip.K_tip, x[1]), {1, 1});
@@ -42,7 +42,7 @@ namespace plumbline::meshfree
     /// The intact strip, where nothing changes along x and only u_y is not zero.
     struct IntactStrip
     {
-      Eigen::VectorXd u; ///< of rows, from the lowest that is held on
+      Eigen::VectorXd u; ///< of rows, from the lowest that is constrained on
       double energy = 0; ///< of a column
       double at_end = 0; ///< half of its bonds that cross a line
     };
@@ -56,12 +56,12 @@ namespace plumbline::meshfree
       };
       const double x = strip.h * (strip.n_length - .5); // of a column whose bonds are all there
       Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n), across = all;
-      const auto is_held = [&](Eigen::Index i) { return i < reach || i >= n - reach; };
+      const auto is_constrained = [&](Eigen::Index i) { return i < reach || i >= n - reach; };
       for (const BondNetwork::Bond &bond : network.bonds)
         if (std::abs(network.nodes[bond.from][0] - x) < .5 * strip.h)
         {
           const Eigen::Index i = row(bond.from), j = row(bond.to);
-          if (is_held(i) && is_held(j))
+          if (is_constrained(i) && is_constrained(j))
             continue;
           Eigen::Matrix2d form;
           form << 1, -1, -1, 1;
@@ -80,7 +80,7 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  method::StripState solve_strip(const RiceStrip &strip, const QuadratureRule &rule,
+  method::StripState solve_strip(const RiceStrip &strip, const NeighbourhoodQuadrature &rule,
                                  const Kernel<2> &influence)
   {
     // partial areas reach a cell farther
@@ -98,10 +98,10 @@ namespace plumbline::meshfree
       const double length = strip.h * strip.n_length, half = .5 * strip.h * strip.n_height;
       for (std::size_t i = 0; i < network.nodes.size(); ++i)
         if (network.grip[i] >= 0 && network.nodes[i][0] > length)
-          network.held[i][1] =
+          network.constrained[i][1] =
               intact.u[std::lround((network.nodes[i][1] + half) / strip.h - .5) + reach];
     }
-    const BreakingNetwork body(std::move(network), scene::Stretch::linear);
+    const BreakingNetwork body(std::move(network), problem::Stretch::linear);
     constexpr double worst_residual = 1e-10;
     if (!(body.response().residual <= worst_residual))
       throw NumericalError("a strip with a crack is solved to a residual of " +

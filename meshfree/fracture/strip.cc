@@ -14,7 +14,7 @@ namespace plumbline::meshfree
     solid.grips = {{{0, half}, {length, half + grip}}, {{0, -half - grip}, {length, -half}}};
     if (strip.n_crack > 0)
       solid.notch = {{{-h, 0}, {h * strip.n_crack, 0}}};
-    solid.held = [](const Point<2> &x)
+    solid.constrained = [](const Point<2> &x)
     {
       Tensor<1, 2> u;
       u[1] = x[1] > 0 ? 1 : -1;

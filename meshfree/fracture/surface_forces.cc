@@ -44,9 +44,9 @@ namespace plumbline::meshfree
     std::iota(dilating_.begin(), dilating_.end(), 0U);
     const std::vector<NetworkBond> missing = missing_bonds(network, connections);
     const NodeField normal = correct(missing);
-    if (network.surfaces->terms == scene::SurfaceTerms::published)
+    if (network.surfaces->terms == problem::SurfaceTerms::published)
       add_published(missing, normal);
-    if (network.surfaces->terms == scene::SurfaceTerms::consistent)
+    if (network.surfaces->terms == problem::SurfaceTerms::consistent)
       add_consistent(missing);
   }
 

@@ -82,7 +82,7 @@ namespace plumbline::meshfree
     return bisect(0, most, [&](double g) { return density(g) * height() - energy; });
   }
 
-  CrackColumn::Rest CrackColumn::relax(double strain, bool is_parted) const
+  CrackColumn::Rest CrackColumn::relax(double strain, bool is_separated) const
   {
     constexpr int most_steps = 50;
     constexpr double tolerance = 1e-13; // of the grips' displacement
@@ -90,7 +90,7 @@ namespace plumbline::meshfree
     Rest rest{std::vector<double>(n), 0};
     const double top = strain * y(n_free_ + n_grip_);
     for (int j = 0; j < n; ++j) // halves move with their grip
-      rest.u[j] = is_parted && !is_held(j) ? std::copysign(top, y(j)) : strain * y(j);
+      rest.u[j] = is_separated && !is_constrained(j) ? std::copysign(top, y(j)) : strain * y(j);
     using Matrix = Eigen::SparseMatrix<double>;
     for (int step = 0; step < most_steps; ++step)
     {
@@ -99,21 +99,21 @@ namespace plumbline::meshfree
       rest.energy = 0;
       const auto add = [&](int a, int b, double value)
       {
-        if (!is_held(a) && !is_held(b))
+        if (!is_constrained(a) && !is_constrained(b))
           entries.emplace_back(a - n_grip_, b - n_grip_, value);
       };
       for (const Row &row : rows_)
         for (int a = 0, b = row.k; b < n; ++a, ++b)
         {
-          if (is_parted && a < n / 2 && b >= n / 2)
+          if (is_separated && a < n / 2 && b >= n / 2)
             continue;
           const double q = row.way * (rest.u[b] - rest.u[a]), decay = std::exp(-q * q),
                        pull = row.strength * row.way * q * decay,
                        slope = row.strength * row.way * row.way * decay * (1 - 2 * q * q);
           rest.energy -= .5 * h_ * row.strength * std::expm1(-q * q);
-          if (!is_held(a))
+          if (!is_constrained(a))
             force[a - n_grip_] += pull;
-          if (!is_held(b))
+          if (!is_constrained(b))
             force[b - n_grip_] -= pull;
           add(a, a, slope);
           add(b, b, slope);

@@ -23,7 +23,7 @@ namespace plumbline::meshfree
     int n_rows() const { return n_free_ + 2 * n_grip_; }
     double height() const { return n_free_ * h_; } ///< free height H
     double y(int row) const { return .5 * h_ * (2 * row + 1 - n_rows()); }
-    bool is_held(int row) const { return row < n_grip_ || row >= n_free_ + n_grip_; }
+    bool is_constrained(int row) const { return row < n_grip_ || row >= n_free_ + n_grip_; }
 
     /// Energy of the uniform strain u_y = g y, W [energy/length^2].
     double density(double strain) const;
@@ -38,9 +38,9 @@ namespace plumbline::meshfree
       std::vector<double> u; ///< u_y of the rows, from below
       double energy = 0;     ///< per length of the strip
     };
-    /// @param is_parted  no bonds across the crack plane
+    /// @param is_separated  no bonds across the crack plane
     /// @throws NumericalError  Newton's method does not settle: the strain is beyond stability
-    Rest relax(double strain, bool is_parted) const;
+    Rest relax(double strain, bool is_separated) const;
 
     /// The energy W H of the strain at which a long crack neither grows nor closes: the intact
     /// column holds toughness() more than two halves. To 1e-12 of the strain.

@@ -19,7 +19,7 @@ namespace plumbline::meshfree
     using geometry::NodeSet;
 
     /// b at the nodes.
-    Vector nodal_load(const scene::Problem &problem, const NodeSet &nodes)
+    Vector nodal_load(const problem::Problem<2> &problem, const NodeSet &nodes)
     {
       Vector load(nodes.size());
       const geometry::Lattice &lattice = *problem.lattice;
@@ -56,7 +56,7 @@ namespace plumbline::meshfree
       return load;
     }
 
-    algebra::Stencil make_stencil(const scene::Problem &problem, const Bonds &bonds)
+    algebra::Stencil make_stencil(const problem::Problem<2> &problem, const Bonds &bonds)
     {
       return problem.dilatation ? state_based_stencil(*problem.dilatation, bonds)
                                 : lattice_operator(problem.kernel, bonds);
@@ -64,7 +64,7 @@ namespace plumbline::meshfree
     class RuleOnLattice : public method::LatticeDiscretisation
     {
     public:
-      RuleOnLattice(const scene::Problem &problem, const Bonds &bonds)
+      RuleOnLattice(const problem::Problem<2> &problem, const Bonds &bonds)
           : LatticeDiscretisation(problem, method::comparison_nodes(problem, problem.n_components),
                                   make_stencil(problem, bonds), {1}),
             move_well_(
@@ -103,7 +103,7 @@ namespace plumbline::meshfree
       }
 
     private:
-      Vector load(const scene::Problem &problem) const override
+      Vector load(const problem::Problem<2> &problem) const override
       {
         return nodal_load(problem, nodes());
       }
@@ -134,7 +134,7 @@ namespace plumbline::meshfree
   } // namespace
 
   std::unique_ptr<method::Discretisation> discretise_on_line(const Rule &rule,
-                                                             const scene::Problem &problem)
+                                                             const problem::Problem<2> &problem)
   {
     return std::make_unique<method::LineDiscretisation>(
         problem.lattice->n_cells()[0], false,
@@ -143,7 +143,7 @@ namespace plumbline::meshfree
   }
 
   std::unique_ptr<method::Discretisation> discretise_on_lattice(const Rule &rule,
-                                                                const scene::Problem &problem)
+                                                                const problem::Problem<2> &problem)
   {
     return std::make_unique<RuleOnLattice>(
         problem, lattice_bonds(rule.of(problem.kernel), problem.kernel, problem.lattice->h(),

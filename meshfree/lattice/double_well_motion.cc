@@ -23,7 +23,7 @@ namespace plumbline::meshfree
       std::vector<char> is_free;
     };
 
-    Box torus(const scene::Problem &problem)
+    Box torus(const problem::Problem<2> &problem)
     {
       const double offset = problem.settings.nodes_are_vertices ? 0 : .5;
       const geometry::Lattice &lattice = *problem.lattice;
@@ -49,7 +49,7 @@ namespace plumbline::meshfree
     }
 
     /// ω at the nodes of a box; empty: 1.
-    std::vector<double> boundary_function(const scene::Problem &problem, const Box &box)
+    std::vector<double> boundary_function(const problem::Problem<2> &problem, const Box &box)
     {
       std::vector<double> omega;
       if (!problem.boundary_function)
@@ -67,7 +67,7 @@ namespace plumbline::meshfree
       return reach;
     }
 
-    /// What drives states is b at the free nodes and behind it u at the held ones, of the same
+    /// What drives states is b at the free nodes and behind it u at the constrained ones, of the same
     /// shape.
     template <int dim>
     class DoubleWellMotion : public method::NodalMotion<method::EquationOfMotion, dim>
@@ -79,7 +79,7 @@ namespace plumbline::meshfree
       using Nodal::size;
       using Nodal::state;
 
-      DoubleWellMotion(const scene::Problem &problem, const Box &box,
+      DoubleWellMotion(const problem::Problem<2> &problem, const Box &box,
                        const std::vector<WellBond> &bonds, std::optional<double> largest_eigenvalue,
                        const typename DoubleWellForce<dim>::Gradient &gradient)
           : cell_(std::pow(problem.h, dim)), largest_(largest_eigenvalue),
@@ -90,26 +90,26 @@ namespace plumbline::meshfree
             all_(dim * n_all_), other_(dim * n_all_)
       {
         for (std::size_t k = 0; k < n_all_; ++k)
-          (box.is_free[k] != 0 ? free_ : held_).push_back(k);
+          (box.is_free[k] != 0 ? free_ : constrained_).push_back(k);
         for (const std::size_t k : free_)
           nodes_.push_back(box.places[k]);
-        for (const std::size_t k : held_)
-          held_nodes_.push_back(box.places[k]);
+        for (const std::size_t k : constrained_)
+          constrained_nodes_.push_back(box.places[k]);
       }
 
-      std::vector<double> drive(const scene::Problem &instant) const override
+      std::vector<double> drive(const problem::Problem<2> &instant) const override
       {
         std::vector<double> g = state(instant.load);
         for (unsigned int c = 0; c < dim; ++c)
-          for (const auto &node : held_nodes_)
+          for (const auto &node : constrained_nodes_)
             g.push_back(instant.constraint.value(node, c));
         return g;
       }
 
-      std::vector<double> inertia(const scene::Problem &instant) const override
+      std::vector<double> inertia(const problem::Problem<2> &instant) const override
       {
         std::vector<double> g = state(*instant.solution);
-        g.resize(size() + dim * held_.size());
+        g.resize(size() + dim * constrained_.size());
         return g;
       }
 
@@ -150,13 +150,13 @@ namespace plumbline::meshfree
                    const std::vector<double> &rate) const override
       {
         double sum = product({g.begin(), g.begin() + static_cast<std::ptrdiff_t>(size())}, v);
-        if (held_.empty())
+        if (constrained_.empty())
           return sum;
         spread(u, g.data() + size(), all_);
         force_.force(all_, other_);
         for (unsigned int c = 0; c < dim; ++c)
-          for (std::size_t k = 0; k < held_.size(); ++k)
-            sum -= cell_ * other_[c * n_all_ + held_[k]] * rate[size() + c * held_.size() + k];
+          for (std::size_t k = 0; k < constrained_.size(); ++k)
+            sum -= cell_ * other_[c * n_all_ + constrained_[k]] * rate[size() + c * constrained_.size() + k];
         return sum;
       }
 
@@ -169,15 +169,15 @@ namespace plumbline::meshfree
       }
 
     private:
-      /// @param held  at the held nodes, shape (2, n_held); null: 0
-      void spread(const State &u, const double *held, State &all) const
+      /// @param constrained  at the constrained nodes, shape (2, n_constrained); null: 0
+      void spread(const State &u, const double *constrained, State &all) const
       {
         for (unsigned int c = 0; c < dim; ++c)
         {
           for (std::size_t k = 0; k < free_.size(); ++k)
             all[c * n_all_ + free_[k]] = u[c * free_.size() + k];
-          for (std::size_t k = 0; k < held_.size(); ++k)
-            all[c * n_all_ + held_[k]] = held == nullptr ? 0 : held[c * held_.size() + k];
+          for (std::size_t k = 0; k < constrained_.size(); ++k)
+            all[c * n_all_ + constrained_[k]] = constrained == nullptr ? 0 : constrained[c * constrained_.size() + k];
         }
       }
 
@@ -194,13 +194,13 @@ namespace plumbline::meshfree
       double toughness_;
       std::size_t n_all_;
       DoubleWellForce<dim> force_;
-      std::vector<std::size_t> free_, held_; ///< of the box
-      std::vector<dealii::Point<2>> held_nodes_;
+      std::vector<std::size_t> free_, constrained_; ///< of the box
+      std::vector<dealii::Point<2>> constrained_nodes_;
       mutable State all_, other_; ///< over the box, shape (dim, n[1], n[0])
     };
   } // namespace
 
-  std::unique_ptr<method::EquationOfMotion> move_double_well(const scene::Problem &problem,
+  std::unique_ptr<method::EquationOfMotion> move_double_well(const problem::Problem<2> &problem,
                                                              const Bonds &bonds,
                                                              double largest_eigenvalue,
                                                              const dealii::Tensor<2, 2> &gradient)
@@ -214,7 +214,7 @@ namespace plumbline::meshfree
     return std::make_unique<DoubleWellMotion<2>>(problem, box, wells, largest_eigenvalue, of_torus);
   }
 
-  std::unique_ptr<method::EquationOfMotion> move_double_well_on_line(const scene::Problem &problem,
+  std::unique_ptr<method::EquationOfMotion> move_double_well_on_line(const problem::Problem<2> &problem,
                                                                      const std::string &rule)
   {
     return std::make_unique<DoubleWellMotion<1>>(problem, torus(problem),

@@ -14,7 +14,7 @@ namespace plumbline::meshfree
     return boxes;
   }
 
-  Families::Families(QuadratureRule rule, const Kernel<2> &kernel, const geometry::NodeCells &cells,
+  Families::Families(NeighbourhoodQuadrature rule, const Kernel<2> &kernel, const geometry::NodeCells &cells,
                      Backend backend)
       : rule_(std::move(rule)), kernel_(kernel), cells_(&cells), backend_(backend),
         pieces_(cells.pieces.begin(), cells.pieces.end()),

@@ -23,7 +23,7 @@ namespace plumbline::meshfree
   {
   public:
     /// @param cells  must outlive the families
-    Families(QuadratureRule rule, const Kernel<2> &kernel, const geometry::NodeCells &cells,
+    Families(NeighbourhoodQuadrature rule, const Kernel<2> &kernel, const geometry::NodeCells &cells,
              Backend backend);
 
     std::size_t size() const { return cells_->n_free; } ///< free nodes
@@ -38,7 +38,7 @@ namespace plumbline::meshfree
     const geometry::NodeCells &cells() const { return *cells_; }
 
   private:
-    QuadratureRule rule_;
+    NeighbourhoodQuadrature rule_;
     Kernel<2> kernel_;
     const geometry::NodeCells *cells_;
     Backend backend_;

@@ -19,7 +19,7 @@ namespace plumbline::meshfree
   {
   public:
     FamilyStatistics() = default;
-    /// @param ball_order  see scene::MethodSettings
+    /// @param ball_order  see problem::MethodSettings
     FamilyStatistics(const geometry::NodeCells &cells, unsigned int ball_order);
 
     void add(const Kernel<2> &kernel, const Point<2> &node, const Family &family);

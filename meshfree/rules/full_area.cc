@@ -8,7 +8,7 @@ namespace plumbline::meshfree
     return {candidate.xi, is_inside ? candidate.area : 0, candidate.xi, candidate.area};
   }
 
-  QuadratureRule full_area(const Kernel<2> &)
+  NeighbourhoodQuadrature full_area(const Kernel<2> &)
   {
     return {full_area_bond};
   }

@@ -12,7 +12,7 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  QuadratureRule lammps(const Kernel<2> &)
+  NeighbourhoodQuadrature lammps(const Kernel<2> &)
   {
     return {bond};
   }

@@ -17,7 +17,7 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  QuadratureRule optimisation_based(const Kernel<2> &kernel)
+  NeighbourhoodQuadrature optimisation_based(const Kernel<2> &kernel)
   {
     const double horizon = kernel.horizon();
     MomentConditions conditions{5, horizon, exponents(2, 5), {}, {}, {}};

@@ -30,12 +30,12 @@ namespace plumbline::meshfree
     return result;
   }
 
-  QuadratureRule partial_area(const Kernel<2> &)
+  NeighbourhoodQuadrature partial_area(const Kernel<2> &)
   {
     return {partial_area_bond};
   }
 
-  QuadratureRule improved_partial_area(const Kernel<2> &)
+  NeighbourhoodQuadrature improved_partial_area(const Kernel<2> &)
   {
     return {centroid_bond};
   }

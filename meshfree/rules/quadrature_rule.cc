@@ -22,7 +22,7 @@ namespace plumbline::meshfree
     return std::min(1., (kernel.horizon() - candidate.xi.norm()) / size + .5);
   }
 
-  bool add_bond(const QuadratureRule &rule, const Kernel<2> &kernel, const Candidate &candidate,
+  bool add_bond(const NeighbourhoodQuadrature &rule, const Kernel<2> &kernel, const Candidate &candidate,
                 Family &family)
   {
     const Bond bond = rule.bond(kernel, candidate);
@@ -35,7 +35,7 @@ namespace plumbline::meshfree
     return true;
   }
 
-  void finish(const QuadratureRule &rule, Family &family, const std::function<std::string()> &where)
+  void finish(const NeighbourhoodQuadrature &rule, Family &family, const std::function<std::string()> &where)
   {
     if (family.bonds.empty())
       throw NumericalError("there are no neighbours " + where() + remedy);
@@ -54,7 +54,7 @@ namespace plumbline::meshfree
     throw NumericalError(message.str());
   }
 
-  Bonds lattice_bonds(const QuadratureRule &rule, const Kernel<2> &kernel, double h,
+  Bonds lattice_bonds(const NeighbourhoodQuadrature &rule, const Kernel<2> &kernel, double h,
                       Backend backend)
   {
     const double horizon = kernel.horizon();

@@ -28,7 +28,7 @@ namespace plumbline::meshfree
   };
 
   /// All that makes a rule.
-  struct QuadratureRule
+  struct NeighbourhoodQuadrature
   {
     /// The bond to a candidate; weight 0: none.
     std::function<Bond(const Kernel<2> &, const Candidate &)> bond;
@@ -51,17 +51,17 @@ namespace plumbline::meshfree
   double ramp(const Kernel<2> &kernel, const Candidate &candidate);
 
   /// Add the bond to a candidate, if there is one.
-  bool add_bond(const QuadratureRule &rule, const Kernel<2> &kernel, const Candidate &candidate,
+  bool add_bond(const NeighbourhoodQuadrature &rule, const Kernel<2> &kernel, const Candidate &candidate,
                 Family &family);
 
   /// Adjust the weights of a family that has all its bonds.
   /// @param where  of the node, for the message
   /// @throws NumericalError  no neighbours, or too few for the moments asked of them
-  void finish(const QuadratureRule &rule, Family &family,
+  void finish(const NeighbourhoodQuadrature &rule, Family &family,
               const std::function<std::string()> &where);
 
   /// The family that all nodes of a lattice share.
   /// @throws NumericalError  as above
-  Bonds lattice_bonds(const QuadratureRule &rule, const Kernel<2> &kernel, double h,
+  Bonds lattice_bonds(const NeighbourhoodQuadrature &rule, const Kernel<2> &kernel, double h,
                       Backend backend);
 } // namespace plumbline::meshfree

@@ -12,7 +12,7 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  QuadratureRule qwj(const Kernel<2> &)
+  NeighbourhoodQuadrature qwj(const Kernel<2> &)
   {
     return {bond};
   }

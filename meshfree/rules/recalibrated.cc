@@ -72,7 +72,7 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  QuadratureRule recalibrated(const Kernel<2> &kernel, unsigned int degree)
+  NeighbourhoodQuadrature recalibrated(const Kernel<2> &kernel, unsigned int degree)
   {
     // on a lattice symmetry meets the odd moments, which need not be independent there
     const auto even = moment_conditions(kernel, degree, even_exponents),
@@ -81,7 +81,7 @@ namespace plumbline::meshfree
             [even, all](Family &family) { meet(family.neighbours.empty() ? even : all, family); }};
   }
 
-  QuadratureRule recalibrated_at_centroid(const Kernel<2> &kernel)
+  NeighbourhoodQuadrature recalibrated_at_centroid(const Kernel<2> &kernel)
   {
     if (kernel.n_components() == 1)
       return recalibrated(kernel, 2);

@@ -91,7 +91,7 @@ namespace plumbline::meshfree
     const auto is_in_body = [&](const Point<2> &x)
     { return !damage.outside || damage.outside(x) <= 0; };
     std::vector<Point<2>> tips = tips_of(damage.cracks, faces, horizon, 0, is_in_body);
-    if (damage.outside && damage.surface_terms == scene::SurfaceTerms::consistent)
+    if (damage.outside && damage.surface_terms == problem::SurfaceTerms::consistent)
     {
       const auto where_it_is = [&](const Point<2> &x) // it need not be defined beyond all nodes
       {
@@ -111,7 +111,7 @@ namespace plumbline::meshfree
     return {std::move(faces), std::move(tips), horizon};
   }
 
-  void check_held(const std::vector<char> &is_intact, const geometry::NodeCells &cells,
+  void check_constrained(const std::vector<char> &is_intact, const geometry::NodeCells &cells,
                   std::size_t node)
   {
     if (std::find(is_intact.begin(), is_intact.end(), 1) != is_intact.end())

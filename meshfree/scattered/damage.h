@@ -3,7 +3,7 @@
 #include "geometry/cracks.h"
 #include "meshfree/rules/quadrature_rule.h"
 #include "meshfree/scattered/faces.h"
-#include "scene/surface_terms.h"
+#include "problem/surface_terms.h"
 
 namespace plumbline::meshfree
 {
@@ -15,7 +15,7 @@ namespace plumbline::meshfree
     std::vector<geometry::Polyline> cracks;
     std::vector<char> is_ghost; ///< of each node: beyond a free surface, where it only completes
                                 ///< the balls of others; empty: none is
-    scene::SurfaceTerms surface_terms = scene::SurfaceTerms::published;
+    problem::SurfaceTerms surface_terms = problem::SurfaceTerms::published;
     /// Positive beyond free surfaces: where they are; empty: there are none, or only ghosts say so,
     /// and consistent terms find no face there.
     std::function<double(const Point<2> &)> outside = {};
@@ -56,7 +56,7 @@ namespace plumbline::meshfree
   Faces find_faces(const Damage &damage, const geometry::NodeCells &cells, double horizon);
 
   /// @throws InputError  of a node whose family is not whole: nothing of it is left
-  void check_held(const std::vector<char> &is_intact, const geometry::NodeCells &cells,
+  void check_constrained(const std::vector<char> &is_intact, const geometry::NodeCells &cells,
                   std::size_t node);
 
   /// What broken bonds make of a family.

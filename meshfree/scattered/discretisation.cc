@@ -5,7 +5,7 @@
 #include "method/lattice_discretisation.h"
 #include "method/limit_proof.h"
 #include "method/sparse_motion.h"
-#include "scene/damage.h"
+#include "problem/damage.h"
 
 #include <deal.II/lac/vector.h>
 
@@ -18,7 +18,7 @@ namespace plumbline::meshfree
   {
     using method::Vector;
 
-    algebra::SparseOptions solver_options(const scene::Problem &problem)
+    algebra::SparseOptions solver_options(const problem::Problem<2> &problem)
     {
       algebra::SparseOptions options;
       options.is_symmetric = false;
@@ -34,7 +34,7 @@ namespace plumbline::meshfree
     class RuleOnNodes : public method::SparseDiscretisation
     {
     public:
-      RuleOnNodes(const scene::Problem &problem, const base::Communicator &communicator,
+      RuleOnNodes(const problem::Problem<2> &problem, const base::Communicator &communicator,
                   ScatteredOperator matrix)
           : SparseDiscretisation(problem.settings.solver, solver_options(problem), communicator),
             cells_(problem.cells), n_components_(problem.n_components),
@@ -43,7 +43,7 @@ namespace plumbline::meshfree
         const auto n = static_cast<std::size_t>(
             communicator.largest(static_cast<double>(matrix.rows.free.n_rows())));
         for (algebra::CsrMatrix *rows :
-             {&matrix.rows.free, &matrix.rows.held}) // ranks that gave none
+             {&matrix.rows.free, &matrix.rows.constrained}) // ranks that gave none
           rows->start.resize(n + 1, rows->column.size());
         set_rows(std::move(matrix.rows));
         tips_ = std::move(matrix.tips);
@@ -53,15 +53,15 @@ namespace plumbline::meshfree
           is_ghost_ = find_ghosts(problem.damage, problem.horizon(), *cells_);
       }
 
-      method::CaseData data(const scene::Problem &problem) const override
+      method::CaseData data(const problem::Problem<2> &problem) const override
       {
         method::CaseData result;
         result.load.reinit(static_cast<unsigned int>(n_unknowns()));
         communicator().together([&] { add_data(problem, result.load); });
         result.field = [this](const Vector &u) { return field(u); };
         if (communicator().any(!tips_.empty()))
-          result.tip_forces = [this, held = collar(problem), horizon = problem.horizon()](
-                                  const Vector &u) { return tip_forces(u, held, horizon); };
+          result.tip_forces = [this, constrained = collar(problem), horizon = problem.horizon()](
+                                  const Vector &u) { return tip_forces(u, constrained, horizon); };
         return result;
       }
 
@@ -81,14 +81,14 @@ namespace plumbline::meshfree
         if (is_mixed_)
           return nullptr;
         if (moving_.free.start.empty())
-          moving_ = {by_volumes(free()), by_volumes(held())};
+          moving_ = {by_volumes(free()), by_volumes(constrained())};
         return method::move_by_rows({free_nodes(),
                                      n_components_,
                                      moving_.free,
-                                     moving_.held,
+                                     moving_.constrained,
                                      masses(),
                                      {},
-                                     [this](const scene::Problem &instant)
+                                     [this](const problem::Problem<2> &instant)
                                      {
                                        Vector load(static_cast<unsigned int>(n_unknowns()));
                                        add_load(instant, load);
@@ -96,7 +96,7 @@ namespace plumbline::meshfree
                                          load[i] *= cells_->area[i / n_components_];
                                        return load;
                                      },
-                                     [this](const scene::Problem &instant)
+                                     [this](const problem::Problem<2> &instant)
                                      { return collar(instant); }});
       }
 
@@ -104,22 +104,22 @@ namespace plumbline::meshfree
 
     private:
       /// This rank's share of the load, and what its rows take from the collar.
-      void add_data(const scene::Problem &problem, Vector &load) const
+      void add_data(const problem::Problem<2> &problem, Vector &load) const
       {
         add_load(problem, load);
-        method::subtract_held(held(), collar(problem), load);
+        method::subtract_constrained(constrained(), collar(problem), load);
       }
 
-      void add_load(const scene::Problem &problem, Vector &load) const
+      void add_load(const problem::Problem<2> &problem, Vector &load) const
       {
         const auto [first, last] = communicator().owned_range(cells_->n_free);
-        const scene::Field &b = problem.load;
+        const problem::Field<2> &b = problem.load;
         for (std::size_t i = first; i < last; ++i)
           for (unsigned int c = 0; c < n_components_; ++c)
             load[i * n_components_ + c] = b(cells_->nodes[i], c);
       }
 
-      std::vector<double> collar(const scene::Problem &problem) const
+      std::vector<double> collar(const problem::Problem<2> &problem) const
       {
         std::vector<double> values;
         for (std::size_t i = cells_->n_free; i < cells_->size(); ++i)
@@ -131,13 +131,13 @@ namespace plumbline::meshfree
       }
 
       /// Of tips that have surface terms about them.
-      /// @param held  u of the collar
-      std::vector<method::TipForce> tip_forces(const Vector &u, const std::vector<double> &held,
+      /// @param constrained  u of the collar
+      std::vector<method::TipForce> tip_forces(const Vector &u, const std::vector<double> &constrained,
                                                double horizon) const
       {
         const auto n_free = static_cast<std::ptrdiff_t>(cells_->n_free * n_components_);
         std::vector<double> all(u.begin(), u.begin() + n_free); // dilatations come after
-        all.insert(all.end(), held.begin(), held.end());
+        all.insert(all.end(), constrained.begin(), constrained.end());
         const auto n_tips =
             static_cast<std::size_t>(communicator().largest(static_cast<double>(tips_.size())));
         std::vector<method::TipForce> result;
@@ -202,13 +202,13 @@ namespace plumbline::meshfree
       std::shared_ptr<const geometry::NodeCells> cells_;
       unsigned int n_components_;
       bool is_mixed_;
-      mutable method::PartedRows moving_; ///< rows by volumes, once there is a motion
+      mutable method::PartitionedRows moving_; ///< rows by volumes, once there is a motion
       std::vector<char> is_ghost_;        ///< of each node, or empty
       std::vector<TipRows> tips_;
       method::Diagnostics diagnostics_;
     };
 
-    Families families_of(const Rule &rule, const scene::Problem &problem)
+    Families families_of(const Rule &rule, const problem::Problem<2> &problem)
     {
       return {rule.of(problem.kernel), problem.kernel, *problem.cells,
               problem.settings.geometry.backend};
@@ -218,7 +218,7 @@ namespace plumbline::meshfree
     class WellsOnNodes : public RuleOnNodes
     {
     public:
-      WellsOnNodes(const Rule &rule, const scene::Problem &problem,
+      WellsOnNodes(const Rule &rule, const problem::Problem<2> &problem,
                    const base::Communicator &communicator, ScatteredOperator matrix)
           : RuleOnNodes(problem, communicator, std::move(matrix)), rule_(rule), problem_(problem)
       {
@@ -231,11 +231,11 @@ namespace plumbline::meshfree
 
     private:
       Rule rule_;
-      scene::Problem problem_; ///< shares mesh and cells
+      problem::Problem<2> problem_; ///< shares mesh and cells
     };
 
     /// A kept dilatation's system is on the first rank alone.
-    ScatteredOperator make_operator(const Rule &rule, const scene::Problem &problem,
+    ScatteredOperator make_operator(const Rule &rule, const problem::Problem<2> &problem,
                                     const base::Communicator &communicator,
                                     std::pair<std::size_t, std::size_t> share)
     {
@@ -247,7 +247,7 @@ namespace plumbline::meshfree
           problem.cells.get(),
           *problem.dilatation,
           {problem.damage.cracks, find_ghosts(problem.damage, problem.horizon(), *problem.cells),
-           problem.damage.surface_terms, scene::outside(problem.damage, problem.horizon())},
+           problem.damage.surface_terms, problem::outside(problem.damage, problem.horizon())},
           problem.has_collar_dilatation,
           problem.settings.ball_order};
       if (!problem.settings.solver.is_mixed)
@@ -258,7 +258,7 @@ namespace plumbline::meshfree
 
   std::unique_ptr<method::Discretisation> discretise_on_scattered_nodes(
       const std::function<ScatteredOperator(std::pair<std::size_t, std::size_t> share)> &make,
-      const scene::Problem &problem, const base::Communicator &communicator)
+      const problem::Problem<2> &problem, const base::Communicator &communicator)
   {
     ScatteredOperator matrix;
     communicator.together([&] { matrix = make(communicator.owned_range(problem.cells->n_free)); });
@@ -266,7 +266,7 @@ namespace plumbline::meshfree
   }
 
   std::unique_ptr<method::Discretisation>
-  discretise_on_scattered_nodes(const Rule &rule, const scene::Problem &problem,
+  discretise_on_scattered_nodes(const Rule &rule, const problem::Problem<2> &problem,
                                 const base::Communicator &communicator)
   {
     const auto make = [&](std::pair<std::size_t, std::size_t> share)
@@ -281,7 +281,7 @@ namespace plumbline::meshfree
   double expected_bytes(const method::ProblemSize &size)
   {
     const double n_components = size.n_components;
-    const scene::Level &level = size.level;
+    const problem::Level &level = size.level;
     if (size.is_lattice())
       return method::expected_lattice_bytes(size, 1, size.n_components, size.reach() / level.h + 1);
     if (size.is_body) // two sums more by transforms than on a lattice

@@ -51,12 +51,12 @@ namespace plumbline::meshfree
       std::vector<double> q, decay, loss;
     };
 
-    /// What drives states is √V b at the free nodes and behind it u at the held ones, shape
-    /// (2, n_held).
+    /// What drives states is √V b at the free nodes and behind it u at the constrained ones, shape
+    /// (2, n_constrained).
     class ScatteredWells : public method::NodalMotion<>
     {
     public:
-      ScatteredWells(const scene::Problem &problem, const Families &families)
+      ScatteredWells(const problem::Problem<2> &problem, const Families &families)
           : cells_(problem.cells), start_{0}
       {
         const std::size_t n_free = cells_->n_free;
@@ -75,7 +75,7 @@ namespace plumbline::meshfree
         all_.resize(2 * cells_->size());
       }
 
-      std::vector<double> drive(const scene::Problem &instant) const override
+      std::vector<double> drive(const problem::Problem<2> &instant) const override
       {
         std::vector<double> g = state(instant.load);
         for (unsigned int c = 0; c < 2; ++c)
@@ -84,14 +84,14 @@ namespace plumbline::meshfree
         return g;
       }
 
-      std::vector<double> inertia(const scene::Problem &instant) const override
+      std::vector<double> inertia(const problem::Problem<2> &instant) const override
       {
         std::vector<double> g = state(*instant.solution);
         g.resize(2 * cells_->size());
         return g;
       }
 
-      State state(const scene::Field &field) const override
+      State state(const problem::Field<2> &field) const override
       {
         State x = NodalMotion::state(field);
         for (std::size_t i = 0; i < x.size(); ++i)
@@ -166,7 +166,7 @@ namespace plumbline::meshfree
             {
               for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
               {
-                // a bond between free nodes comes from both ends, one to a held node once
+                // a bond between free nodes comes from both ends, one to a constrained node once
                 const double ends = bonds_[k].neighbour < nodes_.size() ? 1 : 2;
                 of_node[i] += ends * bonds_[k].strength / (4 * ln2) * row.loss[k - start_[i]];
               }
@@ -177,19 +177,19 @@ namespace plumbline::meshfree
       double power(const State &x, const State &v, const std::vector<double> &g,
                    const std::vector<double> &rate) const override
       {
-        const std::size_t n = nodes_.size(), n_held = cells_->size() - n;
+        const std::size_t n = nodes_.size(), n_constrained = cells_->size() - n;
         double sum = std::inner_product(v.begin(), v.end(), g.begin(), 0.);
         spread(x, g);
         Row row;
-        for (std::size_t i = 0; n_held > 0 && i < n; ++i)
+        for (std::size_t i = 0; n_constrained > 0 && i < n; ++i)
         {
           see(i, row);
           for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
             if (bonds_[k].neighbour >= n)
             {
-              const std::size_t held = size() + bonds_[k].neighbour - n;
+              const std::size_t constrained = size() + bonds_[k].neighbour - n;
               sum += pull(row, k - start_[i], bonds_[k]) *
-                     (bonds_[k].way[0] * rate[held] + bonds_[k].way[1] * rate[held + n_held]);
+                     (bonds_[k].way[0] * rate[constrained] + bonds_[k].way[1] * rate[constrained + n_constrained]);
             }
         }
         return sum;
@@ -203,7 +203,7 @@ namespace plumbline::meshfree
     private:
       double root(std::size_t i) const { return roots_[i % roots_.size()]; }
 
-      void add_bond(const scene::Problem &problem, std::size_t i, unsigned int j, const Bond &bond)
+      void add_bond(const problem::Problem<2> &problem, std::size_t i, unsigned int j, const Bond &bond)
       {
         const WellBond well = well_bond(*problem.double_well, bond.weight, bond.kernel_point);
         double strength = ln2 * cells_->area[i] * well.strength;
@@ -245,13 +245,13 @@ namespace plumbline::meshfree
       /// u at all nodes, node by node.
       void spread(const State &x, const std::vector<double> &g) const
       {
-        const std::size_t n = nodes_.size(), n_held = cells_->size() - n;
+        const std::size_t n = nodes_.size(), n_constrained = cells_->size() - n;
         for (unsigned int c = 0; c < 2; ++c)
         {
           for (std::size_t i = 0; i < n; ++i)
             all_[2 * i + c] = x[c * n + i] / roots_[i];
-          for (std::size_t i = 0; i < n_held; ++i)
-            all_[2 * (n + i) + c] = g[2 * n + c * n_held + i];
+          for (std::size_t i = 0; i < n_constrained; ++i)
+            all_[2 * (n + i) + c] = g[2 * n + c * n_constrained + i];
         }
       }
 
@@ -318,7 +318,7 @@ namespace plumbline::meshfree
     };
   } // namespace
 
-  std::unique_ptr<method::EquationOfMotion> move_double_well(const scene::Problem &problem,
+  std::unique_ptr<method::EquationOfMotion> move_double_well(const problem::Problem<2> &problem,
                                                              const Families &families)
   {
     return std::make_unique<ScatteredWells>(problem, families);

@@ -14,6 +14,6 @@ namespace plumbline::meshfree
   /// Not for: calling one object from several threads at a time.
   /// @throws NumericalError  a family that cannot be made
   /// @pre problem.double_well, problem.cells, whose cells the families are made of
-  std::unique_ptr<method::EquationOfMotion> move_double_well(const scene::Problem &problem,
+  std::unique_ptr<method::EquationOfMotion> move_double_well(const problem::Problem<2> &problem,
                                                              const Families &families);
 } // namespace plumbline::meshfree

@@ -34,7 +34,7 @@ namespace plumbline::meshfree
     {
       add(i);
       statistics_.add(deviatoric, body.cells->nodes[i], family);
-      check_held(is_intact, *body.cells, i);
+      check_constrained(is_intact, *body.cells, i);
     }
     const std::size_t n_own = links_.size();
     for (std::size_t k = 0; k < n_own; ++k)

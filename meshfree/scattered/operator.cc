@@ -16,7 +16,7 @@ namespace plumbline::meshfree
       std::array<std::array<double, 2>, 2> entries; ///< C_ab
     };
 
-    std::vector<double> coefficients(const scene::Problem &problem)
+    std::vector<double> coefficients(const problem::Problem<2> &problem)
     {
       std::vector<double> values;
       if (problem.coefficient)
@@ -26,7 +26,7 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  ScatteredOperator scattered_operator(const FamilySource &families, const scene::Problem &problem,
+  ScatteredOperator scattered_operator(const FamilySource &families, const problem::Problem<2> &problem,
                                        std::pair<std::size_t, std::size_t> share)
   {
     const std::size_t n_free = problem.cells->n_free;
@@ -45,7 +45,7 @@ namespace plumbline::meshfree
       families(i, family);
       result.statistics.add(problem.kernel, problem.cells->nodes[i], family);
       if (!broken.find(i, family, is_intact))
-        check_held(is_intact, *problem.cells, i);
+        check_constrained(is_intact, *problem.cells, i);
       blocks.clear();
       Block own{i, {}};
       for (std::size_t k = 0; k < family.bonds.size(); ++k)
@@ -87,7 +87,7 @@ namespace plumbline::meshfree
     return result;
   }
 
-  ScatteredOperator scattered_operator(const Families &families, const scene::Problem &problem,
+  ScatteredOperator scattered_operator(const Families &families, const problem::Problem<2> &problem,
                                        std::pair<std::size_t, std::size_t> share)
   {
     return scattered_operator([&](std::size_t i, Family &family) { families.make(i, family); },

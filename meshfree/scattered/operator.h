@@ -28,7 +28,7 @@ namespace plumbline::meshfree
   /// of the collar. CsrMatrix of a share of the nodes, the others empty.
   struct ScatteredOperator
   {
-    method::PartedRows rows;
+    method::PartitionedRows rows;
     FamilyStatistics statistics; ///< of these families
     std::vector<TipRows> tips;   ///< of all cracks, of nodes of the share; the same on all ranks
   };
@@ -41,9 +41,9 @@ namespace plumbline::meshfree
   /// nodes. Not symmetric in general: a bond's two weights differ.
   /// @throws NumericalError  a family that cannot be made
   /// @throws InputError  a coefficient that is not positive
-  ScatteredOperator scattered_operator(const FamilySource &families, const scene::Problem &problem,
+  ScatteredOperator scattered_operator(const FamilySource &families, const problem::Problem<2> &problem,
                                        std::pair<std::size_t, std::size_t> share);
-  ScatteredOperator scattered_operator(const Families &families, const scene::Problem &problem,
+  ScatteredOperator scattered_operator(const Families &families, const problem::Problem<2> &problem,
                                        std::pair<std::size_t, std::size_t> share);
 
 } // namespace plumbline::meshfree

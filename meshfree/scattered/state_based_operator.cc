@@ -74,7 +74,7 @@ namespace plumbline::meshfree
       {
         result_.statistics = links_.statistics();
         result_.rows.free.start.assign(2 * share_.first + 1, 0);
-        result_.rows.held.start = result_.rows.free.start;
+        result_.rows.constrained.start = result_.rows.free.start;
         for (auto i = static_cast<unsigned int>(share_.first); i < share_.second; ++i)
           add_node(i);
         for (unsigned int i = 0; i < cells_.size(); ++i)
@@ -84,7 +84,7 @@ namespace plumbline::meshfree
             define_dilatation(i);
             put_row(2);
           }
-        for (algebra::CsrMatrix *rows : {&result_.rows.free, &result_.rows.held})
+        for (algebra::CsrMatrix *rows : {&result_.rows.free, &result_.rows.constrained})
           rows->start.resize(n_unknowns_ + 1, rows->column.size());
         result_.tips = surface_terms_.take_tips();
         return std::move(result_);
@@ -180,7 +180,7 @@ namespace plumbline::meshfree
       /// Row c of a node, u before θ.
       void put_row(unsigned int c)
       {
-        auto &[free, held] = result_.rows;
+        auto &[free, constrained] = result_.rows;
         const auto put = [](algebra::CsrMatrix &rows, std::size_t column, double entry)
         {
           rows.column.push_back(static_cast<unsigned int>(column));
@@ -194,12 +194,12 @@ namespace plumbline::meshfree
               if (j < cells_.n_free)
                 put(free, 2 * j + d, entry);
               else
-                put(held, 2 * (j - cells_.n_free) + d, entry);
+                put(constrained, 2 * (j - cells_.n_free) + d, entry);
             }
         for (const unsigned int j : nodes)
           if (const double entry = row_[j][c][2]; entry != 0)
             put(free, number_of_dilatation_[j], entry);
-        for (algebra::CsrMatrix *rows : {&free, &held})
+        for (algebra::CsrMatrix *rows : {&free, &constrained})
           rows->start.push_back(rows->column.size());
       }
 

@@ -15,7 +15,7 @@ namespace plumbline::meshfree
     /// Else θ counts as 0 in the collar. That is wrong, of first order in the horizon and the more
     /// so the less compressible the solid is; it is there to be shown.
     bool has_collar_dilatation = true;
-    unsigned int ball_order = 0; ///< see scene::MethodSettings
+    unsigned int ball_order = 0; ///< see problem::MethodSettings
   };
 
   /// The operator of `Dilatation` with the bonds that a rule yields for the deviatoric kernel,

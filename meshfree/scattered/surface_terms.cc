@@ -52,14 +52,14 @@ namespace plumbline::meshfree
 
   std::optional<SurfaceTerms::Force> SurfaceTerms::force(unsigned int i)
   {
-    const scene::SurfaceTerms terms = body_->damage.surface_terms;
-    if (links_->is_whole(i) || terms == scene::SurfaceTerms::none)
+    const problem::SurfaceTerms terms = body_->damage.surface_terms;
+    if (links_->is_whole(i) || terms == problem::SurfaceTerms::none)
       return {};
     double reach = 0;
     for (const Link &link : links_->of(i))
       reach = std::max(reach, link.xi.norm());
     const auto foot = faces_.foot(body_->cells->nodes[i], reach);
-    const bool is_consistent = terms == scene::SurfaceTerms::consistent;
+    const bool is_consistent = terms == problem::SurfaceTerms::consistent;
     if (is_consistent && (!foot || foot->is_near_end))
       return {};
     const Force result = is_consistent ? consistent(i, *foot) : published(i);

@@ -54,7 +54,7 @@ namespace plumbline::reference
 
     /// ∫ b φ of all families for a load without a series: Gauss points on each cell, or on parts.
     /// @param blocks  of all families, zero
-    void test_by_cells(const scene::Problem &problem, const AxisShapes &shapes,
+    void test_by_cells(const problem::Problem<2> &problem, const AxisShapes &shapes,
                        unsigned int component, std::size_t n_positions, double *blocks)
     {
       const geometry::Lattice &lattice = *problem.lattice;
@@ -98,7 +98,7 @@ namespace plumbline::reference
         }
     }
 
-    Vector load_vector(const scene::Problem &problem, const AxisShapes &shapes,
+    Vector load_vector(const problem::Problem<2> &problem, const AxisShapes &shapes,
                        const NodeSet &nodes)
     {
       Vector load(nodes.size());
@@ -124,7 +124,7 @@ namespace plumbline::reference
       return load;
     }
 
-    algebra::Stencil make_stencil(const scene::Problem &problem, const AxisShapes &shapes)
+    algebra::Stencil make_stencil(const problem::Problem<2> &problem, const AxisShapes &shapes)
     {
       const double h = problem.lattice->h();
       const algebra::Stencil bonds =
@@ -161,7 +161,7 @@ namespace plumbline::reference
     class GalerkinOnLattice : public method::LatticeDiscretisation
     {
     public:
-      GalerkinOnLattice(const scene::Problem &problem, const AxisShapes &shapes)
+      GalerkinOnLattice(const problem::Problem<2> &problem, const AxisShapes &shapes)
           : LatticeDiscretisation(
                 problem, free_nodes(*problem.lattice, shapes.families(), problem.n_components),
                 make_stencil(problem, shapes), masses(shapes, problem.lattice->h())),
@@ -218,7 +218,7 @@ namespace plumbline::reference
                                       algebra::Symbol(small).range().largest, n_more);
       }
 
-      Vector load(const scene::Problem &problem) const override
+      Vector load(const problem::Problem<2> &problem) const override
       {
         return load_vector(problem, shapes_, nodes());
       }
@@ -255,12 +255,12 @@ namespace plumbline::reference
       double horizon_;
       unsigned int n_geometry_checks_, seed_;
       NodeSet cells_;               ///< to compare over
-      const scene::Problem *wells_; ///< double wells on a torus; the stencil is of small strains
+      const problem::Problem<2> *wells_; ///< double wells on a torus; the stencil is of small strains
       method::LimitProof limit_;
     };
   } // namespace
 
-  std::unique_ptr<method::Discretisation> discretise_on_line(const scene::Problem &problem,
+  std::unique_ptr<method::Discretisation> discretise_on_line(const problem::Problem<2> &problem,
                                                              const AxisShapes &shapes)
   {
     return std::make_unique<method::LineDiscretisation>(
@@ -269,7 +269,7 @@ namespace plumbline::reference
         { return move_galerkin_on_torus(problem, shapes, is_lumped, {}, n_more); });
   }
 
-  std::unique_ptr<method::Discretisation> discretise_on_lattice(const scene::Problem &problem,
+  std::unique_ptr<method::Discretisation> discretise_on_lattice(const problem::Problem<2> &problem,
                                                                 const AxisShapes &shapes)
   {
     return std::make_unique<GalerkinOnLattice>(problem, shapes);

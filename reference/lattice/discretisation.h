@@ -9,11 +9,11 @@ namespace plumbline::reference
   /// they are smooth, data of the collar interpolated at the support points, the geometry checked
   /// on a sample of cut cells. Masses by the diagonal of the mass matrix, scaled to the area of
   /// each cell: Hinton, Rock & Zienkiewicz 1976, doi:10.1002/eqe.4290040305.
-  std::unique_ptr<method::Discretisation> discretise_on_lattice(const scene::Problem &problem,
+  std::unique_ptr<method::Discretisation> discretise_on_lattice(const problem::Problem<2> &problem,
                                                                 const AxisShapes &shapes);
 
   /// With one axis: motions of double wells.
   /// @pre shapes are continuous
-  std::unique_ptr<method::Discretisation> discretise_on_line(const scene::Problem &problem,
+  std::unique_ptr<method::Discretisation> discretise_on_line(const problem::Problem<2> &problem,
                                                              const AxisShapes &shapes);
 } // namespace plumbline::reference

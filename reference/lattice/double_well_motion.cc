@@ -26,7 +26,7 @@ namespace plumbline::reference
 
       /// Forces by degree + 2 points: of Q1 the load is wrong by 1e-6 of itself; with 2 points by
       /// 3e-4, at a fifth of the cost, which errors of h = 1/20 show.
-      GalerkinMotion(const scene::Problem &problem, const AxisShapes &shapes, bool is_lumped,
+      GalerkinMotion(const problem::Problem<2> &problem, const AxisShapes &shapes, bool is_lumped,
                      std::optional<double> largest_eigenvalue, unsigned int n_more)
           : lattice_(*problem.lattice), shapes_(shapes),
             space_(*problem.double_well, problem.h, lattice_.n_cells(),
@@ -41,15 +41,15 @@ namespace plumbline::reference
                                             dim == 1 ? 0 : j / p + shapes.support_point(j % p)));
       }
 
-      std::vector<double> drive(const scene::Problem &instant) const override
+      std::vector<double> drive(const problem::Problem<2> &instant) const override
       {
         return tested(instant.load);
       }
-      std::vector<double> inertia(const scene::Problem &instant) const override
+      std::vector<double> inertia(const problem::Problem<2> &instant) const override
       {
         return tested(*instant.solution);
       }
-      State state(const scene::Field &field) const override
+      State state(const problem::Field<2> &field) const override
       {
         State x = Nodal::state(field);
         space_.apply_mass(x, .5);
@@ -100,7 +100,7 @@ namespace plumbline::reference
       }
 
       /// M^-½ ∫ b φ: in parts of each cell where b may jump.
-      State tested(const scene::Field &b) const
+      State tested(const problem::Field<2> &b) const
       {
         constexpr unsigned int n_parts = 4;
         const dealii::QIterated<dim> gauss(dealii::QGauss<1>(shapes_.degree() + 2),
@@ -136,7 +136,7 @@ namespace plumbline::reference
   } // namespace
 
   std::unique_ptr<method::EquationOfMotion>
-  move_galerkin_on_torus(const scene::Problem &problem, const AxisShapes &shapes, bool is_lumped,
+  move_galerkin_on_torus(const problem::Problem<2> &problem, const AxisShapes &shapes, bool is_lumped,
                          std::optional<double> largest_eigenvalue, unsigned int n_more)
   {
     if (problem.dimension == 1)

@@ -13,6 +13,6 @@ namespace plumbline::reference
   /// empty: who needs it finds it by the tangent
   /// @pre shapes are continuous, problem.is_periodic, problem.double_well, problem.lattice
   std::unique_ptr<method::EquationOfMotion>
-  move_galerkin_on_torus(const scene::Problem &problem, const AxisShapes &shapes, bool is_lumped,
+  move_galerkin_on_torus(const problem::Problem<2> &problem, const AxisShapes &shapes, bool is_lumped,
                          std::optional<double> largest_eigenvalue, unsigned int n_more = 0);
 } // namespace plumbline::reference

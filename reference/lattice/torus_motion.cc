@@ -20,21 +20,20 @@ namespace plumbline::reference
     public:
       using State = typename Nodal::State;
 
-      TorusMotion(const scene::Scene &scene, double horizon, unsigned int n)
-          : lower_(scene.domain.boxes.include.front().lower),
-            side_(scene.domain.boxes.include.front().upper[0] - lower_[0]), n_(n),
-            force_(make_double_well(scene, horizon), n, side_, n_radii, n_angles)
+      TorusMotion(const physics::DoubleWell &law, const geometry::Box &torus, unsigned int n)
+          : lower_(torus.lower), side_(torus.upper[0] - lower_[0]), n_(n),
+            force_(law, n, side_, n_radii, n_angles)
       {
         for (unsigned int j = 0; j < (dim == 1 ? 1 : n); ++j)
           for (unsigned int i = 0; i < n; ++i)
             nodes_.emplace_back(lower_[0] + side_ * i / n, lower_[1] + side_ * j / n);
       }
 
-      std::vector<double> drive(const scene::Problem &instant) const override
+      std::vector<double> drive(const problem::Problem<2> &instant) const override
       {
         return state(instant.load);
       }
-      std::vector<double> inertia(const scene::Problem &instant) const override
+      std::vector<double> inertia(const problem::Problem<2> &instant) const override
       {
         return state(*instant.solution);
       }
@@ -84,11 +83,12 @@ namespace plumbline::reference
     };
   } // namespace
 
-  std::unique_ptr<method::ContinuousMotion> move_on_torus(const scene::Scene &scene, double horizon,
-                                                          unsigned int n)
+  std::unique_ptr<method::ContinuousMotion> move_on_torus(const physics::DoubleWell &law,
+                                                          const geometry::Box &torus,
+                                                          unsigned int dimension, unsigned int n)
   {
-    if (scene.domain.dimension == 1)
-      return std::make_unique<TorusMotion<1>>(scene, horizon, n);
-    return std::make_unique<TorusMotion<2>>(scene, horizon, n);
+    if (dimension == 1)
+      return std::make_unique<TorusMotion<1>>(law, torus, n);
+    return std::make_unique<TorusMotion<2>>(law, torus, n);
   }
 } // namespace plumbline::reference

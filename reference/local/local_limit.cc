@@ -27,7 +27,7 @@ namespace plumbline::reference
     class Constraint : public dealii::Function<2>
     {
     public:
-      explicit Constraint(const scene::Problem &problem)
+      explicit Constraint(const problem::Problem<2> &problem)
           : Function<2>(problem.n_components), problem_(problem)
       {
       }
@@ -37,7 +37,7 @@ namespace plumbline::reference
       }
 
     private:
-      const scene::Problem &problem_;
+      const problem::Problem<2> &problem_;
     };
 
     /// A rule on each of n² equal parts of the unit square or triangle.
@@ -91,7 +91,7 @@ namespace plumbline::reference
     class LocalLimit : public method::Discretisation
     {
     public:
-      explicit LocalLimit(const scene::Problem &problem)
+      explicit LocalLimit(const problem::Problem<2> &problem)
           : mesh_(*problem.mesh), element_(*mesh_.element(true, degree), problem.n_components),
             dofs_(mesh_.triangulation), gauss_(dealii::QGauss<2>(degree + 2)),
             space_(std::make_shared<const MeshSpace>(problem.mesh, true, degree)),
@@ -106,15 +106,15 @@ namespace plumbline::reference
         pattern_.copy_from(pattern);
         matrix_.reinit(pattern_);
         assemble(problem);
-        held_matrix_.reinit(pattern_);
-        held_matrix_.copy_from(matrix_);
+        constrained_matrix_.reinit(pattern_);
+        constrained_matrix_.copy_from(matrix_);
         Vector ignored(dofs_.n_dofs()), also_ignored(dofs_.n_dofs());
-        dealii::MatrixTools::apply_boundary_values(boundary_, held_matrix_, ignored, also_ignored);
+        dealii::MatrixTools::apply_boundary_values(boundary_, constrained_matrix_, ignored, also_ignored);
       }
 
       std::size_t n_unknowns() const override { return dofs_.n_dofs() - boundary_.size(); }
 
-      method::CaseData data(const scene::Problem &problem) const override
+      method::CaseData data(const problem::Problem<2> &problem) const override
       {
         method::CaseData result;
         result.load = load(problem);
@@ -137,7 +137,7 @@ namespace plumbline::reference
 
       std::unique_ptr<algebra::LinearSystem> tangent() const override
       {
-        return std::make_unique<DirectSystem>(held_matrix_);
+        return std::make_unique<DirectSystem>(constrained_matrix_);
       }
       method::DiscreteOperator matrix() const override { return {}; } // it is no nonlocal method's
       method::Diagnostics diagnostics() const override { return {}; }
@@ -151,7 +151,7 @@ namespace plumbline::reference
         return values;
       }
 
-      void assemble(const scene::Problem &problem)
+      void assemble(const problem::Problem<2> &problem)
       {
         const physics::LocalLimit limit = problem.kernel.limit();
         dealii::FEValues<2> values(*mesh_.mapping, element_, gauss_,
@@ -193,7 +193,7 @@ namespace plumbline::reference
         }
       }
 
-      Vector load(const scene::Problem &problem) const
+      Vector load(const problem::Problem<2> &problem) const
       {
         constexpr unsigned int n_parts = 8; // of cells where b may jump, along each side
         const dealii::Quadrature<2> rule =
@@ -202,7 +202,7 @@ namespace plumbline::reference
         dealii::FEValues<2> values(*mesh_.mapping, element_, rule,
                                    dealii::update_values | dealii::update_quadrature_points |
                                        dealii::update_JxW_values);
-        const scene::Field &b = problem.load;
+        const problem::Field<2> &b = problem.load;
         std::vector<dealii::types::global_dof_index> indices(element_.n_dofs_per_cell());
         Vector result(dofs_.n_dofs());
         for (const auto &cell : dofs_.active_cell_iterators())
@@ -255,14 +255,14 @@ namespace plumbline::reference
       dealii::Quadrature<2> gauss_;
       std::map<dealii::types::global_dof_index, double> boundary_; ///< with 0
       dealii::SparsityPattern pattern_;
-      dealii::SparseMatrix<double> matrix_, held_matrix_; ///< of all unknowns; the boundary's held
+      dealii::SparseMatrix<double> matrix_, constrained_matrix_; ///< of all unknowns; the boundary's constrained
       std::shared_ptr<const MeshSpace> space_;
       std::shared_ptr<const MeshCells> cells_;
       std::shared_ptr<const geometry::NodeCells> averaged_;
     };
   } // namespace
 
-  std::unique_ptr<method::Discretisation> discretise_local_limit(const scene::Problem &problem)
+  std::unique_ptr<method::Discretisation> discretise_local_limit(const problem::Problem<2> &problem)
   {
     return std::make_unique<LocalLimit>(problem);
   }

@@ -29,7 +29,7 @@ namespace plumbline::reference
 
     /// The volume constraint at the degrees of freedom that are not free. Data may jump across
     /// cracks: a space that jumps as well takes them from inside of each cell.
-    std::vector<double> held_values(const scene::Problem &problem, const MeshSpace &space)
+    std::vector<double> constrained_values(const problem::Problem<2> &problem, const MeshSpace &space)
     {
       const double inwards = problem.damage.is_there() && !space.is_continuous() ? 1e-12 : 0;
       const unsigned int n = space.shapes().size(), nc = problem.n_components;
@@ -53,7 +53,7 @@ namespace plumbline::reference
 
     /// The coefficient of the bonds. Where families end at a free boundary, the part of the ball
     /// that is left carries all of the shear modulus.
-    std::optional<physics::Coefficient> bond_coefficient(const scene::Problem &problem)
+    std::optional<physics::Coefficient> bond_coefficient(const problem::Problem<2> &problem)
     {
       if (!problem.body)
         return problem.coefficient;
@@ -66,7 +66,7 @@ namespace plumbline::reference
     }
 
     /// The matrix with an outer rule refined so many times.
-    MeshMatrix assemble_all(const scene::Problem &problem, const MeshSpace &space,
+    MeshMatrix assemble_all(const problem::Problem<2> &problem, const MeshSpace &space,
                             const MeshCells &cells, const AssemblyOptions &options,
                             const base::Communicator &communicator)
     {
@@ -85,14 +85,14 @@ namespace plumbline::reference
     }
 
     /// Spaces stand on triangles with straight sides, whose functions go on up to the curves.
-    std::shared_ptr<const geometry::Mesh> mesh_of_space(const scene::Problem &problem)
+    std::shared_ptr<const geometry::Mesh> mesh_of_space(const problem::Problem<2> &problem)
     {
       if (problem.mesh->wholes.empty())
         return problem.mesh;
       return std::make_shared<const geometry::Mesh>(geometry::straightened(*problem.mesh));
     }
 
-    std::shared_ptr<const MeshSpace> make_space(const scene::Problem &problem, bool is_continuous,
+    std::shared_ptr<const MeshSpace> make_space(const problem::Problem<2> &problem, bool is_continuous,
                                                 unsigned int degree)
     {
       const auto mesh = mesh_of_space(problem);
@@ -106,7 +106,7 @@ namespace plumbline::reference
       return space;
     }
 
-    algebra::SparseOptions solver_options(const scene::Problem &problem, const MeshSpace &space)
+    algebra::SparseOptions solver_options(const problem::Problem<2> &problem, const MeshSpace &space)
     {
       algebra::SparseOptions options;
       options.is_symmetric = !problem.dilatation || problem.dilatation->is_symmetric();
@@ -128,7 +128,7 @@ namespace plumbline::reference
     class GalerkinOnMesh : public method::SparseDiscretisation
     {
     public:
-      GalerkinOnMesh(const scene::Problem &problem, std::shared_ptr<const MeshSpace> space,
+      GalerkinOnMesh(const problem::Problem<2> &problem, std::shared_ptr<const MeshSpace> space,
                      bool exact_entries, const base::Communicator &communicator)
           : SparseDiscretisation(problem.settings.solver, solver_options(problem, *space),
                                  communicator),
@@ -140,18 +140,18 @@ namespace plumbline::reference
         make_rows();
       }
 
-      method::CaseData data(const scene::Problem &problem) const override
+      method::CaseData data(const problem::Problem<2> &problem) const override
       {
         method::CaseData result;
-        std::vector<double> held_data;
+        std::vector<double> constrained_data;
         communicator().together(
             [&]
             {
-              held_data = held_values(problem, *space_);
+              constrained_data = constrained_values(problem, *space_);
               result.load = load_vector(problem, *space_, *cells_, communicator());
             });
-        method::subtract_held(held(), held_data, result.load);
-        const auto around = std::make_shared<const std::vector<double>>(std::move(held_data));
+        method::subtract_constrained(constrained(), constrained_data, result.load);
+        const auto around = std::make_shared<const std::vector<double>>(std::move(constrained_data));
         result.field = [this, around](const Vector &u)
         { return as_field(std::make_shared<const MeshField>(field(u, *around)), *problem_.cells); };
         result.relative_change = [this, around](const Vector &u, const Vector &v)
@@ -176,16 +176,16 @@ namespace plumbline::reference
         std::vector<Point<2>> nodes;
         for (std::size_t dof = 0; dof < space_->n_free(); ++dof)
           nodes.push_back(space_->support(dof));
-        method::PartedRows mass;
+        method::PartitionedRows mass;
         if (!is_lumped)
           mass = method::part(mass_rows(*space_, *cells_, problem_.n_components),
                               space_->n_free() * problem_.n_components);
         return method::move_by_rows(
-            {nodes, problem_.n_components, free(), held(),
+            {nodes, problem_.n_components, free(), constrained(),
              is_lumped ? lumped_masses(*space_, *cells_) : std::vector<double>(), std::move(mass),
-             [this](const scene::Problem &instant)
+             [this](const problem::Problem<2> &instant)
              { return load_vector(instant, *space_, *cells_, communicator()); },
-             [this](const scene::Problem &instant) { return held_values(instant, *space_); }});
+             [this](const problem::Problem<2> &instant) { return constrained_values(instant, *space_); }});
       }
 
       method::Diagnostics diagnostics() const override
@@ -202,7 +202,7 @@ namespace plumbline::reference
               "like the root of h; let sides run along them");
         if (space_->shapes().degree() > 0 && !problem_.damage.is_there())
           result.limit = method::prove_galerkin(problem_, result);
-        const scene::GeometrySection &geometry = problem_.settings.geometry;
+        const problem::GeometrySettings &geometry = problem_.settings.geometry;
         const auto check =
             check_geometry(*cells_, problem_.horizon(), geometry.n_checks, geometry.seed);
         add_entry_check(geometry, result);
@@ -237,7 +237,7 @@ namespace plumbline::reference
       }
 
       /// What another way gives for a sample of entries.
-      void add_entry_check(const scene::GeometrySection &geometry,
+      void add_entry_check(const problem::GeometrySettings &geometry,
                            method::Diagnostics &result) const
       {
         if (problem_.dilatation || problem_.body || communicator().n_ranks() > 1 ||
@@ -258,7 +258,7 @@ namespace plumbline::reference
       }
 
       /// Whether decisions of an exact assembly are those of exact predicates.
-      void add_inclusion_check(const scene::GeometrySection &geometry,
+      void add_inclusion_check(const problem::GeometrySettings &geometry,
                                method::Diagnostics &result) const
       {
         if (!is_exact_ || geometry.n_checks == 0)
@@ -281,14 +281,14 @@ namespace plumbline::reference
         set_rows(method::part(std::move(matrix.rows), space_->n_free() * problem_.n_components));
       }
 
-      MeshField field(const Vector &u, const std::vector<double> &held) const
+      MeshField field(const Vector &u, const std::vector<double> &constrained) const
       {
         MeshField result{space_, cells_, problem_.n_components, {u.begin(), u.end()}};
-        result.values.insert(result.values.end(), held.begin(), held.end());
+        result.values.insert(result.values.end(), constrained.begin(), constrained.end());
         return result;
       }
 
-      const scene::Problem &problem_;
+      const problem::Problem<2> &problem_;
       std::shared_ptr<const MeshSpace> space_;
       std::shared_ptr<const MeshCells> cells_;
       AssemblyOptions options_;
@@ -298,14 +298,14 @@ namespace plumbline::reference
   } // namespace
 
   std::unique_ptr<method::Discretisation>
-  discretise_on_mesh(const scene::Problem &problem, bool is_continuous, unsigned int degree,
+  discretise_on_mesh(const problem::Problem<2> &problem, bool is_continuous, unsigned int degree,
                      bool exact_entries, const base::Communicator &communicator)
   {
     return std::make_unique<GalerkinOnMesh>(problem, make_space(problem, is_continuous, degree),
                                             exact_entries, communicator);
   }
 
-  std::string refuse_curves(const scene::Problem &problem, bool is_continuous, unsigned int degree)
+  std::string refuse_curves(const problem::Problem<2> &problem, bool is_continuous, unsigned int degree)
   {
     if (!problem.mesh || problem.mesh->wholes.empty())
       return "";

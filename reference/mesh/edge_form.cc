@@ -104,10 +104,10 @@ namespace plumbline::reference
       return std::any_of(edge.node.begin(), edge.node.begin() + edge.n_nodes,
                          [&](unsigned int node) { return node < space.n_free(); });
     };
-    const auto held =
+    const auto constrained =
         std::partition(edges.begin(), edges.end(), [&](const Edge &e) { return is_active(e); });
-    n_active = static_cast<std::size_t>(held - edges.begin());
-    std::sort(edges.begin(), held, [](const Edge &a, const Edge &b) { return a.node < b.node; });
+    n_active = static_cast<std::size_t>(constrained - edges.begin());
+    std::sort(edges.begin(), constrained, [](const Edge &a, const Edge &b) { return a.node < b.node; });
   }
 
   PairWays::PairWays(const MeshSpace &space, const EdgeForm &form, const physics::Kernel<2> &kernel)

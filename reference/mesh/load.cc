@@ -12,7 +12,7 @@ namespace plumbline::reference
   namespace
   {
     /// A rule for each component of a load that is not smooth, on the cells of a mesh.
-    std::vector<geometry::RoughRule> rough_rules(const scene::Problem &problem,
+    std::vector<geometry::RoughRule> rough_rules(const problem::Problem<2> &problem,
                                                  const geometry::Mesh &mesh, unsigned int degree)
     {
       std::vector<std::size_t> inside;
@@ -49,7 +49,7 @@ namespace plumbline::reference
     }
   } // namespace
 
-  algebra::Vector load_vector(const scene::Problem &problem, const MeshSpace &space,
+  algebra::Vector load_vector(const problem::Problem<2> &problem, const MeshSpace &space,
                               const MeshCells &cells, const base::Communicator &communicator)
   {
     const CellShapes &shapes = space.shapes();
@@ -65,7 +65,7 @@ namespace plumbline::reference
     std::vector<double> of_cells((last - first) * n_values); // shape (n_cells, n_shapes, nc)
     const auto integrate = [&, first = first](std::size_t begin, std::size_t end)
     {
-      const scene::Field b = problem.load; // a thread's own
+      const problem::Field<2> b = problem.load; // a thread's own
       CellRule rule;
       for (std::size_t cell = begin; cell < end; ++cell)
       {

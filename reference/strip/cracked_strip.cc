@@ -117,14 +117,14 @@ namespace plumbline::reference
             }
         }
       }
-      const int n_held = reach * per_cell + (shapes.is_continuous() ? 1 : 0),
-                n_free = n - 2 * n_held;
+      const int n_constrained = reach * per_cell + (shapes.is_continuous() ? 1 : 0),
+                n_free = n - 2 * n_constrained;
       VectorXd u(n);
-      u.head(n_held).setConstant(-1);
-      u.tail(n_held).setConstant(1);
-      u.segment(n_held, n_free).setZero();
-      const VectorXd force = -(all * u).segment(n_held, n_free);
-      u.segment(n_held, n_free) = all.block(n_held, n_held, n_free, n_free).ldlt().solve(force);
+      u.head(n_constrained).setConstant(-1);
+      u.tail(n_constrained).setConstant(1);
+      u.segment(n_constrained, n_free).setZero();
+      const VectorXd force = -(all * u).segment(n_constrained, n_free);
+      u.segment(n_constrained, n_free) = all.block(n_constrained, n_constrained, n_free, n_free).ldlt().solve(force);
       return {{u.data(), u.data() + n}, .5 * u.dot(all * u), .25 * u.dot(across * u)};
     }
 
@@ -181,7 +181,7 @@ namespace plumbline::reference
             sum[2 * k] = sum[2 * k + 1] = 0;
       }
 
-      /// @param u  zero where functions are held
+      /// @param u  zero where functions are constrained
       void vmult(Values &sum, const Values &u) const { forces(sum, u); }
 
       Values diagonal() const
@@ -220,7 +220,7 @@ namespace plumbline::reference
       return .5 * both.dot(form * both);
     }
 
-    /// What is held: the grips and what is behind with them, what is ahead as the intact strip,
+    /// What is constrained: the grips and what is behind with them, what is ahead as the intact strip,
     /// which is a first guess between them.
     Values begin(const RiceStrip &strip, const StripSpace &space, const IntactStrip &intact,
                  const AxisShapes &shapes)

@@ -12,7 +12,7 @@
 
 namespace plumbline::reference
 {
-  /// The cells of the strip and of what is held around it, and the functions on them: of two
+  /// The cells of the strip and of what is constrained around it, and the functions on them: of two
   /// components each, continuous ones shared.
   class StripSpace
   {

@@ -95,7 +95,7 @@ TEST(Spectrum, counts_zero_modes_of_a_graph_in_three_parts)
   EXPECT_NEAR(found.smallest_nonzero, 2 - 2 * std::cos(M_PI / 7), 1e-12);
   const SignCheck signs = check_signs(rows);
   EXPECT_EQ(signs.n_parts, 3u);
-  EXPECT_EQ(signs.n_loose, 18u); // nothing is held
+  EXPECT_EQ(signs.n_loose, 18u); // nothing is constrained
   EXPECT_FALSE(signs.is_m_matrix());
 }
 

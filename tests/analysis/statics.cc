@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "meshfree/method.h"
 #include "reference/method.h"
+#include "scene/problem.h"
 #include "tests/study/given_solutions.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +37,7 @@ namespace
     return scene::parse_scene("test.prm", "", all);
   }
 
-  std::vector<scene::Problem> problems_of(const scene::Scene &scene)
+  std::vector<problem::Problem<2>> problems_of(const scene::Scene &scene)
   {
     return {make_problem(scene, 0, {.125, .3}), make_problem(scene, 1, {.125, .3})};
   }
@@ -50,7 +51,7 @@ namespace
     }
 
   private:
-    method::Field field(const scene::Problem &) const override
+    method::Field field(const problem::Problem<2> &) const override
     {
       if (n_solves == 2)
         fail_();

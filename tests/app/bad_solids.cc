@@ -23,7 +23,7 @@ namespace
     }
   };
 
-  /// Of a bar that is held on the left and pulled on the right.
+  /// Of a bar that is constrained on the left and pulled on the right.
   class BadBodies : public Refusals
   {
   protected:

@@ -1,6 +1,7 @@
 // What `plumbline check` says of weights that are spoilt on purpose: its text and its exit code.
 
 #include "given_files.h"
+#include "scene/problem.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "check_command.h"
+#include "scene/problem.h"
 
 #include "tests/meshfree/given_bonds.h"
 

@@ -50,7 +50,7 @@ TEST(StabilityCommand, interrupted_keeps_what_is_finished)
             130);
   const auto json = nlohmann::json::parse(read(folder / "stability.json"));
   EXPECT_FALSE(json["is_complete"]);
-  EXPECT_GE(json["levels"].size(), 10u);
+  EXPECT_GE(json["records"].size(), 10u);
   EXPECT_EQ(json["verdicts"].size(), 3u);
   expect_found(read(folder / "stability.html"), "interrupted: what was finished");
 }

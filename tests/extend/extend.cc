@@ -3,6 +3,7 @@
 
 #include "anisotropic/kernel.h"
 #include "anisotropic/method.h"
+#include "scene/problem.h"
 #include "subcells/rule.h"
 
 #include <analysis/statics.h>
@@ -43,7 +44,7 @@ namespace
   /// The largest error at a node.
   double error(const method::Method &method, const scene::Scene &scene, double h, double horizon)
   {
-    const scene::Problem problem = scene::make_problem(scene, 0, {h, horizon});
+    const problem::Problem<2> problem = scene::make_problem(scene, 0, {h, horizon});
     const auto solution = analysis::solve(method, problem);
     double worst = 0;
     for (std::size_t i = 0; i < solution.nodes.size(); ++i)

@@ -3,6 +3,7 @@
 #include "meshfree/check/bond_file.h"
 #include "meshfree/rules/rules.h"
 #include "meshfree/scattered/operator.h"
+#include "scene/problem.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ namespace
 {
   constexpr double h = .125, m = 3;
 
-  scene::Problem make_problem(bool is_tensor)
+  problem::Problem<2> make_problem(bool is_tensor)
   {
     const auto scene = scene::parse_scene(
         "check.prm", std::string("subsection Domain\n set mesh = squares\nend\nsubsection "
@@ -29,7 +30,7 @@ namespace
   }
 
   /// The families of all free nodes.
-  std::vector<Family> all(const QuadratureRule &rule, const scene::Problem &problem)
+  std::vector<Family> all(const NeighbourhoodQuadrature &rule, const problem::Problem<2> &problem)
   {
     const Families families(rule, problem.kernel, *problem.cells, Backend::fast);
     std::vector<Family> result(families.size());
@@ -38,13 +39,13 @@ namespace
     return result;
   }
 
-  std::vector<Family> good_families(const scene::Problem &problem)
+  std::vector<Family> good_families(const problem::Problem<2> &problem)
   {
     return all(recalibrated(problem.kernel, 2), problem);
   }
 
   algebra::MatrixCheck check_matrix(const std::vector<Family> &families,
-                                    const scene::Problem &problem)
+                                    const problem::Problem<2> &problem)
   {
     return algebra::check_matrix(scattered_operator([&](std::size_t i, Family &family)
                                                     { family = families[i]; },

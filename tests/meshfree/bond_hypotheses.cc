@@ -24,7 +24,7 @@ namespace
     double factor = 1;
   };
 
-  std::vector<Cause> causes_of(const std::string &rule, const scene::Problem &problem,
+  std::vector<Cause> causes_of(const std::string &rule, const problem::Problem<2> &problem,
                                const Change &plant, bool is_recognised)
   {
     Weights weights = weights_of(rule, problem);
@@ -171,7 +171,7 @@ namespace
     return sums;
   }
 
-  RampEffect effect_of(const std::string &rule, const scene::Problem &problem)
+  RampEffect effect_of(const std::string &rule, const problem::Problem<2> &problem)
   {
     const Weights weights = weights_of("FA", problem);
     for (const RampEffect &effect : ramp_effects(weights.given(), weights.families))

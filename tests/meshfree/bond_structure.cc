@@ -324,7 +324,7 @@ TEST(Outliers, are_none_of_families_whose_moments_are_exact)
 {
   // weights recalibrated around one node that is moved: right, and unlike all others
   const auto problem = nodes_for(3, 0, "linear-decay");
-  scene::Problem moved = problem;
+  problem::Problem<2> moved = problem;
   auto cells = std::make_shared<geometry::NodeCells>(*problem.cells);
   cells->nodes[27] += dealii::Tensor<1, 2>({.02, -.015});
   moved.cells = cells;

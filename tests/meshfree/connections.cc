@@ -1,4 +1,4 @@
-// What hangs loose in a network: bonds on a line, mechanisms, and how stiffly they are held.
+// What hangs loose in a network: bonds on a line, mechanisms, and how stiffly they are constrained.
 
 #include "meshfree/fracture/connections.h"
 #include "meshfree/fracture/network_terms.h"
@@ -33,7 +33,7 @@ namespace
     {
       result.nodes.push_back(x);
       result.grip.push_back(grip);
-      result.held.emplace_back();
+      result.constrained.emplace_back();
     };
     for (std::size_t i = 0; i < angles.size(); ++i)
       add_node({10. * static_cast<double>(i), 0}, -1);

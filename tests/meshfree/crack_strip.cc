@@ -100,11 +100,11 @@ TEST(CrackStrip, forces_are_the_slope_of_its_energy_and_tangents_that_of_forces)
   constexpr double step = 1e-5;
   Vector f, right, left, slope, direction(strip.size());
   strip.force(rough.u, f);
-  const std::size_t held = static_cast<std::size_t>(strip.column().n_grip()) * 12;
-  for (std::size_t i = 0; i < held; ++i)
+  const std::size_t constrained = static_cast<std::size_t>(strip.column().n_grip()) * 12;
+  for (std::size_t i = 0; i < constrained; ++i)
     EXPECT_EQ(f[i], 0);
   const double size = std::sqrt(analysis::dot(f, f));
-  for (std::size_t i = held; i < strip.n_nodes() - held; i += 7)
+  for (std::size_t i = constrained; i < strip.n_nodes() - constrained; i += 7)
     for (const std::size_t unknown : {i, i + strip.n_nodes()})
     {
       Vector u = rough.u;
@@ -114,7 +114,7 @@ TEST(CrackStrip, forces_are_the_slope_of_its_energy_and_tangents_that_of_forces)
       EXPECT_NEAR(f[unknown], -(more - strip.energy(u)) / (2 * step) / (.1 * .1), 1e-7 * size);
     }
   for (std::size_t i = 0; i < direction.size(); ++i)
-    direction[i] = i % strip.n_nodes() >= held && i % strip.n_nodes() < strip.n_nodes() - held
+    direction[i] = i % strip.n_nodes() >= constrained && i % strip.n_nodes() < strip.n_nodes() - constrained
                        ? std::cos(static_cast<double>(3 * i))
                        : 0;
   Vector u = rough.u;

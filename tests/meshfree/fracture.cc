@@ -51,7 +51,7 @@ namespace
       {
         double o = 0;
         for (const auto &[node, c] : form)
-          o += c * net.held[node];
+          o += c * net.constrained[node];
         for (const auto &[i, ci] : form)
           for (unsigned int d = 0; d < 2 && unknown[i] >= 0; ++d)
           {
@@ -83,7 +83,7 @@ namespace
       const Eigen::VectorXd x = cholesky.solve(b);
       const auto u = [&](unsigned int node)
       {
-        Tensor<1, 2> result = net.held[node];
+        Tensor<1, 2> result = net.constrained[node];
         for (unsigned int d = 0; d < 2 && unknown[node] >= 0; ++d)
           result[d] = x[unknown[node] + static_cast<int>(d)];
         return result;
@@ -131,7 +131,7 @@ namespace
   void expect_same_as_brute_force(const BreakingSolid &solid, std::size_t n_events)
   {
     const BondNetwork net = network(solid);
-    BreakingNetwork body(net, scene::Stretch::linear);
+    BreakingNetwork body(net, problem::Stretch::linear);
     const Growth growth = grow(body, rules());
     ASSERT_GE(growth.events.size(), n_events);
     EXPECT_LT(body.work().n_factorisations, growth.events.size() / 5);
@@ -174,7 +174,7 @@ TEST(Fracture, layers_have_the_energy_of_their_local_limit)
       const BondNetwork net = make_bond_network(
           layers(n1, n + 6, 0), meshfree::optimisation_based(physics::deviatoric_kernel(K, 1)), K,
           h, geometry::Backend::fast);
-      return BreakingNetwork(net, scene::Stretch::linear).response().energy;
+      return BreakingNetwork(net, problem::Stretch::linear).response().energy;
     };
     const double of_length = (energy(4 * n) - energy(3 * n)) / (n * h), height = n * h;
     const double local = .5 / (.5 * height / modulus(3, .1) + .5 * height / modulus(1, .35));
@@ -189,11 +189,11 @@ TEST(Fracture, every_event_accounts_for_the_energy)
 {
   for (const BreakingSolid &solid :
        {plate(30, 20, 10 * h, .25), plate(30, 20, 10 * h, .35), layers(30, 20, 10 * h)})
-    for (const auto breaking : {scene::BreakMode::events, scene::BreakMode::batches})
+    for (const auto breaking : {problem::BreakMode::events, problem::BreakMode::batches})
     {
-      BreakingNetwork body(network(solid), scene::Stretch::linear);
+      BreakingNetwork body(network(solid), problem::Stretch::linear);
       const Growth growth = grow(body, rules(breaking));
-      EXPECT_TRUE(growth.end == scene::GrowthEnd::parted ||
+      EXPECT_TRUE(growth.end == problem::GrowthEnd::parted ||
                   growth.events.back().reaction < 1e-9 * growth.events.front().reaction);
       for (const Event &event : growth.events)
       {
@@ -227,7 +227,7 @@ TEST(Fracture, mirror_images_break_together_if_ties_do)
       place[key(net.nodes[net.bonds[b].from], net.nodes[net.bonds[b].to], 1)] = b;
     auto events = rules();
     events.tie_tolerance = ties;
-    BreakingNetwork body(net, scene::Stretch::linear);
+    BreakingNetwork body(net, problem::Stretch::linear);
     std::size_t n_alone = 0;
     for (const Event &event : grow(body, events).events)
       for (const std::size_t b : event.bonds)
@@ -308,7 +308,7 @@ TEST(Fracture, grips_hold_the_nodes_whose_cells_share_area_with_them)
 TEST(Fracture, finite_stretches_reach_their_limits_at_critical_loads)
 {
   const BondNetwork net = network(plate(20, 16, 5 * h, .25));
-  for (const auto stretch : {scene::Stretch::finite, scene::Stretch::linear})
+  for (const auto stretch : {problem::Stretch::finite, problem::Stretch::linear})
   {
     const BreakingNetwork body(net, stretch);
     for (std::size_t b = 0; b < net.bonds.size(); ++b)
@@ -319,7 +319,7 @@ TEST(Fracture, finite_stretches_reach_their_limits_at_critical_loads)
         continue;
       const Tensor<1, 2> du =
           load * (body.displacements()[bond.to] - body.displacements()[bond.from]);
-      const double s = stretch == scene::Stretch::finite
+      const double s = stretch == problem::Stretch::finite
                            ? (bond.xi + du).norm() / bond.xi.norm() - 1
                            : bond.xi * du / bond.xi.norm_square();
       EXPECT_NEAR(s, bond.critical, 1e-9 * bond.critical) << b;
@@ -417,13 +417,13 @@ TEST(Fracture, the_least_toughness_along_a_bond_is_seen_between_nodes)
 TEST(Fracture, goes_on_from_any_event_to_the_same_bits)
 {
   const BondNetwork net = network(plate(40, 20, 20 * h, .25));
-  BreakingNetwork whole(net, scene::Stretch::finite);
+  BreakingNetwork whole(net, problem::Stretch::finite);
   const Growth expected = grow(whole, rules());
   ASSERT_GT(whole.work().n_factorisations, 3u);
   for (const std::size_t n :
        {std::size_t{1}, expected.events.size() / 2, expected.events.size() - 2})
   {
-    BreakingNetwork body(net, scene::Stretch::finite);
+    BreakingNetwork body(net, problem::Stretch::finite);
     const auto begin = expected.events.begin();
     const Growth growth = grow(body, rules(), {begin, begin + static_cast<std::ptrdiff_t>(n)});
     EXPECT_EQ(growth.n_resumed, n);
@@ -451,7 +451,7 @@ TEST(Fracture, what_hangs_loose_carries_no_force)
       (std::abs(net.bonds[b].xi[1]) > 1e-12 ? own : row).push_back(b);
   for (const bool is_at_once : {true, false})
   {
-    BreakingNetwork body(net, scene::Stretch::linear);
+    BreakingNetwork body(net, problem::Stretch::linear);
     (void)body.break_bonds(own); // its bonds lie on a line
     EXPECT_LT(body.response().residual, 1e-12);
     if (is_at_once)
@@ -462,7 +462,7 @@ TEST(Fracture, what_hangs_loose_carries_no_force)
     EXPECT_LT(body.response().residual, 1e-12);
     EXPECT_NEAR(body.response().reaction, 2 * body.response().energy,
                 1e-12 * body.response().reaction);
-    EXPECT_FALSE(body.is_parted());
+    EXPECT_FALSE(body.is_separated());
   }
 }
 
@@ -476,7 +476,7 @@ TEST(Fracture, a_piece_that_no_grip_holds_carries_no_force)
   for (std::size_t b = 0; b < net.bonds.size(); ++b)
     if (is_in(net.bonds[b].from) != is_in(net.bonds[b].to))
       around.push_back(b);
-  BreakingNetwork body(net, scene::Stretch::linear);
+  BreakingNetwork body(net, problem::Stretch::linear);
   (void)body.break_bonds(around);
   EXPECT_LT(body.response().residual, 1e-12);
   for (std::size_t b = 0; b < net.bonds.size(); ++b)
@@ -488,43 +488,43 @@ TEST(Fracture, a_piece_that_no_grip_holds_carries_no_force)
 
 TEST(Fracture, ends_where_it_is_told_to)
 {
-  const auto end = [](const std::function<void(scene::FractureSection &)> &change)
+  const auto end = [](const std::function<void(problem::FractureSettings &)> &change)
   {
-    scene::FractureSection section = rules();
+    problem::FractureSettings section = rules();
     change(section);
-    BreakingNetwork body(network(plate(20, 16, 10 * h, .25)), scene::Stretch::linear);
+    BreakingNetwork body(network(plate(20, 16, 10 * h, .25)), problem::Stretch::linear);
     Growth growth = grow(body, section);
-    EXPECT_EQ(growth.is_parted, body.is_parted());
+    EXPECT_EQ(growth.is_separated, body.is_separated());
     return growth;
   };
   const Growth whole = end([](auto &) {});
-  EXPECT_NE(whole.end, scene::GrowthEnd::loaded);
+  EXPECT_NE(whole.end, problem::GrowthEnd::loaded);
   const Growth unloaded = end([](auto &section) { section.least_reaction = .5; });
-  EXPECT_EQ(unloaded.end, scene::GrowthEnd::unloaded);
-  EXPECT_FALSE(unloaded.is_parted);
+  EXPECT_EQ(unloaded.end, problem::GrowthEnd::unloaded);
+  EXPECT_FALSE(unloaded.is_separated);
   EXPECT_LE(unloaded.reaction_left(), .5);
   EXPECT_GT(unloaded.reaction_left(), .1);
   EXPECT_LT(unloaded.events.size(), whole.events.size());
   const double first = whole.events.front().load;
   const Growth loaded = end([&](auto &section) { section.largest_load = .5 * first; });
-  EXPECT_EQ(loaded.end, scene::GrowthEnd::loaded);
+  EXPECT_EQ(loaded.end, problem::GrowthEnd::loaded);
   EXPECT_TRUE(loaded.events.empty());
-  EXPECT_FALSE(loaded.is_parted);
+  EXPECT_FALSE(loaded.is_separated);
   EXPECT_EQ(loaded.reaction_left(), 1);
 }
 
 TEST(Fracture, load_steps_break_more_bonds_than_events)
 {
-  const auto n_broken = [](scene::BreakMode breaking, double step)
+  const auto n_broken = [](problem::BreakMode breaking, double step)
   {
-    scene::FractureSection section = rules(breaking);
+    problem::FractureSettings section = rules(breaking);
     section.load_step = step;
-    BreakingNetwork body(network(plate(40, 20, 20 * h, .25)), scene::Stretch::linear);
+    BreakingNetwork body(network(plate(40, 20, 20 * h, .25)), problem::Stretch::linear);
     return all_broken(grow(body, section)).size();
   };
-  const std::size_t events = n_broken(scene::BreakMode::events, 0);
-  EXPECT_GT(n_broken(scene::BreakMode::batches, 0), events);
-  EXPECT_GT(n_broken(scene::BreakMode::steps, 1), 1.2 * static_cast<double>(events));
+  const std::size_t events = n_broken(problem::BreakMode::events, 0);
+  EXPECT_GT(n_broken(problem::BreakMode::batches, 0), events);
+  EXPECT_GT(n_broken(problem::BreakMode::steps, 1), 1.2 * static_cast<double>(events));
 }
 
 TEST(Fracture, refuses_bodies_that_cannot_be_pulled_apart)
@@ -533,7 +533,7 @@ TEST(Fracture, refuses_bodies_that_cannot_be_pulled_apart)
   {
     BreakingSolid solid = plate(20, 16, 10 * h, .25);
     change(solid);
-    EXPECT_THROW(BreakingNetwork(network(solid), scene::Stretch::linear), InputError);
+    EXPECT_THROW(BreakingNetwork(network(solid), problem::Stretch::linear), InputError);
   };
   refused([](auto &solid) { solid.toughness = [](const Point<2> &x) { return x[0] - .5; }; });
   refused([](auto &solid) { solid.notch = {{{-1, .3 * h}, {-.5, .3 * h}}}; });

@@ -5,6 +5,7 @@
 #include "meshfree/rules/families.h"
 #include "meshfree/rules/rules.h"
 #include "scene/problem.h"
+#include "scene/scene.h"
 
 #include <stdexcept>
 
@@ -12,7 +13,7 @@ namespace plumbline::meshfree
 {
   constexpr double node_distance = .125; ///< h on lattices; nodes are moved from there
 
-  inline scene::Problem nodes_for(double m, double perturbation, const std::string &kernel)
+  inline problem::Problem<2> nodes_for(double m, double perturbation, const std::string &kernel)
   {
     const bool is_tensor = kernel == "bond-tensor";
     const auto scene = scene::parse_scene(
@@ -28,14 +29,14 @@ namespace plumbline::meshfree
   /// Families and volumes that own what they refer to.
   struct Weights
   {
-    scene::Problem problem;
+    problem::Problem<2> problem;
     std::vector<Family> families;
     std::vector<double> volumes;
 
     GivenBonds given() const { return {families, problem.kernel, *problem.cells, volumes}; }
   };
 
-  inline Weights weights_of(const std::string &rule, const scene::Problem &problem)
+  inline Weights weights_of(const std::string &rule, const problem::Problem<2> &problem)
   {
     Weights result{problem, {}, problem.cells->area};
     result.families = rule_families(rule, {{}, problem.kernel, *problem.cells, result.volumes});

@@ -23,7 +23,7 @@ namespace growth_plate
     solid.grips = {{{0, half - grip}, {length, half}}, {{0, -half}, {length, grip - half}}};
     if (notch > 0)
       solid.notch = {{{-h, 0}, {notch, 0}}};
-    solid.held = [](const Point<2> &x)
+    solid.constrained = [](const Point<2> &x)
     {
       Tensor<1, 2> u;
       u[1] = x[1] > 0 ? .5 : -.5;
@@ -47,9 +47,9 @@ namespace growth_plate
                              geometry::Backend::fast);
   }
 
-  inline scene::FractureSection rules(scene::BreakMode breaking = scene::BreakMode::events)
+  inline problem::FractureSettings rules(problem::BreakMode breaking = problem::BreakMode::events)
   {
-    scene::FractureSection result;
+    problem::FractureSettings result;
     result.breaking = breaking;
     result.least_reaction = 0; // until it has parted
     return result;

@@ -41,13 +41,13 @@ namespace
                    {{-all, -1}, {-1, 1}},
                    {{1, -1}, {all, 1}}};
     solid.notch = {{{-all - h, 0}, {tip, 0}}};
-    solid.held = field;
+    solid.constrained = field;
     solid.material = [](const Point<2> &) { return physics::Lame{mu, mu}; };
     solid.toughness = [](const Point<2> &) { return 1.; };
     const auto influence = physics::influence_function(physics::kernel_type("1/r").profile, m * h);
     const auto rule = meshfree::optimisation_based(physics::deviatoric_kernel(influence, 1));
     return {make_bond_network(solid, rule, influence, h, meshfree::Backend::fast),
-            scene::Stretch::linear};
+            problem::Stretch::linear};
   }
 
   /// G E' / K² of a crack that advances from one tip to another.

@@ -114,7 +114,7 @@ TEST(LinearPeridynamicSolid, uniaxial_stress_along_a_free_surface_is_exact_with_
     for (StateBasedProblem *problem : {&crack, &surface})
     {
       EXPECT_LT(error(*problem, square), 1e-12) << nu;
-      problem->damage.surface_terms = scene::SurfaceTerms::none;
+      problem->damage.surface_terms = problem::SurfaceTerms::none;
       EXPECT_GT(error(*problem, square), 1e-3) << nu;
     }
   }

@@ -13,7 +13,7 @@ namespace
   using analysis::Event;
   using analysis::Growth;
   using meshfree::BreakingNetwork;
-  using scene::GrowthSolver;
+  using problem::GrowthSolver;
 
   meshfree::BondNetwork plate_of(double nu)
   {
@@ -31,8 +31,8 @@ TEST(MultigridGrowth, breaks_the_same_bonds_at_the_same_loads)
   for (const double nu : {.25, .35})
   {
     const meshfree::BondNetwork net = plate_of(nu);
-    BreakingNetwork factored(net, scene::Stretch::linear),
-        iterated(net, scene::Stretch::linear, GrowthSolver::multigrid);
+    BreakingNetwork factored(net, problem::Stretch::linear),
+        iterated(net, problem::Stretch::linear, GrowthSolver::multigrid);
     const Growth expected = grow(factored), growth = grow(iterated);
     EXPECT_EQ(growth.end, expected.end);
     ASSERT_EQ(growth.events.size(), expected.events.size());
@@ -57,11 +57,11 @@ TEST(MultigridGrowth, breaks_the_same_bonds_at_the_same_loads)
 TEST(MultigridGrowth, goes_on_to_the_same_bits)
 {
   const meshfree::BondNetwork net = plate_of(.25);
-  BreakingNetwork whole(net, scene::Stretch::linear, GrowthSolver::multigrid);
+  BreakingNetwork whole(net, problem::Stretch::linear, GrowthSolver::multigrid);
   const Growth expected = grow(whole);
   ASSERT_GT(whole.work().n_factorisations, 3u);
   const auto half = static_cast<std::ptrdiff_t>(expected.events.size() / 2);
-  BreakingNetwork body(net, scene::Stretch::linear, GrowthSolver::multigrid);
+  BreakingNetwork body(net, problem::Stretch::linear, GrowthSolver::multigrid);
   const Growth growth = grow(body, {expected.events.begin(), expected.events.begin() + half});
   ASSERT_EQ(growth.events.size(), expected.events.size());
   for (std::size_t i = 0; i < growth.events.size(); ++i)

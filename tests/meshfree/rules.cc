@@ -5,6 +5,7 @@
 #include "meshfree/lattice/stencil.h"
 #include "meshfree/method.h"
 #include "method/discretisation.h"
+#include "scene/problem.h"
 #include "study/comparison.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ namespace
     return Kernel<2>::with_bulk_modulus(physics::kernel_type("bond-tensor").profile, m * h, 1);
   }
 
-  Bonds make(const QuadratureRule &rule, const Kernel<2> &kernel, Backend backend = Backend::fast)
+  Bonds make(const NeighbourhoodQuadrature &rule, const Kernel<2> &kernel, Backend backend = Backend::fast)
   {
     return lattice_bonds(rule, kernel, h, backend);
   }
@@ -109,7 +110,7 @@ TEST(ImprovedPartialArea, error_has_its_closed_form)
                     "subsection Study\n set norms = nodal Linf\nend\n");
   for (const double m : {2., 3., 5.})
   {
-    const scene::Level level{.05, m * .05};
+    const problem::Level level{.05, m * .05};
     const auto problem = make_problem(scene, 0, level);
     double found = 0;
     for (const auto &method : methods())
@@ -274,7 +275,7 @@ TEST(FullArea, counts_nodes_on_the_circle_and_jitters_with_the_ratio)
   // (3, 4, 5): 80 nodes of the disc of radius 5, ties included
   EXPECT_EQ(make(full_area(scalar_kernel(5)), scalar_kernel(5)).family.size(), 80u);
   // as m grows, the moment of the full area rule jumps with every node that enters the ball
-  const auto variation = [](QuadratureRule (*rule)(const Kernel<2> &))
+  const auto variation = [](NeighbourhoodQuadrature (*rule)(const Kernel<2> &))
   {
     double total = 0, last = NAN;
     for (double m = 3; m <= 12; m += .125)

@@ -3,6 +3,7 @@
 #include "meshfree/rules/rules.h"
 #include "meshfree/scattered/field.h"
 #include "meshfree/scattered/operator.h"
+#include "scene/problem.h"
 #include "study/comparison.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ namespace
             "\n set names = " + rule + "\nend\nsubsection Study\n set norms = nodal Linf\nend\n");
   }
 
-  scene::Problem make_problem(double perturbation, bool is_tensor, double h, double m,
+  problem::Problem<2> make_problem(double perturbation, bool is_tensor, double h, double m,
                               const std::string &kernel_keys = "")
   {
     return scene::make_problem(
@@ -44,7 +45,7 @@ namespace
                          [&](const Rule &rule) { return rule.name == name; });
   }
 
-  Families make_families(const std::string &name, const scene::Problem &problem)
+  Families make_families(const std::string &name, const problem::Problem<2> &problem)
   {
     return {rule(name).of(problem.kernel), problem.kernel, *problem.cells, Backend::fast};
   }
@@ -75,7 +76,7 @@ namespace
   }
 
   /// L_h u at the free nodes for the u that the constraint is.
-  std::vector<double> apply(const Families &families, const scene::Problem &problem)
+  std::vector<double> apply(const Families &families, const problem::Problem<2> &problem)
   {
     const auto matrix = scattered_operator(families, problem, {0, families.size()});
     std::vector<double> result(matrix.rows.free.n_rows());
@@ -89,11 +90,11 @@ namespace
                                              rows.column[k] % nc);
     };
     multiply(matrix.rows.free, 0);
-    multiply(matrix.rows.held, problem.cells->n_free);
+    multiply(matrix.rows.constrained, problem.cells->n_free);
     return result;
   }
 
-  analysis::Solution solve(const std::string &name, const scene::Problem &problem)
+  analysis::Solution solve(const std::string &name, const problem::Problem<2> &problem)
   {
     const auto all = methods();
     return analysis::solve(**std::find_if(all.begin(), all.end(),
@@ -102,7 +103,7 @@ namespace
                            problem);
   }
 
-  double nodal_error(const std::string &name, const scene::Scene &scene, const scene::Level &level)
+  double nodal_error(const std::string &name, const scene::Scene &scene, const problem::Level &level)
   {
     const auto problem = scene::make_problem(scene, 0, level);
     return study::errors(scene.study.norms, problem, solve(name, problem), {})

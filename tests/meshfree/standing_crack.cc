@@ -21,7 +21,7 @@ namespace
   }
 
   method::StripState solve(const method::RiceStrip &strip,
-                           meshfree::QuadratureRule (*rule)(const physics::Kernel<2> &))
+                           meshfree::NeighbourhoodQuadrature (*rule)(const physics::Kernel<2> &))
   {
     const auto influence =
         physics::influence_function(physics::kernel_type("1/r").profile, horizon);
@@ -33,7 +33,7 @@ TEST(StandingCrack, has_the_energies_of_an_independent_program)
 {
   struct Known
   {
-    meshfree::QuadratureRule (*rule)(const physics::Kernel<2> &);
+    meshfree::NeighbourhoodQuadrature (*rule)(const physics::Kernel<2> &);
     int m;
     double intact, tip; // intact over that of the local limit, 6
   };

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "meshfree/lattice/stencil.h"
 #include "meshfree/method.h"
+#include "scene/problem.h"
 #include "tests/meshfree/state_based_problems.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +38,7 @@ namespace
       quadratic({1, 0, 0}, {}), quadratic({0, 1, 0}, {}), quadratic({0, 0, 1}, {}),
       quadratic({}, {1, 0, 0}), quadratic({.3, 2, -1}, {0, 1, 1})};
 
-  QuadratureRule recalibrated_2(const Kernel<2> &kernel)
+  NeighbourhoodQuadrature recalibrated_2(const Kernel<2> &kernel)
   {
     return recalibrated(kernel, 2);
   }
@@ -84,7 +85,7 @@ namespace
   }
 
   /// |L u - b| of a problem's own field on a lattice, relative to the load.
-  double stencil_defect(const StateBasedProblem &problem, QuadratureRule (*rule)(const Kernel<2> &))
+  double stencil_defect(const StateBasedProblem &problem, NeighbourhoodQuadrature (*rule)(const Kernel<2> &))
   {
     const Square square(.1, .1, 0);
     const StateBasedCase one(problem, square, rule);
@@ -333,7 +334,7 @@ TEST(StateBasedOperator, shares_are_parts_of_the_whole)
   const auto whole = state_based_operator(make, one.body, {0, 64}),
              first = state_based_operator(make, one.body, {0, 23}),
              second = state_based_operator(make, one.body, {23, 64});
-  for (const auto rows : {&method::PartedRows::free, &method::PartedRows::held})
+  for (const auto rows : {&method::PartitionedRows::free, &method::PartitionedRows::constrained})
   {
     const algebra::CsrMatrix &all = whole.rows.*rows;
     EXPECT_EQ((first.rows.*rows).column.size() + (second.rows.*rows).column.size(),

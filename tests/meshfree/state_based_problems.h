@@ -140,7 +140,7 @@ namespace plumbline::meshfree
     Families families;
 
     StateBasedCase(const StateBasedProblem &problem, const Square &square,
-                   QuadratureRule (*rule)(const Kernel<2> &) = optimisation_based)
+                   NeighbourhoodQuadrature (*rule)(const Kernel<2> &) = optimisation_based)
         : problem(problem),
           square(square), body{&square.cells,
                                {physics::influence_function({{1, -1}}, square.horizon),
@@ -169,7 +169,7 @@ namespace plumbline::meshfree
       for (std::size_t i = 0; i < n_free; ++i)
         for (unsigned int c = 0; c < 2; ++c)
           load[2 * i + c] = problem.load(square.cells.nodes[i])[c];
-      method::subtract_held(made.rows.held, data, load);
+      method::subtract_constrained(made.rows.constrained, data, load);
       return {std::move(made.rows.free), {load.begin(), load.end()}, std::move(made.tips)};
     }
 

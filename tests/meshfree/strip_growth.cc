@@ -24,10 +24,10 @@ namespace
   struct Strip
   {
     physics::Kernel<2> K;
-    meshfree::QuadratureRule rule;
+    meshfree::NeighbourhoodQuadrature rule;
     int height = 0, length = 0;
     physics::Lame lame{1, 1};
-    scene::SurfaceTerms surface_terms = scene::SurfaceTerms::uncorrected;
+    problem::SurfaceTerms surface_terms = problem::SurfaceTerms::uncorrected;
 
     Strip(int m, int n_height, int n_length)
         : K(physics::influence_function(physics::kernel_type("1/r").profile, m * h)),
@@ -42,7 +42,7 @@ namespace
       solid.surface_terms = surface_terms;
       solid.toughness = [toughness](const Point<2> &) { return toughness; };
       return {make_bond_network(solid, rule, K, h, geometry::Backend::fast),
-              scene::Stretch::linear};
+              problem::Stretch::linear};
     }
 
     /// Energy of a column of the intact strip, per length: what a column more of it holds.
@@ -137,7 +137,7 @@ TEST(StripGrowth, needs_less_where_surfaces_are_free_of_traction)
     Strip strip(3, 24, 144);
     strip.lame = physics::lame_from_young(1, nu, physics::PlaneState::strain);
     const study::StripGrowth without = strip.growth(104);
-    strip.surface_terms = scene::SurfaceTerms::published;
+    strip.surface_terms = problem::SurfaceTerms::published;
     const study::StripGrowth with = strip.growth(104);
     EXPECT_NEAR(with.peak / without.peak, peak, .01) << nu;
     EXPECT_NEAR(with.mean / without.mean, mean, .01) << nu;

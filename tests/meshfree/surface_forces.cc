@@ -26,7 +26,7 @@ namespace
   using meshfree::BreakingSolid;
   using meshfree::Connections;
   using meshfree::SurfaceForces;
-  using scene::SurfaceTerms;
+  using problem::SurfaceTerms;
   using Field = std::vector<Tensor<1, 2>>;
 
   constexpr double h = .05, m = 3, length = 40 * h, half = 12 * h;
@@ -49,7 +49,7 @@ namespace
     else
       solid.grips = {{{0, half - grip}, {length, half}}, {{0, -half}, {length, grip - half}}};
     solid.notch = {notch(is_held_at_ends, tip)};
-    solid.held = [](const Point<2> &x)
+    solid.constrained = [](const Point<2> &x)
     {
       Tensor<1, 2> u;
       u[1] = x[1] > 0 ? .5 : -.5;
@@ -113,7 +113,7 @@ namespace
     Field force(u.size());
     for (std::size_t row = 0; row < 2 * cells.n_free; ++row)
       for (const auto &[part, first] :
-           {std::pair(&rows.free, std::size_t{0}), {&rows.held, cells.n_free}})
+           {std::pair(&rows.free, std::size_t{0}), {&rows.constrained, cells.n_free}})
         for (std::size_t k = part->start[row]; k < part->start[row + 1]; ++k)
           force[order[row / 2]][row % 2] -=
               h * h * part->value[k] * u[order[first + part->column[k] / 2]][part->column[k] % 2];
@@ -149,7 +149,7 @@ namespace
 
   Growth grow(BreakingNetwork &body, std::vector<analysis::Event> earlier = {})
   {
-    scene::FractureSection rules;
+    problem::FractureSettings rules;
     rules.surface_terms = SurfaceTerms::published;
     return analysis::grow(body, rules, std::move(earlier));
   }
@@ -235,12 +235,12 @@ TEST(SurfaceForces, on_grips_are_in_the_reaction)
   for (const SurfaceTerms terms : {SurfaceTerms::published, SurfaceTerms::consistent})
   {
     const BondNetwork net = plate({2.5, 1}, false, terms);
-    const BreakingNetwork body(net, scene::Stretch::linear);
+    const BreakingNetwork body(net, problem::Stretch::linear);
     const Connections connections(net);
     const Field &u = body.displacements(), forces = SurfaceForces(net, connections).forces(u);
     double sum = 0;
     for (std::size_t i = 0; i < u.size(); ++i)
-      sum -= forces[i] * net.held[i];
+      sum -= forces[i] * net.constrained[i];
     EXPECT_NEAR(body.response().reaction / sum, 1, 1e-10) << base::word(terms);
   }
 }
@@ -267,11 +267,11 @@ TEST(SurfaceForces, are_in_equilibrium_while_a_crack_grows_and_go_on_to_the_same
         std::pair(1.5, SurfaceTerms::consistent)})
   {
     const BondNetwork net = plate({lambda, 1}, false, terms);
-    BreakingNetwork body(net, scene::Stretch::linear);
+    BreakingNetwork body(net, problem::Stretch::linear);
     EXPECT_FALSE(body.has_energy());
     const Growth growth = grow(body);
     ASSERT_GT(growth.events.size(), 50u);
-    EXPECT_TRUE(growth.end == scene::GrowthEnd::unloaded || growth.end == scene::GrowthEnd::parted);
+    EXPECT_TRUE(growth.end == problem::GrowthEnd::unloaded || growth.end == problem::GrowthEnd::parted);
     double imbalance = 0;
     for (const analysis::Event &event : growth.events)
     {
@@ -283,7 +283,7 @@ TEST(SurfaceForces, are_in_equilibrium_while_a_crack_grows_and_go_on_to_the_same
     EXPECT_LT(body.work().most_iterations, 60u);
 
     const auto half = static_cast<std::ptrdiff_t>(growth.events.size() / 2);
-    BreakingNetwork again(net, scene::Stretch::linear);
+    BreakingNetwork again(net, problem::Stretch::linear);
     const Growth later = grow(again, {growth.events.begin(), growth.events.begin() + half});
     ASSERT_EQ(later.events.size(), growth.events.size());
     for (std::size_t i = 0; i < later.events.size(); ++i)

@@ -9,7 +9,7 @@
 
 using namespace plumbline;
 using namespace plumbline::meshfree;
-using scene::SurfaceTerms;
+using problem::SurfaceTerms;
 
 namespace
 {

@@ -235,8 +235,8 @@ TEST(VariationalBody, loads_free_cells_with_the_force_on_them)
   EXPECT_NEAR(std::accumulate(cells.begin(), cells.begin() + n, 0.), 3 * .3 * .9, 1e-14);
   EXPECT_NEAR(std::accumulate(cells.begin() + n, cells.end(), 0.), -.3 * .9, 1e-14);
   EXPECT_NEAR(std::accumulate(nodes.begin(), nodes.begin() + n, 0.), 3 * .35 * .9, 1e-14);
-  const Vector held = cell_load(body, {{rectangle(0, 0, .25, .9), force}});
-  EXPECT_EQ(held.l2_norm(), 0);
+  const Vector constrained = cell_load(body, {{rectangle(0, 0, .25, .9), force}});
+  EXPECT_EQ(constrained.l2_norm(), 0);
 }
 
 TEST(VariationalBody, distance_is_that_of_piecewise_constants)

@@ -225,7 +225,7 @@ TEST(GeometryCheck, finds_cut_cells_and_no_difference)
 namespace
 {
   /// Degrees of freedom without a pattern.
-  LatticeField some_field(const scene::Problem &problem, const AxisShapes &shapes)
+  LatticeField some_field(const problem::Problem<2> &problem, const AxisShapes &shapes)
   {
     const auto nodes = free_nodes(*problem.lattice, shapes.families(), problem.n_components);
     std::vector<double> values(static_cast<std::size_t>(nodes.n_blocks()) * (nodes.n[0] + 2) *

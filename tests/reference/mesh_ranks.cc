@@ -3,6 +3,7 @@
 #include "geometry/mesh_input.h"
 #include "reference/mesh/edge_assembly.h"
 #include "reference/method.h"
+#include "scene/problem.h"
 
 #include <gtest/gtest.h>
 

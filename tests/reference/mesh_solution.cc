@@ -3,6 +3,7 @@
 #include "geometry/mesh_input.h"
 #include "reference/mesh/field.h"
 #include "reference/method.h"
+#include "scene/problem.h"
 #include "study/comparison.h"
 #include "study/reference_estimate.h"
 #include "study/refusal.h"

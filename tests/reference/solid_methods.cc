@@ -6,6 +6,7 @@
 #include "reference/mesh/dilatation.h"
 #include "reference/mesh/weighted_volume.h"
 #include "reference/method.h"
+#include "scene/problem.h"
 #include "study/comparison.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ namespace
   using namespace plumbline;
   using analysis::Solution;
   using geometry::Point;
-  using scene::Problem;
+  using Problem = problem::Problem<2>;
   using scene::Scene;
 
   using Settings = std::vector<scene::Override>;
@@ -53,7 +54,7 @@ namespace
     return scene::parse_scene("test.prm", scene::scene_template(model), fixed + settings);
   }
 
-  /// A bar that is held on the left and pulled on the right.
+  /// A bar that is constrained on the left and pulled on the right.
   Scene bar(const Settings &settings)
   {
     const Settings fixed = {{"Domain/boxes", "0, 0 : 1, 0.5"},
@@ -135,7 +136,7 @@ namespace
 
 TEST(StateBasedGalerkin, OnSquaresApproachesTheLatticeSolution)
 {
-  const scene::Level level{.25, .5};
+  const problem::Level level{.25, .5};
   const Problem lattice = make_problem(square("LPS", {}), 0, level);
   const auto on_squares = [&](const Settings &settings)
   { return make_problem(square("LPS", squares + settings), 0, level); };
@@ -182,7 +183,7 @@ TEST(StateBasedGalerkin, ConvergesAtTheOptimalRateOnAnyMesh)
 
 TEST(StateBasedGalerkin, IsBondBasedWhereTheConstantsAreEqual)
 {
-  const scene::Level level{.25, .5};
+  const problem::Level level{.25, .5};
   const Scene bonds = square("tensor", {{"Kernel/bulk modulus", "1.6666666666666667"}});
   const Problem of_bonds = make_problem(bonds, 0, level);
   const Scene solid = square("LPS", {{"Material/lambda", "1"},

@@ -13,13 +13,13 @@ namespace plumbline::atlas
     /// Runs of a method at given costs [CPU s] and errors, of a solution of size 2.
     void add(study::Results &results, const std::string &method, const std::string &series,
              const std::vector<std::pair<double, double>> &costs_and_errors, study::Outcome outcome,
-             study::Side side = study::Side::meshfree)
+             study::MethodFamily family = study::MethodFamily::meshfree)
     {
       for (const auto &[seconds, error] : costs_and_errors)
       {
         study::Run run;
         run.method = method;
-        run.side = side;
+        run.family = family;
         run.problem = "case";
         run.series = series;
         run.cost.solve_seconds = seconds;
@@ -45,9 +45,9 @@ namespace plumbline::atlas
       add(results, "cheap but stalling", "m = 3", {{1, .1}, {4, .09}}, Outcome::stalls);
       add(results, "good", "m = 3", {{2, .18}, {8, .01}, {32, .001}}, Outcome::converges);
       add(results, "as good, a little dearer", "m = 3", {{8.5, .01}}, Outcome::converges);
-      add(results, "dear", "m = 3", {{100, .01}}, Outcome::converges, study::Side::reference);
+      add(results, "dear", "m = 3", {{100, .01}}, Outcome::converges, study::MethodFamily::reference);
       add(results, "short", "m = 3", {{.5, 1e-4}}, Outcome::undecided);
-      add(results, "local", "m = 3", {{.01, 1e-9}}, Outcome::converges, study::Side::local);
+      add(results, "local", "m = 3", {{.01, 1e-9}}, Outcome::converges, study::MethodFamily::local);
       add(results, "rough", "m = 3", {{.1, .9}}, Outcome::converges);
       return results;
     }

@@ -1,6 +1,7 @@
 // Each number stands under its own head: all differ, so that no two can be confused.
-#include "report/stability_tables.h"
 #include "report/tables.h"
+#include "report/view.h"
+#include "study/stability.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +42,7 @@ namespace plumbline::report
     {
       study::Run run;
       run.method = method;
-      run.side = study::Side::meshfree;
+      run.family = study::MethodFamily::meshfree;
       run.problem = "case";
       run.series = "series";
       run.level = level;
@@ -111,7 +112,7 @@ namespace plumbline::report
       results.decisive_error = "nodal Linf | exact";
       study::Trend trend;
       trend.method = "FA";
-      trend.side = study::Side::meshfree;
+      trend.family = study::MethodFamily::meshfree;
       trend.problem = "case";
       trend.series = "series";
       trend.error = results.decisive_error;
@@ -206,9 +207,12 @@ namespace plumbline::report
 
   TEST(ReportColumns, OfStabilityMeasuresAreNotMistakenForEachOther)
   {
-    study::StabilityResults results;
-    study::StabilityRow row{"FA", study::Side::meshfree, "m = 3", .1, .3, {}, {}, {}};
-    study::Stability &s = row.stability;
+    study::Record place;
+    place.key.method = "FA";
+    place.key.series = "m = 3";
+    place.key.h = .1;
+    place.key.horizon = .3;
+    study::Stability s;
     s.n_unknowns = 11;
     s.smallest = 12;
     s.largest = 13;
@@ -221,11 +225,14 @@ namespace plumbline::report
     s.diagnostics.n_conditions = 6;
     s.diagnostics.rank = 5;
     s.diagnostics.smallest_singular_value = .0625;
-    results.rows = {row};
     for (const bool is_exact : {true, false})
     {
-      results.rows[0].stability.is_norm_exact = is_exact;
-      const Table table = measures_table(results);
+      s.is_norm_exact = is_exact;
+      study::StudyResults results;
+      results.records = {study::stability_record(place, s, {}, {})};
+      const Part measures = stability_view(results).parts.at(0);
+      ASSERT_EQ(measures.id, "measures");
+      const Table &table = measures.table;
       EXPECT_DOUBLE_EQ(value(table, 0, "m"), 3);
       EXPECT_EQ(value(table, 0, "h"), .1);
       EXPECT_EQ(value(table, 0, "unknowns"), 11);

@@ -1,7 +1,7 @@
-// The pages, tables and charts of `plumbline dispersion`.
-#include "report/dispersion_charts.h"
-#include "report/dispersion_page.h"
-#include "report/dispersion_tables.h"
+// What `plumbline dispersion` shows and writes.
+#include "io/results_json.h"
+#include "report/view.h"
+#include "study/dispersion.h"
 #include "study/trend.h"
 #include "tests/report/fixture.h"
 
@@ -38,7 +38,7 @@ namespace plumbline::report
       using physics::Polarisation;
       study::DispersionRow result;
       result.method = method;
-      result.side = study::Side::meshfree;
+      result.family = study::MethodFamily::meshfree;
       result.series = "m = 3";
       result.h = h;
       result.horizon = 3 * h;
@@ -56,7 +56,7 @@ namespace plumbline::report
     {
       study::Trend t;
       t.method = method;
-      t.side = study::Side::meshfree;
+      t.family = study::MethodFamily::meshfree;
       t.series = "m = 3";
       t.error = "phase speed | nonlocal";
       t.axis = study::Axis::mesh_size;
@@ -73,20 +73,31 @@ namespace plumbline::report
       return t;
     }
 
-    study::DispersionResults results()
+    study::Record record(const std::string &method, double h)
     {
-      study::DispersionResults r{"a <scene>", "What & why", {{0, 22.5}, 1}, {}, {}};
+      study::Record place;
+      place.key.method = method;
+      place.key.series = "m = 3";
+      place.key.level = h > .15 ? 0 : h > .07 ? 1 : 2;
+      place.key.h = h;
+      place.key.horizon = 3 * h;
+      return place;
+    }
+
+    study::StudyResults results()
+    {
+      study::StudyResults r;
+      r.analysis = "dispersion";
+      r.scene_name = "a <scene>";
+      r.purpose = "What & why";
+      r.facts = {{"longest wave", "1"}, {"directions", "0°, 22.5°"}};
       for (const std::string method : {"good", "bad"})
         for (const double h : {.2, .1, .05})
-          r.rows.push_back(row(method, h, method == "good" ? h * h : .0275));
+          r.records.push_back(study::wave_record(
+              record(method, h), row(method, h, method == "good" ? h * h : .0275)));
       study::DispersionRow none;
-      none.method = "none";
-      none.side = study::Side::meshfree;
-      none.series = "m = 3";
-      none.h = .2;
-      none.horizon = .6;
       none.failure = "no weights";
-      r.rows.push_back(none);
+      r.records.push_back(study::wave_record(record("none", .2), none));
       r.trends = {trend("good", study::Outcome::converges), trend("bad", study::Outcome::stalls),
                   trend("none", study::Outcome::failed)};
       r.trends.back().values.clear();
@@ -94,22 +105,39 @@ namespace plumbline::report
       r.trends.back().rates.clear();
       return r;
     }
+
+    Table part(const std::string &id)
+    {
+      for (const Part &one : dispersion_view(results()).parts)
+        if (one.id == id)
+          return one.table;
+      ADD_FAILURE() << "no part is called " << id;
+      return {};
+    }
+
+    const Cell &cell(const Table &table, std::size_t row, const std::string &head)
+    {
+      for (std::size_t j = 0; j < table.columns.size(); ++j)
+        if (table.columns[j].head == head)
+          return table.rows.at(row).at(j);
+      throw std::out_of_range("no column is called " + head);
+    }
   } // namespace
 
   TEST(DispersionReport, tables_hold_what_was_measured)
   {
-    const Table lengths = long_waves_table(results());
+    const Table lengths = part("long");
     ASSERT_EQ(lengths.columns.size(), 9u);
-    EXPECT_EQ(lengths.columns[3].head, "L, 0°");
-    EXPECT_EQ(lengths.columns[6].head, "T, 22.5°");
     EXPECT_EQ(lengths.columns[8].head, "anisotropy T");
     ASSERT_EQ(lengths.rows.size(), 2u); // of the finest level
     EXPECT_EQ(lengths.rows[0][2].text, "0.05");
-    EXPECT_EQ(lengths.rows[1][3].csv[0], "0.0275");
-    EXPECT_EQ(lengths.rows[1][4].csv[0], "-0.01375");
-    EXPECT_EQ(lengths.rows[1][8].csv[0], "-0.029999999999999999");
+    EXPECT_EQ(cell(lengths, 1, "L waves at 0°").csv[0], "0.0275");
+    EXPECT_EQ(cell(lengths, 1, "T waves at 0°").csv[0], "-0.01375");
+    EXPECT_EQ(cell(lengths, 1, "T waves at 22.5°").csv[0], "-0.01375");
+    EXPECT_EQ(cell(lengths, 1, "anisotropy L").csv[0], "0.012500000000000001");
+    EXPECT_EQ(cell(lengths, 1, "anisotropy T").csv[0], "-0.029999999999999999");
 
-    const Table levels = wave_levels_table(results());
+    const Table levels = part("levels");
     ASSERT_EQ(levels.rows.size(), 6u);
     EXPECT_EQ(levels.rows[5][3].text, rounded_error(.0275));
     EXPECT_EQ(levels.rows[5][4].text, rounded_error(std::abs(2 * 1.0275 / 1.98 - 1)));
@@ -117,47 +145,53 @@ namespace plumbline::report
     EXPECT_EQ(levels.rows[5][6].text, "0.05");
     EXPECT_EQ(levels.rows[5][7].text, "2"); // 2 · .05 / .05
 
-    const Table missing = missing_waves_table(results());
+    const Table missing = part("missing");
     ASSERT_EQ(missing.rows.size(), 1u);
     EXPECT_EQ(missing.rows[0].back().text, "no weights");
   }
 
   TEST(DispersionReport, says_what_waves_tend_to_beside_what_is_proven)
   {
-    const std::string text = dispersion_text(results());
+    const View view = dispersion_view(results());
+    const std::string text = study_text(view, results());
     EXPECT_NE(text.find("good    m = 3   AC"), std::string::npos) << text;
     EXPECT_NE(text.find("second moments are off by 5 %"), std::string::npos);
-    const Table table = wave_verdicts_table(results());
-    EXPECT_EQ(table.rows[0][3].text, "AC");
-    EXPECT_EQ(table.rows[1][3].text, "not AC");
-    EXPECT_EQ(table.rows[1][5].text, "0.126");
+    EXPECT_EQ(view.verdicts.rows[0][3].text, "AC");
+    EXPECT_EQ(view.verdicts.rows[1][3].text, "not AC");
+    EXPECT_EQ(view.verdicts.rows[1][5].text, "0.126");
+    EXPECT_EQ(view.ratings, (std::vector<std::string>{"converges", "stalls", "stalls"}));
   }
 
-  TEST(DispersionReport, is_json_with_null_for_what_is_not_known)
+  TEST(DispersionReport, is_json_without_what_is_not_known)
   {
-    const auto json = nlohmann::json::parse(dispersion_json(results()));
-    EXPECT_EQ(json["angles"][1], 22.5);
-    const auto &level = json["levels"][5];
-    EXPECT_EQ(level["method"], "bad");
-    EXPECT_DOUBLE_EQ(level["critical_step"], .05);
-    EXPECT_EQ(level["waves"][3]["polarisation"], "T");
-    EXPECT_EQ(level["waves"][3]["angle"], 22.5);
-    EXPECT_DOUBLE_EQ(level["waves"][0]["long_wave_error"], .0275);
-    EXPECT_TRUE(level["waves"][0]["samples"][0]["group_speed"].is_null());
-    EXPECT_DOUBLE_EQ(level["waves"][0]["samples"][1]["group_speed"], 1.6);
-    EXPECT_TRUE(json["levels"][6]["critical_step"].is_null());
-    EXPECT_EQ(json["verdicts"][1]["verdict"], "not AC");
-    EXPECT_EQ(json["verdicts"][1]["proven"], "not AC");
+    const auto json = nlohmann::json::parse(io::to_json(results()));
+    const auto &level = json["records"][5];
+    EXPECT_EQ(level["key"]["method"], "bad");
+    EXPECT_DOUBLE_EQ(level["scalars"]["critical step"]["value"], .05);
+    EXPECT_EQ(level["scalars"]["critical step"]["unit"], "time");
+    EXPECT_DOUBLE_EQ(level["scalars"]["L waves at 0°: error of long waves"]["value"], .0275);
+    const auto &waves = level["curves"]["T waves at 22.5°"];
+    EXPECT_EQ(waves[2]["name"], "group speed");
+    EXPECT_TRUE(waves[2]["values"][0].is_null());
+    EXPECT_DOUBLE_EQ(waves[2]["values"][1], 1.6);
+    EXPECT_FALSE(json["records"][6]["scalars"].contains("critical step"));
+    EXPECT_EQ(json["trends"][1]["verdict"], "not AC");
+    EXPECT_EQ(json["trends"][1]["proof"]["answer"], "incompatible");
   }
 
   TEST(DispersionReport, charts_show_speeds_over_the_local_limits)
   {
-    const auto charts = dispersion_charts(results());
+    const auto charts = dispersion_view(results()).galleries.at(0).charts;
     ASSERT_EQ(charts.size(), 1u + 4u + 2u); // errors; phase speeds; group speeds in one direction
     EXPECT_EQ(charts[0].name, "errors_m-3");
-    EXPECT_EQ(charts[1].name, "phase_m-3_l-0");
-    EXPECT_EQ(charts[6].name, "group_m-3_t-0");
-    const Plot &plot = charts[1].plot;
+    const auto named = [&](const std::string &name) -> const DataChart &
+    {
+      for (const DataChart &chart : charts)
+        if (chart.name == name)
+          return chart;
+      throw std::out_of_range(name);
+    };
+    const Plot &plot = named("phase_m-3_l-waves-at-0").plot;
     ASSERT_EQ(plot.lines.size(), 2u);
     ASSERT_EQ(plot.lines[0].points.size(), 3u);
     EXPECT_NEAR(plot.lines[0].points[0].x, 2 * M_PI / 3, 1e-12); // wavelength over h
@@ -166,24 +200,26 @@ namespace plumbline::report
     EXPECT_LT(plot.y_range->low, .7);
     EXPECT_GE(plot.y_range->high, 1);
     // a wave that grows has no point
-    EXPECT_EQ(charts[5].plot.lines[0].points.size(), 2u);
-    EXPECT_EQ(charts[5].data.rows.size(), 6u);
+    const DataChart &group = named("group_m-3_l-waves-at-0");
+    EXPECT_EQ(group.plot.lines[0].points.size(), 2u);
+    EXPECT_EQ(group.data.rows.size(), 6u);
+    EXPECT_NO_THROW((void)named("group_m-3_t-waves-at-0"));
   }
 
   TEST(DispersionReport, is_a_page_with_its_charts_inside)
   {
-    const auto dir = std::filesystem::path(testing::TempDir()) / "plumbline_dispersion_page";
-    std::filesystem::remove_all(dir);
-    write_dispersion(results(), dir);
+    const fixture::Folder folder;
+    const auto dir = folder.path();
+    write_study(dispersion_view(results()), results(), dir);
     const std::string page = fixture::read(dir / "dispersion.html");
     EXPECT_NE(page.find("a &lt;scene&gt;"), std::string::npos);
     EXPECT_NE(page.find("a &lt; b &amp; c"), std::string::npos);
     EXPECT_NE(page.find("<svg"), std::string::npos);
     EXPECT_EQ(page.find("not drawn"), std::string::npos);
     EXPECT_NE(fixture::read(dir / "dispersion.md").find("## Long waves"), std::string::npos);
-    EXPECT_NE(fixture::read(dir / "dispersion/phase_m-3_l-0.csv").find("wavelength over h"),
-              std::string::npos);
+    EXPECT_NE(
+        fixture::read(dir / "dispersion/phase_m-3_l-waves-at-0.csv").find("wavelength over h"),
+        std::string::npos);
     EXPECT_TRUE(std::filesystem::exists(dir / "dispersion/errors_m-3.svg"));
-    std::filesystem::remove_all(dir);
   }
 } // namespace plumbline::report

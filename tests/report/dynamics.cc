@@ -69,7 +69,7 @@ namespace
   study::MotionRun whole_motion()
   {
     study::MotionRun run = motion(2, 1. / 3, 1e-17 / 7, .25);
-    run.side = study::Side::meshfree;
+    run.family = study::MethodFamily::meshfree;
     run.problem = "case1";
     run.series = "m = 3";
     run.steps = "dt = 0.3333";

@@ -19,7 +19,7 @@ namespace plumbline::report::fixture
   struct Model
   {
     std::string method;
-    study::Side side;
+    study::MethodFamily family;
     double plateau, factor, rate; ///< error = plateau + factor horizon^rate
     double cost;                  ///< CPU seconds per unknown
     unsigned int iterations;
@@ -27,11 +27,11 @@ namespace plumbline::report::fixture
 
   inline std::vector<Model> models()
   {
-    return {{"FA", study::Side::meshfree, 7.4e-3, .05, 1, 2e-7, 12},
-            {"IPA-AC", study::Side::meshfree, 1.26e-2, .3, 2, 4e-7, 12},
-            {"IPA-AC recalibrated", study::Side::meshfree, 0, .31, 2, 5e-7, 12},
-            {"P0", study::Side::reference, 6.6e-3, .4, 2, 3e-6, 16},
-            {"Q1", study::Side::reference, 0, .2, 2, 6e-6, 16}};
+    return {{"FA", study::MethodFamily::meshfree, 7.4e-3, .05, 1, 2e-7, 12},
+            {"IPA-AC", study::MethodFamily::meshfree, 1.26e-2, .3, 2, 4e-7, 12},
+            {"IPA-AC recalibrated", study::MethodFamily::meshfree, 0, .31, 2, 5e-7, 12},
+            {"P0", study::MethodFamily::reference, 6.6e-3, .4, 2, 3e-6, 16},
+            {"Q1", study::MethodFamily::reference, 0, .2, 2, 6e-6, 16}};
   }
 
   inline study::Results make(const std::vector<std::string> &problems,
@@ -59,7 +59,7 @@ namespace plumbline::report::fixture
         for (const Model &model : models)
         {
           study::Trend trend{model.method,
-                             model.side,
+                             model.family,
                              problem,
                              series,
                              results.decisive_error,
@@ -80,7 +80,7 @@ namespace plumbline::report::fixture
           {
             study::Run run;
             run.method = model.method;
-            run.side = model.side;
+            run.family = model.family;
             run.problem = problem;
             run.series = series;
             run.level = level;
@@ -93,7 +93,7 @@ namespace plumbline::report::fixture
             run.cost.peak_bytes = 2000000 + 80 * run.cost.n_unknowns;
             run.cost.n_iterations = model.iterations + level;
             run.diagnostics.n_neighbours = static_cast<unsigned int>(3.14 * m * m);
-            run.diagnostics.smallest_weight_ratio = model.side == study::Side::meshfree ? .87 : 1;
+            run.diagnostics.smallest_weight_ratio = model.family == study::MethodFamily::meshfree ? .87 : 1;
             run.diagnostics.relative_residual = 3e-13;
             run.diagnostics.operator_backend = "fft";
             run.diagnostics.n_geometry_checks = 40;

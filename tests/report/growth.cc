@@ -2,6 +2,7 @@
 
 #include "report/formats.h"
 #include "report/growth_page.h"
+#include "scene/scene_file.h"
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
@@ -53,9 +54,9 @@ namespace plumbline::report
       r.growth.events[1].bonds = {4, 5};
       r.growth.events[1].reaction_before = 1.9;
       r.growth.events[1].reaction = .25;
-      r.growth.end = scene::GrowthEnd::parted;
+      r.growth.end = problem::GrowthEnd::parted;
       r.growth.last_load = .5;
-      r.growth.is_parted = true;
+      r.growth.is_separated = true;
       r.moments = {{0, 0, std::vector<double>(32, 0)}, {2, .5, std::vector<double>(32, .25)}};
       return r;
     }
@@ -151,8 +152,8 @@ namespace plumbline::report
     const std::string no = "no bonds join the grips, and 0.125 of the largest reaction is left",
                       yes = "bonds still join the grips, and 0.125 of the largest reaction is left";
     EXPECT_NE(in_one_line(growth_text(results)).find(no), std::string::npos);
-    results.growth.end = scene::GrowthEnd::unloaded;
-    results.growth.is_parted = false;
+    results.growth.end = problem::GrowthEnd::unloaded;
+    results.growth.is_separated = false;
     json = nlohmann::json::parse(growth_json(results));
     EXPECT_EQ(json["is_connected"], true);
     EXPECT_NE(in_one_line(growth_text(results)).find(yes), std::string::npos);

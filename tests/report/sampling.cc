@@ -1,6 +1,7 @@
 // The page and numbers of `plumbline sample`.
 
 #include "report/sampling_page.h"
+#include "scene/scene_file.h"
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ namespace plumbline::report
     {
       study::SamplingResults r;
       r.scene_name = "ellipses";
-      r.sampling.rule = random::SampleRule::monte_carlo;
+      r.sampling.rule = uq::SampleRule::monte_carlo;
       r.sampling.seed = 3;
       r.random.field = scene::FieldKind::ellipses;
       r.random.seed = 7;
@@ -36,7 +37,7 @@ namespace plumbline::report
     one.is_finest = true;
     study::SetStatistics set;
     set.n_samples = 4;
-    set.quantities["K by bonds"] = random::statistics({1, 2, 3, 6}, {.25, .25, .25, .25}, true);
+    set.quantities["K by bonds"] = uq::statistics({1, 2, 3, 6}, {.25, .25, .25, .25}, true);
     one.sets = {set};
     results.cases = {one};
     const std::string interval = "-0.4374 to 6.437"; // 3 ± 3.18245 √(14/12)
@@ -57,9 +58,9 @@ namespace plumbline::report
     const std::string csv = to_csv(table);
     EXPECT_NE(csv.find(",mean from,mean to,"), std::string::npos) << csv;
     // none where samples are not independent
-    results.sampling.rule = random::SampleRule::tensor;
+    results.sampling.rule = uq::SampleRule::tensor;
     results.cases[0].sets[0].quantities["K by bonds"] =
-        random::statistics({1, 2, 3, 6}, {.25, .25, .25, .25}, false);
+        uq::statistics({1, 2, 3, 6}, {.25, .25, .25, .25}, false);
     EXPECT_TRUE(confidence().is_null());
     EXPECT_EQ(sampling_text(results).find("95 %"), std::string::npos) << sampling_text(results);
   }
@@ -120,7 +121,7 @@ namespace plumbline::report
     }
     results.cases = {one};
     const fixture::Folder folder;
-    results.sampling.rule = random::SampleRule::tensor; // there is no histogram to draw
+    results.sampling.rule = uq::SampleRule::tensor; // there is no histogram to draw
     write_sampling(results, {}, folder.path());
     const std::string csv = fixture::read(folder.path() / "sample/samples_opt-m-3-0.25.csv");
     EXPECT_EQ(csv.substr(0, csv.find("4,2,")), "sample,a,mode 1,K\n0,0,-1,1000\n2,1,-1,\n"
@@ -170,7 +171,7 @@ namespace plumbline::report
     one.values["K by bonds"] = {0,   .5,  .5,  1.5, 1.5, 1.5, 2.5, 3.5,
                                 3.5, 3.5, 3.5, 4.5, 5.5, 5.5, 5.5, 6};
     results.cases = {one};
-    for (const auto rule : {random::SampleRule::monte_carlo, random::SampleRule::quasi_monte_carlo})
+    for (const auto rule : {uq::SampleRule::monte_carlo, uq::SampleRule::quasi_monte_carlo})
     {
       results.sampling.rule = rule;
       const std::vector<DataChart> charts = sampling_charts(results);
@@ -179,7 +180,7 @@ namespace plumbline::report
       EXPECT_EQ(to_csv(charts[0].data),
                 "from,to,samples\n0,1,3\n1,2,3\n2,3,1\n3,4,4\n4,5,1\n5,6,4\n");
     }
-    results.sampling.rule = random::SampleRule::tensor; // whose weights differ
+    results.sampling.rule = uq::SampleRule::tensor; // whose weights differ
     EXPECT_TRUE(sampling_charts(results).empty());
   }
 
@@ -196,9 +197,9 @@ namespace plumbline::report
     one.values["nodal L2 | exact"] = {.75, .125, std::nullopt};
     one.values["K"] = {-1, 2, 3};
     results.cases = {one};
-    results.sampling.rule = random::SampleRule::tensor;
+    results.sampling.rule = uq::SampleRule::tensor;
     EXPECT_TRUE(sampling_charts(results).empty());
-    results.sampling.rule = random::SampleRule::equidistant;
+    results.sampling.rule = uq::SampleRule::equidistant;
     const std::vector<DataChart> charts = sampling_charts(results);
     ASSERT_EQ(charts.size(), 2u);
     EXPECT_EQ(charts[0].name, "over-nu-k");

@@ -17,7 +17,7 @@ namespace plumbline::report
     {
       study::StripRow row;
       row.method = method;
-      row.side = method::Side::reference;
+      row.family = method::MethodFamily::reference;
       row.series = "m = 3";
       row.h = .1;
       row.horizon = .3;
@@ -43,7 +43,7 @@ namespace plumbline::report
     ASSERT_EQ(journal.earlier().size(), 1u);
     const study::StripRow &read = journal.earlier().front();
     EXPECT_EQ(read.method, "Q1");
-    EXPECT_EQ(read.side, method::Side::reference);
+    EXPECT_EQ(read.family, method::MethodFamily::reference);
     EXPECT_EQ(read.series, written.series);
     EXPECT_EQ(read.h, written.h);
     EXPECT_EQ(read.horizon, written.horizon);

@@ -3,6 +3,7 @@
 #include "benchmarks/toughness_study.h"
 
 #include "base/error.h"
+#include "scene/scene_file.h"
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>

@@ -1,14 +1,14 @@
 // What tables, charts and pages show of a study over a variable of the scene.
 
 #include "report/charts.h"
-#include "report/dispersion_page.h"
 #include "report/dynamics_page.h"
 #include "report/dynamics_tables.h"
 #include "report/json.h"
 #include "report/page.h"
-#include "report/stability_page.h"
-#include "report/stability_tables.h"
 #include "report/tables.h"
+#include "report/view.h"
+#include "scene/scene_file.h"
+#include "study/stability.h"
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ namespace plumbline::report
       results.variable = "q";
       results.decisive_error = "nodal L2 | exact";
       study::Trend trend{"FA",
-                         study::Side::meshfree,
+                         study::MethodFamily::meshfree,
                          "case1",
                          "h = 0.1, m = 3",
                          results.decisive_error,
@@ -122,23 +122,31 @@ namespace plumbline::report
 
   TEST(ReportOverAVariable, HasItInMeasuresAndMotions)
   {
-    study::StabilityResults stability;
+    study::StudyResults stability;
     stability.variable = "q";
     for (const double q : {-.5, .5})
     {
-      stability.rows.push_back({"FA", study::Side::meshfree, "h = 0.1, m = 3", .1, .3, {}, {}, {}});
-      stability.rows.back().value = q;
-      stability.rows.back().stability.n_unknowns = 9;
-      stability.rows.back().stability.smallest = 2 + q;
-      stability.rows.back().stability.largest = 4;
+      study::Record place;
+      place.key.method = "FA";
+      place.key.series = "h = 0.1, m = 3";
+      place.key.h = .1;
+      place.key.horizon = .3;
+      place.key.value = q;
+      study::Stability measured;
+      measured.n_unknowns = 9;
+      measured.smallest = 2 + q;
+      measured.largest = 4;
+      stability.records.push_back(study::stability_record(place, measured, {}, {}));
     }
-    EXPECT_EQ(heads(measures_table(stability))[3], "q");
-    EXPECT_EQ(measures_table(stability).rows[1][3].text, "0.5");
-    EXPECT_TRUE(powers_table(stability).rows.empty()); // of lengths alone
-    const auto verdict = study::judge(stability.rows, "q");
+    const auto measures = [&] { return stability_view(stability).parts.at(0).table; };
+    EXPECT_EQ(heads(measures())[3], "q");
+    EXPECT_EQ(measures().rows[1][3].text, "0.5");
+    stability.powers = study::stability_powers(stability.records);
+    EXPECT_TRUE(power_table(stability).rows.empty()); // of lengths alone
+    const auto verdict = study::judge_stability(stability.records, "q");
     EXPECT_TRUE(holds(verdict.explanation, "h = 0.1, q = -0.5")) << verdict.explanation;
     stability.variable.clear();
-    EXPECT_NE(heads(measures_table(stability))[3], "q");
+    EXPECT_NE(heads(measures())[3], "q");
 
     study::DynamicResults motions;
     motions.variable = "q";

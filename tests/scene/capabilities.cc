@@ -113,7 +113,7 @@ TEST(Capabilities, cracks_of_solids_change_dilatations_and_those_of_bonds_do_not
 TEST(Capabilities, those_that_can_do_the_same_share_a_row_of_the_table)
 {
   const std::string table =
-      capability_table("of", {{"one", {Capability::lattice}}, {"two", {}}, {"three", {}}});
+      problem::capability_table("of", {{"one", {Capability::lattice}}, {"two", {}}, {"three", {}}});
   EXPECT_EQ(table.rfind("| of | lattice | meshes |", 0), 0u) << table;
   EXPECT_NE(table.find("| one | yes | - |"), std::string::npos) << table;
   EXPECT_NE(table.find("| two, three | - | - |"), std::string::npos) << table;

@@ -1,4 +1,4 @@
-#include "scene/csv.h"
+#include "base/csv.h"
 
 #include "base/error.h"
 #include "scene/mesh.h"
@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 using namespace plumbline;
+using namespace plumbline::base;
 using namespace plumbline::scene;
 
 namespace

@@ -135,7 +135,7 @@ TEST(RandomScene, FieldsOfModesAreLinearInThem)
   EXPECT_GT(std::abs(first), .01);
   EXPECT_NEAR(R({2, 0, -3}), .7 + 2 * first - 3 * third, 1e-13);
   // three modes hold less than all of the variance
-  const random::Expansion &expansion = *mean.random.source->expansion();
+  const uq::Expansion &expansion = *mean.random.source->expansion();
   EXPECT_LT(expansion.variance_kept(), 1);
   EXPECT_GT(expansion.variance_kept(), .5);
   EXPECT_NEAR(expansion.total_variance(), .09 * 2, 1e-12);
@@ -156,7 +156,7 @@ TEST(RandomScene, FieldsFillTheBoxThatIsGiven)
                   {"Domain/mesh", mesh}});
   };
   const scene::Scene ball = random_scene(field("hyper_cube", "-1.5, -1 : 1.5, 1"));
-  const random::Expansion &expansion = *ball.random.source->expansion();
+  const uq::Expansion &expansion = *ball.random.source->expansion();
   EXPECT_NEAR(expansion.total_variance(), .09 * 6, 1e-12);
   const scene::Scene at = at_sample(ball, {1, 3, 1, 1, 1}, 1);
   EXPECT_GT(std::abs(modulus(at, {-1.4, -.9}) - modulus(at, {-.5, -.5})), .001);
@@ -171,7 +171,7 @@ TEST(RandomScene, PrincipalComponentsOfEllipsesAreNearlyGrey)
                                                  {"Random/modes", "4"},
                                                  {"Random/cell", "0.05"},
                                                  {"Random/realisations", "200"}}));
-  const random::Expansion &expansion = *scene.random.source->expansion();
+  const uq::Expansion &expansion = *scene.random.source->expansion();
   double mean = 0;
   for (const double one : expansion.mean)
     mean += one / static_cast<double>(expansion.mean.size());
@@ -247,7 +247,7 @@ TEST(RandomScene, PrincipalComponentsOfFilesAreThoseByHand)
                             folder.write("b.csv", "1,4\n1,4\n") + ", " +
                             folder.write("c.csv", "3,6\n-1,2\n");
   const scene::Scene scene = random_scene(with_files(files, {{"Random/modes", "2"}}));
-  const random::Expansion &expansion = *scene.random.source->expansion();
+  const uq::Expansion &expansion = *scene.random.source->expansion();
   EXPECT_EQ(expansion.grid.n, (std::array<int, 2>{2, 2}));
   const std::vector<double> mean = {1, 2, 3, 4}, p = {1, -1, 1, -1}, q = {1, 1, -1, -1};
   EXPECT_NEAR(expansion.eigenvalue[0], 6, 1e-12);
@@ -288,8 +288,8 @@ TEST(RandomScene, AllPrincipalComponentsGiveEachFileBack)
   }
   const scene::Scene whole = random_scene(with_files(files)),
                      modes = random_scene(with_files(files, {{"Random/modes", "2"}}));
-  const random::Expansion &expansion = *modes.random.source->expansion();
-  const random::Grid &grid = expansion.grid;
+  const uq::Expansion &expansion = *modes.random.source->expansion();
+  const uq::Grid &grid = expansion.grid;
   ASSERT_EQ(grid.n, (std::array<int, 2>{n_x, n_y}));
   EXPECT_NEAR(expansion.variance_kept(), 1, 1e-12);
   for (unsigned int k = 1; k <= 3; ++k)
@@ -437,7 +437,7 @@ TEST(ScenesOverAVariable, GoThroughItsValues)
   const scene::Scene scene = random_scene(axis);
   ASSERT_EQ(scene.study.series.size(), 4u);
   EXPECT_EQ(scene.study.series[2].name, "h = 0.05, m = 2");
-  const scene::Level &level = scene.study.series[2].levels[1];
+  const problem::Level &level = scene.study.series[2].levels[1];
   EXPECT_EQ(std::tuple(level.h, level.horizon, level.value), std::tuple(.05, .1, 2.));
   const scene::Scene here = at_level(scene, level);
   EXPECT_EQ(here.time.density, 2);

@@ -43,7 +43,7 @@ namespace
     return read_settings("a.prm", text, "scene 'a.prm'");
   }
 
-  const std::string problem = "subsection Problem\n  set solution = x^2\nend\n",
+  const std::string problem_text = "subsection Problem\n  set solution = x^2\nend\n",
                     methods = "subsection Methods\n  set names = Q1\nend\n";
 } // namespace
 
@@ -69,13 +69,13 @@ TEST_F(SceneFile, says_in_which_line_it_is_not_understood)
                 .find("scene 'a.prm', line 2: key "
                       "'Study/hh' is not known"),
             0u);
-  EXPECT_EQ(fault(problem + "sett h = 1\n"),
+  EXPECT_EQ(fault(problem_text + "sett h = 1\n"),
             "scene 'a.prm', line 4: 'sett h = 1' is not understood; write 'set key = value', "
             "'subsection NAME', 'end', 'include FILE', or '#' before a comment");
-  EXPECT_EQ(fault(problem + "set h\n").find("scene 'a.prm', line 4: 'set h' is not understood"),
+  EXPECT_EQ(fault(problem_text + "set h\n").find("scene 'a.prm', line 4: 'set h' is not understood"),
             0u);
   EXPECT_EQ(fault("\n\nend\n"), "scene 'a.prm', line 3: 'end' closes no subsection; take it out");
-  EXPECT_EQ(fault(problem + "subsection Study\n set h = 1\n"),
+  EXPECT_EQ(fault(problem_text + "subsection Study\n set h = 1\n"),
             "scene 'a.prm', line 4: subsection Study is not closed; write 'end' behind its last "
             "line");
   EXPECT_EQ(fault("subsection Geometry\n\n set checks = few\nend\n")
@@ -85,11 +85,11 @@ TEST_F(SceneFile, says_in_which_line_it_is_not_understood)
 
 TEST_F(SceneFile, with_a_key_given_twice_is_refused_with_both_lines)
 {
-  EXPECT_EQ(fault(problem + methods + "subsection Problem\n  set solution = y\nend\n"),
+  EXPECT_EQ(fault(problem_text + methods + "subsection Problem\n  set solution = y\nend\n"),
             "scene 'a.prm', line 8: Problem/solution is given in line 2 already; take one of them "
             "out");
-  write("common.prm", "# of all\n" + problem);
-  EXPECT_EQ(fault("include common.prm\n" + methods + problem),
+  write("common.prm", "# of all\n" + problem_text);
+  EXPECT_EQ(fault("include common.prm\n" + methods + problem_text),
             "scene 'a.prm', line 6: Problem/solution is given in line 3 of 'common.prm' already; "
             "take one of them out");
   EXPECT_EQ(fault("a.json", "{\"Problem\": {\"solution\": \"x\",\n \"solution\": \"y\"}}"),
@@ -99,7 +99,7 @@ TEST_F(SceneFile, with_a_key_given_twice_is_refused_with_both_lines)
 TEST_F(SceneFile, includes_others_from_its_folder_and_never_itself)
 {
   std::filesystem::create_directory(path() / "parts");
-  write("parts/problem.prm", problem);
+  write("parts/problem.prm", problem_text);
   write("parts/all.prm", "include problem.prm\n" + methods);
   EXPECT_EQ(fault("include parts/all.prm\n"), "no error");
   EXPECT_EQ(fault("\ninclude a.prm\n"),
@@ -121,11 +121,11 @@ TEST_F(SceneFile, includes_others_from_its_folder_and_never_itself)
 
 TEST_F(SceneFile, that_is_no_text_is_refused)
 {
-  EXPECT_EQ(fault(problem + "set Purpose = \xE9t\xE9\n"),
+  EXPECT_EQ(fault(problem_text + "set Purpose = \xE9t\xE9\n"),
             "scene 'a.prm', line 4: has a character that is not UTF-8; store the file as UTF-8");
   EXPECT_EQ(fault(std::string("set Purpose = a\0b\n", 18)),
             "scene 'a.prm', line 1: has the control character 0; give a plain text file");
-  EXPECT_EQ(fault("\xEF\xBB\xBF" + problem + methods), "no error"); // as Windows writes it
+  EXPECT_EQ(fault("\xEF\xBB\xBF" + problem_text + methods), "no error"); // as Windows writes it
   std::filesystem::create_directory(path() / "d.prm");
   try
   {

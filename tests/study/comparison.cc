@@ -1,4 +1,5 @@
 #include "study/comparison.h"
+#include "scene/problem.h"
 #include "base/error.h"
 #include "study/preflight.h"
 #include "study/sweep.h"
@@ -31,13 +32,13 @@ namespace
         : GivenSolutions("fake"), rate_(rate), plateau_(plateau)
     {
     }
-    std::string why_not(const scene::Problem &problem) const override
+    std::string why_not(const problem::Problem<2> &problem) const override
     {
       return problem.lattice ? "" : "it is for lattices";
     }
 
   private:
-    method::Field field(const scene::Problem &problem) const override
+    method::Field field(const problem::Problem<2> &problem) const override
     {
       const double error = plateau_ + std::pow(problem.lattice->h(), rate_);
       const auto cells = method::comparison_nodes(problem, problem.n_components);
@@ -87,7 +88,7 @@ TEST(CellAverages, without_a_series_agree_with_those_with_one)
   const auto scene = make_scene();
   const auto problem = make_problem(scene, 0, {.25, .25});
   const auto cells = method::comparison_nodes(problem, 1);
-  scene::Field pointwise = *problem.solution;
+  problem::Field<2> pointwise = *problem.solution;
   pointwise.series.reset();
   const auto a = cell_averages(*problem.solution, *problem.lattice, cells);
   const auto b = cell_averages(pointwise, *problem.lattice, cells);

@@ -47,7 +47,7 @@ namespace
     {
       Run run;
       run.method = method;
-      run.side = study::Side::meshfree;
+      run.family = study::MethodFamily::meshfree;
       run.problem = problem;
       run.series = series;
       run.level = level;

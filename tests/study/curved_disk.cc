@@ -1,6 +1,7 @@
 // What following the circle gives: orders of methods on a disk whose solution knows that it is
 // round.
 #include "reference/method.h"
+#include "scene/problem.h"
 #include "study/comparison.h"
 #include "study/preflight.h"
 
@@ -18,14 +19,14 @@ namespace
 {
   constexpr double delta = .5;
 
-  scene::Problem disk(const std::string &sides, double h)
+  problem::Problem<2> disk(const std::string &sides, double h)
   {
     const auto scene = scene::read_scene(std::string(PLUMBLINE_SCENES) + "/meshes/disk_load.prm",
                                          {{"Geometry/checks", "0"}, {"Domain/sides", sides}});
     return make_problem(scene, 0, {h, delta});
   }
 
-  double error(const scene::Problem &problem, const std::string &name)
+  double error(const problem::Problem<2> &problem, const std::string &name)
   {
     const auto method = find_method(reference::methods(), name, "test");
     const auto solution = analysis::solve(*method, problem);
@@ -52,10 +53,10 @@ namespace
     return c * (pi * delta * delta * (1 - r * r) - sum);
   }
 
-  scene::Problem cap(const std::string &sides, double h)
+  problem::Problem<2> cap(const std::string &sides, double h)
   {
-    scene::Problem problem = disk(sides, h);
-    problem.solution = scene::Field{[](const dealii::Point<2> &x, unsigned int)
+    problem::Problem<2> problem = disk(sides, h);
+    problem.solution = problem::Field<2>{[](const dealii::Point<2> &x, unsigned int)
                                     { return std::max(0., 1 - x.norm_square()); },
                                     std::nullopt};
     problem.load = {[](const dealii::Point<2> &x, unsigned int)

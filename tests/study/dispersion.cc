@@ -3,6 +3,7 @@
 #include "study/dispersion.h"
 #include "base/error.h"
 #include "method/discretisation.h"
+#include "scene/problem.h"
 #include "study/trend.h"
 #include "tests/study/operators.h"
 
@@ -32,10 +33,27 @@ namespace
 
   /// The method's rows at one level: with its own mass first.
   std::vector<DispersionRow> rows_of(const std::string &name, const scene::Scene &scene,
-                                     const scene::Level &level, bool is_finest = false)
+                                     const problem::Level &level, bool is_finest = false)
   {
     return measure_waves(*method_of(name), scene::make_problem(scene, 0, level), unit_square,
                          "series", is_finest);
+  }
+
+  /// The records of rows, as the analysis makes them.
+  Records records_of(const std::vector<DispersionRow> &rows)
+  {
+    Records records;
+    for (const DispersionRow &row : rows)
+    {
+      Record record;
+      record.key.method = row.method;
+      record.key.family = row.family;
+      record.key.series = row.series;
+      record.key.h = row.h;
+      record.key.horizon = row.horizon;
+      records.push_back(wave_record(record, row));
+    }
+    return records;
   }
 
   DispersionRow waves(const std::string &name, bool is_decaying, double m, double h = .05)
@@ -158,7 +176,7 @@ TEST(Dispersion, the_largest_eigenvalue_is_that_of_a_fine_grid_of_waves)
 {
   // FA, J = 1, m = 4, in units of p / ε²: all waves of a grid of 200 on π/h along each axis
   const scene::Scene scene = scene::parse_scene("test.prm", bonds(false));
-  const scene::Problem problem = scene::make_problem(scene, 0, {.05, .2});
+  const problem::Problem<2> problem = scene::make_problem(scene, 0, {.05, .2});
   const algebra::Symbol symbol(*method_of("FA")->discretise(problem)->waves());
   constexpr int n = 200;
   double largest = 0;
@@ -199,7 +217,7 @@ TEST(Dispersion, compatible_methods_and_no_others_tend_to_the_right_speed)
         }
       }
   std::map<std::string, Trend> trends;
-  for (const Trend &trend : wave_trends(scene, rows))
+  for (const Trend &trend : wave_trends(scene, records_of(rows)))
     trends[trend.method] = trend;
   for (const std::string name : {"FA", "LAMMPS", "QWJ", "PA-AC", "IPA-AC"})
   {
@@ -217,7 +235,7 @@ TEST(Dispersion, compatible_methods_and_no_others_tend_to_the_right_speed)
 TEST(Dispersion, of_a_denser_body_is_slower_and_as_accurate)
 {
   const scene::Scene scene = scene::parse_scene("test.prm", bonds(true));
-  const scene::Problem problem = scene::make_problem(scene, 0, {.05, .15});
+  const problem::Problem<2> problem = scene::make_problem(scene, 0, {.05, .15});
   constexpr double density = 16;
   WaveStudy dense = unit_square;
   dense.density = density;
@@ -254,7 +272,7 @@ TEST(Dispersion, at_a_fixed_horizon_waves_tend_to_those_of_the_nonlocal_operator
     for (const double n : {5., 10., 20., 40.})
       for (const DispersionRow &row : rows_of(name, scene, {1 / n, .4}))
         rows.push_back(row);
-  for (const Trend &trend : wave_trends(scene, rows))
+  for (const Trend &trend : wave_trends(scene, records_of(rows)))
   {
     EXPECT_EQ(trend.verdict, "m-convergent") << trend.method << ": " << trend.reason;
     // Galerkin eigenvalues converge at twice the rate of fields in the energy's norm, that of L2

@@ -2,6 +2,7 @@
 #include "meshfree/rules/bonds.h"
 #include "method/discretisation.h"
 #include "reference/lattice/stencil.h"
+#include "scene/problem.h"
 #include "tests/study/operators.h"
 
 #include <Eigen/Eigenvalues>
@@ -70,7 +71,7 @@ TEST(OperatorEigenvalues, of_bond_tensors_along_the_axes_is_that_of_second_diffe
 {
   // each component in lines of n nodes: c (2 - 2 cos(π p / (n + 1)))
   constexpr int n = 10;
-  const scene::Level level{1. / n, 1. / n};
+  const problem::Level level{1. / n, 1. / n};
   const auto scene = make_scene(true), mesh = make_scene(true, squares);
   const auto kernel = scene::make_problem(scene, 0, level).kernel;
   const meshfree::Bond bond{{level.h, 0}, level.h * level.h, {level.h, 0}, level.h * level.h};
@@ -124,7 +125,7 @@ TEST(OperatorEigenvalues, of_linear_elements_lies_within_the_range_of_the_symbol
   for (const bool is_tensor : {false, true})
   {
     const auto scene = make_scene(is_tensor);
-    const scene::Level level{h, 2 * h};
+    const problem::Level level{h, 2 * h};
     const auto a =
         reference::galerkin_stencil(scene::make_problem(scene, 0, level).kernel, h,
                                     reference::AxisShapes(true, 1), geometry::Backend::fast);

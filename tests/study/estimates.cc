@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "benchmarks/estimate_audit.h"
 #include "reference/method.h"
+#include "scene/problem.h"
 #include "study/comparison.h"
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
@@ -69,7 +70,7 @@ namespace
   }
 
   std::vector<audit::Entry> entries(const scene::Scene &scene, const std::string &method,
-                                    const scene::Level &level)
+                                    const problem::Level &level)
   {
     double seconds = 0;
     const auto problem = make_problem(scene, 0, level);
@@ -101,10 +102,10 @@ namespace
   class QuadratureFault : public GivenSolutions
   {
   public:
-    explicit QuadratureFault(double part) : GivenSolutions("fault", Side::reference), part_(part) {}
+    explicit QuadratureFault(double part) : GivenSolutions("fault", MethodFamily::reference), part_(part) {}
 
   private:
-    method::Field field(const scene::Problem &problem) const override
+    method::Field field(const problem::Problem<2> &problem) const override
     {
       method::Field solution;
       solution.averages = cell_averages(*problem.solution, problem);
@@ -125,7 +126,7 @@ TEST(Estimates, bound_errors_of_smooth_and_rough_solutions)
 {
   std::vector<audit::Entry> all;
   const auto add = [&](const Settings &settings, const std::vector<std::string> &methods,
-                       const scene::Level &level)
+                       const problem::Level &level)
   {
     const auto scene = make_scene(settings);
     for (const std::string &method : methods)
@@ -242,7 +243,7 @@ namespace
   /// The largest defect of a shipped solution of the disk in m u(r) - ∫ K(r, s) u(s) ds = 1, K the
   /// kernel's integral over the part of the circle of radius s that lies in the ball.
   /// @param of_circle  that integral over s, of r, s and half the angle of the part
-  double worst_defect(const scene::Problem &problem, double m,
+  double worst_defect(const problem::Problem<2> &problem, double m,
                       const std::function<double(double, double, double)> &of_circle)
   {
     const double delta = problem.horizon(), pi = std::acos(-1.);

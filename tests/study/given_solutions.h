@@ -10,14 +10,14 @@ namespace plumbline::study
   class GivenSolutions : public Method
   {
   public:
-    explicit GivenSolutions(std::string name, Side side = Side::meshfree)
-        : name_(std::move(name)), side_(side)
+    explicit GivenSolutions(std::string name, MethodFamily family = MethodFamily::meshfree)
+        : name_(std::move(name)), family_(family)
     {
     }
     std::string name() const override { return name_; }
-    Side side() const override { return side_; }
+    MethodFamily family() const override { return family_; }
     std::string help() const override { return ""; }
-    std::unique_ptr<method::Discretisation> discretise(const scene::Problem &,
+    std::unique_ptr<method::Discretisation> discretise(const problem::Problem<2> &,
                                                        const base::Communicator &) const override
     {
       return std::make_unique<Given>(*this);
@@ -26,7 +26,7 @@ namespace plumbline::study
     mutable unsigned int n_solves = 0;
 
   private:
-    virtual method::Field field(const scene::Problem &) const = 0;
+    virtual method::Field field(const problem::Problem<2> &) const = 0;
     virtual double outer_change() const { return 0; }
 
     class Given : public method::Discretisation
@@ -34,7 +34,7 @@ namespace plumbline::study
     public:
       explicit Given(const GivenSolutions &method) : method_(method) {}
       std::size_t n_unknowns() const override { return 1; }
-      method::CaseData data(const scene::Problem &problem) const override
+      method::CaseData data(const problem::Problem<2> &problem) const override
       {
         ++method_.n_solves;
         return {method::Vector(1),
@@ -70,17 +70,17 @@ namespace plumbline::study
     };
 
     std::string name_;
-    Side side_;
+    MethodFamily family_;
   };
 
   /// Solutions as if each had cost so many CPU seconds; 1 is enough not to be repeated for its
   /// time.
-  inline SweepControl at_cost(const std::function<double(const scene::Problem &)> &seconds =
-                                  [](const scene::Problem &) { return 1; })
+  inline SweepControl at_cost(const std::function<double(const problem::Problem<2> &)> &seconds =
+                                  [](const problem::Problem<2> &) { return 1; })
   {
     SweepControl control;
     control.solve =
-        [seconds](const Method &method, const std::vector<const scene::Problem *> &cases)
+        [seconds](const Method &method, const std::vector<const problem::Problem<2> *> &cases)
     {
       auto outcomes = analysis::solve(method, cases);
       for (std::size_t i = 0; i < cases.size(); ++i)

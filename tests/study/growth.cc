@@ -66,7 +66,7 @@ namespace
   }
 
   /// Four bonds that no load breaks.
-  class Body : public method::BreakingBody
+  class Body : public method::QuasistaticFractureModel
   {
   public:
     Body() { response_.critical_loads.assign(4, std::numeric_limits<double>::infinity()); }
@@ -74,7 +74,7 @@ namespace
     const Response &response() const override { return response_; }
     Release break_bonds(const std::vector<std::size_t> &) override { return {}; }
     void restart(const std::vector<std::size_t> &) override {}
-    bool is_parted() const override { return is_in_two; }
+    bool is_separated() const override { return is_in_two; }
     const Work &work() const override { return work_; }
 
     bool is_in_two = false;
@@ -226,7 +226,7 @@ TEST(Growth, moments_are_even_parts_of_what_breaks)
 TEST(Growth, expectations_and_the_audit_are_held_against_it)
 {
   GrowthResults results;
-  results.growth.end = scene::GrowthEnd::parted;
+  results.growth.end = problem::GrowthEnd::parted;
   results.growth.events = {event({1, 2}, 2), event({3}, 3)};
   for (Event &one : results.growth.events)
   {
@@ -237,10 +237,10 @@ TEST(Growth, expectations_and_the_audit_are_held_against_it)
   scene::ExpectedSection expected;
   EXPECT_TRUE(growth_faults(results, expected).empty());
   expected.growth = {{"broken bonds", 3}, {"events", 2}, {"peak load", 2}, {"peak reaction", 3}};
-  expected.growth_end = scene::GrowthEnd::parted;
+  expected.growth_end = problem::GrowthEnd::parted;
   EXPECT_TRUE(growth_faults(results, expected).empty());
   expected.growth["peak load"] = 2.1;
-  expected.growth_end = scene::GrowthEnd::loaded;
+  expected.growth_end = problem::GrowthEnd::loaded;
   EXPECT_EQ(growth_faults(results, expected).size(), 2u);
   results.growth.events[1].released = 1e-9; // which nobody did
   EXPECT_EQ(growth_faults(results, expected).size(), 3u);
@@ -267,12 +267,12 @@ TEST(Growth, says_whether_the_body_has_parted)
 {
   Body body;
   const analysis::Growth whole = analysis::grow(body, {});
-  EXPECT_EQ(whole.end, scene::GrowthEnd::whole);
-  EXPECT_FALSE(whole.is_parted);
+  EXPECT_EQ(whole.end, problem::GrowthEnd::whole);
+  EXPECT_FALSE(whole.is_separated);
   body.is_in_two = true;
   const analysis::Growth parted = analysis::grow(body, {});
-  EXPECT_EQ(parted.end, scene::GrowthEnd::parted);
-  EXPECT_TRUE(parted.is_parted);
+  EXPECT_EQ(parted.end, problem::GrowthEnd::parted);
+  EXPECT_TRUE(parted.is_separated);
 }
 
 TEST(Growth, a_checkpoint_that_is_not_its_own_is_refused)

@@ -8,6 +8,7 @@
 #include "study/preflight.h"
 
 #include "base/error.h"
+#include "scene/problem.h"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +46,7 @@ namespace
   }
 
   std::vector<double> averages(const scene::Scene &scene, const std::string &method,
-                               const scene::Level &level)
+                               const problem::Level &level)
   {
     return analysis::solve(*find_method(all(), method, "test"), make_problem(scene, 0, level))
         .averages;
@@ -61,7 +62,7 @@ namespace
 
   /// |u_a + u_b - u_1| over |u_1| for loads that add up to 1.
   double defect(const std::string &a, const std::string &b, const std::string &method,
-                const scene::Level &level, const Settings &more = {})
+                const problem::Level &level, const Settings &more = {})
   {
     std::vector<double> sum = averages(with_load(a, more), method, level);
     const auto other = averages(with_load(b, more), method, level),
@@ -115,7 +116,7 @@ TEST(HiddenFeatures, every_realisation_that_has_grains_has_a_solution)
   for (unsigned int k = 1; k <= 12; ++k)
   {
     const scene::Scene one = at_sample(scene, {}, k);
-    const scene::Problem problem = make_problem(one, 0, {.02, .1});
+    const problem::Problem<2> problem = make_problem(one, 0, {.02, .1});
     bool has_grains = false;
     for (const dealii::Point<2> &x : comparison_points(problem))
       has_grains = has_grains || one.names(.1).fields.at("R")(x) != 0;
@@ -132,9 +133,9 @@ TEST(HiddenFeatures, a_manufactured_load_is_that_of_its_narrow_bump)
   const std::string u = "1 + exp(-((x-0.5855)^2+(y-0.5855)^2)/0.0002)";
   const scene::Scene scene =
       scene::parse_scene("test.prm", "", {{"Problem/solution", u}, {"Methods/names", "FA"}});
-  for (const scene::Level &level : {scene::Level{.05, .1}, scene::Level{.02, .06}})
+  for (const problem::Level &level : {problem::Level{.05, .1}, problem::Level{.02, .06}})
   {
-    const scene::Problem problem = make_problem(scene, 0, level);
+    const problem::Problem<2> problem = make_problem(scene, 0, level);
     const physics::ManufacturedLoad exact(problem.kernel, physics::Expression("u", u), {},
                                           [](const dealii::Point<2> &) { return 96u; });
     const double size = std::abs(exact({.5855, .5855}, 0));
@@ -152,7 +153,7 @@ TEST(HiddenFeatures, a_manufactured_load_knows_a_narrow_inclusion)
                                                  {"Domain/mesh", "squares"},
                                                  {"Kernel/coefficient", a},
                                                  {"Methods/names", "FA"}});
-  const scene::Problem problem = make_problem(scene, 0, {.125, .25});
+  const problem::Problem<2> problem = make_problem(scene, 0, {.125, .25});
   const physics::ManufacturedLoad exact(
       problem.kernel, physics::Expression("u", "sin(3*x)*cos(2*y)"),
       physics::Coefficient(physics::Expression("a", a), physics::Mean::arithmetic),
@@ -167,7 +168,7 @@ TEST(HiddenFeatures, averages_of_a_narrow_solution_are_right)
   {
     Settings settings = {{"Problem/solution", u}, {"Problem/load", "1"}, {"Methods/names", "FA"}};
     settings.insert(settings.end(), more.begin(), more.end());
-    const scene::Problem problem =
+    const problem::Problem<2> problem =
         make_problem(scene::parse_scene("test.prm", "", settings), 0, {.1, .3});
     const auto means = cell_averages(*problem.solution, problem);
     double sum = 0;

@@ -8,6 +8,7 @@
 #include "tests/text_folder.h"
 
 #include "meshfree/rules/family_moments.h"
+#include "scene/problem.h"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +37,7 @@ namespace
   /// The proof of a method at the scene's first level, and the field solved for.
   study::LimitProof proof(const scene::Scene &scene, const std::string &name)
   {
-    const scene::Problem problem =
+    const problem::Problem<2> problem =
         make_problem(scene, 0, scene.study.series.front().levels.front());
     return analysis::solve(*study::find_method(all(), name, "test"), problem).diagnostics.limit;
   }
@@ -83,7 +84,7 @@ TEST(LimitProof, tells_right_rules_from_wrong_ones_for_every_model)
 TEST(LimitProof, an_error_of_one_part_in_a_million_is_an_error)
 {
   const auto scene = scene_of(harmonic);
-  const scene::Problem problem = make_problem(scene, 0, scene.study.series.front().levels.front());
+  const problem::Problem<2> problem = make_problem(scene, 0, scene.study.series.front().levels.front());
   // the five-point stencil of -1/2 Laplace, with reach 1
   algebra::Stencil stencil(1, 1);
   const double a = .5 / (problem.h * problem.h);
@@ -303,7 +304,7 @@ TEST(RoundOff, grows_with_the_offset_and_size_does_not)
     }
     const auto scene =
         scene_of("subsection Problem\n" + fields + "\nend\n", {{"Study/decisive error", error}});
-    const scene::Problem problem =
+    const problem::Problem<2> problem =
         make_problem(scene, 0, scene.study.series.front().levels.front());
     const auto method = study::find_method(all(), "FA", "test");
     const analysis::Solution solution = analysis::solve(*method, problem);
@@ -331,7 +332,7 @@ TEST(RoundOff, a_constant_on_a_lattice_costs_no_more_than_its_own_rounding)
                                     " + sin(3*x)*cos(2*y)\n"
                                     " set local solution = sin(3*x)*cos(2*y)\nend\n",
                                 {{"Study/decisive error", "nodal Linf | local"}});
-    const scene::Problem problem =
+    const problem::Problem<2> problem =
         make_problem(scene, 0, scene.study.series.front().levels.front());
     const auto method = study::find_method(all(), name, "test");
     return analysis::solve(*method, problem).nodal;

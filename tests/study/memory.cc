@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "meshfree/method.h"
 #include "reference/method.h"
+#include "scene/problem.h"
 #include "study/preflight.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +21,8 @@ namespace
   /// Solve the first level of a scene.
   void expect_estimate(const scene::Scene &scene, const Methods &available)
   {
-    const scene::Level level = scene.study.series[0].levels[0];
-    const scene::Problem problem = make_problem(scene, 0, level);
+    const problem::Level level = scene.study.series[0].levels[0];
+    const problem::Problem<2> problem = make_problem(scene, 0, level);
     method::ProblemSize size;
     size.level = level;
     size.n_components = problem.n_components;

@@ -93,7 +93,7 @@ TEST(Motions, manufactured_fields_that_methods_hold_are_exact_to_round_off)
     const auto results = run(wave("scalar", "(1 + x)*(2 - y)*sin(2*t) + x - y", with_mass));
     ASSERT_EQ(results.runs.size(), 5u);
     for (const MotionRun &motion : results.runs)
-      if (!is_lumped || motion.side == Side::meshfree)
+      if (!is_lumped || motion.family == MethodFamily::meshfree)
       {
         EXPECT_LT(motion.errors.at("nodal L2 | exact"), 1e-9) << motion.method;
         EXPECT_LT(motion.errors.at("velocity nodal L2 | exact"), 1e-8) << motion.method;
@@ -251,7 +251,7 @@ TEST(Motions, of_galerkin_know_their_own_errors)
                                   {"Time/steps", "0.025"}}));
   for (const MotionRun &motion : results.runs)
   {
-    ASSERT_EQ(motion.estimate.has_value(), motion.side == Side::reference) << motion.method;
+    ASSERT_EQ(motion.estimate.has_value(), motion.family == MethodFamily::reference) << motion.method;
     if (!motion.estimate)
       continue;
     const double error = motion.errors.at("nodal L2 | reference");

@@ -3,6 +3,7 @@
 #include "meshfree/method.h"
 #include "method/discretisation.h"
 #include "reference/method.h"
+#include "scene/problem.h"
 #include "study/stability.h"
 
 #include <gtest/gtest.h>
@@ -40,16 +41,16 @@ namespace plumbline::study
   }
 
   inline DiscreteOperator operator_of(const std::string &name, const scene::Scene &scene,
-                                      const scene::Level &level)
+                                      const problem::Level &level)
   {
-    const scene::Problem problem = scene::make_problem(scene, 0, level);
+    const problem::Problem<2> problem = scene::make_problem(scene, 0, level);
     return method_of(name)->discretise(problem)->matrix();
   }
 
   inline method::Diagnostics diagnostics_of(const std::string &name, const scene::Scene &scene,
-                                            const scene::Level &level)
+                                            const problem::Level &level)
   {
-    const scene::Problem problem = scene::make_problem(scene, 0, level);
+    const problem::Problem<2> problem = scene::make_problem(scene, 0, level);
     return method_of(name)->discretise(problem)->diagnostics();
   }
 } // namespace plumbline::study

@@ -53,7 +53,7 @@ namespace
     }
 
   private:
-    method::Field field(const scene::Problem &problem) const override
+    method::Field field(const problem::Problem<2> &problem) const override
     {
       if (is_last())
         fail_();

@@ -95,7 +95,7 @@ namespace
     BrokenMethod() : GivenSolutions("broken") {}
 
   private:
-    method::Field field(const scene::Problem &problem) const override
+    method::Field field(const problem::Problem<2> &problem) const override
     {
       method::Field solution;
       solution.averages.assign(comparison_points(problem).size(),

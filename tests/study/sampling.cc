@@ -19,7 +19,7 @@ TEST(SampleStatistics, OfGrowthSayWhichSchemeTheyAreOf)
     scene::Scene scene;
     scene.fracture.toughness = "1";
     scene.fracture.surface_terms =
-        has_surface_terms ? scene::SurfaceTerms::published : scene::SurfaceTerms::uncorrected;
+        has_surface_terms ? problem::SurfaceTerms::published : problem::SurfaceTerms::uncorrected;
     const auto said = [&]
     {
       const auto findings =

@@ -29,7 +29,7 @@ TEST(SampleStatistics, NegativeVariancesAreSaidAndHaveNoDeviation)
                                                sum += one * one;
                                              return sum;
                                            });
-  const random::Statistics &found = results.cases[0].sets[0].quantities.at("q");
+  const uq::Statistics &found = results.cases[0].sets[0].quantities.at("q");
   EXPECT_NEAR(found.variance, -340, 1e-9);
   EXPECT_FALSE(found.deviation());
   ASSERT_EQ(results.findings.size(), 2);

@@ -1,5 +1,6 @@
 // Methods held against themselves, and scenes against themselves: averages carried from level to
 // level, and solutions that contradict their loads.
+#include "scene/problem.h"
 #include "study/self_convergence.h"
 
 #include "scene/scene.h"
@@ -15,7 +16,7 @@ using namespace plumbline::study;
 
 namespace
 {
-  scene::Problem problem_of(const std::string &sections, double h, double m = 2)
+  problem::Problem<2> problem_of(const std::string &sections, double h, double m = 2)
   {
     return make_problem(scene::parse_scene("test.prm", sections), 0, {h, m * h});
   }
@@ -82,7 +83,7 @@ TEST(SelfConvergence, every_level_is_held_against_the_last_one_of_the_same_metho
   for (const std::string method : {"A", "B"})
     for (unsigned int level = 0; level < 2; ++level)
     {
-      const scene::Problem problem = make_problem(scene, 0, scene.study.series[0].levels[level]);
+      const problem::Problem<2> problem = make_problem(scene, 0, scene.study.series[0].levels[level]);
       study::Run run;
       run.method = method;
       run.problem = "u";

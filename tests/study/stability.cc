@@ -5,6 +5,7 @@
 #include "meshfree/lattice/stencil.h"
 #include "meshfree/rules/family_statistics.h"
 #include "method/lattice_discretisation.h"
+#include "scene/problem.h"
 #include "tests/study/operators.h"
 
 #include <Eigen/Eigenvalues>
@@ -20,7 +21,7 @@ using namespace plumbline::study;
 namespace
 {
   /// A tensor rule with exact moments of degree 2, n_a n_b ξ^α among them, from bonds as given.
-  meshfree::QuadratureRule tensor_rule(const physics::Kernel<2> &kernel,
+  meshfree::NeighbourhoodQuadrature tensor_rule(const physics::Kernel<2> &kernel,
                                        meshfree::Bond (*bond)(const physics::Kernel<2> &,
                                                               const meshfree::Candidate &))
   {
@@ -53,26 +54,32 @@ namespace
             }};
   }
 
-  Stability measure_rule(const meshfree::QuadratureRule &rule, const physics::Kernel<2> &kernel,
+  Stability measure_rule(const meshfree::NeighbourhoodQuadrature &rule, const physics::Kernel<2> &kernel,
                          double h)
   {
     const auto bonds = meshfree::lattice_bonds(rule, kernel, h, geometry::Backend::fast);
     const geometry::Lattice lattice({{{{0, 0}, {1, 1}}}, {}}, h);
     const auto nodes = free_nodes(lattice, {{.5, false, 0}}, kernel.n_components());
     Stability found =
-        measure(method::show(lattice, nodes, meshfree::lattice_operator(kernel, bonds), {1}));
+        measure(method::make_discrete_operator(lattice, nodes, meshfree::lattice_operator(kernel, bonds), {1}));
     meshfree::describe_weights(bonds.family, bonds.fit, found.diagnostics);
     return found;
   }
 
-  StabilityRow row(double m, double h, double smallest, unsigned int n_negative = 0)
+  Record level(double m, double h, double smallest, unsigned int n_negative = 0)
   {
-    StabilityRow result{"rule", Side::meshfree, "m = " + std::to_string(m), h, m * h, {}, {}, {}};
-    result.stability.smallest = smallest;
-    result.stability.largest = 100;
-    result.stability.diagnostics.n_negative_weights = n_negative;
-    result.stability.diagnostics.smallest_weight_ratio = n_negative > 0 ? -1 : 1;
-    return result;
+    Record record;
+    record.key.method = "rule";
+    record.key.series = "m = " + std::to_string(m);
+    record.key.h = h;
+    record.key.horizon = m * h;
+    Stability found;
+    found.smallest = smallest;
+    found.largest = 100;
+    found.diagnostics.n_neighbours = 8;
+    found.diagnostics.n_negative_weights = n_negative;
+    found.diagnostics.smallest_weight_ratio = n_negative > 0 ? -1 : 1;
+    return stability_record(record, found, {}, {});
   }
 } // namespace
 
@@ -81,7 +88,7 @@ TEST(Stability, of_a_lattice_and_of_its_mesh_agree)
   for (const bool is_tensor : {false, true})
     for (const std::string name : {"IPA-AC", "IPA-AC-R2", "Q1", "Q2", "DGQ0", "DGQ1"})
     {
-      const scene::Level level{.125, .375};
+      const problem::Level level{.125, .375};
       const auto a = measure(operator_of(name, make_scene(is_tensor), level)),
                  b = measure(operator_of(name, make_scene(is_tensor, squares), level));
       EXPECT_EQ(a.n_unknowns, b.n_unknowns) << name;
@@ -96,11 +103,11 @@ TEST(Stability, of_a_lattice_and_of_its_mesh_agree)
 
 TEST(Stability, the_largest_eigenvalue_is_one_number_and_never_too_small)
 {
-  const scene::Level level{.05, .15};
+  const problem::Level level{.05, .15};
   for (const std::string &mesh : {std::string(), squares})
     for (const std::string name : {"FA", "IPA-AC-R2", "Q1", "DGQ1"})
     {
-      const scene::Problem problem = scene::make_problem(make_scene(false, mesh), 0, level);
+      const problem::Problem<2> problem = scene::make_problem(make_scene(false, mesh), 0, level);
       const auto discretisation = method_of(name)->discretise(problem);
       const DiscreteOperator matrix = discretisation->matrix();
       const auto n = static_cast<Eigen::Index>(matrix.size());
@@ -147,7 +154,7 @@ TEST(Stability, the_barrier_bounds_the_inverse_where_the_printed_lemma_does_not)
   for (const double horizon : {.2, .8, 1.6})
   {
     const auto scene = make_scene(false);
-    const scene::Level level{.1, horizon};
+    const problem::Level level{.1, horizon};
     const auto matrix = operator_of("IPA-AC", scene, level);
     const Stability found = measure(matrix);
     const double barrier =
@@ -189,7 +196,7 @@ TEST(Stability, the_barrier_of_a_rectangle_is_that_of_its_narrow_side)
     {
       const auto scene = make_scene(false, "subsection Domain\n set mesh = " + mesh +
                                                "\n set boxes = " + box + "\nend\n");
-      const scene::Level level{.125, .25};
+      const problem::Level level{.125, .25};
       const auto matrix = operator_of("IPA-AC", scene, level);
       const double found =
           analysis::check_consistency(matrix, scene::make_problem(scene, 0, level)).barrier;
@@ -208,7 +215,7 @@ TEST(Stability, finds_the_degree_that_rules_reproduce)
   const auto degree = [](const std::string &name, bool is_tensor, const std::string &more)
   {
     const auto scene = make_scene(is_tensor, more);
-    const scene::Level level{.0625, .1875};
+    const problem::Level level{.0625, .1875};
     return analysis::check_consistency(operator_of(name, scene, level),
                                        scene::make_problem(scene, 0, level))
         .degree;
@@ -240,7 +247,7 @@ TEST(Stability, tells_rules_that_stay_coercive_on_strongly_moved_nodes_from_thos
 {
   const auto scene = make_scene(true, "subsection Domain\n set mesh = squares\nend\n"
                                       "subsection Methods\n set perturbation = 0.45\nend\n");
-  const scene::Level level{.05, .125};
+  const problem::Level level{.05, .125};
   const Stability unsound = measure(operator_of("IPA-AC-R4", scene, level)),
                   sound = measure(operator_of("IPA-AC-R2", scene, level));
   EXPECT_LT(unsound.smallest, -100);
@@ -258,18 +265,18 @@ TEST(Stability, of_a_free_body_has_the_three_rigid_modes_and_of_a_held_one_none)
                                              geometry::Backend::fast);
   const auto constant = [](double c) { return [c](const dealii::Point<2> &) { return c; }; };
   for (const double l : {4., 8.}) // the second one with τ < 0
-    for (const bool is_held : {false, true})
+    for (const bool is_constrained : {false, true})
     {
       meshfree::Polygons fixed;
-      if (is_held)
+      if (is_constrained)
         fixed.push_back({{0, 0}, {.125, 0}, {.125, 1}, {0, 1}});
       const auto body = meshfree::body_on_vertices(lattice, fixed, {constant(1), constant(l)});
       const Stability found = measure(
-          meshfree::show(std::make_shared<meshfree::VariationalOperator>(body, influence, bonds)));
-      EXPECT_EQ(found.n_zero, is_held ? 0u : 3u);
-      EXPECT_EQ(found.modes.values.size(), is_held ? 1u : 3u);
+          meshfree::make_discrete_operator(std::make_shared<meshfree::VariationalOperator>(body, influence, bonds)));
+      EXPECT_EQ(found.n_zero, is_constrained ? 0u : 3u);
+      EXPECT_EQ(found.modes.values.size(), is_constrained ? 1u : 3u);
       for (const auto &mode : found.modes.values)
-        if (!is_held)
+        if (!is_constrained)
         {
           // rigid: (u, v) = (a - c y, b + c x), by its values at three nodes far apart
           const auto at = [&](std::size_t i, unsigned int d) { return mode[2 * i + d]; };
@@ -289,7 +296,7 @@ TEST(Stability, of_a_free_body_has_the_three_rigid_modes_and_of_a_held_one_none)
           }
           EXPECT_LT(defect, 1e-6 * size);
         }
-      EXPECT_EQ(found.is_definite(), is_held);
+      EXPECT_EQ(found.is_definite(), is_constrained);
       EXPECT_LT(found.signs.asymmetry, 1e-14);
     }
 }
@@ -347,32 +354,32 @@ TEST(Stability, inverse_norm_of_no_m_matrix_is_that_of_its_worst_load)
 
 TEST(StabilityVerdict, names_the_condition_it_finds)
 {
-  EXPECT_EQ(judge({row(2, .1, 9), row(3, .1, 9)}).verdict, StabilityAnswer::stable);
-  EXPECT_EQ(judge({row(2, .1, -9), row(3, .1, -9)}).verdict, StabilityAnswer::unstable);
+  EXPECT_EQ(judge_stability({level(2, .1, 9), level(3, .1, 9)}).verdict, "stable");
+  EXPECT_EQ(judge_stability({level(2, .1, -9), level(3, .1, -9)}).verdict, "unstable");
 
-  const StabilityVerdict bound = judge({row(2, .1, -9), row(2, .05, -9), row(3, .1, 9)});
-  EXPECT_EQ(bound.verdict, StabilityAnswer::conditional);
+  const Verdict bound = judge_stability({level(2, .1, -9), level(2, .05, -9), level(3, .1, 9)});
+  EXPECT_EQ(bound.verdict, "conditionally stable");
   EXPECT_EQ(bound.condition, "m >= 3");
   EXPECT_NE(bound.explanation.find("-9"), std::string::npos) << bound.explanation;
 
-  const StabilityVerdict doubtful = judge({row(3, .1, 9, 4), row(3, .05, 9)});
-  EXPECT_EQ(doubtful.verdict, StabilityAnswer::conditional);
+  const Verdict doubtful = judge_stability({level(3, .1, 9, 4), level(3, .05, 9)});
+  EXPECT_EQ(doubtful.verdict, "conditionally stable");
   EXPECT_NE(doubtful.explanation.find("4 negative weights"), std::string::npos);
 
   // a level that fails between others that do not
-  EXPECT_EQ(judge({row(3, .1, 9), row(3, .05, -9)}).verdict, StabilityAnswer::unstable);
+  EXPECT_EQ(judge_stability({level(3, .1, 9), level(3, .05, -9)}).verdict, "unstable");
 }
 
 TEST(StabilityVerdict, names_lost_rank_and_separate_parts)
 {
-  StabilityRow lost = row(2, .1, 9), parted = row(2, .1, 9);
-  lost.stability.diagnostics.n_conditions = 6;
-  lost.stability.diagnostics.rank = 5;
-  parted.stability.signs.n_parts = 2;
+  Record lost = level(2, .1, 9), parted = level(2, .1, 9);
+  lost.set("moment conditions", 6);
+  lost.set("moment rank", 5);
+  parted.set("parts", 2);
   for (const auto &[bad, words] : {std::pair{lost, "rank 5 of 6"}, {parted, "2 separate parts"}})
   {
-    const StabilityVerdict verdict = judge({bad, row(3, .1, 9)});
-    EXPECT_EQ(verdict.verdict, StabilityAnswer::conditional) << words;
+    const Verdict verdict = judge_stability({bad, level(3, .1, 9)});
+    EXPECT_EQ(verdict.verdict, "conditionally stable") << words;
     EXPECT_EQ(verdict.condition, "m >= 3") << words;
     EXPECT_NE(verdict.explanation.find(words), std::string::npos) << verdict.explanation;
   }
@@ -380,38 +387,39 @@ TEST(StabilityVerdict, names_lost_rank_and_separate_parts)
 
 TEST(StabilityVerdict, sees_coercivity_fall)
 {
-  const StabilityVerdict falls = judge({row(3, .1, 4), row(3, .05, 2), row(3, .025, 1)});
-  EXPECT_EQ(falls.verdict, StabilityAnswer::unstable);
+  const Verdict falls = judge_stability({level(3, .1, 4), level(3, .05, 2), level(3, .025, 1)});
+  EXPECT_EQ(falls.verdict, "unstable");
   EXPECT_NE(falls.explanation.find("h to the power 1"), std::string::npos) << falls.explanation;
-  EXPECT_EQ(judge({row(3, .1, 4), row(3, .05, 3.5), row(3, .025, 3.2)}).verdict,
-            StabilityAnswer::stable);
+  EXPECT_EQ(judge_stability({level(3, .1, 4), level(3, .05, 3.5), level(3, .025, 3.2)}).verdict,
+            "stable");
 }
 
 TEST(StabilityTrends, are_the_powers_at_the_finest_three_levels_of_each_series)
 {
-  std::vector<StabilityRow> rows;
+  Records rows;
   for (const double m : {2., 3.})
     for (const double h : {.4, .2, .1, .05})
     {
-      rows.push_back(row(m, h, m == 2 ? 7 * std::pow(h, .5) : 7));
-      rows.back().stability.largest = 3 * std::pow(h, -2);
-      rows.back().stability.inverse_norm = h > .15 ? 0 : 1; // not known at the coarse levels
+      rows.push_back(level(m, h, m == 2 ? 7 * std::pow(h, .5) : 7));
+      rows.back().set("largest eigenvalue", 3 * std::pow(h, -2));
+      if (h < .15) // not known at the coarse levels
+        rows.back().set("inverse norm", 1);
     }
-  rows[0].stability.smallest = 1e9; // too coarse to count
-  const auto trends = stability_trends(rows);
+  rows[0].set("smallest eigenvalue", 1e9); // too coarse to count
+  const auto trends = stability_powers(rows);
   ASSERT_EQ(trends.size(), 2u);
   EXPECT_EQ(trends[0].axis, study::Axis::mesh_size);
-  EXPECT_NEAR(trends[0].smallest, .5, 1e-12);
-  EXPECT_NEAR(trends[1].smallest, 0, 1e-12);
-  EXPECT_NEAR(trends[1].largest, -2, 1e-12);
-  EXPECT_TRUE(std::isnan(trends[1].inverse_norm));
+  EXPECT_NEAR(trends[0].of.at("smallest eigenvalue"), .5, 1e-12);
+  EXPECT_NEAR(trends[1].of.at("smallest eigenvalue"), 0, 1e-12);
+  EXPECT_NEAR(trends[1].of.at("largest eigenvalue"), -2, 1e-12);
+  EXPECT_EQ(trends[1].of.count("inverse norm"), 0u);
 
   // at a fixed h it is the horizon that varies
-  const auto of_horizon = stability_trends({row(4, .1, 8), row(2, .1, 4), row(1, .1, 2)});
+  const auto of_horizon = stability_powers({level(4, .1, 8), level(2, .1, 4), level(1, .1, 2)});
   EXPECT_EQ(of_horizon.size(), 3u); // series are by m here
-  std::vector<StabilityRow> one = {row(4, .1, 8), row(2, .1, 4), row(1, .1, 2)};
-  for (StabilityRow &level : one)
-    level.series = "h = 0.1";
-  EXPECT_EQ(stability_trends(one)[0].axis, study::Axis::horizon);
-  EXPECT_NEAR(stability_trends(one)[0].smallest, 1, 1e-12);
+  Records one = {level(4, .1, 8), level(2, .1, 4), level(1, .1, 2)};
+  for (Record &record : one)
+    record.key.series = "h = 0.1";
+  EXPECT_EQ(stability_powers(one)[0].axis, study::Axis::horizon);
+  EXPECT_NEAR(stability_powers(one)[0].of.at("smallest eigenvalue"), 1, 1e-12);
 }

@@ -62,15 +62,15 @@ TEST(StripLimits, of_a_field_of_K_are_those_of_its_release)
     field[i].strip.K_tip = 10.5;
     field[i].release = q[i] * (field[i].state.intact = .375);
   }
-  scene::StripSection held;
-  held.edges = scene::StripEdges::K_field;
-  const auto limits = strip_limits(held, field);
+  scene::StripSection constrained;
+  constrained.edges = scene::StripEdges::K_field;
+  const auto limits = strip_limits(constrained, field);
   ASSERT_EQ(limits.size(), 1u);
   EXPECT_EQ(limits[0].quantity, "G");
   EXPECT_NEAR(limits[0].limit, .4, 1e-9);
   // no strip that is too short: .4 is what it gets
   study::StripResults results;
-  results.strip = held;
+  results.strip = constrained;
   results.rows = field;
   EXPECT_TRUE(strip_faults(results, {}).empty());
   for (StripRow &row : results.rows)
@@ -87,7 +87,7 @@ TEST(StripLimits, are_not_there_where_values_go_up_and_down)
 TEST(StripLimits, agree_as_far_as_they_lie_apart)
 {
   const auto limit = [](const std::string &method, const std::string &quantity, double value)
-  { return StripLimit{method, "", quantity, method::Side::meshfree, value, 2, .01}; };
+  { return StripLimit{method, "", quantity, method::MethodFamily::meshfree, value, 2, .01}; };
   StripLimit vague = limit("D", "tip energy", .5);
   vague.change = .03;
   const auto all = study::strip_agreements({limit("A", "W1", 5), limit("A", "tip energy", .41),

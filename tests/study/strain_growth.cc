@@ -5,6 +5,7 @@
 
 #include "meshfree/method.h"
 #include "reference/method.h"
+#include "scene/problem.h"
 #include "study/preflight.h"
 #include "study/stability.h"
 
@@ -34,9 +35,9 @@ namespace
 
   std::vector<StrainGrowth> growths_of(const scene::Scene &scene)
   {
-    const scene::Level level = scene.study.series[0].levels.back();
+    const problem::Level level = scene.study.series[0].levels.back();
     auto growths = strain_growths(scene, "s", level);
-    const scene::Problem problem = scene::make_problem(scene, 0, level);
+    const problem::Problem<2> problem = scene::make_problem(scene, 0, level);
     for (const auto &method : methods_of(scene))
       add_growth(*method, problem, scene.time.density, growths);
     return growths;
@@ -93,14 +94,18 @@ TEST(StrainGrowth, expected_is_checked_for_every_direction)
   const auto check = [](const std::string &expected)
   {
     const auto scene = torus({{"Methods/names", "FA"}, {"Expected/strain growth", expected}});
-    std::vector<StrainGrowth> growths(2);
+    Records records(2);
     for (std::size_t d = 0; d < 2; ++d)
     {
-      growths[d].samples.resize(1);
-      growths[d].samples[0].symbol = 2;
-      growths[d].methods = {{"FA", Side::meshfree, {2}, {d == 0 ? 2.02 : 2.2}, ""}};
+      StrainGrowth growth;
+      growth.samples.resize(1);
+      growth.samples[0].symbol = 2;
+      growth.methods = {{"FA", MethodFamily::meshfree, {2}, {d == 0 ? 2.02 : 2.2}, ""}};
+      records[d].key.method = "FA";
+      records[d].curves["growth"] = {};
+      records[d].set("difference from the symbol", growth.difference(growth.methods[0]));
     }
-    return check_growth(scene, growths).at(0).holds;
+    return check_growth(scene, records).at(0).holds;
   };
   EXPECT_TRUE(check("FA: 0.11"));
   EXPECT_FALSE(check("FA: 0.09")); // the second one is off by a tenth
@@ -111,8 +116,8 @@ TEST(CriticalSteps, are_those_of_the_symbol_and_of_both_masses)
 {
   const auto steps_of = [](const std::string &name, const scene::Scene &scene)
   {
-    const scene::Level level = scene.study.series[0].levels.back();
-    const scene::Problem problem = scene::make_problem(scene, 0, level);
+    const problem::Level level = scene.study.series[0].levels.back();
+    const problem::Problem<2> problem = scene::make_problem(scene, 0, level);
     const auto discretisation = methods_of(scene)[0]->discretise(problem);
     EXPECT_EQ(methods_of(scene)[0]->name(), name);
     return critical_steps(*discretisation, problem, analysis::measure(discretisation->matrix()),

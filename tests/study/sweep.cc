@@ -4,6 +4,7 @@
 
 #include "meshfree/method.h"
 #include "reference/method.h"
+#include "scene/problem.h"
 #include "study/comparison.h"
 #include "study/preflight.h"
 #include "study/saving.h"
@@ -123,7 +124,7 @@ namespace
     explicit BackwardMethod(double defect) : GivenSolutions("backward"), defect_(defect) {}
 
   private:
-    method::Field field(const scene::Problem &problem) const override
+    method::Field field(const problem::Problem<2> &problem) const override
     {
       method::Field solution;
       solution.nodes = {{.25, .25}, {.75, .25}, {.25, .75}, {.75, .75}};
@@ -143,7 +144,7 @@ namespace
 
 TEST(SweepSavings, compare_values_at_the_same_place_in_whatever_order_nodes_come)
 {
-  const scene::Level level{.5, 1};
+  const problem::Level level{.5, 1};
   const scene::Scene scene = scene::parse_scene(
       "test.prm", "", {{"Methods/names", "FA"}, {"Problem/solution", "x"}, {"Study/h", "0.5"}});
   for (const double defect : {0., .5})
@@ -174,7 +175,7 @@ namespace
     DearMethod() : GivenSolutions("dear") {}
 
   private:
-    method::Field field(const scene::Problem &problem) const override
+    method::Field field(const problem::Problem<2> &problem) const override
     {
       method::Field solution;
       solution.averages.assign(comparison_points(problem).size(), 0.);
@@ -196,7 +197,7 @@ TEST(SweepBudget, leaves_out_what_the_levels_before_say_is_too_dear)
                                                  {"Study/h", "0.1, 0.05, 0.025, 0.0125"}});
   // each level costs four times the one before
   SweepControl control =
-      at_cost([](const scene::Problem &problem) { return std::pow(.1 / problem.h, 2); });
+      at_cost([](const problem::Problem<2> &problem) { return std::pow(.1 / problem.h, 2); });
   control.budget = 5; // levels of 1 and 4 seconds; the next ones would take 16 and 64
   const Results results = run_sweep(scene, methods, methods, control);
   EXPECT_EQ(results.runs.size(), 2u);

@@ -2,6 +2,7 @@
 #include "study/unseen_features.h"
 
 #include "base/error.h"
+#include "scene/problem.h"
 #include "scene/scene.h"
 
 #include <gtest/gtest.h>
@@ -15,9 +16,9 @@ using dealii::Point;
 namespace
 {
   /// n by n nodes at the centres of the cells of a box.
-  Between lattice(int n, const Point<2> &lower = {}, double side = 1)
+  PlacesBetweenNodes lattice(int n, const Point<2> &lower = {}, double side = 1)
   {
-    Between places;
+    PlacesBetweenNodes places;
     const double h = side / n;
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i)
@@ -32,7 +33,7 @@ namespace
   }
 
   std::vector<std::string> found(const std::function<double(const Point<2> &)> &value,
-                                 const Between &places, double h = .05)
+                                 const PlacesBetweenNodes &places, double h = .05)
   {
     return unseen_features({{"Material/E", value}}, places, h);
   }
@@ -40,7 +41,7 @@ namespace
 
 TEST(UnseenFeatures, layers_between_nodes_are_found_with_numbers)
 {
-  const Between places = lattice(20);
+  const PlacesBetweenNodes places = lattice(20);
   const auto layer = [](const Point<2> &x) { return std::abs(x[0] - .5) < .02 ? .001 : 1.; };
   const auto warnings = found(layer, places);
   ASSERT_EQ(warnings.size(), 1u);
@@ -68,7 +69,7 @@ TEST(UnseenFeatures, layers_between_nodes_are_found_with_numbers)
 
 TEST(UnseenFeatures, what_nodes_see_is_none)
 {
-  const Between places = lattice(20);
+  const PlacesBetweenNodes places = lattice(20);
   const auto is_seen = [&](const std::function<double(const Point<2> &)> &value)
   { return found(value, places).empty(); };
   EXPECT_TRUE(is_seen([](const Point<2> &) { return 7.; }));

@@ -159,6 +159,9 @@ namespace plumbline::scene
         "exact locally; of Strip/edges = K field), and their limits and observed rates, "
         "e.g. tip energy limit and tip energy rate, which are one number; rates to "
         "Expected/rate tolerance.");
+    add(ExpectedKind::values,
+        "'method, quantity[, series]: v0 v1 ...', the value of any quantity that an analysis "
+        "records (see its JSON file), at each level, to Expected/error tolerance.");
     add(ExpectedKind::growth,
         "'method: d': growth rates that 'plumbline stability' observes on strained double wells "
         "differ from the symbol's by no more than d of the largest.");
@@ -168,7 +171,7 @@ namespace plumbline::scene
   {
     for (const Expected &one : all)
       if (one.kind != ExpectedKind::orders && one.kind != ExpectedKind::sampling &&
-          one.kind != ExpectedKind::strip && !one.problem.empty() &&
+          one.kind != ExpectedKind::strip && one.kind != ExpectedKind::values && !one.problem.empty() &&
           std::find(cases.begin(), cases.end(), one.problem) == cases.end())
         throw InputError("Expected/" + base::word(one.kind) + ": '" + one.problem + "' in '" +
                          one.text + "' is neither a case of Problem nor a series like 'm = 3'");

@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "scene/csv.h"
+#include "base/csv.h"
 #include "scene/keys.h"
 #include "scene/problem_sections.h"
 #include "scene/values.h"
@@ -66,7 +66,7 @@ namespace plumbline::scene
   {
     std::vector<std::array<double, 2>> read_table(const std::string &file)
     {
-      Csv csv(file, {"t", "rho"});
+      base::Csv csv(file, {"t", "rho"});
       std::vector<std::array<double, 2>> rows;
       while (csv.next())
         rows.push_back({csv.number("t"), csv.number("rho")});

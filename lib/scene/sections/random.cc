@@ -14,8 +14,8 @@
 namespace plumbline::scene
 {
   using physics::split_outside_brackets;
-  using random::Law;
-  using random::Variable;
+  using uq::Law;
+  using uq::Variable;
 
   namespace
   {

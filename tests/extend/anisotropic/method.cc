@@ -14,7 +14,7 @@ namespace anisotropic
     using namespace plumbline;
 
     /// Row i is -Σ C(kernel_point) (u(x_i + ξ) - u_i) weight.
-    algebra::Stencil make_stencil(const scene::Problem &problem, const meshfree::Bonds &bonds,
+    algebra::Stencil make_stencil(const problem::Problem<2> &problem, const meshfree::Bonds &bonds,
                                   double a)
     {
       const FibreKernel kernel(problem.kernel, a);
@@ -33,7 +33,7 @@ namespace anisotropic
     class Discretisation : public method::LatticeDiscretisation
     {
     public:
-      Discretisation(const scene::Problem &problem, const meshfree::Bonds &bonds, double a)
+      Discretisation(const problem::Problem<2> &problem, const meshfree::Bonds &bonds, double a)
           : LatticeDiscretisation(problem, method::comparison_nodes(problem, 1),
                                   make_stencil(problem, bonds, a), {1})
       {
@@ -42,7 +42,7 @@ namespace anisotropic
       method::Diagnostics diagnostics() const override { return {}; }
 
     private:
-      method::Vector load(const scene::Problem &problem) const override
+      method::Vector load(const problem::Problem<2> &problem) const override
       {
         method::Vector load(nodes().size());
         for (int j = 0, position = 0; j < nodes().n[1]; ++j)
@@ -76,18 +76,18 @@ namespace anisotropic
       Fibres(meshfree::Rule rule, double a) : rule_(std::move(rule)), a_(a) {}
 
       std::string name() const override { return "fibres " + rule_.name; }
-      method::Side side() const override { return method::Side::meshfree; }
+      method::MethodFamily family() const override { return method::MethodFamily::meshfree; }
       std::string help() const override { return "fibres along x: " + rule_.help; }
       method::Capabilities can() const override
       {
         return {method::Capability::lattice, method::Capability::nonlocal};
       }
-      std::string why_not(const scene::Problem &problem) const override
+      std::string why_not(const problem::Problem<2> &problem) const override
       {
         return problem.n_components > 1 ? "fibres are for scalar kernels; choose one (Kernel/type)"
                                         : "";
       }
-      std::unique_ptr<method::Discretisation> discretise(const scene::Problem &problem,
+      std::unique_ptr<method::Discretisation> discretise(const problem::Problem<2> &problem,
                                                          const base::Communicator &) const override
       {
         const auto bonds =

@@ -47,7 +47,7 @@ namespace subcells
     }
   } // namespace
 
-  meshfree::QuadratureRule rule(const physics::Kernel<2> &)
+  meshfree::NeighbourhoodQuadrature rule(const physics::Kernel<2> &)
   {
     return {bond};
   }

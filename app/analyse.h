@@ -1,0 +1,33 @@
+#pragma once
+
+#include "measures.h"
+#include "report/view.h"
+#include "study/dispersion.h"
+#include "study/stability.h"
+
+namespace plumbline::app
+{
+  struct AnalyseOptions : MeasureOptions
+  {
+    double budget = 0; ///< of one method at one level [CPU s]; 0: any
+    bool check = false;
+  };
+
+  /// An analysis and how its results are shown.
+  struct AnalysisRow
+  {
+    study::Analysis analysis;
+    report::View (*view)(const study::StudyResults &) = report::default_view;
+  };
+
+  AnalysisRow stability_row();
+  AnalysisRow dispersion_row(const std::vector<double> &angles);
+
+  /// Run an analysis over the study of a scene; print tables and verdicts; write ANALYSIS.html, .md
+  /// and .json, charts to ANALYSIS/, and there the fields of each series' finest level as VTU. A
+  /// command that was interrupted or killed takes over what it had finished, from ANALYSIS.jsonl.
+  /// @return exit code: 0; with check 1 if an expectation does not hold; 130 if it was interrupted
+  /// @throws InputError  a scene that cannot be used, a folder that cannot be written
+  /// @throws NumericalError  pictures cannot be drawn; all else is written before that
+  int analyse(const AnalysisRow &row, const AnalyseOptions &options);
+} // namespace plumbline::app

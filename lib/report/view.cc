@@ -1,0 +1,418 @@
+#include "report/view.h"
+
+#include "io/results_json.h"
+#include "report/text_table.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    /// @param make  of a number
+    RecordColumn scalar_column(const std::string &head, const std::string &scalar,
+                               Cell (*make)(double))
+    {
+      return {head, [=](const Record &record)
+              { return known(record.has(scalar), make(record[scalar])); }};
+    }
+
+    bool is_drawn(double value)
+    {
+      return value > 0 && std::isfinite(value);
+    }
+
+    std::string suffix(const std::string &series)
+    {
+      return series.empty() ? "" : "_" + slug(series);
+    }
+
+    /// What varies over the records of a series.
+    study::Axis axis_of(const StudyResults &results, const std::vector<const Record *> &records)
+    {
+      if (!results.variable.empty())
+        return study::Axis::variable;
+      const bool has_one_h = std::all_of(records.begin(), records.end(), [&](const Record *record)
+                                         { return record->key.h == records.front()->key.h; });
+      return has_one_h ? study::Axis::horizon : study::Axis::mesh_size;
+    }
+  } // namespace
+
+  RecordColumn number_column(const std::string &head, const std::string &scalar)
+  {
+    return scalar_column(head, scalar, number_cell);
+  }
+
+  RecordColumn error_column(const std::string &head, const std::string &scalar)
+  {
+    return scalar_column(head, scalar, error_cell);
+  }
+
+  RecordColumn count_column(const std::string &head, const std::string &scalar)
+  {
+    return {head, [scalar](const Record &record)
+            { return known(record.has(scalar), count_cell(record.count(scalar))); }};
+  }
+
+  RecordColumn text_column(const std::string &head, const std::string &text)
+  {
+    return {head, [text](const Record &record)
+            { return known(!record.text(text).empty(), text_cell(record.text(text))); }};
+  }
+
+  std::vector<RecordColumn> with_place(const StudyResults &results,
+                                       std::vector<RecordColumn> others)
+  {
+    std::vector<RecordColumn> columns = {
+        {"method", [](const Record &record) { return text_cell(record.key.label()); }},
+        {"m", [](const Record &record) { return number_cell(record.key.m()); }},
+        {"h", [](const Record &record) { return number_cell(record.key.h); }}};
+    if (!results.variable.empty())
+      columns.push_back({results.variable,
+                         [](const Record &record) { return number_cell(record.key.value); }});
+    std::move(others.begin(), others.end(), std::back_inserter(columns));
+    return columns;
+  }
+
+  Table table_of(const StudyResults &results, const std::vector<RecordColumn> &columns,
+                 const IsShown &is_shown)
+  {
+    Table table;
+    for (const RecordColumn &column : columns)
+      table.columns.emplace_back(column.head);
+    for (const Record &record : results.records)
+      if (is_shown(record))
+      {
+        table.rows.emplace_back();
+        for (const RecordColumn &column : columns)
+          table.rows.back().push_back(column.cell(record));
+      }
+    return without_empty_columns(table);
+  }
+
+  Part failures(const StudyResults &results, const std::string &title, const std::string &head,
+                const IsShown &is_shown)
+  {
+    return {"missing", title, "",
+            table_of(results,
+                     with_place(results, {{head, [](const Record &record)
+                                           { return text_cell(record.failure); }}}),
+                     [&](const Record &record)
+                     { return !record.failure.empty() && (!is_shown || is_shown(record)); })};
+  }
+
+  Table verdict_table(const StudyResults &results)
+  {
+    Table table;
+    table.columns = {"method", "series", "verdict", "condition", "explanation"};
+    for (const study::Verdict &v : results.verdicts)
+      table.rows.push_back({text_cell(v.method), known(!v.series.empty(), text_cell(v.series)),
+                            text_cell(v.verdict), text_cell(v.condition),
+                            text_cell(v.explanation)});
+    return without_empty_columns(table);
+  }
+
+  Table power_table(const StudyResults &results)
+  {
+    Table table;
+    table.columns = {"method", "series", "powers of"};
+    std::vector<std::string> names;
+    for (const study::Power &power : results.powers)
+      for (const auto &[name, value] : power.of)
+        if (std::find(names.begin(), names.end(), name) == names.end())
+          names.push_back(name);
+    table.columns.insert(table.columns.end(), names.begin(), names.end());
+    for (const study::Power &power : results.powers)
+    {
+      if (power.of.empty())
+        continue;
+      table.rows.push_back({text_cell(power.method), text_cell(power.series),
+                            text_cell(base::word(power.axis))});
+      for (const std::string &name : names)
+      {
+        const auto found = power.of.find(name);
+        table.rows.back().push_back(found == power.of.end() ? empty_cell()
+                                                            : rate_cell(found->second));
+      }
+    }
+    return without_empty_columns(table);
+  }
+
+  std::vector<MethodName> methods_of(const StudyResults &results, const IsShown &is_shown)
+  {
+    std::vector<MethodName> methods;
+    for (const Record &record : results.records)
+      if (is_shown(record) &&
+          std::none_of(methods.begin(), methods.end(), [&](const MethodName &one)
+                       { return one.name == record.key.label(); }))
+        methods.push_back({record.key.label(), record.key.family});
+    return methods;
+  }
+
+  std::vector<std::string> series_of(const StudyResults &results)
+  {
+    std::vector<std::string> all;
+    for (const Record &record : results.records)
+      if (std::find(all.begin(), all.end(), record.key.series) == all.end())
+        all.push_back(record.key.series);
+    return all;
+  }
+
+  namespace
+  {
+    DataChart chart_of(const ChartView &view, const StudyResults &results,
+                       const std::vector<const Record *> &records,
+                       const std::vector<MethodName> &methods)
+    {
+      constexpr double wide = 20; // values fill a logarithmic axis from this ratio on
+      const std::string &series = records.front()->key.series;
+      const study::Axis axis = axis_of(results, records);
+      DataChart chart = named(view.name + suffix(series),
+                              (series.empty() ? "" : series + ": ") + view.title);
+      Plot &plot = chart.plot;
+      plot.x_label = label(axis, results.variable);
+      plot.y_label = view.y_label;
+      plot.has_slopes = view.has_slopes && results.variable.empty();
+      chart.data.columns = {"method", "series", "h", "horizon", view.name};
+      if (!results.variable.empty())
+        chart.data.columns.emplace_back(results.variable);
+      if (view.bound)
+        chart.data.columns.emplace_back("bound");
+      Range range{std::numeric_limits<double>::max(), 0};
+      bool has_bound = false;
+      for (const MethodName &method : methods)
+      {
+        Line line{method.name, style_of(methods, method.name), 1.8, {}}, bound;
+        for (const Record *record : records)
+        {
+          if (record->key.label() != method.name)
+            continue;
+          const double x = coordinate(axis, record->key), value = view.y(*record),
+                       limit = view.bound ? view.bound(*record) : 0;
+          plot.x_ticks.push_back(x);
+          if (is_drawn(value))
+            line.points.push_back({x, value});
+          if (is_drawn(limit))
+            bound.points.push_back({x, limit});
+          for (const double y : {value, limit})
+            if (is_drawn(y))
+              range = {std::min(range.low, y), std::max(range.high, y)};
+          const auto cell = [](double v) { return v == 0 ? empty_cell() : number_cell(v); };
+          auto &row = chart.data.rows.emplace_back();
+          row = {text_cell(method.name), text_cell(series), number_cell(record->key.h),
+                 number_cell(record->key.horizon), cell(value)};
+          if (!results.variable.empty())
+            row.push_back(number_cell(record->key.value));
+          if (view.bound)
+            row.push_back(cell(limit));
+        }
+        if (!bound.points.empty())
+        {
+          bound.style = {"#999999", line.style.symbol, true};
+          bound.width = 1;
+          bound.label = has_bound ? "" : view.bound_label;
+          has_bound = true;
+          plot.lines.push_back(bound);
+        }
+        plot.lines.push_back(line);
+      }
+      plot.is_x_log = is_logarithmic(axis, plot.x_ticks);
+      if (!plot.is_x_log)
+        plot.x_ticks.clear();
+      plot.is_y_log = range.high > wide * range.low;
+      return chart;
+    }
+  } // namespace
+
+  std::vector<DataChart> charts_of(const ChartView &view, const StudyResults &results,
+                                   const IsShown &is_shown)
+  {
+    std::vector<DataChart> charts;
+    const auto methods = methods_of(results, is_shown);
+    for (const std::string &series : series_of(results))
+    {
+      std::vector<const Record *> records;
+      for (const Record &record : results.records)
+        if (record.key.series == series && is_shown(record))
+          records.push_back(&record);
+      const auto differs = [&](const Record *record)
+      {
+        const study::Axis axis = axis_of(results, records);
+        return coordinate(axis, record->key) != coordinate(axis, records.front()->key);
+      };
+      if (std::any_of(records.begin(), records.end(), differs) &&
+          std::any_of(records.begin(), records.end(),
+                      [&](const Record *record) { return is_drawn(view.y(*record)); }))
+        charts.push_back(chart_of(view, results, records, methods));
+    }
+    return charts;
+  }
+
+  View default_view(const StudyResults &results)
+  {
+    const auto is_shown = [](const Record &record) { return record.failure.empty(); };
+    std::vector<RecordColumn> columns;
+    std::vector<std::string> names;
+    for (const Record &record : results.records)
+      for (const auto &[name, scalar] : record.scalars)
+        if (std::find(names.begin(), names.end(), name) == names.end())
+          names.push_back(name);
+    View view{results.analysis};
+    Gallery charts{"charts", "Over the sweep", "", {}};
+    for (const std::string &name : names)
+    {
+      columns.push_back(number_column(name, name));
+      for (DataChart &chart : charts_of(
+               {slug(name), name, name, [name](const Record &record) { return record[name]; }},
+               results, is_shown))
+        charts.charts.push_back(std::move(chart));
+    }
+    view.parts = {{"values", "Values", "", table_of(results, with_place(results, columns), is_shown)},
+                  failures(results, "Levels without a result", "because")};
+    view.galleries = {std::move(charts)};
+    return view;
+  }
+
+  namespace
+  {
+    constexpr std::array classes = {"converges", "undecided", "stalls"}; // of ratings, on pages
+    constexpr std::array signs = {"✓", "?", "✗"};
+
+    Data expectations(const StudyResults &results)
+    {
+      Data met = Data::array(), missed = Data::array();
+      for (const study::Expectation &one : results.expectations)
+        (one.holds ? met : missed)
+            .push_back({{"subject", one.subject},
+                        {"expected", one.expected},
+                        {"found", one.found},
+                        {"holds", one.holds}});
+      if (met.empty() && missed.empty())
+        return {};
+      const auto list = [](const Data &rows) { return rows.empty() ? Data() : Data{{"rows", rows}}; };
+      return {{"n", met.size() + missed.size()},
+              {"n_hold", met.size()},
+              {"met", list(met)},
+              {"missed", list(missed)}};
+    }
+
+    Data page_verdicts(const View &view)
+    {
+      if (view.verdicts.rows.empty())
+        return {};
+      Data table = page::table(view.verdicts);
+      for (std::size_t i = 0; i < view.verdicts.rows.size(); ++i)
+        for (std::size_t j = 0; j < view.verdicts.columns.size(); ++j)
+        {
+          const std::string &head = view.verdicts.columns[j].head;
+          table["rows"][i]["cells"][j]["look"] =
+              head == view.verdicts.columns[0].head ? "method"
+              : head == "verdict" && i < view.ratings.size() ? view.ratings[i] : "";
+        }
+      table["question"] = view.question;
+      table["words"] = view.words;
+      return table;
+    }
+
+    std::string page_of(const View &view, const StudyResults &results,
+                        const std::filesystem::path &folder)
+    {
+      std::vector<std::string> facts = view.facts;
+      for (std::size_t i = 0; i < signs.size() && !results.verdicts.empty(); ++i)
+        facts.push_back(signs[i] + (" " + std::to_string(std::count_if(
+                                              results.verdicts.begin(), results.verdicts.end(),
+                                              [&](const study::Verdict &v)
+                                              { return static_cast<std::size_t>(v.rating) == i; }))) +
+                        " " + base::word(static_cast<study::Rating>(i)));
+      if (!results.is_complete)
+        facts.emplace_back(page::interrupted);
+      Data data = page::begin(results.analysis, results.scene_name, results.purpose, facts);
+      data["verdicts"] = page_verdicts(view);
+      data["expectations"] = expectations(results);
+      data["warnings"] = results.warnings;
+      data["left_out"] = results.left_out;
+      data["parts"] = page::parts(page::with_rows(view.parts));
+      data["galleries"] = Data::array();
+      for (const Gallery &gallery : view.galleries)
+      {
+        Data charts = page::charts(gallery.charts, folder, results.analysis),
+             pictures = Data::array();
+        for (const Picture &picture : gallery.pictures)
+          pictures.push_back(page::figure(
+              {folder / results.analysis / (picture.name + ".svg"), picture.name + "-",
+               picture.title, "", "Picture", results.analysis + "/" + picture.name + ".svg", true}));
+        if (charts.empty() && pictures.empty())
+          continue;
+        data["galleries"].push_back({{"id", gallery.id},
+                                     {"title", gallery.title},
+                                     {"words", gallery.words},
+                                     {"note", gallery.note},
+                                     {"grid", charts.empty() ? Data() : Data{{"charts", charts}}},
+                                     {"pictures", std::move(pictures)}});
+      }
+      return fill("study", data);
+    }
+
+    std::string markdown(const View &view, const StudyResults &results)
+    {
+      std::string text = "# " + view.title + ": " + results.scene_name + "\n\n";
+      if (!view.verdicts.rows.empty())
+        text += to_markdown(view.verdicts);
+      if (!view.question.empty())
+        text += "\n" + view.question + "\n";
+      for (const Part &part : page::with_rows(view.parts))
+        text += "\n## " + part.head + "\n\n" + to_markdown(part.table) +
+                (part.words.empty() ? "" : "\n" + part.words + "\n");
+      return text;
+    }
+
+    void draw(const View &view, const std::filesystem::path &folder)
+    {
+      std::vector<DataChart> charts;
+      std::vector<std::string> pictures;
+      std::string script;
+      for (const Gallery &gallery : view.galleries)
+      {
+        charts.insert(charts.end(), gallery.charts.begin(), gallery.charts.end());
+        for (const Picture &picture : gallery.pictures)
+        {
+          script += picture.script;
+          pictures.push_back(picture.name + ".svg");
+        }
+      }
+      write_charts(charts, folder);
+      if (pictures.empty())
+        return;
+      write_file(folder / "pictures.gp", script);
+      run_gnuplot(folder, "pictures.gp", pictures);
+    }
+  } // namespace
+
+  std::string study_text(const View &view, const StudyResults &results)
+  {
+    constexpr std::size_t width = 120;
+    std::string text = results.scene_name + "\n";
+    for (const Part &part : page::with_rows(view.parts))
+      text += "\n" + to_text(part.table) +
+              (part.words.empty() ? "" : wrapped(part.words, width) + "\n");
+    for (const std::string &warning : results.warnings)
+      text += "\nwarning: " + warning + "\n";
+    for (const std::string &what : results.left_out)
+      text += "\nleft out by the budget: " + what + "\n";
+    return view.verdicts.rows.empty() ? text : text + "\n" + to_text(view.verdicts);
+  }
+
+  void write_study(const View &view, const StudyResults &results,
+                   const std::filesystem::path &folder)
+  {
+    write_file(folder / (results.analysis + ".json"), io::to_json(results));
+    write_file(folder / (results.analysis + ".md"), markdown(view, results));
+    write_with_pictures(
+        folder / (results.analysis + ".html"), [&] { draw(view, folder / results.analysis); },
+        [&] { return page_of(view, results, folder); });
+  }
+} // namespace plumbline::report

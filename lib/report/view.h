@@ -1,0 +1,111 @@
+#pragma once
+
+#include "report/data_charts.h"
+#include "report/page_parts.h"
+#include "study/study_results.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+// What is shown of a study: tables, charts and pages are data over its records. One renderer each
+// makes text, Markdown, CSV, HTML and pictures of them.
+namespace plumbline::report
+{
+  using analysis::Record;
+  using study::StudyResults;
+
+  /// A column of a table that has a row for each record.
+  struct RecordColumn
+  {
+    std::string head;
+    std::function<Cell(const Record &)> cell;
+  };
+
+  /// Columns by the name of a scalar or a text; the cell is empty where it is absent.
+  RecordColumn number_column(const std::string &head, const std::string &scalar);
+  RecordColumn error_column(const std::string &head, const std::string &scalar);
+  RecordColumn count_column(const std::string &head, const std::string &scalar);
+  RecordColumn text_column(const std::string &head, const std::string &text);
+
+  /// Method, m, h, and the value of the study's variable, where one varies; then others.
+  std::vector<RecordColumn> with_place(const StudyResults &results,
+                                       std::vector<RecordColumn> others);
+
+  using IsShown = std::function<bool(const Record &)>;
+
+  /// The records that failed, and why.
+  /// @param is_shown  empty: all
+  Part failures(const StudyResults &results, const std::string &title, const std::string &head,
+                const IsShown &is_shown = {});
+
+  /// A row for each record that is shown; columns that are empty throughout are left out.
+  Table table_of(const StudyResults &results, const std::vector<RecordColumn> &columns,
+                 const IsShown &is_shown);
+
+  Table verdict_table(const StudyResults &results);
+  Table power_table(const StudyResults &results);
+
+  /// A scalar of all methods over the levels of each series, drawn where it is positive.
+  struct ChartView
+  {
+    std::string name, title, y_label;
+    std::function<double(const Record &)> y;
+    std::function<double(const Record &)> bound = {}; ///< drawn in grey; empty: none
+    std::string bound_label = {};
+    bool has_slopes = false;
+  };
+
+  /// One for each series that has at least two levels and something to draw.
+  std::vector<DataChart> charts_of(const ChartView &view, const StudyResults &results,
+                                   const IsShown &is_shown);
+
+  /// A picture that is no chart: commands of gnuplot that write NAME.svg.
+  struct Picture
+  {
+    std::string name, title, script;
+  };
+
+  /// Charts or pictures under a heading.
+  struct Gallery
+  {
+    std::string id, title, words;
+    std::vector<DataChart> charts;
+    std::vector<Picture> pictures = {};
+    std::string note = {}; ///< below them
+  };
+
+  /// How the results of an analysis are shown.
+  struct View
+  {
+    std::string title;         ///< of the page, e.g. "Stability"
+    std::string question = {}; ///< what the verdicts answer
+    std::string words = {};    ///< what the verdicts mean
+    Table verdicts = {};
+    std::vector<std::string> ratings = {}; ///< of the rows of `verdicts`, as classes of the page
+    std::vector<std::string> facts = {};   ///< below the page's title
+    std::vector<Part> parts = {};
+    std::vector<Gallery> galleries = {};
+  };
+
+  /// Without anything special: a table and charts of all scalars.
+  View default_view(const StudyResults &results);
+
+  View stability_view(const StudyResults &results);
+  View dispersion_view(const StudyResults &results);
+
+  /// The labels of methods in the order of the records.
+  std::vector<MethodName> methods_of(const StudyResults &results, const IsShown &is_shown);
+
+  /// Those of a series, in the order of the records.
+  std::vector<std::string> series_of(const StudyResults &results);
+
+  /// What the terminal shows: tables, then the verdicts.
+  std::string study_text(const View &view, const StudyResults &results);
+
+  /// Write ANALYSIS.json, .md and .html, and ANALYSIS/ with charts, their data and pictures.
+  /// @throws InputError  the folder cannot be written
+  /// @throws NumericalError  pictures cannot be drawn; all else is written before that
+  void write_study(const View &view, const StudyResults &results,
+                   const std::filesystem::path &folder);
+} // namespace plumbline::report

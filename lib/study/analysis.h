@@ -1,0 +1,95 @@
+#pragma once
+
+#include "method/method.h"
+#include "scene/capabilities.h"
+#include "scene/problem.h"
+#include "study/study_results.h"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace plumbline::study
+{
+  using method::Method;
+  using method::Methods;
+
+  /// A level of a study, where an analysis is made by one method after the other.
+  class Place
+  {
+  public:
+    /// @param scene  of the study; outlives it
+    Place(const scene::Scene &scene, const problem::Series &series, unsigned int level,
+          bool is_finest);
+
+    const scene::Scene &scene() const { return scene_; } ///< with the values of this level
+    const problem::Series &series() const { return series_; }
+    const problem::Level &level() const { return series_.levels[level_]; }
+    bool is_finest() const { return is_finest_; } ///< of the levels that are run
+
+    /// The problem of a case, made when it is first asked for.
+    /// @param index  into ProblemSection::case_names()
+    const problem::Problem<2> &problem(unsigned int index = 0) const;
+
+    /// What the methods at this place share, made when it is first asked for.
+    template <class T, class Make>
+    const T &shared(const std::string &name, const Make &make) const
+    {
+      auto &slot = shared_[name];
+      if (!slot)
+        slot = std::make_shared<const T>(make());
+      return *static_cast<const T *>(slot.get());
+    }
+
+    /// Without a case and without values.
+    Record record(const std::string &analysis, const Method &method) const;
+
+  private:
+    scene::Scene scene_;
+    const problem::Series &series_;
+    unsigned int level_;
+    bool is_finest_;
+    mutable std::map<std::string, std::shared_ptr<const void>> shared_;
+  };
+
+  /// An analysis: all that the one loop (run_study) and the one command need to know of it.
+  struct Analysis
+  {
+    std::string name;  ///< of files and records, e.g. "stability"
+    std::string title; ///< of pages
+    /// What the scene is changed to before it is analysed; empty: nothing.
+    std::function<void(scene::Scene &)> prepare = {};
+    /// The methods of a scene, checked, and with memory for all levels.
+    /// @param n_jobs  processes that do the same side by side
+    std::function<Methods(const scene::Scene &, const Methods &available, unsigned int n_levels,
+                          unsigned int n_jobs)>
+        choose_methods;
+    /// What one method finds at one level: a record, or several that differ in case or variant.
+    /// NumericalError becomes the failure of a record.
+    std::function<Records(const Place &, const Method &)> analyse;
+    /// Trends, powers, verdicts and expectations of its own; empty: none.
+    std::function<void(const scene::Scene &, StudyResults &)> conclude = {};
+    /// The names of scalars that samples count, or how those names end; empty: all scalars.
+    std::vector<std::string> sampled = {};
+    /// Further words that records depend on, besides the scene.
+    std::string options = {};
+
+    bool is_sampled(const std::string &scalar) const;
+  };
+
+  struct RunControl
+  {
+    unsigned int n_levels = 0; ///< the first so many of each series; 0: all
+    double budget = 0; ///< leave out what is expected to take longer [CPU s]; 0: nothing
+    std::function<void(const std::string &what, double fraction)> on_progress = {};
+    std::function<bool()> should_stop = {}; ///< asked before each method at each level
+    std::function<void(const Records &)> on_records = {}; ///< that were made just now
+    Records earlier = {};                                 ///< that need not be made again
+  };
+
+  /// All methods at all levels of a scene's series: the one loop for every analysis.
+  /// @throws InputError  as the analysis; what else goes wrong is in a record's failure
+  StudyResults run_study(const Analysis &analysis, scene::Scene scene, const Methods &methods,
+                         const RunControl &control = {});
+} // namespace plumbline::study

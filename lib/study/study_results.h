@@ -1,0 +1,66 @@
+#pragma once
+
+#include "analysis/record.h"
+#include "study/results.h"
+
+#include <string>
+#include <vector>
+
+namespace plumbline::study
+{
+  using analysis::Key;
+  using analysis::Record;
+  using analysis::Records;
+
+  enum class Rating
+  {
+    good,
+    doubtful, ///< good under a condition, or undecided
+    bad
+  };
+
+  /// What the records of one method say together.
+  struct Verdict
+  {
+    std::string method, series; ///< series empty: of all of them
+    std::string verdict;        ///< e.g. "conditionally stable"
+    Rating rating = Rating::bad;
+    std::string condition;   ///< e.g. "m >= 2.24"; empty: none
+    std::string explanation; ///< one sentence with the numbers
+  };
+
+  /// The power of h, or of the horizon where h is fixed, that a scalar follows.
+  struct Power
+  {
+    std::string method, series;
+    Axis axis = Axis::mesh_size;
+    std::map<std::string, double> of; ///< by the scalar's name
+  };
+
+  /// What a study of one analysis finds.
+  struct StudyResults
+  {
+    std::string analysis; ///< e.g. "stability"
+    std::string scene_name, purpose;
+    std::string scene_text;                   ///< the scene as read, all keys
+    std::string variable;                     ///< that varies in its regime, else empty
+    std::map<std::string, std::string> facts; ///< of the study as a whole, by name
+    Records records;                          ///< method by method, coarse to fine in each series
+    std::vector<Trend> trends;
+    std::vector<Power> powers;
+    std::vector<Verdict> verdicts;
+    std::vector<Expectation> expectations;
+    std::vector<std::string> left_out; ///< what the budget did not allow
+    std::vector<std::string> warnings;
+    bool is_complete = true; ///< else it was interrupted
+  };
+
+  /// The records of an analysis' finest level of each method and series, without failures.
+  std::vector<const Record *> finest_records(const StudyResults &results);
+} // namespace plumbline::study
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<study::Rating> = std::array{"good", "doubtful", "bad"};
+} // namespace plumbline::base
