@@ -1,7 +1,7 @@
 # Walk the includes: base <- {physics, geometry} <- {algebra, uq} <- problem <- {method, scene} <- analysis <- study <- io <- report;
 # reference and meshfree include lib and never each other, and their folders some of their own alone; Trilinos is
 # named in algebra and reference alone; CGAL in sources alone. Members of structs have values from the
-# start. Files can be read in one sitting, and choices by words are enums and tables, not comparisons with literal strings.
+# start. Choices by words are enums and tables, not comparisons with literal strings. tests/functions.py limits the length of functions.
 cmake_minimum_required(VERSION 3.22)
 set(may_include_base base)
 set(may_include_physics base physics)
@@ -76,11 +76,6 @@ if(n_includes LESS 50)
   message(SEND_ERROR "only ${n_includes} includes seen: the walk does not find the sources")
 endif()
 
-# most lines of a file
-set(most_cc 400)
-set(most_h 200)
-# a class of inner loops with all that is inlined, or a list of keys; each with the most that it may have
-set(long_files lib/geometry/ball_cell_polar.h:220 lib/physics/potential_jet.h:220 lib/report/json_keys.h:225)
 set(most_literals 10)
 
 set(n_files 0)
@@ -90,18 +85,6 @@ foreach(folder lib reference meshfree app)
   foreach(file ${files})
     math(EXPR n_files "${n_files} + 1")
     file(READ ${ROOT}/${file} text)
-    string(REGEX MATCH "[a-z]+$" ending ${file})
-    set(most ${most_${ending}})
-    foreach(one ${long_files})
-      if(one MATCHES "^${file}:([0-9]+)$")
-        set(most ${CMAKE_MATCH_1})
-      endif()
-    endforeach()
-    string(REGEX MATCHALL "\n" lines "${text}")
-    list(LENGTH lines n_lines)
-    if(n_lines GREATER most)
-      message(SEND_ERROR "${file} has ${n_lines} lines, more than ${most}: part it where its parts have names of their own")
-    endif()
     string(REGEX REPLACE "//[^\n]*" "" text "${text}") # comments may quote
     string(REGEX MATCHALL "[=!]= *\"|\" *[=!]=" found "${text}")
     foreach(one ${found})
