@@ -1,6 +1,7 @@
 #include "analyse.h"
 
 #include "base/communicator.h"
+#include "base/error.h"
 #include "io/point_vtu.h"
 #include "io/record_journal.h"
 #include "io/results_json.h"
@@ -31,8 +32,9 @@ namespace plumbline::app
       for (const study::Record &record : records)
       {
         const auto &all = scene.study.series;
-        const auto series = std::find_if(all.begin(), all.end(), [&](const problem::Series &one)
-                                         { return one.name == record.key.series; });
+        const auto series =
+            std::find_if(all.begin(), all.end(),
+                         [&](const problem::Series &one) { return one.name == record.key.series; });
         const std::size_t n = series->levels.size(),
                           last = n_levels == 0 ? n : std::min<std::size_t>(n_levels, n);
         unsigned int k = 0;
@@ -50,6 +52,11 @@ namespace plumbline::app
     return {study::stability_analysis(), report::stability_view};
   }
 
+  AnalysisRow strip_row()
+  {
+    return {study::strip_analysis(), report::strip_view};
+  }
+
   AnalysisRow dispersion_row(const std::vector<double> &angles)
   {
     return {study::dispersion_analysis(angles), report::dispersion_view};
@@ -57,6 +64,10 @@ namespace plumbline::app
 
   int analyse(const AnalysisRow &row, const AnalyseOptions &options)
   {
+    if (!(options.budget >= 0))
+      throw InputError(
+          "--budget is negative; give CPU seconds of one method at one level, or leave "
+          "it out");
     const study::Analysis &analysis = row.analysis;
     const scene::Scene scene = read_alone(options);
     const method::Methods methods =

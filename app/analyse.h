@@ -4,6 +4,7 @@
 #include "report/view.h"
 #include "study/dispersion.h"
 #include "study/stability.h"
+#include "study/stationary_crack.h"
 
 namespace plumbline::app
 {
@@ -21,6 +22,7 @@ namespace plumbline::app
   };
 
   AnalysisRow stability_row();
+  AnalysisRow strip_row();
   AnalysisRow dispersion_row(const std::vector<double> &angles);
 
   /// Run an analysis over the study of a scene; print tables and verdicts; write ANALYSIS.html, .md

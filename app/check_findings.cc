@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "geometry/local_coordinates.h"
-#include "meshfree/check/bond_ramp.h"
 #include "meshfree/discretisations.h"
 #include "reference/method.h"
 #include "scene/mesh.h"
@@ -43,14 +42,16 @@ namespace plumbline::app
     }
 
     /// That of the scene, or Q1 or P1.
-    std::shared_ptr<const method::Method> reference_method(const scene::Case &one)
+    std::shared_ptr<const method::Method> reference_method(const scene::Scene &scene,
+                                                           const problem::Problem<2> &problem)
     {
-      const auto &wanted = one.scene.reference.method;
-      const std::string name = wanted ? *wanted : one.problem.mesh->is_triangles() ? "P1" : "Q1";
+      const auto &wanted = scene.reference.method;
+      const std::string name = wanted ? *wanted : problem.mesh()->is_triangles() ? "P1" : "Q1";
       for (const auto &method : reference::methods())
         if (method->name() == name)
         {
-          if (const std::string reason = study::refusal(*method, one, reference::methods());
+          if (const std::string reason =
+                  study::refusal(*method, scene, problem, reference::methods());
               !reason.empty())
             throw InputError("Reference/method: '" + name + "' cannot do this scene: " + reason);
           return method;
@@ -80,10 +81,10 @@ namespace plumbline::app
     }
 
     /// A user's own families in place of a rule's.
-    class GivenWeights : public method::Method
+    class WeightsOfAFile : public method::Method
     {
     public:
-      explicit GivenWeights(const FamilySource &families) : families_(families) {}
+      explicit WeightsOfAFile(const FamilySource &families) : families_(families) {}
       std::string name() const override { return "given"; }
       method::MethodFamily family() const override { return method::MethodFamily::meshfree; }
       std::string help() const override { return "weights of a file"; }
@@ -101,18 +102,18 @@ namespace plumbline::app
     };
 
     /// @param place  the case and the level, for messages
-    CaseCheck check_case(const scene::Case &one, const std::string &place,
-                         const FamilySource &families)
+    CaseCheck check_case(const scene::Scene &scene, const scene::Case &one,
+                         const std::string &place, const FamilySource &families)
     {
       const problem::Problem<2> &problem = one.problem;
-      const auto &norms = one.scene.study.norms;
-      const auto method = reference_method(one);
+      const auto &norms = scene.study.norms;
+      const auto method = reference_method(scene, problem);
       const analysis::Solution reference = reference_solution(problem, *method, place);
       CaseCheck result{
-          one.name(), method->name(), {}, {}, study::errors(norms, problem, reference, {})};
+          one.name, method->name(), {}, {}, study::errors(norms, problem, reference, {})};
       try
       {
-        const analysis::Solution solution = analysis::solve(GivenWeights(families), problem);
+        const analysis::Solution solution = analysis::solve(WeightsOfAFile(families), problem);
         result.errors = study::errors(norms, problem, solution, {reference.averages, {}});
       }
       catch (const NumericalError &error)
@@ -120,117 +121,6 @@ namespace plumbline::app
         result.failure = error.what();
       }
       return result;
-    }
-
-    /// The families with the volumes of their neighbours.
-    std::vector<Family> with_volumes(std::vector<Family> families,
-                                     const std::vector<double> &volumes)
-    {
-      for (Family &family : families)
-        for (std::size_t k = 0; k < family.bonds.size(); ++k)
-          family.bonds[k].area = volumes[family.neighbours[k]];
-      return families;
-    }
-
-    /// Volumes and weights that belong together, and the rule of ours that the weights are.
-    struct Recognition
-    {
-      std::vector<double> volumes; ///< that the weights were made with, as far as it is known
-      std::vector<Family> families;
-      std::optional<Recognised> rule;
-    };
-
-    /// Volumes that are wrong are mended first: were they left as they are, the weights to those
-    /// nodes would seem wrong as well, though they may be right. If no rule of ours is recognised
-    /// then, the weights may be made with the wrong volumes.
-    Recognition recognise_weights(const Findings &found, const problem::Problem<2> &problem)
-    {
-      Recognition result;
-      std::vector<double> as_given = found.volumes;
-      for (double &volume : as_given)
-        volume /= found.volume_factor;
-      using Volumes = const std::vector<double> *;
-      for (const Volumes volumes : {&found.mended_volumes, static_cast<Volumes>(&as_given)})
-      {
-        std::vector<Family> families = with_volumes(found.given.families, *volumes);
-        auto rule =
-            recognise({families, problem.kernel, *problem.cells, *volumes, found.precision});
-        if (!rule && !result.volumes.empty())
-          break;
-        result = {*volumes, std::move(families), std::move(rule)};
-        if (result.rule || found.outliers.empty())
-          break;
-      }
-      return result;
-    }
-
-    /// Adds outliers among bonds and nodes, except those that volumes explain: weights
-    /// that were made with a volume that is wrong are all off by its factor.
-    void add_outliers(Findings &found, const std::vector<Outlier> &outliers)
-    {
-      const std::vector<Outlier> volumes = found.outliers;
-      for (const Outlier &one : outliers)
-        if (std::none_of(volumes.begin(), volumes.end(),
-                         [&](const Outlier &volume)
-                         {
-                           return (one.defect == Defect::neighbour && one.node == volume.node) ||
-                                  (one.defect == Defect::weight && one.neighbour == volume.node);
-                         }))
-          found.outliers.push_back(one);
-    }
-
-    /// Weights as they stand, for what names their defects.
-    void find_defects(Findings &found, const scene::Case &one)
-    {
-      const problem::Problem<2> &problem = one.problem;
-      const Recognition recognition = recognise_weights(found, problem);
-      const GivenBonds given{recognition.families, problem.kernel,  *problem.cells,
-                             recognition.volumes,  found.precision, found.nodes.origin};
-      const Explanation explanation =
-          explain(given, recognition.rule,
-                  {one.scene.methods.names, found.volume_factor, found.given.of_collar});
-      found.causes = explanation.causes;
-      found.is_mended = std::any_of(found.causes.begin(), found.causes.end(),
-                                    [](const Cause &cause) { return cause.is_structural; });
-      if (const auto &rule = found.is_mended ? explanation.rule : recognition.rule)
-      {
-        found.rule = rule->rule;
-        found.rule_factor = rule->factor;
-        if (rule->is_full_area() && found.causes.empty() &&
-            found.moments.typical() > found.precision.moments)
-          found.rule_remark = ramp_text(ramp_effects(given, given.families));
-      }
-      if (found.is_mended)
-        return; // single bonds cannot be judged yet
-      double point_scale = 1;
-      for (const Cause &cause : found.causes)
-        point_scale *= cause.point_scale;
-      add_outliers(found, find_outliers(given, recognition.rule, point_scale));
-    }
-
-    /// Volumes against the areas of cells, which come before all that is relative to volumes.
-    void find_volumes(Findings &found, const problem::Problem<2> &problem,
-                      const std::vector<double> &uncut_areas)
-    {
-      found.precision = Precision::of_files(found.nodes.rounding, found.given.weight_rounding,
-                                            found.nodes.volume_rounding, found.level.node_size,
-                                            problem.horizon());
-      const VolumeCheck volumes = check_volumes(
-          {found.given.families, problem.kernel, *problem.cells, found.volumes, found.precision},
-          uncut_areas);
-      found.volume_factor = volumes.factor;
-      found.outliers = volumes.outliers;
-      found.mended_volumes = volumes.mended;
-      found.given.families = with_volumes(std::move(found.given.families), found.mended_volumes);
-      for (CollarBond &one : found.given.of_collar)
-        one.bond.area = found.mended_volumes[one.neighbour];
-      double volume = 0, area = 0;
-      for (std::size_t i = 0; i < found.cells->n_free; ++i)
-      {
-        volume += found.volumes[i];
-        area += found.cells->area[i];
-      }
-      found.volume_defect = volume / area - 1;
     }
 
     /// How the files were read.
@@ -251,56 +141,44 @@ namespace plumbline::app
     Findings found;
     found.scene_name = scene.name;
     found.purpose = scene.purpose;
-    found.nodes = read_given_nodes(options.nodes_file);
-    found.nodes.origin = scene.domain.origin;
-    geometry::move_to(found.nodes.origin, found.nodes.places);
+    GivenWeights weights;
+    weights.nodes = read_given_nodes(options.nodes_file);
+    weights.nodes.origin = scene.domain.origin;
+    geometry::move_to(weights.nodes.origin, weights.nodes.places);
     const bool boundary_is_data = scene.methods.nodes.are_vertices();
     if (scene.domain.mesh.is_lattice())
       scene.domain.mesh.name = "squares";
     scene.methods.nodes = {std::filesystem::absolute(options.nodes_file).string()};
     scene.study.norms = {scene::Norm::nodal_linf, scene::Norm::averages_l2};
-    found.level = choose_level(scene, found.nodes);
+    found.level = choose_level(scene, weights.nodes);
     const geometry::Mesh mesh = scene::make_mesh(scene, found.level.level);
-    check_places(found.nodes, mesh, found.level.text());
-    GivenCells cells = given_cells(found.nodes, mesh, boundary_is_data);
-    found.cells = std::make_shared<const geometry::NodeCells>(std::move(cells.cells));
+    check_places(weights.nodes, mesh, found.level.text());
+    GivenCells cells = given_cells(weights.nodes, mesh, boundary_is_data);
+    weights.cells = std::make_shared<const geometry::NodeCells>(std::move(cells.cells));
     found.n_on_boundary = boundary_is_data ? 0 : cells.n_on_boundary;
-    const auto case_of = [&](unsigned int c)
+    const auto case_of = [&, of_nodes = weights.cells](unsigned int c)
     {
       scene::Case one = scene::make_case(scene, c, found.level.level);
-      one.problem.cells = found.cells;
+      one.problem.on_mesh()->cells = of_nodes;
       return one;
     };
     const scene::Case first = case_of(0);
-    const problem::Problem<2> &problem = first.problem;
-
-    found.given = read_given_families(options.bonds_file, found.nodes, *found.cells);
-    for (const std::size_t i : found.cells->source)
+    weights.given = read_given_families(options.bonds_file, weights.nodes, *weights.cells);
+    for (const std::size_t i : weights.cells->source)
     {
-      found.ids.push_back(found.nodes.id[i]);
-      found.volumes.push_back(found.nodes.volume[i]);
+      found.ids.push_back(weights.nodes.id[i]);
+      weights.volumes.push_back(weights.nodes.volume[i]);
     }
+    static_cast<meshfree::Findings &>(found) =
+        find_defects(std::move(weights), first.problem, cells.uncut_areas, found.level.node_size,
+                     scene.methods.names);
     found.notes = all_notes(found, options);
-    find_volumes(found, problem, cells.uncut_areas);
-
-    const std::vector<Family> &families = found.given.families;
-    found.moments = check_moments(families, problem.kernel);
-    found.weights = check_weights(families, problem.kernel, found.mended_volumes);
-    found.symmetry = check_symmetry(families, problem.kernel, found.mended_volumes);
-    find_defects(found, first);
-    const FamilySource source = [&](std::size_t i, Family &family) { family = families[i]; };
-    try
-    {
-      found.matrix = algebra::check_matrix(
-          scattered_operator(source, problem, {0, found.cells->n_free}).rows.free);
-    }
-    catch (const NumericalError &error)
-    {
-      found.matrix_failure = error.what(); // weights may be wrong enough for rows to be empty
-    }
+    const FamilySource source = [&](std::size_t i, Family &family)
+    { family = found.given.families[i]; };
     const auto names = scene.problem.case_names();
     for (unsigned int c = 0; c < names.size(); ++c)
-      found.cases.push_back(check_case(case_of(c), names[c] + ", " + found.level.text(), source));
+      found.cases.push_back(
+          check_case(scene, case_of(c), names[c] + ", " + found.level.text(), source));
     return found;
   }
 } // namespace plumbline::app

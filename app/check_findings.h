@@ -1,12 +1,7 @@
 #pragma once
 
-#include "algebra/spectrum.h"
 #include "check.h"
-#include "meshfree/check/bond_check.h"
-#include "meshfree/check/bond_file.h"
-#include "meshfree/check/bond_hypotheses.h"
-#include "meshfree/check/bond_outliers.h"
-#include "meshfree/check/volume_check.h"
+#include "meshfree/check/findings.h"
 #include "scene/scene.h"
 
 #include <map>
@@ -33,33 +28,14 @@ namespace plumbline::app
     std::map<std::string, double> reference_errors;
   };
 
-  /// All that is found of the weights of another code.
-  struct Findings
+  /// All that is found of the weights of another code on a scene.
+  struct Findings : meshfree::Findings
   {
     std::string scene_name, purpose;
-    meshfree::GivenNodes nodes;
-    std::shared_ptr<const geometry::NodeCells> cells;
-    meshfree::GivenFamilies given;
-    std::vector<std::int64_t> ids;      ///< of the nodes, numbered as the cells
-    std::vector<double> volumes;        ///< of the nodes as given, numbered as the cells
-    std::vector<double> mended_volumes; ///< as the cells' areas tell, numbered as the cells
-    double volume_factor = 1;           ///< of the volumes, see meshfree::VolumeCheck
-    meshfree::Precision precision;      ///< of the files
-    std::vector<std::string> notes;     ///< how files were read that are not plain CSV
-    std::size_t n_on_boundary;          ///< free nodes on the boundary of Ω
+    std::vector<std::int64_t> ids;  ///< of the nodes, numbered as the cells
+    std::vector<std::string> notes; ///< how files were read that are not plain CSV
+    std::size_t n_on_boundary = 0;  ///< free nodes on the boundary of Ω
     ChosenLevel level;
-    double volume_defect; ///< of the free nodes' volumes against their cells' area, relative
-    meshfree::MomentCheck moments;
-    meshfree::WeightCheck weights;
-    meshfree::SymmetryCheck symmetry;
-    algebra::MatrixCheck matrix;
-    std::string matrix_failure; ///< empty: there is a matrix that can be factorised
-    std::string rule; ///< of ours that the weights are, once their list is mended; empty: none
-    bool is_mended = false; ///< the rule is that of the weights with structural causes undone
-    double rule_factor = 1;
-    std::string rule_remark; ///< what else there is to say of the rule
-    std::vector<meshfree::Cause> causes;
-    std::vector<meshfree::Outlier> outliers; ///< volumes first
     std::vector<CaseCheck> cases;
 
     std::string id(std::size_t node) const { return std::to_string(ids[node]); }

@@ -1,9 +1,9 @@
 #include "command.h"
 
+#include "analyse.h"
 #include "arguments.h"
 #include "base/communicator.h"
 #include "base/error.h"
-#include "analyse.h"
 #include "check.h"
 #include "crack.h"
 #include "grow.h"
@@ -11,7 +11,6 @@
 #include "requirements.h"
 #include "run.h"
 #include "sample.h"
-#include "strip.h"
 #include "unexpected.h"
 
 #include <deal.II/base/exceptions.h>
@@ -158,27 +157,38 @@ namespace
 
   constexpr auto angles_option = "--angles";
 
-  void add_dispersion(CLI::App &app, Request &request)
+  /// An analysis that returns records.
+  /// @param expected  what --check checks
+  CLI::App &add_analysis(CLI::App &app, Request &request, const std::string &name,
+                         const std::string &help, const std::string &expected,
+                         const std::function<AnalysisRow()> &row)
   {
     const auto options = std::make_shared<AnalyseOptions>();
-    auto &command =
-        add_measuring(app, "dispersion",
-                      "Dispersion analysis: wave speeds and critical time steps of each method",
-                      *options, request);
+    auto &command = add_measuring(app, name, help, *options, request);
+    command.add_flag("--check", options->check, "Exit with 1 if " + expected);
+    command.add_option("--budget", options->budget,
+                       "Leave out what is expected to take more CPU seconds, of one method at one "
+                       "level");
+    set_action(command, request, options,
+               [row](const AnalyseOptions &given) { return analyse(row(), given); });
+    return command;
+  }
+
+  void add_dispersion(CLI::App &app, Request &request)
+  {
     const auto angles = std::make_shared<std::vector<std::string>>();
-    command
+    add_analysis(app, request, "dispersion",
+                 "Dispersion analysis: wave speeds and critical time steps of each method",
+                 "Expected/values fails",
+                 [angles]
+                 {
+                   return dispersion_row(angles->empty() ? plumbline::study::usual_angles
+                                                         : to_numbers(angles_option, *angles));
+                 })
         .add_option(angles_option, *angles,
                     "Directions in degrees, separated by commas, semicolons or blanks (default: "
                     "0,22.5,45); may be repeated")
         ->allow_extra_args(false);
-    set_action(command, request, options,
-               [angles](const AnalyseOptions &given)
-               {
-                 return analyse(dispersion_row(angles->empty()
-                                                   ? plumbline::study::usual_angles
-                                                   : to_numbers(angles_option, *angles)),
-                                given);
-               });
   }
 
   /// Those that are told to check what the scene expects, and nothing else.
@@ -259,21 +269,19 @@ namespace
     app.require_subcommand(1);
     add_run(app, request);
     add_check(app, request);
-    add_checked<AnalyseOptions>(
-        app, request, "stability",
-        "Stability analysis: eigenvalues, signs, modes, weights, time steps",
-        "Expected/stability fails",
-        [](const AnalyseOptions &options) { return analyse(stability_row(), options); });
+    add_analysis(app, request, "stability",
+                 "Stability analysis: eigenvalues, signs, modes, weights, time steps",
+                 "Expected/stability fails", stability_row);
     add_dispersion(app, request);
     add_checked<CrackOptions>(app, request, "crack",
-                "Dynamic fracture of a notched strip: tip, energies, contour plots",
-                "Expected/crack fails", crack);
+                              "Dynamic fracture of a notched strip: tip, energies, contour plots",
+                              "Expected/crack fails", crack);
     add_checked<GrowOptions>(app, request, "grow",
-                "Quasi-static fracture, bond by bond: load, energies, contour plots",
-                "Expected/growth fails", grow);
-    add_checked<StripOptions>(app, request, "strip",
-                "Stationary crack: tip energy by meshfree and Galerkin methods",
-                "Expected/strip fails, or a strip is too short", strip);
+                             "Quasi-static fracture, bond by bond: load, energies, contour plots",
+                             "Expected/growth fails", grow);
+    add_analysis(app, request, "strip",
+                 "Stationary crack: tip energy by meshfree and Galerkin methods",
+                 "Expected/strip fails, or a strip is too short", strip_row);
     add_sample(app, request);
     add_words(app, request);
   }

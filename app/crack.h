@@ -1,8 +1,6 @@
 #pragma once
 
 #include "measures.h"
-#include "scene/scene.h"
-#include "study/crack.h"
 
 namespace plumbline::app
 {
@@ -10,19 +8,6 @@ namespace plumbline::app
   {
     bool check = false; ///< Expected/crack
   };
-
-  /// Memory for the crack of a scene with a notched strip, and disk for its files.
-  /// @param n_jobs  processes that each take the memory side by side (--jobs)
-  /// @throws InputError  they are not there
-  void check_crack_size(const scene::Scene &scene, unsigned int n_levels,
-                        const std::filesystem::path &folder, unsigned int n_jobs = 1);
-
-  /// The thresholds of all levels, and the crack's motion at the last one of the first series.
-  /// @param folder  of its checkpoint, and of frames/ if there are some
-  /// @param before_it_moves  called once nothing is refused any more
-  study::CrackResults move_crack(const scene::Scene &scene, unsigned int n_levels,
-                                 const std::filesystem::path &folder,
-                                 const std::function<void()> &before_it_moves = {});
 
   /// Find the threshold of every level of a scene with a notched strip (section Crack), and let the
   /// crack move at the last one of the first series; print tables, write crack.html, .md and .json,

@@ -6,7 +6,6 @@
 #include "base/number_text.h"
 #include "methods.h"
 #include "output_folder.h"
-#include "reference/lattice/torus_motion.h"
 #include "report/dynamics_page.h"
 #include "report/formats.h"
 #include "report/frames.h"
@@ -94,7 +93,7 @@ namespace plumbline::app
       { progress.show(what, f); };
       control.on_result = [&journal](const study::DynamicResults &r) { journal.append(r); };
       control.should_stop = is_interrupted;
-      control.make_torus = reference::move_on_torus;
+      control.available = all_methods();
       control.on_frame = [folder, &times](const study::MotionRun &run, const study::Frame &frame)
       {
         const std::string name = report::slug(run.method + "_" + run.problem + "_" + run.series);

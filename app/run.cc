@@ -114,8 +114,9 @@ namespace plumbline::app
         if (!expectation.holds)
           std::cout << "\nnot as expected: " << expectation.subject << ": expected "
                     << expectation.expected << ", found " << expectation.found << '\n';
-      const auto n_constrained = std::count_if(results.expectations.begin(), results.expectations.end(),
-                                        [](const auto &e) { return e.holds; });
+      const auto n_constrained =
+          std::count_if(results.expectations.begin(), results.expectations.end(),
+                        [](const auto &e) { return e.holds; });
       if (!results.expectations.empty())
         std::cout << "\nexpectations: " << n_constrained << " of " << results.expectations.size()
                   << " hold\n";

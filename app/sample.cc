@@ -4,11 +4,11 @@
 #include "base/cost.h"
 #include "base/error.h"
 #include "base/number_text.h"
-#include "grow.h"
 #include "output_folder.h"
 #include "report/formats.h"
 #include "report/sample_files.h"
 #include "report/sampling_page.h"
+#include "study/growth_analysis.h"
 #include "run_parts.h"
 #include "sample_taker.h"
 #include "workers.h"
@@ -109,7 +109,7 @@ namespace plumbline::app
       if (is_growth(scene))
         arguments.insert(
             arguments.end(),
-            {"--set", "Fracture/solver=" + base::word(expected_size(scene, n_jobs).solver)});
+            {"--set", "Fracture/solver=" + base::word(study::expected_size(scene, n_jobs).solver)});
       if (!options.methods.empty())
         arguments.insert(arguments.end(), {"--methods", options.methods});
       if (options.n_levels > 0)
@@ -123,7 +123,7 @@ namespace plumbline::app
                    unsigned int n_ranks)
     {
       constexpr double worth_saying = 30; // [s]
-      const GrowthSize size = expected_size(scene, n_jobs);
+      const study::GrowthSize size = study::expected_size(scene, n_jobs);
       const unsigned int n_in_all = n_jobs * n_ranks;
       const double all = size.seconds * static_cast<double>(n) / n_in_all;
       if (all > worth_saying)

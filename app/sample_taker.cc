@@ -2,15 +2,14 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
-#include "crack.h"
-#include "grow.h"
 #include "methods.h"
-#include "reference/lattice/torus_motion.h"
+#include "study/crack_analysis.h"
 #include "study/dispersion.h"
-#include "strip.h"
+#include "study/growth_analysis.h"
 #include "study/preflight.h"
 #include "study/sample_sweep.h"
 #include "study/stability.h"
+#include "study/stationary_crack.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,26 +22,6 @@ namespace plumbline::app
 
   namespace
   {
-    /// What rows of methods and levels have in common.
-    /// @param before  cases of the same sample, whose coarser levels are counted
-    template <class Row>
-    SampleCase case_of(const Row &row, const std::vector<SampleCase> &before)
-    {
-      if (!row.failure.empty())
-        throw NumericalError(row.method + ", " + row.series + ", h = " + base::to_text(row.h, 4) +
-                             ": " + row.failure);
-      SampleCase one;
-      one.method = row.method;
-      one.series = row.series;
-      one.level = static_cast<unsigned int>(std::count_if(before.begin(), before.end(),
-                                                          [&](const SampleCase &other)
-                                                          { return other.is_same_method(one); }));
-      one.h = row.h;
-      one.horizon = row.horizon;
-      one.seconds = row.seconds;
-      return one;
-    }
-
     void add_if_finite(SampleCase &one, const std::string &name, double value)
     {
       if (std::isfinite(value))
@@ -64,47 +43,11 @@ namespace plumbline::app
       return field;
     }
 
-    /// The records of an analysis by the scalars that samples count.
-    std::vector<SampleCase> study_sample(const study::Analysis &analysis, const scene::Scene &scene)
-    {
-      std::vector<SampleCase> cases;
-      const auto methods = analysis.choose_methods(scene, all_methods(), 0, 1);
-      for (const study::Record &record : run_study(analysis, scene, methods).records)
-      {
-        const study::Key &key = record.key;
-        if (!record.failure.empty())
-          throw NumericalError(key.label() + ", " + key.series +
-                               ", h = " + base::to_text(key.h, 4) + ": " + record.failure);
-        SampleCase one{key.label(), key.problem, key.series,           key.level, key.h,
-                       key.horizon, record.cost.seconds(), {}, {}};
-        for (const auto &[name, scalar] : record.scalars)
-          if (analysis.is_sampled(name))
-            one.quantities[name] = scalar.value;
-        if (!one.quantities.empty())
-          cases.push_back(std::move(one));
-      }
-      return cases;
-    }
-
-    std::vector<SampleCase> strip_sample(const scene::Scene &scene)
-    {
-      std::vector<SampleCase> cases;
-      for (const study::StripRow &row : stand_cracks(scene, strip_methods(scene, 0), 0).rows)
-      {
-        SampleCase one = case_of(row, cases);
-        for (const std::string &name : study::strip_quantities(scene.strip))
-          add_if_finite(one, name, row.quantity(name));
-        add_if_finite(one, "release", row.release);
-        cases.push_back(std::move(one));
-      }
-      return cases;
-    }
-
     std::vector<SampleCase> crack_sample(scene::Scene scene, const fs::path &own)
     {
       scene.time.n_frames = 0; // of many samples they would fill the disk
       fs::create_directories(own);
-      const study::CrackResults crack = move_crack(scene, 0, own);
+      const study::CrackResults crack = study::move_crack(scene, all_methods(), 0, own);
       SampleCase one;
       one.method = crack.method;
       one.series = scene.study.series.front().name;
@@ -127,7 +70,8 @@ namespace plumbline::app
     std::vector<SampleCase> grow_sample(const scene::Scene &scene, const fs::path &own)
     {
       fs::create_directories(own);
-      const study::GrowthResults growth = grow_body(scene, own / "checkpoint.h5");
+      const study::GrowthResults growth =
+          study::grow_body(scene, all_methods(), own / "checkpoint.h5");
       SampleCase one;
       one.method = growth.method;
       one.problem = base::word(growth.rules.breaking);
@@ -165,7 +109,7 @@ namespace plumbline::app
               [](const scene::Scene &sample, const fs::path &)
               {
                 return study::move_sample(sample, study::choose_methods(sample, all_methods()),
-                                          reference::move_on_torus);
+                                          all_methods());
               }};
     }
 
@@ -174,27 +118,20 @@ namespace plumbline::app
       return {[analysis](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
               { (void)analysis.choose_methods(scene, all_methods(), 0, n_jobs); },
               [analysis](const scene::Scene &sample, const fs::path &)
-              { return study_sample(analysis, sample); }};
-    }
-
-    SampleTaker strip_taker()
-    {
-      return {[](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
-              { (void)strip_methods(scene, 0, n_jobs); },
-              [](const scene::Scene &sample, const fs::path &) { return strip_sample(sample); }};
+              { return study::sample_study(analysis, sample, all_methods()); }};
     }
 
     SampleTaker crack_taker()
     {
       return {[](const scene::Scene &scene, const fs::path &folder, unsigned int n_jobs)
-              { check_crack_size(scene, 0, folder, n_jobs); },
+              { study::check_crack_size(scene, 0, folder, n_jobs); },
               crack_sample};
     }
 
     SampleTaker growth_taker()
     {
       return {[](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
-              { check_growth_size(scene, n_jobs); },
+              { study::check_growth_size(scene, n_jobs); },
               grow_sample};
     }
 
@@ -241,7 +178,7 @@ namespace plumbline::app
     if (scene.crack.is_there())
       return clean(crack_taker());
     if (scene.strip.is_there())
-      return strip_taker();
+      return study_taker(study::strip_analysis());
     return scene.time.is_dynamic() ? motion_taker() : statics_taker();
   }
 } // namespace plumbline::app

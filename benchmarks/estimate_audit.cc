@@ -33,12 +33,13 @@ namespace plumbline::audit
       const problem::Problem<2> &problem = one.problem;
       const auto better = method.higher_degree();
       const study::Resized fine = study::finer(one, n);
-      const auto found = study::solve_resized(fine, one, *better);
+      const auto found = study::solve_resized(fine, problem, *better);
       problem::Problem<2> cells = problem; // ours in pieces, on which both fields are smooth
-      if (problem.lattice)
+      if (problem.lattice())
         cells = fine.problem;
-      for (unsigned int i = n; i > 1 && !problem.lattice; i /= 2)
-        cells.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*cells.mesh));
+      for (unsigned int i = n; i > 1 && !problem.lattice(); i /= 2)
+        cells.on_mesh()->mesh =
+            std::make_shared<const geometry::Mesh>(geometry::refine(*cells.mesh()));
       return {study::averages_l2(problem, solution.averages, found.averages),
               study::field_l2(cells, solution.value, found.value, 2 * better->order())};
     }
@@ -59,11 +60,11 @@ namespace plumbline::audit
                            double estimate, const study::ErrorEstimate &details)
     {
       if (error > round_off * size || error > estimate)
-        entries.push_back({one.name() + way, method.name(), norm, problem.h, error, estimate, size,
+        entries.push_back({one.name + way, method.name(), norm, problem.h, error, estimate, size,
                            details.certified_digits, details});
     };
     for (const bool is_cheap : {false, true})
-      if (!is_cheap || problem.mesh)
+      if (!is_cheap || problem.mesh())
       {
         const auto found = study::estimate_error(one, method, solution, is_cheap);
         const std::string way = is_cheap ? ", by 2 h" : "";

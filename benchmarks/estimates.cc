@@ -91,7 +91,7 @@ namespace
           if (seconds * growth > seconds_)
             return;
           const scene::Case one = make_case(scene, c, level);
-          if (!study::refusal(method, one, {}).empty())
+          if (!study::refusal(method, scene, one.problem, {}).empty())
             return;
           for (const auto &entry : audit::audit(one, method, much_finer, seconds))
             print(name + " " + series.name, entry);

@@ -4,13 +4,13 @@
 // Inputs are numbered, and each number makes the same input again. They run in processes of many,
 // so that a crash or a hang costs one input; it is stored, printed, and the exit code is 1.
 
+#include "base/csv.h"
 #include "base/error.h"
 #include "fuzz_inputs.h"
 #include "geometry/gmsh_script.h"
 #include "geometry/mesh_input.h"
 #include "meshfree/check/bond_file.h"
 #include "report/json.h"
-#include "base/csv.h"
 #include "scene/mesh.h"
 
 #include <deal.II/base/multithread_info.h>

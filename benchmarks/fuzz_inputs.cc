@@ -83,7 +83,8 @@ namespace plumbline::benchmarks
         {
           study::Run run;
           run.method = method;
-          run.family = method == "FA" ? study::MethodFamily::meshfree : study::MethodFamily::reference;
+          run.family =
+              method == "FA" ? study::MethodFamily::meshfree : study::MethodFamily::reference;
           run.level = level;
           run.h = .1 / (1U << level);
           run.horizon = 3 * run.h;

@@ -37,5 +37,6 @@ namespace plumbline::meshfree
   double expected_bytes(const method::ProblemSize &size);
 
   /// A body's operator at its free nodes.
-  method::DiscreteOperator make_discrete_operator(std::shared_ptr<const VariationalOperator> matrix);
+  method::DiscreteOperator
+  make_discrete_operator(std::shared_ptr<const VariationalOperator> matrix);
 } // namespace plumbline::meshfree

@@ -1,16 +1,24 @@
 #include "meshfree/method.h"
 
+#include "base/error.h"
 #include "meshfree/discretisations.h"
+#include "meshfree/fracture/breaking_network.h"
 #include "meshfree/fracture/standing_crack.h"
+#include "meshfree/fracture/strip.h"
+#include "meshfree/lattice/crack_strip.h"
 #include "meshfree/rules/double_well_bonds.h"
 
+#include <limits>
 #include <utility>
 
 namespace plumbline::meshfree
 {
   namespace
   {
-    class RuleMethod : public method::Method
+    class RuleMethod : public method::Method,
+                       public method::StripSolver,
+                       public method::FractureSolver,
+                       public method::DynamicFractureSolver
     {
     public:
       explicit RuleMethod(Rule rule, bool is_counterexample = false)
@@ -23,8 +31,8 @@ namespace plumbline::meshfree
       bool is_in_all() const override { return !is_counterexample_; }
       std::string why_not(const problem::Problem<2> &problem) const override
       {
-        if (problem.settings.solver.iteration != base::Iteration::cg || problem.lattice ||
-            problem.body)
+        if (problem.settings.solver.iteration != base::Iteration::cg || problem.lattice() ||
+            problem.body())
           return {};
         std::string why = "on scattered nodes a bond has two weights, one for each end";
         if (problem.dilatation && !problem.dilatation->is_symmetric())
@@ -45,19 +53,80 @@ namespace plumbline::meshfree
       discretise(const problem::Problem<2> &problem,
                  const base::Communicator &communicator) const override
       {
-        if (problem.dimension == 1)
+        if (problem.dimension() == 1)
           return discretise_on_line(rule_, problem);
-        if (problem.body)
+        if (problem.body())
           return discretise_on_body(rule_, problem);
-        return problem.lattice ? discretise_on_lattice(rule_, problem)
-                               : discretise_on_scattered_nodes(rule_, problem, communicator);
+        return problem.lattice() ? discretise_on_lattice(rule_, problem)
+                                 : discretise_on_scattered_nodes(rule_, problem, communicator);
       }
 
+      const method::DynamicFractureSolver *dynamic_fracture_solver() const override { return this; }
+      method::StripThreshold strip_threshold(const physics::DoubleWell &law, double h, int n_rows,
+                                             geometry::Backend backend) const override
+      {
+        const CrackColumn column(bonds_of(law, h, backend), h, n_rows);
+        method::StripThreshold found{
+            column.toughness(), std::numeric_limits<double>::quiet_NaN(), {}};
+        try
+        {
+          found.energy = column.threshold();
+        }
+        catch (const NumericalError &error)
+        {
+          found.failure = error.what();
+        }
+        return found;
+      }
+      std::unique_ptr<method::NotchedStrip> notched_strip(const physics::DoubleWell &law,
+                                                          const method::NotchedStripShape &shape,
+                                                          geometry::Backend backend) const override
+      {
+        return std::make_unique<CrackStrip>(bonds_of(law, shape.h, backend), shape);
+      }
+
+      const method::FractureSolver *fracture_solver() const override { return this; }
+      method::BreakableBody breakable_body(const method::BreakingSolid &solid,
+                                           const Kernel<2> &influence, double h,
+                                           geometry::Backend backend, problem::Stretch stretch,
+                                           problem::GrowthSolver solver) const override
+      {
+        return meshfree::breakable_body(
+            std::make_shared<BreakingNetwork>(
+                make_bond_network(solid, rule_.of(physics::deviatoric_kernel(influence, 1)),
+                                  influence, h, backend),
+                stretch, solver),
+            solid.notch.empty() ? dealii::Point<2>() : solid.notch.front().back());
+      }
+      double lattice_toughness(const Kernel<2> &influence, double h,
+                               geometry::Backend backend) const override
+      {
+        return meshfree::lattice_toughness(rule_.of(physics::deviatoric_kernel(influence, 1)),
+                                           influence, h, backend);
+      }
+
+      const method::StripSolver *strip_solver() const override { return this; }
       method::StripState solve_strip(const method::RiceStrip &strip,
                                      const Kernel<2> &influence) const override
       {
         return meshfree::solve_strip(strip, rule_.of(physics::deviatoric_kernel(influence, 1)),
                                      influence);
+      }
+
+      std::optional<method::BreakableBody> breakable_strip(const method::RiceStrip &strip,
+                                                           const physics::Lame &lame,
+                                                           problem::SurfaceTerms terms,
+                                                           const Kernel<2> &influence,
+                                                           geometry::Backend backend) const override
+      {
+        BreakingSolid solid = make_strip(strip, lame, influence.horizon());
+        solid.surface_terms = terms;
+        return meshfree::breakable_body(
+            std::make_shared<BreakingNetwork>(
+                make_bond_network(solid, rule_.of(physics::deviatoric_kernel(influence, 1)),
+                                  influence, strip.h, backend),
+                problem::Stretch::linear),
+            {strip.n_crack * strip.h, 0});
       }
 
       double expected_bytes(const method::ProblemSize &size) const override
@@ -66,6 +135,13 @@ namespace plumbline::meshfree
       }
 
     private:
+      std::vector<WellBond> bonds_of(const physics::DoubleWell &law, double h,
+                                     geometry::Backend backend) const
+      {
+        const auto kernel = law.linear_kernel();
+        return well_bonds(law, lattice_bonds(rule_.of(kernel), kernel, h, backend));
+      }
+
       Rule rule_;
       bool is_counterexample_;
     };

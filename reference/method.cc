@@ -2,6 +2,7 @@
 
 #include "method/lattice_discretisation.h"
 #include "reference/lattice/discretisation.h"
+#include "reference/lattice/torus_motion.h"
 #include "reference/local/local_limit.h"
 #include "reference/mesh/discretisation.h"
 #include "reference/strip/cracked_strip.h"
@@ -12,7 +13,7 @@ namespace plumbline::reference
 {
   namespace
   {
-    class GalerkinMethod : public method::Method
+    class GalerkinMethod : public method::Method, public method::StripSolver
     {
     public:
       /// @param by_quadrature  its entries, where exact ones are known, too
@@ -55,10 +56,10 @@ namespace plumbline::reference
       }
       std::string why_not(const problem::Problem<2> &problem) const override
       {
-        if (problem.body && !problem.is_floating &&
-            std::all_of(problem.mesh->cells.begin(), problem.mesh->cells.end(),
+        if (problem.body() && !problem.is_floating() &&
+            std::all_of(problem.mesh()->cells.begin(), problem.mesh()->cells.end(),
                         [](const geometry::MeshCell &cell) { return cell.is_inside; }))
-          return "no cell of Domain/mesh = " + problem.mesh_name +
+          return "no cell of Domain/mesh = " + problem.on_mesh()->name +
                  " has its centroid in Domain/fixed, so that nothing holds the body; give smaller "
                  "cells there, or take meshfree methods alone";
         if (problem.settings.solver.iteration == base::Iteration::cg && problem.dilatation &&
@@ -66,7 +67,7 @@ namespace plumbline::reference
           return "Solver/iteration = cg needs a symmetric operator, but harmonic means of "
                  "constants "
                  "that vary in space (LPS) make none; write automatic, gmres or bicgstab";
-        if (by_quadrature_ && problem.mesh && !problem.mesh->wholes.empty())
+        if (by_quadrature_ && problem.mesh() && !problem.mesh()->wholes.empty())
           return "Domain/sides = curved has no entries by quadrature; take " +
                  GalerkinMethod(n_vertices_, is_continuous_, degree_).name() +
                  ", or write Domain/sides = straight";
@@ -82,19 +83,28 @@ namespace plumbline::reference
       discretise(const problem::Problem<2> &problem,
                  const base::Communicator &communicator) const override
       {
-        if (problem.dimension == 1)
+        if (problem.dimension() == 1)
           return discretise_on_line(problem, AxisShapes(is_continuous_, degree_));
-        if (problem.lattice)
+        if (problem.lattice())
           return discretise_on_lattice(problem, AxisShapes(is_continuous_, degree_));
         return discretise_on_mesh(problem, is_continuous_, degree_,
                                   problem.settings.quadrature.exact_entries && !by_quadrature_,
                                   communicator);
       }
+      const method::StripSolver *strip_solver() const override
+      {
+        return n_vertices_ == 4 ? this : nullptr;
+      }
+      std::unique_ptr<method::ContinuousMotion> continuous_motion(const physics::DoubleWell &law,
+                                                                  const geometry::Box &torus,
+                                                                  unsigned int dimension,
+                                                                  unsigned int n) const override
+      {
+        return move_on_torus(law, torus, dimension, n);
+      }
       method::StripState solve_strip(const method::RiceStrip &strip,
                                      const physics::Kernel<2> &influence) const override
       {
-        if (n_vertices_ == 3)
-          return Method::solve_strip(strip, influence);
         return reference::solve_strip(strip, physics::deviatoric_kernel(influence, 1),
                                       AxisShapes(is_continuous_, degree_));
       }
@@ -133,7 +143,7 @@ namespace plumbline::reference
       }
       std::string why_not(const problem::Problem<2> &problem) const override
       {
-        return !problem.mesh || problem.mesh->wholes.empty()
+        return !problem.mesh() || problem.mesh()->wholes.empty()
                    ? ""
                    : "Domain/sides = curved is not for classical elements; write straight";
       }

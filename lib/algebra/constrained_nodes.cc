@@ -85,7 +85,8 @@ namespace plumbline::algebra
     }
   } // namespace
 
-  ConstrainedNodes::Ends ConstrainedNodes::ends_of(const SineRow &row, std::size_t n_modes, std::size_t n_across)
+  ConstrainedNodes::Ends ConstrainedNodes::ends_of(const SineRow &row, std::size_t n_modes,
+                                                   std::size_t n_across)
   {
     const std::size_t n = 2 * row.n_constrained;
     Ends ends{n, n_modes, n_across, {}, {}, {}};
@@ -106,8 +107,8 @@ namespace plumbline::algebra
   }
 
   /// @param along, across  distance of modes in inverse
-  void ConstrainedNodes::find_forces(Ends &ends, const double *inverse, int n_across, std::size_t along,
-                              std::size_t across)
+  void ConstrainedNodes::find_forces(Ends &ends, const double *inverse, int n_across,
+                                     std::size_t along, std::size_t across)
   {
     const Eigen::Map<const Eigen::MatrixXd> seen(ends.seen.data(), ends.n_modes, ends.n),
         given(ends.given.data(), ends.n_modes, ends.n);
@@ -123,7 +124,8 @@ namespace plumbline::algebra
     }
   }
 
-  ConstrainedNodes::ConstrainedNodes(const std::array<SineRow, 2> &rows, int stride, const double *inverse)
+  ConstrainedNodes::ConstrainedNodes(const std::array<SineRow, 2> &rows, int stride,
+                                     const double *inverse)
       : ends_{ends_of(rows[0], stride, rows[1].n), ends_of(rows[1], rows[1].n, stride)}
   {
     find_forces(ends_[0], inverse, rows[1].n, 1, stride);

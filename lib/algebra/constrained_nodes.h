@@ -13,11 +13,10 @@ namespace plumbline::algebra
   ///   P u = u - D⁻¹ E (Eᵀ D⁻¹ E)⁻¹ Eᵀ u
   /// is zero on them; D is diagonal, so each mode across the axis has a small system of its own.
   /// P0 P1 P0 ... P0 D⁻¹ is symmetric, positive definite on the rectangle, and nearly the inverse
-  /// there: in either direction alone it is exact if all nodes around are constrained, at least half a
-  /// reach of them. Corners need sweeps P1 P0: two to four of them leave 3 to 5 iterations of
-  /// conjugate gradients whatever the length.
-  /// Source: the capacitance matrix method, Proskurowski & Widlund 1976,
-  /// doi:10.1090/S0025-5718-1976-0421102-4; here mode by mode.
+  /// there: in either direction alone it is exact if all nodes around are constrained, at least
+  /// half a reach of them. Corners need sweeps P1 P0: two to four of them leave 3 to 5 iterations
+  /// of conjugate gradients whatever the length. Source: the capacitance matrix method,
+  /// Proskurowski & Widlund 1976, doi:10.1090/S0025-5718-1976-0421102-4; here mode by mode.
   class ConstrainedNodes
   {
   public:
@@ -27,7 +26,8 @@ namespace plumbline::algebra
     ConstrainedNodes(const std::array<SineRow, 2> &rows, int stride, const double *inverse);
 
     /// P0 P1 P0 ... D⁻¹, in place; of one node at each end one sweep.
-    /// @param field    of modes, where nodes are constrained those of FFTW's RODFT10, whose last one is
+    /// @param field    of modes, where nodes are constrained those of FFTW's RODFT10, whose last
+    /// one is
     ///                 twice too large: a node sees half of it; shape and zeros as of inverse
     /// @param inverse  as before
     void apply(double *field, const double *inverse) const;

@@ -29,7 +29,8 @@ namespace plumbline::algebra
   enum class Zeros
   {
     next, ///< at the next node outside, whatever its transform costs
-    fast  ///< further out, with the nodes next to the rectangle held at zero, see constrained_nodes.h
+    fast  ///< further out, with the nodes next to the rectangle held at zero, see
+          ///< constrained_nodes.h
   };
 
   /// The τ preconditioner for one node family: the sine transform diagonalises the operator but for

@@ -95,11 +95,11 @@ namespace plumbline::algebra
       unsigned int n_components_;
       std::size_t stride_row_, stride_component_;
       std::array<int, 2> from_, n_;
-      std::array<int, 2> width_{}, before_{};   ///< of the transform, and zeros before the nodes
-      int stride_ = 0;                          ///< between rows of field_
-      std::vector<double> inverse_eigenvalues_; ///< shape (n_components, width[1], stride)
-      std::vector<ConstrainedNodes> constrained_;             ///< of each component
-      AlignedArray<double> field_;              ///< shape (width[1], stride)
+      std::array<int, 2> width_{}, before_{};     ///< of the transform, and zeros before the nodes
+      int stride_ = 0;                            ///< between rows of field_
+      std::vector<double> inverse_eigenvalues_;   ///< shape (n_components, width[1], stride)
+      std::vector<ConstrainedNodes> constrained_; ///< of each component
+      AlignedArray<double> field_;                ///< shape (width[1], stride)
       Plan forward_, backward_;
     };
 

@@ -10,8 +10,8 @@ namespace plumbline::algebra
     /// More nodes than these on either side of a row cost more iterations than any length saves.
     constexpr int most_around = 24;
 
-    /// Conjugate gradients' iterations where nodes are constrained, 3 to 4: waves reflected half a reach
-    /// away meet no free node, each node more costs some.
+    /// Conjugate gradients' iterations where nodes are constrained, 3 to 4: waves reflected half a
+    /// reach away meet no free node, each node more costs some.
     double iterations_held(int n_more)
     {
       return 3 + .4 * std::log(1 + .5 * n_more);
@@ -26,8 +26,8 @@ namespace plumbline::algebra
       return 8 + 10 * std::abs(std::log(distance / best));
     }
 
-    /// An iteration with a transform of this length; the operator, the nodes that are constrained and the
-    /// vectors of conjugate gradients take as long as one transform at m = 3.
+    /// An iteration with a transform of this length; the operator, the nodes that are constrained
+    /// and the vectors of conjugate gradients take as long as one transform at m = 3.
     double iteration_time(int length)
     {
       return 1 + length_penalty(length);
@@ -65,8 +65,9 @@ namespace plumbline::algebra
     double least = 0;
     for (int more = 0; more <= 2 * (most_around - fewest); ++more)
     {
-      const double iterations =
-          n_constrained > 0 ? iterations_held(more) : iterations_by_zeros(fewest + .5 * more + .5, reach);
+      const double iterations = n_constrained > 0
+                                    ? iterations_held(more)
+                                    : iterations_by_zeros(fewest + .5 * more + .5, reach);
       const double time = iterations * iteration_time(n + 2 * fewest + more);
       if (more == 0 || time < least)
       {

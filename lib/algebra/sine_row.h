@@ -11,7 +11,7 @@ namespace plumbline::algebra
   {
     int n = 0;                     ///< of the longer row
     int n_before = 0, n_after = 0; ///< nodes before the first of the row itself, and after its last
-    int n_constrained = 0;                ///< of those the nearest on either side, held at zero
+    int n_constrained = 0;         ///< of those the nearest on either side, held at zero
 
     bool is_longer() const { return n_before > 0; }
     int period() const { return 2 * (is_longer() ? n : n + 1); } ///< of its waves, in steps
@@ -29,6 +29,7 @@ namespace plumbline::algebra
 
   /// Of all longer rows with n nodes in the middle that which promises the least time: iterations
   /// by the number of nodes around, each with a transform of its length.
-  /// @param n_constrained  at most most_constrained; 0: the zeros are where a volume constraint acts as one
+  /// @param n_constrained  at most most_constrained; 0: the zeros are where a volume constraint
+  /// acts as one
   SineRow fast_sine_row(int n, int reach, int n_constrained);
 } // namespace plumbline::algebra

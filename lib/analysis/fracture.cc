@@ -116,8 +116,8 @@ namespace plumbline::analysis
     return reaction / std::max(reaction, largest_reaction(events));
   }
 
-  Growth grow(QuasistaticFractureModel &body, const FractureSettings &rules, std::vector<Event> earlier,
-              const EventObserver &observe)
+  Growth grow(QuasistaticFractureModel &body, const FractureSettings &rules,
+              std::vector<Event> earlier, const EventObserver &observe)
   {
     Growth growth;
     growth.first_stiffness = body.response().reaction;

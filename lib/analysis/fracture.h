@@ -34,7 +34,7 @@ namespace plumbline::analysis
     std::vector<Event> events;
     problem::GrowthEnd end = problem::GrowthEnd::unknown;
     double last_load = 0;       ///< where it ended
-    bool is_separated = false;     ///< no path of bonds joins the grips there, whatever ended it
+    bool is_separated = false;  ///< no path of bonds joins the grips there, whatever ended it
     double first_stiffness = 0; ///< reaction at load 1 of the whole body
     std::size_t n_resumed = 0;  ///< events that were there already
 
@@ -53,8 +53,8 @@ namespace plumbline::analysis
   /// holds to rounding; its terms are computed independently of each other.
   /// @param earlier  events of the same growth, to go on from to the same bits
   /// @throws NumericalError  an audit that is wrong by more than 1e-8, of a body that has an
-  /// energy; as QuasistaticFractureModel Not for: loads that fall (what grips do at load 1 is all they do),
-  /// bonds that heal. Source: sequentially linear analysis, Rots & Invernizzi 2004,
+  /// energy; as QuasistaticFractureModel Not for: loads that fall (what grips do at load 1 is all
+  /// they do), bonds that heal. Source: sequentially linear analysis, Rots & Invernizzi 2004,
   /// doi:10.1002/nag.371.
   Growth grow(method::QuasistaticFractureModel &body, const problem::FractureSettings &rules,
               std::vector<Event> earlier = {}, const EventObserver &observe = {});

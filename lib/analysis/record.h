@@ -20,9 +20,9 @@ namespace plumbline::analysis
     std::string analysis; ///< e.g. "stability"
     std::string method;   ///< e.g. "IPA-AC"
     MethodFamily family = MethodFamily::meshfree;
-    std::string problem; ///< name of the case; empty: the analysis has none
-    std::string series;  ///< what is held fixed, e.g. "m = 3"
-    std::string variant; ///< of the method, e.g. "lumped", or a time scheme and its step
+    std::string problem;       ///< name of the case; empty: the analysis has none
+    std::string series;        ///< what is held fixed, e.g. "m = 3"
+    std::string variant;       ///< of the method, e.g. "lumped", or a time scheme and its step
     unsigned int level = 0;    ///< from coarse to fine
     double h = 0, horizon = 0; ///< [length]
     double value = 0;          ///< of the parameter that the study varies, where it does

@@ -35,7 +35,8 @@ namespace plumbline::analysis
 
   /// Refine the quadrature of a discretisation as `solve` does for a problem.
   /// @throws NumericalError  it does not settle, or there is no solution
-  void settle_quadrature(method::Discretisation &discretisation, const problem::Problem<2> &problem);
+  void settle_quadrature(method::Discretisation &discretisation,
+                         const problem::Problem<2> &problem);
 
   /// One case.
   /// @throws NumericalError  there is no solution

@@ -130,8 +130,9 @@ namespace plumbline::base
   std::string out_of_memory()
   {
     const double resident = kernel_bytes("/proc/self/status", "VmRSS:");
-    return "memory ran out: this process holds " + bytes_to_text(resident < unlimited ? resident : 0) +
-           ", and " + bytes_to_text(available_memory()) +
+    return "memory ran out: this process holds " +
+           bytes_to_text(resident < unlimited ? resident : 0) + ", and " +
+           bytes_to_text(available_memory()) +
            " are left; choose a larger h or a smaller horizon (Study), or a machine with more";
   }
 } // namespace plumbline::base

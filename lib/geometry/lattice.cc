@@ -79,6 +79,19 @@ namespace plumbline::geometry
       throw InputError("Domain: no cell is left; Domain/holes covers Domain/boxes");
   }
 
+  Lattice Lattice::refined(int n) const
+  {
+    Lattice fine = *this;
+    fine.h_ /= n;
+    fine.n_ = {n * n_[0], n * n_[1]};
+    fine.inside_.resize(static_cast<std::size_t>(fine.n_[0]) * fine.n_[1]);
+    for (int j = 0; j < fine.n_[1]; ++j)
+      for (int i = 0; i < fine.n_[0]; ++i)
+        fine.inside_[static_cast<std::size_t>(j) * fine.n_[0] + i] =
+            static_cast<char>(is_inside(i / n, j / n));
+    return fine;
+  }
+
   bool Lattice::is_inside(int i, int j) const
   {
     return i >= 0 && j >= 0 && i < n_[0] && j < n_[1] &&

@@ -29,6 +29,9 @@ namespace plumbline::geometry
     /// @throws InputError  h <= 0; a box whose sides are not multiples of h apart; an empty domain
     Lattice(const Domain &domain, double h);
 
+    /// Its cells cut into n × n.
+    Lattice refined(int n) const;
+
     double h() const { return h_; }
     const Point<2> &origin() const { return origin_; }       ///< lower corner of cell (0,0)
     const std::array<int, 2> &n_cells() const { return n_; } ///< of the bounding box

@@ -126,7 +126,8 @@ namespace plumbline::geometry
     return geometry::bounding_box(view(vertices));
   }
 
-  std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<2>> &nodes, const Mesh &mesh)
+  std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<2>> &nodes,
+                                                       const Mesh &mesh)
   {
     double whole = 0;
     for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)

@@ -35,16 +35,17 @@ namespace plumbline::geometry
   };
 
   /// Nodes nearer to each other than 1e-12 of a cell's size, if there are such.
-  std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<2>> &nodes, const Mesh &mesh);
+  std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<2>> &nodes,
+                                                       const Mesh &mesh);
 
   /// Voronoi cells of the nodes of Ω clipped to Ω, and of the nodes of the collar clipped to the
   /// collar, so that the cells tile both: the areas add up to those of the mesh to 1e-12, where
   /// coordinates are no larger than the domain. A cell that no boundary cuts is one piece; else its
   /// pieces are its overlaps with the mesh's cells. A node on the boundary of Ω lies in Ω.
   /// @param mesh  of Ω and collar; decides which nodes are free
-  /// @throws InputError  two nodes in one place (see find_coincident_nodes), a node outside Ω and collar, a
-  /// coordinate that is not finite, naming the node by its index; no node in Ω, or none in a collar
-  /// that has cells Cost: .3 s for 1e5 nodes.
+  /// @throws InputError  two nodes in one place (see find_coincident_nodes), a node outside Ω and
+  /// collar, a coordinate that is not finite, naming the node by its index; no node in Ω, or none
+  /// in a collar that has cells Cost: .3 s for 1e5 nodes.
   NodeCells voronoi_cells(const std::vector<Point<2>> &nodes, const Mesh &mesh);
 
   /// The centroids of a mesh's cells, of whole ones where they have parts.

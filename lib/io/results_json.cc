@@ -17,6 +17,17 @@ namespace plumbline::study
   }
 
   template <typename Archive>
+  void visit(Archive &a, Limit &limit)
+  {
+    a("method", limit.method);
+    a("series", limit.series);
+    a("quantity", limit.quantity);
+    a("limit", limit.value);
+    a("rate", limit.rate);
+    a("change", limit.change);
+  }
+
+  template <typename Archive>
   void visit(Archive &a, Verdict &verdict)
   {
     a("method", verdict.method);
@@ -40,6 +51,7 @@ namespace plumbline::study
     a("records", results.records);
     a("trends", results.trends);
     a("powers", results.powers);
+    a("limits", results.limits);
     a("verdicts", results.verdicts);
     a("expectations", results.expectations);
     a("left_out", results.left_out);

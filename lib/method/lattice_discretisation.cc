@@ -68,7 +68,7 @@ namespace plumbline::method
   LatticeDiscretisation::LatticeDiscretisation(const problem::Problem<2> &problem,
                                                geometry::NodeSet nodes, algebra::Stencil stencil,
                                                std::vector<double> mass)
-      : lattice_(*problem.lattice), nodes_(std::move(nodes)), stencil_(std::move(stencil)),
+      : lattice_(*problem.lattice()), nodes_(std::move(nodes)), stencil_(std::move(stencil)),
         mass_(std::move(mass)), backend_(problem.settings.solver.operator_backend)
   {
   }
@@ -120,8 +120,10 @@ namespace plumbline::method
                                  places};
   }
 
-  DiscreteOperator make_discrete_operator(const geometry::Lattice &lattice, const geometry::NodeSet &nodes,
-                        const algebra::Stencil &stencil, const std::vector<double> &mass)
+  DiscreteOperator make_discrete_operator(const geometry::Lattice &lattice,
+                                          const geometry::NodeSet &nodes,
+                                          const algebra::Stencil &stencil,
+                                          const std::vector<double> &mass)
   {
     constexpr std::size_t most_entries = 20000000;
     DiscreteOperator result;

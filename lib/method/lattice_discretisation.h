@@ -7,8 +7,10 @@ namespace plumbline::method
 {
   /// A stencil on the free nodes.
   /// @param mass  of the nodes of each family [length^2], or 1 where all are alike
-  DiscreteOperator make_discrete_operator(const geometry::Lattice &lattice, const geometry::NodeSet &nodes,
-                        const algebra::Stencil &stencil, const std::vector<double> &mass);
+  DiscreteOperator make_discrete_operator(const geometry::Lattice &lattice,
+                                          const geometry::NodeSet &nodes,
+                                          const algebra::Stencil &stencil,
+                                          const std::vector<double> &mass);
 
   /// The places of the free nodes, family by family.
   std::vector<dealii::Point<2>> free_points(const geometry::Lattice &lattice,
@@ -28,7 +30,10 @@ namespace plumbline::method
     std::unique_ptr<algebra::LinearSystem> tangent() const override;
 
     /// Rows are there up to 2e7 entries.
-    DiscreteOperator matrix() const override { return make_discrete_operator(lattice_, nodes_, stencil_, mass_); }
+    DiscreteOperator matrix() const override
+    {
+      return make_discrete_operator(lattice_, nodes_, stencil_, mass_);
+    }
 
     std::optional<algebra::WaveOperator> waves() const override;
     std::unique_ptr<EquationOfMotion> motion(bool is_lumped) const override;
@@ -39,7 +44,8 @@ namespace plumbline::method
     const algebra::Stencil &stencil() const { return stencil_; }
 
   private:
-    virtual Vector load(const problem::Problem<2> &problem) const = 0; ///< over the nodes, 0 if not free
+    virtual Vector
+    load(const problem::Problem<2> &problem) const = 0; ///< over the nodes, 0 if not free
 
     /// The mass matrix; the masses of the families unless a method has a consistent one.
     virtual algebra::Stencil mass_stencil() const;

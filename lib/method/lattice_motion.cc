@@ -112,8 +112,9 @@ namespace plumbline::method
          parts->cell});
   }
 
-  std::vector<double> collar_values(const problem::Problem<2> &problem, const geometry::NodeSet &nodes,
-                                    int margin, std::vector<std::size_t> *constrained)
+  std::vector<double> collar_values(const problem::Problem<2> &problem,
+                                    const geometry::NodeSet &nodes, int margin,
+                                    std::vector<std::size_t> *constrained)
   {
     std::vector<double> values;
     values.reserve(static_cast<std::size_t>(nodes.n_blocks()) * (nodes.n[0] + 2 * margin) *
@@ -127,7 +128,7 @@ namespace plumbline::method
             if (!nodes.free(s, i, j))
             {
               const auto place = nodes.place(s, i, j);
-              value = problem.constraint.value(problem.lattice->point(place[0], place[1]), c);
+              value = problem.constraint.value(problem.lattice()->point(place[0], place[1]), c);
               if (constrained != nullptr)
                 constrained->push_back(values.size());
             }

@@ -29,6 +29,7 @@ namespace plumbline::method
   /// The constraint at all positions within `margin` of the bounding box that are not free, 0 where
   /// they are: shape (n_blocks, n[1] + 2 margin, n[0] + 2 margin).
   /// @param constrained  if given: where those that are not free stand, component by component
-  std::vector<double> collar_values(const problem::Problem<2> &problem, const geometry::NodeSet &nodes,
-                                    int margin, std::vector<std::size_t> *constrained = nullptr);
+  std::vector<double> collar_values(const problem::Problem<2> &problem,
+                                    const geometry::NodeSet &nodes, int margin,
+                                    std::vector<std::size_t> *constrained = nullptr);
 } // namespace plumbline::method

@@ -121,8 +121,8 @@ namespace plumbline::method
     LimitProof proof;
     if (!problem.settings.tends_to_local_limit)
       return proof;
-    const bool has_entries = problem.lattice || diagnostics.is_outer_error_known;
-    if (problem.body || !is_smooth(problem))
+    const bool has_entries = problem.lattice() || diagnostics.is_outer_error_known;
+    if (problem.body() || !is_smooth(problem))
       proof.reason = "no theorem for this material or boundary";
     else if (!is_positive_and_non_increasing(problem.kernel.profile(), problem.kernel.constant()))
       proof.reason = "no theorem for a kernel that is negative or increases with distance";

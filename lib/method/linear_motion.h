@@ -21,8 +21,8 @@ namespace plumbline::method
     algebra::Action stiffness;       ///< A
     algebra::Action transposed = {}; ///< Aᵀ where A is not symmetric
     Driven load;                     ///< M b, less what constrained nodes add to A u
-    Driven inertia;                  ///< M u of the solution and of constrained nodes: u stands for ü
-    double unit = 1;                 ///< that masses are counted in [length^2]
+    Driven inertia;  ///< M u of the solution and of constrained nodes: u stands for ü
+    double unit = 1; ///< that masses are counted in [length^2]
   };
 
   /// States are Sᵀ u with M = S Sᵀ, so that the tangent of a symmetric A is symmetric.

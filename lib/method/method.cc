@@ -1,12 +1,14 @@
 #include "method/method.h"
 
-#include "base/error.h"
+#include "method/equation_of_motion.h"
 
 namespace plumbline::method
 {
-  StripState Method::solve_strip(const RiceStrip &, const physics::Kernel<2> &) const
+  std::unique_ptr<ContinuousMotion> Method::continuous_motion(const physics::DoubleWell &,
+                                                              const geometry::Box &, unsigned int,
+                                                              unsigned int) const
   {
-    throw InputError("Methods/names: " + name() + " solves no strip with a crack (Strip/length)");
+    return nullptr;
   }
 
   geometry::NodeSet comparison_nodes(const problem::Problem<2> &problem, unsigned int n_components)
@@ -14,6 +16,6 @@ namespace plumbline::method
     const geometry::AxisSpecies nodes = problem.settings.nodes_are_vertices
                                             ? geometry::AxisSpecies{0, true, 0}
                                             : geometry::AxisSpecies{.5, false, 0};
-    return free_nodes(*problem.lattice, {nodes}, n_components);
+    return free_nodes(*problem.lattice(), {nodes}, n_components);
   }
 } // namespace plumbline::method

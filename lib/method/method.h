@@ -2,7 +2,6 @@
 
 #include "base/communicator.h"
 #include "method/capabilities.h"
-#include "method/rice_strip.h"
 #include "method/method_family.h"
 
 #include <array>
@@ -12,7 +11,11 @@
 
 namespace plumbline::method
 {
+  class ContinuousMotion;
   class Discretisation;
+  class DynamicFractureSolver;
+  class FractureSolver;
+  class StripSolver;
 
   /// How large a problem is, which can be known before anything of it is made.
   struct ProblemSize
@@ -56,11 +59,21 @@ namespace plumbline::method
     discretise(const problem::Problem<2> &problem,
                const base::Communicator &communicator = base::Communicator::all()) const = 0;
 
-    /// A strip with a standing crack, of bonds 8 μ K ξ⊗ξ/|ξ|².
-    /// @param influence  K, ∫K|ξ|² = 2
-    /// @throws InputError  the method solves none; NumericalError  weights are infeasible
-    virtual StripState solve_strip(const RiceStrip &strip,
-                                   const physics::Kernel<2> &influence) const;
+    /// Null: the method moves no strips whose bonds soften, see dynamic_fracture_solver.h.
+    virtual const DynamicFractureSolver *dynamic_fracture_solver() const { return nullptr; }
+
+    /// Null: the method makes no bodies whose bonds can break, see fracture_solver.h.
+    virtual const FractureSolver *fracture_solver() const { return nullptr; }
+
+    /// Null: the method solves no strips with a crack, see rice_strip.h.
+    virtual const StripSolver *strip_solver() const { return nullptr; }
+
+    /// Double wells on a square torus, or a line that closes, without a mesh, by n points a side;
+    /// null: the method knows no such motion.
+    virtual std::unique_ptr<ContinuousMotion> continuous_motion(const physics::DoubleWell &law,
+                                                                const geometry::Box &torus,
+                                                                unsigned int dimension,
+                                                                unsigned int n) const;
 
     /// The most memory that a static solution takes above what stood before (Cost::peak_bytes),
     /// within a factor of 2 where it is more than some 50 MB, for one rank; 0 where it is little.

@@ -16,6 +16,7 @@ namespace plumbline::method
     virtual ~QuasistaticFractureModel() = default;
 
     virtual std::size_t n_bonds() const = 0;
+    virtual std::size_t n_unknowns() const = 0;
 
     /// Of what is whole, in equilibrium.
     struct Response

@@ -1,5 +1,11 @@
 #pragma once
 
+#include "geometry/ball_cell.h"
+#include "method/breakable_body.h"
+#include "physics/kernel.h"
+#include "physics/state_based.h"
+#include "problem/surface_terms.h"
+
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -17,9 +23,9 @@ namespace plumbline::method
     int n_crack = 0;                ///< columns that are cut, at the left
     double h = 0;                   ///< [length]
 
-    /// Instead, what is around the strip is constrained at the field of a crack at K = 1 whose tip is so
-    /// many columns from the left, see physics::crack_field. Its advance gets K²/E' as h and the
-    /// horizon vanish.
+    /// Instead, what is around the strip is constrained at the field of a crack at K = 1 whose tip
+    /// is so many columns from the left, see physics::crack_field. Its advance gets K²/E' as h and
+    /// the horizon vanish.
     std::optional<double> K_tip = {};
   };
 
@@ -39,6 +45,28 @@ namespace plumbline::method
     double tip_energy(const RiceStrip &strip) const
     {
       return energy - intact * strip.h * (strip.n_length - strip.n_crack) - at_end;
+    }
+  };
+
+  /// What solves such strips, of bonds 8 μ K ξ⊗ξ/|ξ|².
+  class StripSolver
+  {
+  public:
+    virtual ~StripSolver() = default;
+
+    /// @param influence  K, ∫K|ξ|² = 2
+    /// @throws NumericalError  weights are infeasible
+    virtual StripState solve_strip(const RiceStrip &strip,
+                                   const physics::Kernel<2> &influence) const = 0;
+
+    /// The strip as a body whose bonds, of toughness G = 1, can break; empty: the method has none.
+    virtual std::optional<BreakableBody> breakable_strip(const RiceStrip & /*strip*/,
+                                                         const physics::Lame & /*lame*/,
+                                                         problem::SurfaceTerms /*terms*/,
+                                                         const physics::Kernel<2> & /*influence*/,
+                                                         geometry::Backend /*backend*/) const
+    {
+      return {};
     }
   };
 } // namespace plumbline::method

@@ -30,8 +30,8 @@ namespace plumbline::method
     return {std::move(rows), std::move(constrained)};
   }
 
-  void subtract_constrained(const algebra::CsrMatrix &constrained, const std::vector<double> &values,
-                     Vector &load)
+  void subtract_constrained(const algebra::CsrMatrix &constrained,
+                            const std::vector<double> &values, Vector &load)
   {
     for (std::size_t i = 0; i < constrained.n_rows(); ++i)
       for (std::size_t k = constrained.start[i]; k < constrained.start[i + 1]; ++k)

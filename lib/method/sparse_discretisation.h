@@ -5,11 +5,11 @@
 
 namespace plumbline::method
 {
-  /// Rows of the free unknowns in two parts: by columns of free ones, and of constrained ones, whose
-  /// values are given. On several ranks the sum of all is the matrix.
+  /// Rows of the free unknowns in two parts: by columns of free ones, and of constrained ones,
+  /// whose values are given. On several ranks the sum of all is the matrix.
   struct PartitionedRows
   {
-    algebra::CsrMatrix free; ///< shape (n_free, n_free)
+    algebra::CsrMatrix free;        ///< shape (n_free, n_free)
     algebra::CsrMatrix constrained; ///< shape (n_free, n_constrained)
   };
 
@@ -17,8 +17,8 @@ namespace plumbline::method
   PartitionedRows part(algebra::CsrMatrix rows, std::size_t n_free);
 
   /// load -= constrained × values.
-  void subtract_constrained(const algebra::CsrMatrix &constrained, const std::vector<double> &values,
-                     Vector &load);
+  void subtract_constrained(const algebra::CsrMatrix &constrained,
+                            const std::vector<double> &values, Vector &load);
 
   /// A problem whose rows differ from node to node, as both sides have it: a sparse matrix that the
   /// communicator makes together. A state is numbered node by node.

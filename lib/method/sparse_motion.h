@@ -13,9 +13,10 @@ namespace plumbline::method
     /// A of the equation M ü = load - A u; must stay valid.
     const algebra::CsrMatrix &stiffness, &constrained;
     std::vector<double> masses; ///< of each node; empty: `mass` is a matrix
-    PartitionedRows mass;            ///< of all unknowns, by free and by constrained ones
-    std::function<Vector(const problem::Problem<2> &)> load;                ///< M b
-    std::function<std::vector<double>(const problem::Problem<2> &)> around; ///< u of constrained unknowns
+    PartitionedRows mass;       ///< of all unknowns, by free and by constrained ones
+    std::function<Vector(const problem::Problem<2> &)> load; ///< M b
+    std::function<std::vector<double>(const problem::Problem<2> &)>
+        around; ///< u of constrained unknowns
   };
 
   /// Whether A is symmetric is found out: to 1e-12 of its largest entry.

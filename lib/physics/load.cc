@@ -96,12 +96,12 @@ namespace plumbline::physics
     }
   } // namespace
 
-  ManufacturedLoad::ManufacturedLoad(Kernel<2> kernel, Expression u, std::optional<Coefficient> a,
-                                     FewestRadii fewest)
-      : kernel_(std::move(kernel)), u_(std::move(u)), a_(std::move(a)), fewest_(std::move(fewest))
+  ManufacturedLoad::ManufacturedLoad(Kernel<2> kernel, const Expression &u,
+                                     std::optional<Coefficient> a, FewestRadii fewest)
+      : ManufacturedLoad(std::move(kernel), FieldFunction(u), std::move(a), std::move(fewest))
   {
-    if (u_.n_components() < kernel_.n_components())
-      throw InputError("the field '" + u_.text() + "' has " + std::to_string(u_.n_components()) +
+    if (u.n_components() < kernel_.n_components())
+      throw InputError("the field '" + u.text() + "' has " + std::to_string(u.n_components()) +
                        " component(s) but the kernel couples " +
                        std::to_string(kernel_.n_components()) +
                        "; give one expression a component, separated by commas");

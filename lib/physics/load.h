@@ -14,6 +14,9 @@ namespace plumbline::physics
   /// are in the ball). Empty: 6.
   using FewestRadii = std::function<unsigned int(const Point<2> &x)>;
 
+  /// A field by its values. Give each thread a copy.
+  using FieldFunction = std::function<double(const Point<2> &x, unsigned int component)>;
+
   /// The load b = L_δ u of a given field u: -∫_{|ξ|<δ} a C(ξ) (u(x+ξ) - u(x)) dξ, a the mean of the
   /// coefficients at x and x+ξ (1 if there is none), by Gauss points in the radius and equidistant
   /// angles, both doubled until the value stops moving. Exact for polynomials. Accuracy: 1e-13 of
@@ -22,8 +25,15 @@ namespace plumbline::physics
   class ManufacturedLoad
   {
   public:
+    /// @param u  of as many components as the kernel couples
+    ManufacturedLoad(Kernel<2> kernel, FieldFunction u, std::optional<Coefficient> a = {},
+                     FewestRadii fewest = {})
+        : kernel_(std::move(kernel)), u_(std::move(u)), a_(std::move(a)), fewest_(std::move(fewest))
+    {
+    }
+
     /// @throws InputError  u has too few components for the kernel
-    ManufacturedLoad(Kernel<2> kernel, Expression u, std::optional<Coefficient> a = {},
+    ManufacturedLoad(Kernel<2> kernel, const Expression &u, std::optional<Coefficient> a = {},
                      FewestRadii fewest = {});
 
     /// @throws NumericalError  the quadrature does not settle to 1e-12
@@ -31,7 +41,7 @@ namespace plumbline::physics
 
   private:
     Kernel<2> kernel_;
-    Expression u_;
+    FieldFunction u_;
     std::optional<Coefficient> a_;
     FewestRadii fewest_;
   };
@@ -42,7 +52,7 @@ namespace plumbline::physics
   public:
     /// @param influence  K, scalar
     /// @param u          of two components
-    FieldDilatation(Kernel<2> influence, Expression u, FewestRadii fewest = {})
+    FieldDilatation(Kernel<2> influence, FieldFunction u, FewestRadii fewest = {})
         : influence_(std::move(influence)), u_(std::move(u)), fewest_(std::move(fewest))
     {
     }
@@ -52,7 +62,7 @@ namespace plumbline::physics
 
   private:
     Kernel<2> influence_;
-    Expression u_;
+    FieldFunction u_;
     FewestRadii fewest_;
   };
 

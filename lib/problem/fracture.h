@@ -51,8 +51,8 @@ namespace plumbline::problem
   enum class GrowthEnd
   {
     unknown,
-    parted,   ///< no path of bonds joins two grips
-    unloaded, ///< the reaction fell below Fracture/least reaction
+    parted,   ///< "separated": no path of bonds connects two grips
+    unloaded, ///< the reaction fell below Fracture/min reaction
     loaded,   ///< the largest load is reached
     whole     ///< no bond is left that can break
   };
@@ -103,8 +103,9 @@ namespace plumbline::base
   template <>
   inline constexpr auto words<problem::Stretch> = std::array{"linear", "finite"};
   template <>
-  inline constexpr auto words<problem::GrowthSolver> = std::array{"automatic", "factor", "multigrid"};
+  inline constexpr auto words<problem::GrowthSolver> =
+      std::array{"automatic", "factor", "multigrid"};
   template <>
   inline constexpr auto words<problem::GrowthEnd> =
-      std::array{"unknown", "parted", "unloaded", "loaded", "whole"};
+      std::array{"unknown", "separated", "unloaded", "loaded", "whole"};
 } // namespace plumbline::base

@@ -66,7 +66,7 @@ namespace plumbline::report
     const char *const thresholds_words =
         "Far from its tip a crack turns the intact strip into two halves. It neither grows nor "
         "closes where that sets free the lattice's toughness G_c,h, all bonds across a line at "
-        "their limit; found from one column in equilibrium, whole and parted. W H, the uniform "
+        "their limit; found from one column in equilibrium, intact and separated. W H, the uniform "
         "strain's energy times the height between the grips, is close to it, and tends to it with "
         "the horizon.";
 

@@ -29,7 +29,8 @@ namespace plumbline::report
     Table verdicts(const StudyResults &results)
     {
       Table table;
-      table.columns = {"method", "series", "verdict", "proven", "last error", "rate", "explanation"};
+      table.columns = {"method",     "series", "verdict",    "proven",
+                       "last error", "rate",   "explanation"};
       for (const study::Trend &t : results.trends)
       {
         const bool is_judged = t.values.size() > 1 && t.outcome != study::Outcome::failed;
@@ -56,7 +57,8 @@ namespace plumbline::report
       std::vector<std::string> found;
       for (const Record &record : results.records)
         for (const auto &[name, scalar] : record.scalars)
-          if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0)
+          if (name.size() > end.size() &&
+              name.compare(name.size() - end.size(), end.size(), end) == 0)
             if (const std::string waves = name.substr(0, name.size() - end.size());
                 std::find(found.begin(), found.end(), waves) == found.end())
               found.push_back(waves);
@@ -78,38 +80,42 @@ namespace plumbline::report
               "horizon go to 0 together. anisotropy: the speed along an axis less that along the "
               "diagonal, over the local limit's.",
               table_of(results, with_place(results, columns),
-                       [&](const Record &record)
-                       { return std::find(finest.begin(), finest.end(), &record) != finest.end(); })};
+                       [&](const Record &record) {
+                         return std::find(finest.begin(), finest.end(), &record) != finest.end();
+                       })};
     }
 
     Part levels(const StudyResults &results)
     {
-      return {"levels", "Over the sweep",
-              "local, nonlocal: the worst relative error of the longest wave's phase speed over all "
-              "directions, against the local limit and against the nonlocal operator. largest: of "
-              "the symbol over all waves that the lattice carries, over Time/density [1/time^2]; "
-              "critical step: 2 over its root, of central differences (velocity Verlet), and in "
-              "steps in which the fastest local wave crosses h. lumped: the mass matrix made "
-              "diagonal.",
-              table_of(results,
-                       with_place(results,
-                                  {error_column("local", "error against the local limit"),
-                                   error_column("nonlocal", "error against the nonlocal operator"),
-                                   number_column("largest", "largest squared frequency"),
-                                   number_column("critical step", "critical step"),
-                                   number_column("step c/h", "critical step, of the time in which a "
-                                                             "wave crosses h")}),
-                       is_there)};
+      return {
+          "levels", "Over the sweep",
+          "local, nonlocal: the worst relative error of the longest wave's phase speed over all "
+          "directions, against the local limit and against the nonlocal operator. largest: of "
+          "the symbol over all waves that the lattice carries, over Time/density [1/time^2]; "
+          "critical step: 2 over its root, of central differences (velocity Verlet), and in "
+          "steps in which the fastest local wave crosses h. lumped: the mass matrix made "
+          "diagonal.",
+          table_of(results,
+                   with_place(results,
+                              {error_column("local", "error against the local limit"),
+                               error_column("nonlocal", "error against the nonlocal operator"),
+                               number_column("largest", "largest squared frequency"),
+                               number_column("critical step", "critical step"),
+                               number_column("step c/h", "critical step, of the time in which a "
+                                                         "wave crosses h")}),
+                   is_there)};
     }
 
     /// Speeds over the wavelength of all methods at the finest level of a series.
     /// @param which  "phase" or "group"
-    DataChart speeds(const std::vector<const Record *> &finest, const std::vector<MethodName> &methods,
-                     const std::string &waves, const std::string &which)
+    DataChart speeds(const std::vector<const Record *> &finest,
+                     const std::vector<MethodName> &methods, const std::string &waves,
+                     const std::string &which)
     {
       const std::string &series = finest.front()->key.series, speed = which + " speed";
-      DataChart chart = named(which + (series.empty() ? "" : "_" + slug(series)) + "_" + slug(waves),
-                              series + ", " + waves + ": " + speed);
+      DataChart chart =
+          named(which + (series.empty() ? "" : "_" + slug(series)) + "_" + slug(waves),
+                series + ", " + waves + ": " + speed);
       Plot &plot = chart.plot;
       plot.is_y_log = false;
       plot.x_label = "wavelength [h]";
@@ -148,12 +154,15 @@ namespace plumbline::report
 
     std::vector<DataChart> charts(const StudyResults &results)
     {
-      std::vector<DataChart> all =
-          charts_of({"errors", "error of the longest wave's phase speed",
-                     "|c/c(nonlocal) - 1|, worst direction",
-                     [](const Record &record) { return record["error against the nonlocal operator"]; },
-                     {}, "", true},
-                    results, is_there);
+      std::vector<DataChart> all = charts_of(
+          {"errors",
+           "error of the longest wave's phase speed",
+           "|c/c(nonlocal) - 1|, worst direction",
+           [](const Record &record) { return record["error against the nonlocal operator"]; },
+           {},
+           "",
+           true},
+          results, is_there);
       const auto methods = methods_of(results, is_there);
       const std::vector<std::string> waves = waves_with(results, ": local speed");
       const std::string &directions = results.facts.at("directions");
@@ -185,9 +194,9 @@ namespace plumbline::report
         "linear functions.";
     view.verdicts = verdicts(results);
     view.facts = {std::to_string(results.records.size()) + " symbols"};
-    for (const auto &[sign, word, outcome] :
-         {std::tuple("✓ ", " converge", "converges"), {"? ", " undecided", "undecided"},
-          {"✗ ", " do not", "stalls"}})
+    for (const auto &[sign, word, outcome] : {std::tuple("✓ ", " converge", "converges"),
+                                              {"? ", " undecided", "undecided"},
+                                              {"✗ ", " do not", "stalls"}})
       view.facts.push_back(
           sign +
           std::to_string(std::count_if(results.trends.begin(), results.trends.end(),
@@ -202,7 +211,8 @@ namespace plumbline::report
         {"charts", "Charts",
          "Speeds at the finest level of each series, over the local limit's. Where h falls at a "
          "fixed ratio of horizon to h these curves stay as they are, and a wave of a given length "
-         "moves to the right along them: a method is asymptotically compatible if its curve tends to "
+         "moves to the right along them: a method is asymptotically compatible if its curve tends "
+         "to "
          "1 there.",
          charts(results)}};
     return view;

@@ -93,7 +93,7 @@ namespace plumbline::report
       DataChart result =
           chart("tip", "What load the crack needs", "tip's way from the notch [length]",
                 "load at which an event begins",
-                "The crack is where next neighbours have parted; its tip the end of these sides "
+                "The crack is where next neighbours have separated; its tip the end of these sides "
                 "that is farthest from the notch's tip. From column to column the lattice traps "
                 "it, and lets it go at a lower load.");
       std::vector<Vertex> points;

@@ -52,9 +52,9 @@ namespace plumbline::report
       const auto &work = r.work;
       for (const char *const name : scene::growth_quantities)
         add(name, r.quantity(name), meaning_of(name));
-      add("width", r.path.width, "of all sides that parted, projected onto the x-axis [length]");
+      add("width", r.path.width, "of all sides that separated, projected onto the x-axis [length]");
       add("apart", static_cast<double>(r.path.n_elsewhere),
-          "sides that parted elsewhere, not joined to the notch");
+          "sides that separated elsewhere, not connected to the notch");
       table.rows.push_back({text_cell("connected"), text_cell(r.growth.is_separated ? "no" : "yes"),
                             text_cell("paths of bonds join the grips at the end")});
       add("reaction left", r.growth.reaction_left(), "at the end, over its largest");
@@ -99,9 +99,9 @@ namespace plumbline::report
         return "until no path of bonds joins the grips";
       case problem::GrowthEnd::unloaded:
         return "until the reaction is " + rounded(r.rules.least_reaction) +
-               " of its largest (Fracture/least reaction)";
+               " of its largest (Fracture/min reaction)";
       case problem::GrowthEnd::loaded:
-        return "until the largest load, " + rounded(r.rules.largest_load);
+        return "until Fracture/max load, " + rounded(r.rules.largest_load);
       case problem::GrowthEnd::whole:
         return "until no bond is left that can break";
       default:
@@ -191,7 +191,7 @@ namespace plumbline::report
         data["microstructure"] = page::figure(
             {dir / "grow/microstructure.svg", "microstructure-", "The crack in its microstructure",
              "Grey: G of the nodes, the tougher the darker. Sides between next "
-             "neighbours that have parted: of the crack orange, apart from it blue; "
+             "neighbours that have separated: of the crack orange, apart from it blue; "
              "of the notch black.",
              "Data", "grow/sides.csv", true});
       data["moments"] = page::figure(

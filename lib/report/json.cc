@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/text_file.h"
+#include "io/json_archive.h"
 #include "report/formats.h"
-#include "report/json_archive.h"
 #include "report/json_checks.h"
 #include "report/json_keys.h"
 
@@ -12,6 +12,10 @@
 
 namespace plumbline::report
 {
+  using io::Json;
+  using io::JsonReader;
+  using io::JsonWriter;
+
   namespace
   {
     /// Maps and runs of a thousand methods are less.

@@ -25,7 +25,7 @@ namespace plumbline::report
     std::vector<Overlay> overlays_of(const GrowthResults &results)
     {
       Overlay crack{"crack", "the crack", "#D55E00", {}},
-          apart{"apart", "parted elsewhere", "#0072B2", {}};
+          apart{"apart", "separated elsewhere", "#0072B2", {}};
       for (const study::CrackSide &side : results.path.sides)
         (side.is_joined ? crack : apart).sides.push_back(side.ends);
       return {{"notch", "the notch", "#000000", results.path.notch}, crack, apart};

@@ -1,12 +1,16 @@
 #include "report/motion_json.h"
 
-#include "report/json_archive.h"
+#include "io/json_archive.h"
 #include "report/json_keys.h"
 
 #include <limits>
 
 namespace plumbline::report
 {
+  using io::Json;
+  using io::JsonReader;
+  using io::JsonWriter;
+
   namespace
   {
     Json energies_json(const study::MotionRun &run)

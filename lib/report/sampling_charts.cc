@@ -204,9 +204,8 @@ namespace plumbline::report
     void add_histograms(const SamplingResults &results, std::vector<DataChart> &charts)
     {
       constexpr std::size_t least = 16;
-      const bool is_of_equal_weights =
-          results.sampling.rule == uq::SampleRule::monte_carlo ||
-          results.sampling.rule == uq::SampleRule::quasi_monte_carlo;
+      const bool is_of_equal_weights = results.sampling.rule == uq::SampleRule::monte_carlo ||
+                                       results.sampling.rule == uq::SampleRule::quasi_monte_carlo;
       for (const CaseStatistics &one : results.cases)
         for (const auto &[name, of_samples] : one.values)
         {

@@ -27,7 +27,8 @@ namespace plumbline::report
       found.push_back({problem, series, unique});
     }
 
-    void add_method(std::vector<MethodName> &found, const std::string &name, study::MethodFamily family)
+    void add_method(std::vector<MethodName> &found, const std::string &name,
+                    study::MethodFamily family)
     {
       for (const MethodName &method : found)
         if (method.name == name)

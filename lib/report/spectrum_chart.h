@@ -1,7 +1,7 @@
 #pragma once
 
-#include "uq/spectrum.h"
 #include "report/data_charts.h"
+#include "uq/spectrum.h"
 
 namespace plumbline::report
 {

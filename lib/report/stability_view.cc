@@ -42,116 +42,122 @@ namespace plumbline::report
       return {
           "measures", "Measures",
           "smallest, largest: eigenvalues of the symmetric part in the discrete L2 inner product; "
-          "the smallest is the coercivity constant. asymmetry: of A, relative to its largest entry. "
-          "|A^-1|: how far u moves at most by a load of size 1; barrier: what the maximum principle "
+          "the smallest is the coercivity constant. asymmetry: of A, relative to its largest "
+          "entry. "
+          "|A^-1|: how far u moves at most by a load of size 1; barrier: what the maximum "
+          "principle "
           "bounds it by, of M-matrices. min weight: relative to its area. rank, singular: of the "
           "moments asked of a family, and the smallest singular value of their matrix scaled to "
           "norm 1. degree: of polynomials that are mapped exactly, at inner nodes.",
-          table_of(
-              results,
-              with_place(
-                  results,
-                  {count_column("unknowns", "unknowns"),
-                   number_column("smallest", "smallest eigenvalue"),
-                   number_column("largest", "largest eigenvalue"),
-                   {"zero modes",
-                    [](const Record &record)
-                    {
-                      Cell cell = count_cell(record.count("zero modes"));
-                      cell.text = study::zero_modes(record);
-                      return cell;
-                    }},
-                   number_column("asymmetry", "asymmetry"),
-                   column("M-matrix", has_signs, [](const Record &record)
-                          { return text_cell(is_m_matrix(record) ? "yes" : "no"); }),
-                   count_column("parts", "parts"),
-                   column("|A^-1|", has_norm,
-                          [](const Record &record)
-                          {
-                            Cell cell = number_cell(record["inverse norm"]);
-                            if (record["inverse norm is exact"] == 0)
-                              cell.text = ">= " + cell.text;
-                            return cell;
-                          }),
-                   column("barrier", is_m_matrix, [](const Record &record)
-                          { return known(record.has("barrier"), number_cell(record["barrier"])); }),
-                   number_column("min weight", "smallest weight"),
-                   column("rank", has_conditions,
-                          [](const Record &record)
-                          {
-                            return text_cell(std::to_string(record.count("moment rank")) + "/" +
-                                             std::to_string(record.count("moment conditions")));
-                          }),
-                   number_column("singular", "smallest singular value"),
-                   count_column("degree", "exact degree")}),
-              is_operator)};
+          table_of(results,
+                   with_place(results,
+                              {count_column("unknowns", "unknowns"),
+                               number_column("smallest", "smallest eigenvalue"),
+                               number_column("largest", "largest eigenvalue"),
+                               {"zero modes",
+                                [](const Record &record)
+                                {
+                                  Cell cell = count_cell(record.count("zero modes"));
+                                  cell.text = study::zero_modes(record);
+                                  return cell;
+                                }},
+                               number_column("asymmetry", "asymmetry"),
+                               column("M-matrix", has_signs,
+                                      [](const Record &record)
+                                      { return text_cell(is_m_matrix(record) ? "yes" : "no"); }),
+                               count_column("parts", "parts"),
+                               column("|A^-1|", has_norm,
+                                      [](const Record &record)
+                                      {
+                                        Cell cell = number_cell(record["inverse norm"]);
+                                        if (record["inverse norm is exact"] == 0)
+                                          cell.text = ">= " + cell.text;
+                                        return cell;
+                                      }),
+                               column("barrier", is_m_matrix,
+                                      [](const Record &record) {
+                                        return known(record.has("barrier"),
+                                                     number_cell(record["barrier"]));
+                                      }),
+                               number_column("min weight", "smallest weight"),
+                               column("rank", has_conditions,
+                                      [](const Record &record)
+                                      {
+                                        return text_cell(
+                                            std::to_string(record.count("moment rank")) + "/" +
+                                            std::to_string(record.count("moment conditions")));
+                                      }),
+                               number_column("singular", "smallest singular value"),
+                               count_column("degree", "exact degree")}),
+                   is_operator)};
     }
 
     Part eigenvalues(const StudyResults &results)
     {
-      return {"eigenvalues", "Eigenvalues where A is not symmetric",
-              "Of A itself in the discrete L2 inner product, where A is not symmetric; elsewhere they "
-              "are those of the symmetric part. The imaginary part is the largest of those computed: "
-              "the ones nearest to 0 and the outermost.",
-              table_of(results,
-                       with_place(results,
-                                  {number_column("least real part", "least real part"),
-                                   number_column("least modulus", "least modulus"),
-                                   number_column("largest modulus", "largest modulus"),
-                                   number_column("largest |imaginary part|",
-                                                 "largest imaginary part")}),
-                       [](const Record &record)
-                       { return is_operator(record) && record["asymmetry"] >= 1e-12; })};
+      return {
+          "eigenvalues", "Eigenvalues where A is not symmetric",
+          "Of A itself in the discrete L2 inner product, where A is not symmetric; elsewhere they "
+          "are those of the symmetric part. The imaginary part is the largest of those computed: "
+          "the ones nearest to 0 and the outermost.",
+          table_of(results,
+                   with_place(results, {number_column("least real part", "least real part"),
+                                        number_column("least modulus", "least modulus"),
+                                        number_column("largest modulus", "largest modulus"),
+                                        number_column("largest |imaginary part|",
+                                                      "largest imaginary part")}),
+                   [](const Record &record)
+                   { return is_operator(record) && record["asymmetry"] >= 1e-12; })};
     }
 
     Part time_steps(const StudyResults &results)
     {
-      return {"time-steps", "Critical time steps",
-              "dt: critical time step of central differences, 2 / sqrt(lambda / rho), with the "
-              "largest eigenvalue lambda of the equations linearised at rest (double-well bonds on a "
-              "lattice: over all waves of the infinite lattice); of Galerkin methods with the mass "
-              "matrix, and with lumped masses. grows: some eigenvalues are complex or negative, so "
-              "solutions grow with any time step.",
-              table_of(
-                  results,
-                  with_place(
-                      results,
-                      {number_column("density", "density"),
-                       number_column("lambda", "largest eigenvalue in motion"),
-                       number_column("dt", "critical step"),
-                       number_column("lambda, lumped", "largest eigenvalue in motion, lumped"),
-                       number_column("dt, lumped", "critical step, lumped"),
-                       {"grows", [](const Record &record)
-                        { return known(record.count("grows") > 0, text_cell("yes")); }}}),
-                  [](const Record &record)
-                  { return is_operator(record) && record.has("critical step"); })};
+      return {
+          "time-steps", "Critical time steps",
+          "dt: critical time step of central differences, 2 / sqrt(lambda / rho), with the "
+          "largest eigenvalue lambda of the equations linearised at rest (double-well bonds on a "
+          "lattice: over all waves of the infinite lattice); of Galerkin methods with the mass "
+          "matrix, and with lumped masses. grows: some eigenvalues are complex or negative, so "
+          "solutions grow with any time step.",
+          table_of(
+              results,
+              with_place(results,
+                         {number_column("density", "density"),
+                          number_column("lambda", "largest eigenvalue in motion"),
+                          number_column("dt", "critical step"),
+                          number_column("lambda, lumped", "largest eigenvalue in motion, lumped"),
+                          number_column("dt, lumped", "critical step, lumped"),
+                          {"grows", [](const Record &record)
+                           { return known(record.count("grows") > 0, text_cell("yes")); }}}),
+              [](const Record &record)
+              { return is_operator(record) && record.has("critical step"); })};
     }
 
     Part strain_thresholds(const StudyResults &results)
     {
-      return {"strains", "Where waves on strains begin to grow",
-              "X = beta eps g^2 of the strain g, from which on waves grow: of any length on the whole "
-              "plane (ellipticity of the local limit is lost); of this torus, four mesh sizes long or "
-              "longer; by the symbol of the bonds; and from which on the local criterion (64) of Jha "
-              "& Lipton 2018, doi:10.1137/17M1112236, says so: it is sufficient, but late where its X "
-              "is larger. observed: the motion of the wave that grows fastest by the symbol, started "
-              "at 1e-10 of the horizon; first seen is the first X of the samples at which it grew. "
-              "Differences are over the symbol's largest rate: from the symbol, and from the rule's "
-              "own tangent.",
-              table_of(results,
-                       {{"series", [](const Record &r) { return text_cell(r.key.series); }},
-                        {"h", [](const Record &r) { return number_cell(r.key.h); }},
-                        {"strain", [](const Record &r) { return text_cell(r.key.variant); }},
-                        {"method", [](const Record &r) { return text_cell(r.key.method); }},
-                        number_column("X, any wave", "ellipticity lost"),
-                        number_column("X, of this torus", "first wave of the torus"),
-                        number_column("X, (64)", "criterion (64)"),
-                        number_column("first seen at X", "first seen"),
-                        error_column("from symbol", "difference from the symbol"),
-                        error_column("from tangent", "difference from the tangent"),
-                        {"no motion, because", [](const Record &r)
-                         { return known(!r.failure.empty(), text_cell(r.failure)); }}},
-                       has_growth)};
+      return {
+          "strains", "Where waves on strains begin to grow",
+          "X = beta eps g^2 of the strain g, from which on waves grow: of any length on the whole "
+          "plane (ellipticity of the local limit is lost); of this torus, four mesh sizes long or "
+          "longer; by the symbol of the bonds; and from which on the local criterion (64) of Jha "
+          "& Lipton 2018, doi:10.1137/17M1112236, says so: it is sufficient, but late where its X "
+          "is larger. observed: the motion of the wave that grows fastest by the symbol, started "
+          "at 1e-10 of the horizon; first seen is the first X of the samples at which it grew. "
+          "Differences are over the symbol's largest rate: from the symbol, and from the rule's "
+          "own tangent.",
+          table_of(results,
+                   {{"series", [](const Record &r) { return text_cell(r.key.series); }},
+                    {"h", [](const Record &r) { return number_cell(r.key.h); }},
+                    {"strain", [](const Record &r) { return text_cell(r.key.variant); }},
+                    {"method", [](const Record &r) { return text_cell(r.key.method); }},
+                    number_column("X, any wave", "ellipticity lost"),
+                    number_column("X, of this torus", "first wave of the torus"),
+                    number_column("X, (64)", "criterion (64)"),
+                    number_column("first seen at X", "first seen"),
+                    error_column("from symbol", "difference from the symbol"),
+                    error_column("from tangent", "difference from the tangent"),
+                    {"no motion, because", [](const Record &r)
+                     { return known(!r.failure.empty(), text_cell(r.failure)); }}},
+                   has_growth)};
     }
 
     /// Growth rates over X of all methods in one direction of a series.
@@ -161,10 +167,9 @@ namespace plumbline::report
       std::vector<MethodName> methods;
       for (const Record *record : records)
         methods.push_back({record->key.method, record->key.family});
-      DataChart chart = named("growth_" + slug(key.variant) + (key.series.empty() ? "" : "_") +
-                                  slug(key.series),
-                              key.series + ", h = " + rounded(key.h) + ": " + key.variant +
-                                  ", growth of waves");
+      DataChart chart =
+          named("growth_" + slug(key.variant) + (key.series.empty() ? "" : "_") + slug(key.series),
+                key.series + ", h = " + rounded(key.h) + ": " + key.variant + ", growth of waves");
       chart.caption = chart.plot.title;
       chart.plot.x_label = "X = β ε g²";
       chart.plot.y_label = "growth rate [1/time]";
@@ -232,8 +237,7 @@ namespace plumbline::report
     std::vector<DataChart> measure_charts(const StudyResults &results)
     {
       const ChartView views[] = {
-          {"coercivity", "smallest eigenvalue of the symmetric part",
-           "coercivity constant [b / u]",
+          {"coercivity", "smallest eigenvalue of the symmetric part", "coercivity constant [b / u]",
            [](const Record &record) // of zero modes it is round-off
            {
              const double smallest = record["smallest eigenvalue"];
@@ -370,9 +374,9 @@ namespace plumbline::report
           const double h = record->key.h;
           if (record->count("zero modes") == 0)
           {
-            const bool is_finest =
-                std::none_of(results.records.begin(), results.records.end(), [&](const Record &r)
-                             { return r.key.is_same_series(record->key) && r.key.h < h; });
+            const bool is_finest = std::none_of(
+                results.records.begin(), results.records.end(),
+                [&](const Record &r) { return r.key.is_same_series(record->key) && r.key.h < h; });
             panels.push_back({method.name + ": λ = " + rounded((*record)["smallest eigenvalue"]) +
                                   (is_finest ? "" : ", h = " + rounded(h)),
                               &record->fields.at("mode 1")});
@@ -400,7 +404,8 @@ namespace plumbline::report
   {
     View view{"Stability"};
     view.words =
-        "stable: the symmetric part is positive definite at all levels with a constant that does not "
+        "stable: the symmetric part is positive definite at all levels with a constant that does "
+        "not "
         "fall, no weight is negative, moments are independent, and bonds tie all nodes. "
         "conditionally stable: under the condition given. unstable: no condition on m = δ/h helps.";
     view.verdicts = verdict_table(results);
@@ -412,22 +417,24 @@ namespace plumbline::report
                                                [](const Record &record)
                                                { return record.key.variant.empty(); })) +
                       " operators"};
-    view.parts = {measures(results),
-                  eigenvalues(results),
-                  time_steps(results),
-                  strain_thresholds(results),
-                  {"powers", "Over the sweep",
-                   "The powers of h, or of the horizon where h is fixed, that the measures follow at "
-                   "the finest three levels: 0 is bounded, -2 grows fourfold as it is halved.",
-                   power_table(results)},
-                  failures(results, "Levels without an operator", "no operator, because",
-                           [](const Record &record) { return record.key.variant.empty(); })};
+    view.parts = {
+        measures(results),
+        eigenvalues(results),
+        time_steps(results),
+        strain_thresholds(results),
+        {"powers", "Over the sweep",
+         "The powers of h, or of the horizon where h is fixed, that the measures follow at "
+         "the finest three levels: 0 is bounded, -2 grows fourfold as it is halved.",
+         power_table(results)},
+        failures(results, "Levels without an operator", "no operator, because",
+                 [](const Record &record) { return record.key.variant.empty(); })};
     view.galleries = {
         {"charts", "Measures over the sweep",
          "Levels where a value is not positive, or not known, have no point.",
          measure_charts(results)},
         {"strain-charts", "Waves on uniform strains", "", strain_charts(results)},
-        {"modes", "Modes",
+        {"modes",
+         "Modes",
          "The field that costs the least energy, or all that cost none (any basis of them), at the "
          "finest level with at most 1600 nodes. Smooth and spread over the domain is as it should "
          "be; what changes from node to node, or sits at a few nodes, is the method's own.",

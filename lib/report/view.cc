@@ -36,7 +36,8 @@ namespace plumbline::report
     {
       if (!results.variable.empty())
         return study::Axis::variable;
-      const bool has_one_h = std::all_of(records.begin(), records.end(), [&](const Record *record)
+      const bool has_one_h = std::all_of(records.begin(), records.end(),
+                                         [&](const Record *record)
                                          { return record->key.h == records.front()->key.h; });
       return has_one_h ? study::Axis::horizon : study::Axis::mesh_size;
     }
@@ -72,8 +73,8 @@ namespace plumbline::report
         {"m", [](const Record &record) { return number_cell(record.key.m()); }},
         {"h", [](const Record &record) { return number_cell(record.key.h); }}};
     if (!results.variable.empty())
-      columns.push_back({results.variable,
-                         [](const Record &record) { return number_cell(record.key.value); }});
+      columns.push_back(
+          {results.variable, [](const Record &record) { return number_cell(record.key.value); }});
     std::move(others.begin(), others.end(), std::back_inserter(columns));
     return columns;
   }
@@ -130,8 +131,8 @@ namespace plumbline::report
     {
       if (power.of.empty())
         continue;
-      table.rows.push_back({text_cell(power.method), text_cell(power.series),
-                            text_cell(base::word(power.axis))});
+      table.rows.push_back(
+          {text_cell(power.method), text_cell(power.series), text_cell(base::word(power.axis))});
       for (const std::string &name : names)
       {
         const auto found = power.of.find(name);
@@ -147,8 +148,8 @@ namespace plumbline::report
     std::vector<MethodName> methods;
     for (const Record &record : results.records)
       if (is_shown(record) &&
-          std::none_of(methods.begin(), methods.end(), [&](const MethodName &one)
-                       { return one.name == record.key.label(); }))
+          std::none_of(methods.begin(), methods.end(),
+                       [&](const MethodName &one) { return one.name == record.key.label(); }))
         methods.push_back({record.key.label(), record.key.family});
     return methods;
   }
@@ -171,8 +172,8 @@ namespace plumbline::report
       constexpr double wide = 20; // values fill a logarithmic axis from this ratio on
       const std::string &series = records.front()->key.series;
       const study::Axis axis = axis_of(results, records);
-      DataChart chart = named(view.name + suffix(series),
-                              (series.empty() ? "" : series + ": ") + view.title);
+      DataChart chart =
+          named(view.name + suffix(series), (series.empty() ? "" : series + ": ") + view.title);
       Plot &plot = chart.plot;
       plot.x_label = label(axis, results.variable);
       plot.y_label = view.y_label;
@@ -271,8 +272,9 @@ namespace plumbline::report
                results, is_shown))
         charts.charts.push_back(std::move(chart));
     }
-    view.parts = {{"values", "Values", "", table_of(results, with_place(results, columns), is_shown)},
-                  failures(results, "Levels without a result", "because")};
+    view.parts = {
+        {"values", "Values", "", table_of(results, with_place(results, columns), is_shown)},
+        failures(results, "Levels without a result", "because")};
     view.galleries = {std::move(charts)};
     return view;
   }
@@ -293,7 +295,9 @@ namespace plumbline::report
                         {"holds", one.holds}});
       if (met.empty() && missed.empty())
         return {};
-      const auto list = [](const Data &rows) { return rows.empty() ? Data() : Data{{"rows", rows}}; };
+      const auto list = [](const Data &rows) {
+        return rows.empty() ? Data() : Data{{"rows", rows}};
+      };
       return {{"n", met.size() + missed.size()},
               {"n_hold", met.size()},
               {"met", list(met)},
@@ -309,9 +313,10 @@ namespace plumbline::report
         for (std::size_t j = 0; j < view.verdicts.columns.size(); ++j)
         {
           const std::string &head = view.verdicts.columns[j].head;
-          table["rows"][i]["cells"][j]["look"] =
-              head == view.verdicts.columns[0].head ? "method"
-              : head == "verdict" && i < view.ratings.size() ? view.ratings[i] : "";
+          table["rows"][i]["cells"][j]["look"] = head == view.verdicts.columns[0].head ? "method"
+                                                 : head == "verdict" && i < view.ratings.size()
+                                                     ? view.ratings[i]
+                                                     : "";
         }
       table["question"] = view.question;
       table["words"] = view.words;
@@ -323,14 +328,18 @@ namespace plumbline::report
     {
       std::vector<std::string> facts = view.facts;
       for (std::size_t i = 0; i < signs.size() && !results.verdicts.empty(); ++i)
-        facts.push_back(signs[i] + (" " + std::to_string(std::count_if(
-                                              results.verdicts.begin(), results.verdicts.end(),
-                                              [&](const study::Verdict &v)
-                                              { return static_cast<std::size_t>(v.rating) == i; }))) +
-                        " " + base::word(static_cast<study::Rating>(i)));
+        facts.push_back(
+            signs[i] +
+            (" " + std::to_string(std::count_if(results.verdicts.begin(), results.verdicts.end(),
+                                                [&](const study::Verdict &v) {
+                                                  return static_cast<std::size_t>(v.rating) == i;
+                                                }))) +
+            " " + base::word(static_cast<study::Rating>(i)));
       if (!results.is_complete)
         facts.emplace_back(page::interrupted);
       Data data = page::begin(results.analysis, results.scene_name, results.purpose, facts);
+      data["answer"] = view.answer;
+      data["model"] = view.model;
       data["verdicts"] = page_verdicts(view);
       data["expectations"] = expectations(results);
       data["warnings"] = results.warnings;
@@ -342,9 +351,9 @@ namespace plumbline::report
         Data charts = page::charts(gallery.charts, folder, results.analysis),
              pictures = Data::array();
         for (const Picture &picture : gallery.pictures)
-          pictures.push_back(page::figure(
-              {folder / results.analysis / (picture.name + ".svg"), picture.name + "-",
-               picture.title, "", "Picture", results.analysis + "/" + picture.name + ".svg", true}));
+          pictures.push_back(page::figure({folder / results.analysis / (picture.name + ".svg"),
+                                           picture.name + "-", picture.title, "", "Picture",
+                                           results.analysis + "/" + picture.name + ".svg", true}));
         if (charts.empty() && pictures.empty())
           continue;
         data["galleries"].push_back({{"id", gallery.id},
@@ -360,6 +369,8 @@ namespace plumbline::report
     std::string markdown(const View &view, const StudyResults &results)
     {
       std::string text = "# " + view.title + ": " + results.scene_name + "\n\n";
+      if (!view.answer.empty())
+        text += view.answer + "\n\n";
       if (!view.verdicts.rows.empty())
         text += to_markdown(view.verdicts);
       if (!view.question.empty())
@@ -367,7 +378,7 @@ namespace plumbline::report
       for (const Part &part : page::with_rows(view.parts))
         text += "\n## " + part.head + "\n\n" + to_markdown(part.table) +
                 (part.words.empty() ? "" : "\n" + part.words + "\n");
-      return text;
+      return view.model.empty() ? text : text + "\n" + view.model + "\n";
     }
 
     void draw(const View &view, const std::filesystem::path &folder)
@@ -403,6 +414,8 @@ namespace plumbline::report
       text += "\nwarning: " + warning + "\n";
     for (const std::string &what : results.left_out)
       text += "\nleft out by the budget: " + what + "\n";
+    for (const std::string &words : {view.model, view.answer})
+      text += words.empty() ? "" : "\n" + wrapped(words, width) + "\n";
     return view.verdicts.rows.empty() ? text : text + "\n" + to_text(view.verdicts);
   }
 

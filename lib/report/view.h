@@ -79,6 +79,8 @@ namespace plumbline::report
   struct View
   {
     std::string title;         ///< of the page, e.g. "Stability"
+    std::string answer = {};   ///< what the results say, in a sentence or two
+    std::string model = {};    ///< what was solved, and what was left out
     std::string question = {}; ///< what the verdicts answer
     std::string words = {};    ///< what the verdicts mean
     Table verdicts = {};
@@ -93,6 +95,7 @@ namespace plumbline::report
 
   View stability_view(const StudyResults &results);
   View dispersion_view(const StudyResults &results);
+  View strip_view(const StudyResults &results);
 
   /// The labels of methods in the order of the records.
   std::vector<MethodName> methods_of(const StudyResults &results, const IsShown &is_shown);

@@ -21,8 +21,7 @@ namespace plumbline::scene
       return std::includes(can.begin(), can.end(), needed.begin(), needed.end());
     }
 
-    /// How a scene says that it needs something, and what to write instead; empty: there is
-    /// nothing.
+    /// The settings that need a capability, and the remedy; empty: none.
     struct Need
     {
       std::string text, remedy;
@@ -48,9 +47,9 @@ namespace plumbline::scene
       case C::free_boundary:
         return {"Domain/boundary = free", "write Domain/boundary = constrained"};
       case C::floating:
-        return {"Domain/fixed = none: the body can move as a whole (3 rigid modes in the plane) "
-                "and there is no one solution",
-                "give Domain/fixed ('plumbline stability' measures the body as it is)"};
+        return {"Domain/fixed = none: the body is unconstrained (3 rigid-body modes in the plane) "
+                "and the solution is not unique",
+                "give Domain/fixed ('plumbline stability' analyses the unconstrained body)"};
       case C::heterogeneous:
         return {"the material varies in space", "write constants"};
       case C::cracks:
@@ -61,37 +60,36 @@ namespace plumbline::scene
         return {"Domain/cracks or Domain/outside changes dilatations",
                 "clear both (cracks in bonds alone: Material/model = bond-based)"};
       case C::notch:
-        return {"Crack/notch > 0 ('plumbline crack' follows it)", "write 0"};
+        return {"Crack/notch > 0 ('plumbline crack' simulates it)", "write 0"};
       case C::dilatation:
         return {model + " with its dilatation", "write Material/model = bond-based"};
       case C::zero_dilatation:
-        return {"Material/collar dilatation = zero", "write from data"};
+        return {"Material/dilatation in interaction domain = zero", "write from data"};
       case C::mixed_dilatation:
-        return {"Solver/dilatation = kept", "write Solver/dilatation = eliminated"};
+        return {"Solver/dilatation = mixed", "write Solver/dilatation = condensed"};
       case C::nonlocal:
-        return {"the scene asks for a nonlocal solution",
+        return {"the scene needs a nonlocal solution",
                 "write Study/regime = delta, or a decisive error against local"};
       case C::dynamic:
-        return {"the scene moves (Time/final time > 0)", "write 0"};
+        return {"the scene is transient (Time/final time > 0)", "write 0"};
       case C::double_well:
-        return {model +
-                    ", whose force is not linear (of Galerkin methods Q1, Q2, Q3 can: jumps of u "
-                    "make e^(-beta du^2/r) a layer at r = 0 that no fixed quadrature resolves, "
-                    "and cracks strains of 1/h)",
+        return {model + ", whose force is nonlinear (among Galerkin methods only Q1, Q2 and Q3 "
+                        "support it: with jumps of u, e^(-beta du^2/r) has a layer at r = 0 that "
+                        "no fixed quadrature resolves, and cracks have strains of order 1/h)",
                 "write bond-based"};
       case C::double_well_collar:
-        return {"u is given in a collar around double wells, but nonlinear Galerkin forces are "
-                "those of a torus",
+        return {"u is prescribed in an interaction domain, but nonlinear Galerkin forces are "
+                "implemented on a torus only",
                 "write Domain/boundary = periodic"};
       case C::periodic:
         return {"Domain/boundary = periodic", "write constrained"};
       case C::line:
-        return {"Domain/dimension = 1, which is for motions of double wells", "write 2"};
+        return {"Domain/dimension = 1, which is for transient analysis of double wells", "write 2"};
       }
       return {};
     }
 
-    /// Those of a table that can do it all, separated by commas.
+    /// Rows of a table that have all needed capabilities, separated by commas.
     std::string able(const std::vector<Capable> &all, const Capabilities &needed)
     {
       std::vector<std::string> names;
@@ -138,7 +136,7 @@ namespace plumbline::scene
     };
     add(domain.mesh.is_lattice() && !domain.is_free_body, C::lattice);
     add(!domain.mesh.is_lattice(), C::meshes);
-    // what grows is constrained by its grips: 'plumbline grow' says itself what it may be
+    // quasi-static fracture is constrained by grips and has its own checks
     const bool is_free = domain.is_free_body && !scene.fracture.is_there();
     add(is_free, C::free_boundary);
     add(is_free && domain.is_floating, C::floating);
@@ -176,13 +174,13 @@ namespace plumbline::scene
     const Capabilities needed = needs(scene);
     if (const std::string why = refusal(scene, needed, model.can(), able(capable_models(), needed));
         !why.empty())
-      throw InputError("Material/model = " + model.name() + " cannot do this scene: " + why);
+      throw InputError("Material/model = " + model.name() + " does not support this scene: " + why);
   }
 
   void check_analysis(const Scene &scene, Analysis analysis)
   {
     const Capable &one = analyses()[static_cast<std::size_t>(analysis)];
     if (const std::string why = refusal(scene, needs(scene), one.can, ""); !why.empty())
-      throw InputError(one.name + " cannot do this scene: " + why);
+      throw InputError(one.name + " does not support this scene: " + why);
   }
 } // namespace plumbline::scene

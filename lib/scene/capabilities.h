@@ -8,35 +8,34 @@
 
 namespace plumbline::scene
 {
-  /// What is done with a scene.
+  /// Analyses of a scene.
   enum class Analysis
   {
     statics,
     motion,
-    crack,  ///< in motion
-    growth, ///< of cracks in equilibrium
-    strip,  ///< a standing crack
+    crack,  ///< dynamic fracture
+    growth, ///< quasi-static fracture
+    strip,  ///< stationary crack
     stability,
     dispersion,
     check ///< of the weights of another code
   };
 
-  /// By their words, in their order.
+  /// Their capabilities, in the order of the enum.
   const std::vector<Capable> &analyses();
 
-  /// What a scene needs, as far as it says so itself: not which cells a mesh of a file has.
+  /// Capabilities that a scene needs, as far as its keys tell: not the cell types of a mesh file.
   Capabilities needs(const Scene &scene);
 
-  /// Of what is missing the first thing, what to take instead, and what else to write; empty:
-  /// nothing is missing.
-  /// @param others  that can do all of it, in words; empty: there are none
+  /// Message that names the first missing capability and its remedies; empty: none is missing.
+  /// @param others  names of alternatives that have all capabilities; empty: there are none
   std::string refusal(const Scene &scene, const Capabilities &needed, const Capabilities &can,
                       const std::string &others);
 
-  /// @throws InputError  the scene's model cannot do what else it says
+  /// @throws InputError  the scene's model lacks a capability that the scene needs
   void check_model(const Scene &scene);
 
-  /// @throws InputError  naming what it cannot do of the scene
+  /// @throws InputError  the analysis lacks a capability that the scene needs
   void check_analysis(const Scene &scene, Analysis analysis);
 } // namespace plumbline::scene
 

@@ -19,7 +19,7 @@ namespace plumbline::scene
     /// Beyond this ratio a stencil alone takes gigabytes.
     constexpr double most_ratio = 2000;
 
-    /// What a study's variable needs.
+    /// Requirements of Study/variable.
     void check_variable(const Scene &scene)
     {
       const StudySection &study = scene.study;
@@ -35,24 +35,25 @@ namespace plumbline::scene
         names += (names.empty() ? "" : ", ") + one.name;
       require(std::any_of(scene.random.variables.begin(), scene.random.variables.end(),
                           [&](const uq::Variable &one) { return one.name == study.variable; }),
-              key + " = '" + study.variable + "' is none of Random/variables" +
+              key + " = '" + study.variable + "' is not one of Random/variables" +
                   (names.empty() ? ", which is empty" : " (" + names + ")") +
                   "; name it there, e.g. 'nu: uniform 0.25 0.49', and in an expression or in "
                   "Random/keys");
       require(!study.values.empty(), regime + " needs Study/values, which is empty");
       for (std::size_t i = 0; i < study.values.size(); ++i)
         require(std::isfinite(study.values[i]) && (i == 0 || study.values[i - 1] < study.values[i]),
-                "Study/values must be finite and rise without repetition; " +
+                "Study/values must be finite and strictly increasing; " +
                     short_number(study.values[i]) + " does not");
       require(!scene.sampling.is_there(),
               regime + " with Sampling/rule = " + base::word(scene.sampling.rule) +
                   ": both vary variables; write Sampling/rule = none, or another regime");
       require(!scene.crack.is_there() && !scene.fracture.is_there() && !scene.strip.is_there(),
-              regime + " is for statics, motions, stability and dispersion; of growth and cracks "
-                       "take samples (Sampling/rule = equidistant), or write another regime");
+              regime +
+                  " is for statics, transient analysis, stability and dispersion; for fracture use "
+                  "samples (Sampling/rule = equidistant), or write another regime");
     }
 
-    /// Of two whole numbers that rise, e.g. h = 1,5.
+    /// Hint for two increasing whole numbers, e.g. h = 1,5, which may be one decimal number.
     std::string hint_of_order(const Series &series, std::size_t i, bool is_h)
     {
       const auto text = [&](const Level &level)
@@ -60,7 +61,7 @@ namespace plumbline::scene
       return comma_hint(text(series.levels[i - 1]) + "," + text(series.levels[i]));
     }
 
-    /// Coarse to fine and nothing twice: rates and names rest on it.
+    /// Levels run from coarse to fine without repetition, which observed orders and names rely on.
     void check_order(const Scene &scene)
     {
       const bool is_h = scene.study.regime != Regime::horizon;
@@ -69,14 +70,14 @@ namespace plumbline::scene
       {
         if (!names.insert(series.name).second)
           throw InputError("Study: the series '" + series.name +
-                           "' comes twice; give each ratio, horizon or mesh size once");
+                           "' occurs twice; give each ratio, horizon or mesh size once");
         for (std::size_t i = 1; scene.study.regime != Regime::variable && i < series.levels.size();
              ++i)
           if (!(is_h ? series.levels[i].h < series.levels[i - 1].h
                      : series.levels[i].horizon < series.levels[i - 1].horizon))
             throw InputError(std::string(is_h ? "Study/h" : "Study/horizon") +
-                             " must run from large to small without repetition (series '" +
-                             series.name + "')" + hint_of_order(series, i, is_h));
+                             " must be strictly decreasing (series '" + series.name + "')" +
+                             hint_of_order(series, i, is_h));
       }
       std::set<std::string> cases;
       for (const std::string &name : scene.problem.case_names())
@@ -107,11 +108,11 @@ namespace plumbline::scene
                      "(Study/m, Study/horizon, Study/h)";
         else if (scene.domain.collar &&
                  *scene.domain.collar < scene.reach(level.horizon) * (1 - 1e-12))
-          message << "Domain/collar = " << *scene.domain.collar << " is thinner than "
-                  << (scene.has_dilatation() ? "twice the horizon, which dilatations need, "
+          message << "Domain/interaction domain = " << *scene.domain.collar << " is thinner than "
+                  << (scene.has_dilatation() ? "twice the horizon, which the dilatation needs, "
                                              : "the horizon ")
                   << scene.reach(level.horizon)
-                  << ", so balls would reach points without data; widen it or write auto";
+                  << ", so that balls would contain points without data; increase it or write auto";
         else
         {
           if (scene.domain.mesh.is_of_boxes() && !scene.strip.is_there())
@@ -128,13 +129,14 @@ namespace plumbline::scene
     {
       const KernelSection &kernel = scene.kernel;
       const bool is_navier = kernel.limit == Limit::navier;
-      require(!scene.material.model->takes_influence() ||
-                  (kernel.structure == physics::Structure::scalar && is_navier &&
-                   kernel.coefficient.empty() && kernel.materials.empty()),
-              "Material/model = " + scene.material.model->name() +
-                  " takes Kernel/type as its influence function and its constants from Material; "
-                  "write a scalar Kernel/type (1/r, constant, ...), Kernel/limit = Navier, and "
-                  "clear Kernel/coefficient and Kernel/materials");
+      require(
+          !scene.material.model->takes_influence() ||
+              (kernel.structure == physics::Structure::scalar && is_navier &&
+               kernel.coefficient.empty() && kernel.materials.empty()),
+          "Material/model = " + scene.material.model->name() +
+              " uses Kernel/type as its influence function and takes its constants from Material; "
+              "write a scalar Kernel/type (1/r, constant, ...), Kernel/limit = Navier, and "
+              "clear Kernel/coefficient and Kernel/materials");
       require(!is_navier || scene.is_vector(),
               "Kernel/limit = Navier does not fit the scalar kernel '" + kernel.type +
                   "'; choose a bond tensor (Kernel/type) or a Laplace limit");
@@ -199,7 +201,7 @@ namespace plumbline::scene
           "an expression");
       require(n_loads == 0 || n_solutions == 0 || n_loads == n_solutions,
               "Problem/load has " + std::to_string(n_loads) + " cases and Problem/solution has " +
-                  std::to_string(n_solutions) + "; give one load a solution");
+                  std::to_string(n_solutions) + "; give one load for each solution");
     }
 
     void check_coefficient(const Scene &scene)
@@ -250,28 +252,25 @@ namespace plumbline::scene
             decisive + " must be 'norm | target' with a norm of Study/norms (add it there) and a "
                        "target of exact, local, reference, own finest level");
     require(target != Target::exact || !scene.problem.solutions.empty(),
-            decisive +
-                " needs Problem/solution, which is empty; use the target reference, or, where none "
-                "can be, own finest level");
+            decisive + " needs Problem/solution, which is empty; use the target reference, or, if "
+                       "there is no reference, own finest level");
     require(target != Target::local || local != LocalSolution::computed || is_of_averages,
             decisive + ": a computed local solution is compared by cell averages; use averages L2 "
                        "or averages Linf");
     require(target != Target::local ||
                 (local != LocalSolution::solution && local != LocalSolution::none),
-            decisive + " needs Problem/local solution as an expression; where it is the solution "
-                       "itself, take the target exact");
+            decisive + " needs Problem/local solution as an expression; if it equals the solution, "
+                       "use the target exact");
     require(target != Target::reference || reference.method,
             decisive + " needs Reference/method, which is none");
     require(target != Target::finest || is_of_averages,
-            decisive +
-                ": solutions of two levels are held against each other by cell averages; use "
-                "averages L2 or averages Linf");
+            decisive + ": solutions of two levels are compared by cell averages; use "
+                       "averages L2 or averages Linf");
     require(target != Target::finest || !is_without_limit(study.regime),
             decisive + " with Study/regime = " + base::word(study.regime) +
-                ": nothing is refined there; take the target exact or reference, or another "
-                "regime");
+                ": nothing is refined there; use the target exact or reference, or another regime");
     require(target != Target::reference || is_of_averages,
-            decisive + ": solutions are held against a reference by cell averages; use averages "
+            decisive + ": solutions are compared with a reference by cell averages; use averages "
                        "L2 or averages Linf");
     require(reference.tolerance == 0 || (reference.method && reference.estimate != Estimate::none),
             "Reference/tolerance = " + short_number(reference.tolerance) +
@@ -288,9 +287,9 @@ namespace plumbline::scene
     const bool is_chosen = solver.iteration != Iteration::automatic;
     const bool is_scattered = !scene.domain.mesh.is_lattice() && !is_free;
     const std::string iteration = "Solver/iteration = " + base::word(solver.iteration),
-                      kept = "Solver/dilatation = kept";
+                      kept = "Solver/dilatation = mixed";
     require(!is_chosen || solver.linear_solver != SparseSolver::direct,
-            iteration + ", but nothing iterates with Solver/linear solver = direct; write "
+            iteration + ", but Solver/linear solver = direct does not iterate; write "
                         "Solver/iteration = automatic, or another linear solver");
     require(!is_chosen || solver.iteration == Iteration::cg || is_scattered,
             iteration + " on a " + (is_free ? "free body" : "lattice") +
@@ -299,9 +298,9 @@ namespace plumbline::scene
       return;
     require(scene.has_dilatation(),
             kept + ", but the model has none, being that of state-based solids with lambda != mu; "
-                   "write eliminated, or Material/model = LPS");
+                   "write condensed, or Material/model = LPS");
     require(is_scattered, kept + " is for scattered nodes, not for lattices and free bodies; write "
-                                 "eliminated, or Domain/mesh = squares with a collar");
+                                 "condensed, or Domain/mesh = squares with an interaction domain");
     require(solver.linear_solver != SparseSolver::jacobi,
             kept + " makes a system that jacobi does not precondition; write Solver/linear solver "
                    "= automatic, direct or amg");

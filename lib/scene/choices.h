@@ -164,6 +164,7 @@ namespace plumbline::base
       std::array{"automatic", "every", "reference", "none"};
   template <>
   inline constexpr auto words<scene::ExpectedKind> =
-      std::array{"verdicts",  "errors", "rates",         "bounds",   "monotone", "jitter",
-                 "stability", "orders", "strain growth", "sampling", "strip",    "values"};
+      std::array{"verdicts",          "errors",   "rates",     "bounds",
+                 "monotone",          "jitter",   "stability", "orders",
+                 "wave growth rates", "sampling", "strip",     "values"};
 } // namespace plumbline::base

@@ -27,7 +27,7 @@ namespace plumbline::scene
         throw InputError(given + " is " + short_number(notch / level.h) + " mesh sizes" + at +
                          "; give a multiple of h");
       if (!(notch < length * (1 - tolerance)))
-        throw InputError(given + " parts the strip, which is " + short_number(length) +
+        throw InputError(given + " cuts through the strip, which is " + short_number(length) +
                          " long (Domain/boxes); give less");
       if (!is_multiple(height, 2 * level.h))
         throw InputError("Domain/boxes: the strip's height " + short_number(height) +
@@ -36,7 +36,7 @@ namespace plumbline::scene
       if (height < 4 * level.horizon)
         throw InputError("Domain/boxes: the strip's height " + short_number(height) +
                          " is less than four horizons, " + short_number(4 * level.horizon) + at +
-                         "; raise it, or lower Study/h or Study/m");
+                         "; increase it, or decrease Study/h or Study/m");
     }
   } // namespace
 
@@ -53,11 +53,12 @@ namespace plumbline::scene
     const ProblemSection &problem = scene.problem;
     const TimeSection &time = scene.time;
     needs(scene.material.boundary_function == BoundaryFunction::one,
-          "Material/boundary function = one: the strip's ends are free, its edges held");
+          "Material/boundary function = one: the strip's ends are free, its edges constrained");
     needs(time.is_dynamic(), "Time/final time > 0");
     needs(domain.boxes.include.size() == 1 && domain.boxes.exclude.empty(),
           "one box (Domain/boxes) without holes, the strip");
-    needs(!domain.collar, "Domain/collar = auto: grips hold what is above and below the strip");
+    needs(!domain.collar,
+          "Domain/interaction domain = auto: grips constrain the nodes above and below the strip");
     needs(problem.solutions.empty() && problem.loads.empty() && !problem.constraint &&
               time.initial_displacement.empty() && time.initial_velocity.empty(),
           "Problem/solution, load and constraint, Time/initial displacement and initial velocity "

@@ -5,11 +5,24 @@
 
 namespace plumbline::scene
 {
+  problem::Damage<2> make_damage(const Scene &scene, double horizon)
+  {
+    problem::Damage<2> damage;
+    damage.cracks = scene.domain.cracks;
+    if (scene.material.surface_terms != SurfaceTerms::automatic)
+      damage.surface_terms = scene.material.surface_terms;
+    if (scene.domain.outside.empty())
+      return damage;
+    physics::Names names = {{"delta", horizon}};
+    names.origin = scene.domain.origin;
+    damage.outside = physics::Expression("Domain/outside", scene.domain.outside, names);
+    return damage;
+  }
+
   void check_damage(const Scene &scene, double horizon, const geometry::NodeCells &cells)
   {
-    const problem::Damage<2> damage{scene.domain.cracks, scene.domain.outside, SurfaceTerms::published,
-                        scene.domain.origin};
-    const auto is_ghost = problem::find_ghosts(damage, horizon, cells);
+    const problem::Damage<2> damage = make_damage(scene, horizon);
+    const auto is_ghost = problem::find_ghosts(damage, cells);
     std::string key = "Domain/outside";
     try
     {

@@ -28,7 +28,7 @@ namespace plumbline::scene
       needs(scene.methods.nodes.are_vertices(), "Methods/nodes = vertices");
       needs(scene.problem.solutions.empty() && !scene.problem.loads.empty(),
             "Problem/load and Problem/constraint as expressions, Problem/solution empty");
-      needs(!scene.domain.collar, "Domain/collar = auto: there is none");
+      needs(!scene.domain.collar, "Domain/interaction domain = auto: there is none");
       if (!scene.domain.mesh.is_of_boxes() || !scene.domain.mesh.map.empty())
         return; // fixed boxes may cut the cells
       for (const Series &series : scene.study.series)
@@ -91,9 +91,9 @@ namespace plumbline::scene
             "Domain/arguments or Domain/inside is given",
             "they belong to deal.II's generators; clear them");
       needs(!is_generator || !mesh.inside.empty() || is_free, "Domain/inside is empty",
-            "lattice, squares, triangles and files .msh or .geo do without, any other name is a "
-            "generator of deal.II; tell which of its cells are in Omega, the others being the "
-            "collar, by an expression that is positive there");
+            "any name other than lattice, squares, triangles and files .msh or .geo is a generator "
+            "of deal.II; give an expression that is positive in Omega, the other cells being the "
+            "interaction domain");
       needs(!mesh.is_curved || kind == MeshKind::file, "Domain/sides = curved",
             "only a .geo file, or a .msh file of second to fourth order, has curves to follow; "
             "take one, or write straight");
@@ -101,7 +101,8 @@ namespace plumbline::scene
             "a free body has straight sides; write straight");
       needs(!mesh.is_curved || scene.quadrature.exact_entries,
             "Domain/sides = curved and Quadrature/entries = quadrature",
-            "cells with curved sides have their entries by pairs of sides alone; write exact, or "
+            "entries of cells with curved sides are available by pairs of sides only; write exact, "
+            "or "
             "Domain/sides = straight");
       needs(!mesh.is_curved || !scene.has_dilatation(),
             "Domain/sides = curved and a material with dilatations",
@@ -125,14 +126,15 @@ namespace plumbline::scene
               "Problem/local solution = computed", mesh_remedy);
         return;
       }
-      needs(!scene.domain.collar, "Domain/collar is given",
-            "a mesh has the collar it has, and is checked; write Domain/collar = auto");
+      needs(!scene.domain.collar, "Domain/interaction domain is given",
+            "the mesh defines its interaction domain, which is checked; write Domain/interaction "
+            "domain = auto");
       needs(is_free || scene.solver.operator_backend == base::OperatorBackend::automatic,
             "Solver/operator = " + base::word(scene.solver.operator_backend),
             "operators on meshes are sparse matrices; write automatic");
     }
 
-    /// Where u is given, and what is free.
+    /// Checks constrained and free boundaries.
     void check_boundary(const Scene &scene)
     {
       if (scene.fracture.is_there())
@@ -140,23 +142,27 @@ namespace plumbline::scene
       const DomainSection &domain = scene.domain;
       if (domain.is_free_body)
         check_free_body(scene);
-      require(domain.is_free_body || (domain.fixed.empty() && !domain.is_floating),
-              "Domain/fixed is given, but u is given in the collar all around; write "
-              "Domain/boundary = free, or clear it");
+      require(
+          domain.is_free_body || (domain.fixed.empty() && !domain.is_floating),
+          "Domain/fixed is given, but u is prescribed in the interaction domain all around; write "
+          "Domain/boundary = free, or clear it");
       require(scene.problem.local_solution != LocalSolution::computed ||
                   !(domain.is_free_body || domain.is_damaged()),
               "Problem/local solution = computed needs u all around a domain without cracks and "
               "free surfaces; write none, or an expression");
       require(scene.material.has_collar_dilatation ||
                   (scene.has_dilatation() && !domain.mesh.is_lattice() && !domain.is_free_body),
-              "Material/collar dilatation = zero needs a state-based solid with lambda != mu on "
-              "scattered nodes with a collar; write from data, or Material/model = LPS with "
+              "Material/dilatation in interaction domain = zero needs a state-based solid with "
+              "lambda != mu on "
+              "scattered nodes with an interaction domain; write from data, or Material/model = "
+              "LPS with "
               "Domain/mesh = squares");
-      require(scene.material.surface_terms == SurfaceTerms::automatic ||
-                  (domain.is_damaged() && scene.has_dilatation()),
-              "Material/surface terms = " + base::word(scene.material.surface_terms) +
-                  " has no effect: there is no surface, or its model has none of them; clear it, "
-                  "or give Domain/cracks or Domain/outside with Material/model = LPS");
+      require(
+          scene.material.surface_terms == SurfaceTerms::automatic ||
+              (domain.is_damaged() && scene.has_dilatation()),
+          "Material/surface terms = " + base::word(scene.material.surface_terms) +
+              " has no effect: there is no free surface or crack, or the model has no surface "
+              "terms; clear it, or give Domain/cracks or Domain/outside with Material/model = LPS");
       require(!domain.is_damaged() || !domain.mesh.is_lattice(),
               "Domain/cracks or Domain/outside is given with Domain/mesh = lattice: " +
                   mesh_remedy);
@@ -164,7 +170,7 @@ namespace plumbline::scene
               "Methods/load = cells is for free bodies; write nodes, or Domain/boundary = free");
     }
 
-    /// That of a fine level is missed before coarse ones are solved.
+    /// Missing files of fine levels are reported before coarse levels are solved.
     void check_node_files(const Scene &scene)
     {
       const NodeSource &nodes = scene.methods.nodes;

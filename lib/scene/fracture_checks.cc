@@ -23,7 +23,7 @@ namespace plumbline::scene
     if (toughness.is_constant() && !(toughness({}) > 0))
       throw InputError(given + " must be positive: it is the fracture energy per unit area");
     needs(!scene.crack.is_there() && !scene.time.is_dynamic(),
-          "Crack/notch = 0 and Time/final time = 0: 'plumbline grow' follows equilibria");
+          "Crack/notch = 0 and Time/final time = 0: 'plumbline grow' is quasi-static");
     needs(scene.material.model == &lps(),
           "Material/model = LPS (with nu = 1/4 in plane strain it is bond-based)");
     needs(is_inverse_distance(scene.kernel),
@@ -32,14 +32,14 @@ namespace plumbline::scene
     needs(domain.is_free_body && !domain.is_floating && !domain.fixed.empty(),
           "Domain/boundary = free and Domain/fixed, the grips");
     needs(domain.outside.empty() && !domain.collar,
-          "Domain/outside empty and Domain/collar = auto");
+          "Domain/outside empty and Domain/interaction domain = auto");
     needs(scene.problem.solutions.empty() && scene.problem.loads.empty() &&
               scene.problem.constraint.has_value(),
-          "Problem/constraint, what the grips do at load 1, and neither solution nor load");
+          "Problem/constraint, the displacement of the grips at load 1, and neither solution nor "
+          "load");
     needs(scene.methods.names.size() == 1 && scene.methods.nodes.kind() == NodeKind::centres,
           "one meshfree method (Methods/names) on centres (Methods/nodes)");
-    needs(!domain.cracks.empty(),
-          "a notch that the crack grows from, Domain/cracks, from its mouth to its tip");
+    needs(!domain.cracks.empty(), "an initial notch in Domain/cracks, from its mouth to its tip");
     needs(scene.study.series.size() == 1 && scene.study.series.front().levels.size() == 1,
           "one Study/h and one Study/m (or Study/horizon)");
     check_analysis(scene, Analysis::growth);

@@ -7,12 +7,13 @@
 
 namespace plumbline::scene
 {
-  /// The files that a scene names, from its folder: its mesh with what a .geo script reads, the
-  /// table of its kernel, the nodes of each level, the pictures of its random field. Those that are
-  /// not there are left out.
+  /// Existing files that a scene names, relative to its folder: its mesh and the files that a .geo
+  /// script includes, the table of its kernel, the nodes of each level, the files of its random
+  /// field.
   std::vector<std::string> named_files(const Scene &scene);
 
-  /// A comment of scene files, with a line for each of these and a hash of what is in it (FNV-1a,
-  /// 64 bits); empty without such files. Results whose scene says the same of them are its own.
+  /// A comment for scene text with one line for each of these files and a hash of its content
+  /// (FNV-1a, 64 bits); empty without such files. Equal hashes show that results belong to the
+  /// scene.
   std::string describe_files(const Scene &scene);
 } // namespace plumbline::scene

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/text_file.h"
+#include "scene/aliases.h"
 #include "scene/values.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -16,7 +17,7 @@ namespace plumbline::scene
 
   namespace
   {
-    /// A pattern that says in our words what it allows.
+    /// A pattern with a readable description of the allowed values.
     template <class Pattern>
     class InWords : public Pattern
     {
@@ -37,7 +38,7 @@ namespace plumbline::scene
       std::string words_;
     };
 
-    /// Numbers separated by ','. deal.II takes a ',' behind the last one; nobody means it.
+    /// Numbers separated by ','. deal.II accepts a trailing ',', which is likely an error.
     class Numbers : public InWords<Patterns::List>
     {
     public:
@@ -69,7 +70,7 @@ namespace plumbline::scene
       return dynamic_cast<const Patterns::List *>(&allowed) != nullptr;
     }
 
-    /// The part of a text that is not allowed, where it is a list.
+    /// The part of a list that is not allowed; else the whole text.
     std::string culprit(const std::string &text, const Patterns::PatternBase &allowed)
     {
       if (const auto *list = dynamic_cast<const Patterns::List *>(&allowed))
@@ -225,31 +226,33 @@ namespace plumbline::scene
 
   const Keys::Key &Keys::find(const std::string &path) const
   {
-    const std::string section = path.substr(0, path.find('/'));
+    const std::string section = path.substr(0, path.find('/')), current = current_key(path);
     std::vector<std::string> similar, every;
     for (const Key &key : keys_)
     {
-      if (key.path() == path)
+      if (key.path() == current)
         return key;
       every.push_back(key.path());
-      if (key.section == section || key.name == path)
+      if (key.section == section || key.name == path ||
+          current_key(key.section + "/" + path) == key.path())
         similar.push_back(key.path());
     }
     throw InputError("key '" + path + "' is not known; write one of: " +
                      join(similar.empty() ? every : similar, ", "));
   }
 
-  void Keys::set(const std::string &path, const std::string &value)
+  void Keys::set(const std::string &path, const std::string &given_value)
   {
     Key &key = keys_[static_cast<std::size_t>(&find(path) - keys_.data())];
+    const std::string value = current_value(key.path(), given_value);
     const std::string given = path + " = '" + base::shown(value) + "' ";
     const bool is_text =
         std::none_of(value.begin(), value.end(),
                      [](unsigned char c) { return c == '#' || c == 127 || (c < 32 && c != '\t'); });
     if (!is_text || (!value.empty() && value.back() == '\\'))
       throw InputError(
-          given + "cannot be written in a scene: '#' begins a comment, a '\\' at the end "
-                  "continues the line; take them, line breaks and other control characters out");
+          given + "cannot be written in a scene: '#' begins a comment, a '\\' at the end continues "
+                  "the line; remove these, line breaks and other control characters");
     if (const std::string hint = comma_hint(value, Comma::before_0);
         !hint.empty() && !key.section.empty())
       throw InputError(given + "is not allowed" + hint);
@@ -257,7 +260,7 @@ namespace plumbline::scene
     if (!key.allowed->match(value))
       throw InputError(given + "is not allowed" +
                        (bad == value ? "" : ", for '" + base::shown(bad) + "' in it") + "; write " +
-                       key.allowed->description() + ", or take the key out: its default is '" +
+                       key.allowed->description() + ", or remove the key: its default is '" +
                        key.by_default + "'" +
                        comma_hint(value, is_list(*key.allowed) ? Comma::after_0 : Comma::any));
     key.value = value;

@@ -23,7 +23,7 @@ namespace dealii
 
 namespace plumbline::scene
 {
-  // What keys may be: deal.II's patterns, which say in our words what they allow.
+  // Allowed values of keys: deal.II patterns with readable descriptions.
   using Allowed = std::shared_ptr<const dealii::Patterns::PatternBase>;
 
   Allowed any_text();
@@ -46,53 +46,54 @@ namespace plumbline::scene
   /// @throws InputError  text that boxes() does not allow; a box without area
   std::vector<geometry::Box> to_boxes(const std::string &text);
 
-  /// The keys of a scene file, each beside the member that takes its value.
+  /// The keys of a scene file, each bound to the member that takes its value.
   class Keys
   {
   public:
     Keys();
     ~Keys();
 
-    /// Keys that are added now belong to this section; "": to none.
+    /// Keys added from now on belong to this section; "": to none.
     void enter(const std::string &section);
 
-    /// A key that a member takes; its default is what the member holds.
+    /// A key bound to a member; its default is the member's current value.
     /// @tparam T  bool, int, unsigned int, double, std::string, std::vector<double>
     template <class T>
     void add(const std::string &name, T &member, const Allowed &allowed, const std::string &help);
     void add(const std::string &name, std::string &member, const std::string &help);
 
-    /// The same of a choice, from its words.
+    /// The same for an enum with words.
     template <class Enum>
     std::enable_if_t<std::is_enum_v<Enum>> add(const std::string &name, Enum &member,
                                                const std::string &help);
 
-    /// The same of a truth value, from a word for false and one for true.
+    /// The same for a bool, with one word for false and one for true.
     void add(const std::string &name, bool &member, const std::string &if_false,
              const std::string &if_true, const std::string &help);
 
-    /// A key that is read by a function, its default, too.
+    /// A key that is read by a function; so is its default.
     using Read = std::function<void(const std::string &text)>;
     void add(const std::string &name, const std::string &by_default, const Allowed &allowed,
              const Read &read, const std::string &help);
 
-    /// Give "Section/key", or a key outside sections, a value.
+    /// Give "Section/key", or a key outside sections, a value; both may have former names, see
+    /// scene/aliases.h.
     /// @throws InputError  unknown key, or a value that is not allowed
-    void set(const std::string &path, const std::string &value);
+    void set(const std::string &path, const std::string &given_value);
 
-    /// Whether it was set, and to another value than its default.
-    /// @pre  a key that there is
+    /// Whether it was set; whether it was set to a value other than its default.
+    /// @pre  the key exists
     bool is_given(const std::string &path) const { return find(path).is_given; }
     bool is_changed(const std::string &path) const { return is_changed(find(path)); }
     std::vector<std::string> changed_keys(const std::string &section) const;
     std::string value(const std::string &path) const; ///< as it was set, or the default
     const std::string &default_of(const std::string &path) const { return find(path).by_default; }
 
-    /// What a key means, its default and what it allows; for "Section" all its keys.
+    /// Meaning, default and allowed values of a key; for "Section", of all its keys.
     /// @throws InputError  unknown key; the message names similar ones
     std::string describe(const std::string &path) const;
 
-    /// All keys with their values, and with their meanings if wanted.
+    /// All keys with their values, and optionally with their meanings.
     std::string text(bool has_help);
 
   private:
@@ -101,7 +102,7 @@ namespace plumbline::scene
       std::string section, name, by_default;
       Allowed allowed;
       std::string help;
-      std::string value = {}; ///< that was set
+      std::string value = {}; ///< as set
       bool is_given = false;
 
       std::string path() const { return section.empty() ? name : section + "/" + name; }
@@ -111,7 +112,7 @@ namespace plumbline::scene
     const Key &find(const std::string &path) const;
     static bool is_changed(const Key &key);
 
-    std::string section_; ///< that parameters_ is in
+    std::string section_; ///< current section of parameters_
     std::vector<Key> keys_;
     std::unique_ptr<dealii::ParameterHandler> parameters_;
   };

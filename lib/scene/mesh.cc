@@ -1,12 +1,12 @@
 #include "scene/mesh.h"
 
+#include "base/csv.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/number_text.h"
 #include "geometry/local_coordinates.h"
 #include "geometry/mesh_input.h"
 #include "physics/expression.h"
-#include "base/csv.h"
 #include "scene/mesh_files.h"
 
 #include <algorithm>

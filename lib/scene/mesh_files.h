@@ -8,12 +8,12 @@
 
 namespace plumbline::scene
 {
-  /// Meshes of files, kept for whoever asks again: cases, checks and estimates of a scene share the
-  /// mesh of a level. Belongs to a scene and its copies. Not for several threads at once.
+  /// Cache of meshes read from files: cases, checks and estimates of a scene share the mesh of a
+  /// level. Shared by copies of a scene; not thread-safe.
   class MeshFiles
   {
   public:
-    /// As geometry::read_mesh, of a file that does not change meanwhile.
+    /// As geometry::read_mesh; the file must not change meanwhile.
     const geometry::Mesh &read(const std::string &file, double h, double delta, bool has_collar,
                                bool is_curved);
 

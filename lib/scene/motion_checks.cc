@@ -23,15 +23,16 @@ namespace plumbline::scene
             "one box (Domain/boxes) without holes");
       needs(domain.mesh.is_lattice(), "Domain/mesh = lattice: other nodes have no neighbours "
                                       "across the sides of the box");
-      needs(!domain.collar, "Domain/collar = auto: there is none");
+      needs(!domain.collar, "Domain/interaction domain = auto: there is none");
       needs(scene.material.boundary_function == BoundaryFunction::one,
             "Material/boundary function = one: there is no boundary");
-      needs(!scene.problem.constraint, "Problem/constraint = solution: there is no collar");
+      needs(!scene.problem.constraint,
+            "Problem/constraint = solution: there is no interaction domain");
     }
 
     constexpr std::array<double, 3> parts_of_time = {.07, .3, .9}; ///< where fields are looked at
 
-    /// A solution on a torus goes on as it begins: at some points, beyond either side.
+    /// Checks at some points that a solution on a torus is periodic.
     void check_periods(const Scene &scene)
     {
       constexpr double tolerance = 1e-9; // of the largest value: rounding of sin(2πx) and the like
@@ -67,11 +68,11 @@ namespace plumbline::scene
       }
     }
 
-    /// Fields on a line are of x alone: at control points, whatever y.
+    /// Checks at some points that fields on a line do not depend on y.
     void check_line(const Scene &scene)
     {
-      require(scene.domain.is_periodic,
-              "Domain/dimension = 1 needs Domain/boundary = periodic: a line has no collar here");
+      require(scene.domain.is_periodic, "Domain/dimension = 1 needs Domain/boundary = periodic: a "
+                                        "line has no interaction domain here");
       const TimeSection &time = scene.time;
       std::vector<std::pair<std::string, std::string>> given = {
           {"Time/initial displacement", time.initial_displacement},
@@ -107,24 +108,27 @@ namespace plumbline::scene
       for (const Norm norm : study.norms)
         require(quantity(norm) == Quantity::nodal,
                 "Study/norms has '" + base::word(norm) +
-                    "', but motions (Time/final time > 0) are compared at nodes; write nodal L2, "
+                    "', but transient solutions (Time/final time > 0) are compared at nodes; write "
+                    "nodal L2, "
                     "nodal Linf, or both");
       require(std::find(study.norms.begin(), study.norms.end(), study.decisive_error.norm) !=
                   study.norms.end(),
               decisive + " must be 'norm | target' with a norm of Study/norms; write 'nodal L2 | "
                          "exact', or add the norm");
       require(study.decisive_error.target != Target::finest,
-              decisive + ": motions are not held against their own finest level; take exact or "
-                         "reference");
+              decisive + ": transient solutions are not compared with the method's own finest "
+                         "level; use exact or reference");
       require(study.decisive_error.target != Target::local,
-              decisive + ": a motion's local limit is not known; take exact or reference");
+              decisive +
+                  ": the local limit of a transient solution is not known; use exact or reference");
       require(study.decisive_error.target != Target::reference || scene.reference.method,
               decisive + " needs Reference/method = torus");
       if (!scene.reference.method)
         return;
       const std::string given = "Reference/method = " + *scene.reference.method;
       require(scene.reference.is_torus(),
-              given + " is for statics; motions take torus, or none and Problem/solution");
+              given +
+                  " is for statics; transient analyses use torus, or none and Problem/solution");
       require(scene.domain.is_periodic && !scene.material.model->is_linear(),
               given + " needs Domain/boundary = periodic and Material/model = double well");
       const geometry::Box &box = scene.domain.boxes.include.front();
@@ -150,17 +154,17 @@ namespace plumbline::scene
     const TimeSection &time = scene.time;
     const std::string torus = "Reference/method = torus";
     require(time.is_dynamic() || !scene.reference.is_torus(),
-            torus + " is for motions; give Time/final time, or a Galerkin method");
+            torus + " is for transient analyses; give Time/final time, or a Galerkin method");
     if (!time.is_dynamic())
       return;
     check_analysis(scene, Analysis::motion);
     require(!scene.solver.is_mixed,
             "Time/final time = " + short_number(time.final_time) +
-                " needs Solver/dilatation = eliminated: a dilatation that is kept has no mass");
+                " needs Solver/dilatation = condensed: a dilatation unknown has no mass");
     require(!scene.problem.solutions.empty() || !scene.problem.loads.empty() ||
                 !time.initial_displacement.empty() || !time.initial_velocity.empty(),
             "Time/final time = " + short_number(time.final_time) +
-                " needs something that moves; give Problem/solution, Problem/load, Time/initial "
+                " needs initial data or a load; give Problem/solution, Problem/load, Time/initial "
                 "displacement or Time/initial velocity");
     check_targets(scene);
   }

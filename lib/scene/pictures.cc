@@ -1,8 +1,8 @@
 #include "scene/pictures.h"
 
+#include "base/csv.h"
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/csv.h"
 #include "scene/values.h"
 
 #include <algorithm>

@@ -1,45 +1,18 @@
 #include "scene/problem.h"
 
 #include "base/cost.h"
-#include "base/error.h"
-#include "scene/manufactured_load.h"
+#include "problem/builder.h"
+#include "scene/damage.h"
 #include "scene/mesh.h"
 #include "scene/models/model.h"
 
-#include <stdexcept>
+#include <utility>
 
 namespace plumbline::scene
 {
   namespace
   {
-    using dealii::Point;
-    using physics::ChebyshevField;
     using physics::Expression;
-
-    /// A field of an expression, with its series on the bounding box of Ω where it is smooth.
-    /// What is made of pieces is taken as it is: no number of points shows where they end.
-    Field with_series(const Expression &expression, unsigned int n_components, const Extent &extent)
-    {
-      Field field{expression, std::nullopt};
-      if (expression.is_piecewise())
-        return field;
-      try
-      {
-        field.series = series_of(field.value, n_components, extent.box, extent, 0);
-      }
-      catch (const std::runtime_error &) // in a hole of the domain the field may have no value
-      {
-        if (extent.is_rectangle)
-          throw;
-      }
-      return field;
-    }
-
-    Field zero(unsigned int n_components, const geometry::Box &box)
-    {
-      const auto value = [](const Point<2> &, unsigned int) { return 0.; };
-      return {value, ChebyshevField::resolve(value, n_components, box.lower, box.upper)};
-    }
 
     problem::MethodSettings method_settings(const Scene &scene)
     {
@@ -58,112 +31,147 @@ namespace plumbline::scene
               scene.solver};
     }
 
-    /// What does not follow from cells or fields.
-    Problem without_data(const Scene &scene, const Level &level, const physics::Kernel<2> &kernel)
+    /// How fast cells tend to the domain that they stand for, see problem::MeshDomain.
+    unsigned int boundary_order(const MeshSource &mesh)
     {
-      const std::string &mesh = scene.domain.mesh.name;
-      Problem problem{{}, {}, {}, {}, mesh, level.h, kernel, {}, {}, kernel.n_components(),
-                      {}, {}, {}, {}};
-      problem.dimension = scene.domain.dimension;
-      problem.is_load_given = !scene.problem.loads.empty();
-      problem.is_homogeneous = scene.is_homogeneous();
-      problem.is_periodic = scene.domain.is_periodic;
-      problem.is_floating = scene.domain.is_floating;
-      problem.has_collar_dilatation = scene.material.has_collar_dilatation;
-      problem.damage = {scene.domain.cracks, scene.domain.outside,
-                        scene.material.surface_terms == SurfaceTerms::automatic
-                            ? SurfaceTerms::published
-                            : scene.material.surface_terms,
-                        scene.domain.origin};
-      scene.material.model->complete(scene, level, problem);
-      problem.settings = method_settings(scene);
-      problem.origin = scene.domain.origin;
-      return problem;
+      if (mesh.is_of_boxes())
+        return mesh.map.empty() ? 0 : 2;
+      if (mesh.is_curved)
+        return 4;
+      return mesh.inside.empty() ? 2 : 1;
     }
 
-    /// On its lattice, or on a mesh with the cells of its nodes.
-    void put_in_place(const Scene &scene, const Level &level, Problem &problem)
+    problem::Domain make_domain(const Scene &scene, const Level &level)
     {
+      const DomainSection &domain = scene.domain;
+      if (domain.mesh.is_lattice() && !domain.is_free_body)
+        return problem::LatticeDomain{domain.lattice(level.h), domain.is_periodic,
+                                      domain.dimension};
       base::CpuTimer timer;
-      if (scene.domain.is_free_body)
+      problem::BodyDomain result;
+      result.name = domain.mesh.name;
+      result.boundary_order = boundary_order(domain.mesh);
+      if (domain.is_free_body)
       {
         const geometry::VertexCells body = make_body(scene, level);
-        problem.body = body.lattice;
-        problem.cells = body.cells;
-        problem.mesh = body.mesh;
-        problem.mesh_seconds = timer.seconds();
+        result.lattice = body.lattice;
+        result.cells = body.cells;
+        result.mesh = body.mesh;
+        result.is_floating = domain.is_floating;
+        result.mesh_seconds = timer.seconds();
+        return result;
       }
-      else if (scene.domain.mesh.is_lattice())
-        problem.lattice = scene.domain.lattice(level.h);
-      else
-      {
-        problem.mesh = std::make_shared<const geometry::Mesh>(make_mesh(scene, level));
-        problem.mesh_seconds = timer.seconds();
-        timer.restart();
-        problem.cells = std::make_shared<const geometry::NodeCells>(
-            make_node_cells(scene, level, *problem.mesh));
-        problem.cells_seconds = timer.seconds();
-      }
+      result.reach = scene.reach(level.horizon);
+      result.mesh = std::make_shared<const geometry::Mesh>(make_mesh(scene, level));
+      result.mesh_seconds = timer.seconds();
+      timer.restart();
+      result.cells =
+          std::make_shared<const geometry::NodeCells>(make_node_cells(scene, level, *result.mesh));
+      result.cells_seconds = timer.seconds();
+      return static_cast<const problem::MeshDomain &>(result);
+    }
+
+    std::vector<problem::SpatialValue<2>> spatial_values(const Scene &scene, const Problem &problem)
+    {
+      std::vector<problem::SpatialValue<2>> values = material_values(scene);
+      const bool is_by_surfaces = !scene.kernel.materials.empty();
+      if (problem.coefficient && (is_by_surfaces || !scene.kernel.coefficient.empty()))
+        values.push_back({is_by_surfaces ? "Kernel/materials" : "Kernel/coefficient",
+                          [a = *problem.coefficient](const dealii::Point<2> &x)
+                          { return a.at(x); }});
+      return values;
+    }
+
+    /// The scene with the simplest nodes.
+    Scene centred(Scene scene)
+    {
+      scene.methods.nodes.name = "centres";
+      scene.methods.nodes.perturbation = 0;
+      scene.geometry.n_checks = 0;
+      return scene;
+    }
+
+    /// Whether Solver/model = full would build anything besides what this scene's solves build, and
+    /// can: not with a given collar or operator, which a full model has no use for.
+    bool has_fuller_model(const Scene &scene)
+    {
+      const bool drops_dilatation =
+          scene.material.model->is_state_based() && !scene.has_dilatation();
+      return !scene.solver.is_full_model && !scene.domain.collar &&
+             scene.solver.operator_backend == base::OperatorBackend::automatic &&
+             (scene.domain.is_free_body ? drops_dilatation : scene.domain.mesh.is_lattice());
     }
   } // namespace
 
   Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level, double t,
                        const Field *known_load, const Problem *same_place)
   {
-    const physics::Kernel<2> kernel = make_kernel(scene, level.horizon);
-    const unsigned int n_components = kernel.n_components();
-    Problem problem = without_data(scene, level, kernel);
-    if (same_place != nullptr)
-    {
-      problem.lattice = same_place->lattice;
-      problem.mesh = same_place->mesh;
-      problem.cells = same_place->cells;
-      problem.body = same_place->body;
-      problem.mesh_seconds = same_place->mesh_seconds;
-      problem.cells_seconds = same_place->cells_seconds;
-    }
-    else
-      put_in_place(scene, level, problem);
-    if (problem.mesh)
-      problem.coefficient = make_coefficient(scene, *problem.mesh);
-    const Extent omega = extent(problem);
-    const auto expression = [&](const std::string &key, const std::string &text)
-    { return Expression(key, text, scene.names(level.horizon, t)); };
     const auto field = [&](const std::string &key, const std::string &text)
-    { return with_series(expression(key, text), n_components, omega); };
+    {
+      const Expression expression(key, text, scene.names(level.horizon, t));
+      Field result{expression};
+      result.is_piecewise = expression.is_piecewise();
+      return result;
+    };
+    problem::ProblemBuilder given(same_place != nullptr ? same_place->domain
+                                                        : make_domain(scene, level),
+                                  make_kernel(scene, level.horizon), level.h);
+    given.is_homogeneous = scene.is_homogeneous();
+    given.has_collar_dilatation = scene.material.has_collar_dilatation;
+    given.damage = make_damage(scene, level.horizon);
+    scene.material.model->complete(scene, level, given);
+    given.settings = method_settings(scene);
+    given.origin = scene.domain.origin;
+    if (given.mesh())
+      given.coefficient = make_coefficient(scene, *given.mesh());
+    given.spatial_values = spatial_values(scene, given);
 
-    if (!scene.problem.solutions.empty())
-      problem.solution = field("Problem/solution", scene.problem.solutions[case_index].expression);
-    if (scene.problem.constraint)
-      problem.constraint.value = expression("Problem/constraint", *scene.problem.constraint);
-    else
-      problem.constraint = problem.solution ? *problem.solution : zero(n_components, omega.box);
-    if (scene.problem.local_solution == LocalSolution::expression)
-      problem.local_solution = field("Problem/local solution", scene.problem.local_expression);
-
+    const ProblemSection &section = scene.problem;
+    if (!section.solutions.empty())
+      given.solution = field("Problem/solution", section.solutions[case_index].expression);
+    if (section.constraint)
+      given.constraint = field("Problem/constraint", *section.constraint);
+    if (section.local_solution == LocalSolution::expression)
+      given.local_solution = field("Problem/local solution", section.local_expression);
+    given.is_load_given = !section.loads.empty();
     if (known_load != nullptr)
-      problem.load = *known_load;
-    else if (problem.is_load_given)
-      problem.load = field("Problem/load", scene.problem.loads[case_index].expression);
-    else if (!problem.solution)
-      problem.load = zero(n_components, omega.box);
-    else
-      problem.load = manufactured_load(
-          problem, expression("Problem/solution", scene.problem.solutions[case_index].expression),
-          omega);
-    return problem;
+      given.load = *known_load;
+    else if (given.is_load_given)
+      given.load = field("Problem/load", section.loads[case_index].expression);
+    return given.build();
   }
 
   Case make_case(const Scene &scene, unsigned int case_index, const Level &level)
   {
-    return {scene, case_index, make_problem(scene, case_index, level)};
+    return make_case(scene, case_index, make_problem(scene, case_index, level));
   }
 
-  std::function<double(const Point<2> &, unsigned int)> operator_on_solution(const Case &one)
+  Case make_case(const Scene &scene, unsigned int case_index, Problem problem)
   {
-    const Problem &problem = one.problem;
-    const Expression u("Problem/solution", one.scene.problem.solutions[one.index].expression,
-                       one.scene.names(problem.horizon(), 0));
-    return plain_load(problem, u);
+    const auto poser = std::make_shared<const Scene>(scene);
+    const Level level = problem.level();
+    Case one{scene.problem.case_names()[case_index], std::move(problem)};
+    one.at_h = [=](double h) {
+      return make_problem(centred(*poser), case_index, {h, level.horizon});
+    };
+    if (has_fuller_model(scene))
+      one.full_model = [=] { return make_problem(full_model(*poser), case_index, level); };
+    return one;
+  }
+
+  std::vector<problem::SpatialValue<2>> material_values(const Scene &scene)
+  {
+    std::vector<problem::SpatialValue<2>> values;
+    const MaterialSection &material = scene.material;
+    if (!material.model->is_state_based())
+      return values;
+    for (unsigned int i = 0; i < 2; ++i)
+    {
+      const std::string key = "Material/" + material.keys[i];
+      const Expression expression(key, material.expressions[i], material.names);
+      if (!expression.is_constant())
+        values.push_back({key, [expression](const dealii::Point<2> &x) { return expression(x); }});
+    }
+    return values;
   }
 } // namespace plumbline::scene

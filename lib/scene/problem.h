@@ -23,24 +23,15 @@ namespace plumbline::scene
                        double t = 0, const Field *known_load = nullptr,
                        const Problem *same_place = nullptr);
 
-  /// A problem with the scene that poses it, for whatever makes it again: on other cells, by the
-  /// full model.
-  struct Case
-  {
-    const Scene &scene;     ///< outlives it
-    unsigned int index = 0; ///< into ProblemSection::case_names()
-    Problem problem;
-
-    std::string name() const { return scene.problem.case_names()[index]; }
-    Level level() const { return {problem.h, problem.horizon()}; }
-  };
+  /// At other mesh sizes, and by the full model where that builds anything besides.
+  using Case = problem::Case<2>;
 
   /// @throws as make_problem
   Case make_case(const Scene &scene, unsigned int case_index, const Level &level);
 
-  /// L u of the scene's solution: what its load would be if it were not given.
-  /// @pre the case has a solution
-  /// @throws NumericalError  when called, as physics::ManufacturedLoad
-  std::function<double(const dealii::Point<2> &, unsigned int component)>
-  operator_on_solution(const Case &one);
+  /// The same of a problem that the scene poses, as it may have been changed since.
+  Case make_case(const Scene &scene, unsigned int case_index, Problem problem);
+
+  /// Constants of the material that vary in space, by their keys.
+  std::vector<problem::SpatialValue<2>> material_values(const Scene &scene);
 } // namespace plumbline::scene

@@ -1,11 +1,11 @@
 #include "scene/random_field.h"
 
 #include "base/error.h"
-#include "uq/karhunen_loeve.h"
-#include "uq/principal_components.h"
 #include "scene/pictures.h"
 #include "scene/random_section.h"
 #include "scene/values.h"
+#include "uq/karhunen_loeve.h"
+#include "uq/principal_components.h"
 
 #include <algorithm>
 #include <mutex>
@@ -19,8 +19,8 @@ namespace plumbline::scene
   {
     uq::Covariance covariance_of(const RandomSection &section)
     {
-      const auto shape = static_cast<uq::CovarianceShape>(
-          static_cast<int>(section.field) - static_cast<int>(FieldKind::exponential));
+      const auto shape = static_cast<uq::CovarianceShape>(static_cast<int>(section.field) -
+                                                          static_cast<int>(FieldKind::exponential));
       return {shape, section.deviation * section.deviation, section.length, section.smoothness};
     }
 
@@ -99,7 +99,7 @@ namespace plumbline::scene
                          expansion = components_of_files();
                        else
                          expansion = uq::karhunen_loeve(covariance_of(section), grid(),
-                                                            section.n_modes, section.mean);
+                                                        section.n_modes, section.mean);
                      });
       return *expansion;
     }

@@ -14,26 +14,26 @@ namespace plumbline::scene
 {
   struct RandomSection;
 
-  /// The random field R of a scene over the bounding box of its domain; beyond it R is what it is
-  /// at the nearest point. Files are read at once; what else all realisations share is made when
-  /// it is first needed, once for all copies of the scene.
+  /// The random field R of a scene over the bounding box of its domain; outside the box it has the
+  /// value at the nearest point. Files are read by the constructor; other data that all
+  /// realisations share are computed when first needed, once for all copies of the scene.
   class RandomField
   {
   public:
     using Place = std::function<double(const dealii::Point<2> &)>;
 
-    /// @param box     that it fills [length]
-    /// @param folder  that names of files begin in
-    /// @throws InputError  numbers or files that make no field
+    /// @param box     domain of the field [length]
+    /// @param folder  to which file names are relative
+    /// @throws InputError  parameters or files that do not define a field
     RandomField(const RandomSection &section, const geometry::Box &box, const std::string &folder);
 
-    /// R for standard normal variables, one for each mode, or of the realisation of this number
-    /// where it is drawn whole: of n files, realisations 1, 2, ..., n, and 1 again after n. Made
-    /// when it is first evaluated; threads may share it.
+    /// R for standard normal variables, one for each mode, or, without modes, the realisation of
+    /// this number: with n files, realisations 1, 2, ..., n, and 1 again after n. Computed when
+    /// first evaluated; thread-safe.
     Place at(const std::vector<double> &modes, unsigned int realisation) const;
 
-    /// Its modes; nothing where it is drawn whole.
-    /// @throws InputError, NumericalError  they cannot be found
+    /// Its modes; null without modes.
+    /// @throws InputError, NumericalError  they cannot be computed
     const uq::Expansion *expansion() const;
 
   private:

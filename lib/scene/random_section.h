@@ -1,8 +1,8 @@
 #pragma once
 
 #include "physics/expression.h"
-#include "uq/sample_points.h"
 #include "scene/random_field.h"
+#include "uq/sample_points.h"
 
 #include <array>
 #include <memory>
@@ -115,7 +115,7 @@ namespace plumbline::base
 {
   template <>
   inline constexpr auto words<scene::SampledAnalysis> =
-      std::array{"of the scene", "stability", "dispersion"};
+      std::array{"scene", "stability", "dispersion"};
   template <>
   inline constexpr auto words<scene::FieldKind> = std::array{
       "none", "exponential", "separable exponential", "Gaussian", "Matern", "ellipses", "files"};

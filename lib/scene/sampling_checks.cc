@@ -59,10 +59,11 @@ namespace plumbline::scene
                   " samples, more than " + base::to_text(most_samples, 4) + "; " + fewer +
                   (is_tensor(sampling.rule) ? ", or Sampling/rule = Smolyak" : "") +
                   (is_smolyak ? ", or Sampling/rule = quasi-Monte Carlo" : ""));
-      require(!is_line_too_large,
-              key + " takes " + base::to_text(n_line, 4) + " points of a variable, more than " +
-                  base::to_text(uq::most_line_points, 4) + ", which a rule of one may have; " +
-                  fewer + ", or Sampling/rule = quasi-Monte Carlo");
+      require(!is_line_too_large, key + " takes " + base::to_text(n_line, 4) +
+                                      " points of a variable, more than " +
+                                      base::to_text(uq::most_line_points, 4) +
+                                      ", the limit of a one-dimensional rule; " + fewer +
+                                      ", or Sampling/rule = quasi-Monte Carlo");
     }
   } // namespace
 
@@ -75,31 +76,33 @@ namespace plumbline::scene
     const std::vector<uq::Law> laws = scene.random.laws();
     const bool is_drawn = sampling.rule == SampleRule::monte_carlo;
     require(!laws.empty() || (is_drawn && scene.random.is_there()),
-            rule + " needs variables that it takes values of; give Random/variables, or Random/"
+            rule + " needs random variables; give Random/variables, or Random/"
                    "modes of a field");
     require(is_drawn || !scene.random.is_drawn_whole(),
             rule +
-                " takes values of variables, and Random/field = " + base::word(scene.random.field) +
-                " is drawn as a whole; write Random/modes, or Sampling/rule = Monte Carlo");
+                " samples random variables, but Random/field = " + base::word(scene.random.field) +
+                " has complete realisations without variables; give Random/modes, or Sampling/rule "
+                "= Monte Carlo");
     require(!sampling.counts.empty(), rule + " needs Sampling/counts, which is empty");
     require(std::is_sorted(sampling.counts.begin(), sampling.counts.end()) &&
                 std::adjacent_find(sampling.counts.begin(), sampling.counts.end()) ==
                     sampling.counts.end(),
-            "Sampling/counts must rise: the last set is the best");
+            "Sampling/counts must be strictly increasing: the last set is the most accurate");
     const std::vector<unsigned int> &modes = sampling.modes;
     require(modes.empty() || (modes.front() > 0 && modes.back() <= scene.random.n_modes &&
                               std::is_sorted(modes.begin(), modes.end()) &&
                               std::adjacent_find(modes.begin(), modes.end()) == modes.end()),
-            "Sampling/modes must rise from 1 or more to Random/modes = " +
+            "Sampling/modes must be strictly increasing, from 1 or more to Random/modes = " +
                 std::to_string(scene.random.n_modes) +
                 " at most; give Random/modes the largest of them, or clear it");
     require(sampling.rule != SampleRule::equidistant ||
                 std::all_of(laws.begin(), laws.end(),
                             [](uq::Law law) { return law == uq::Law::uniform; }),
-            rule + " goes from end to end, and normal variables have no ends; make them uniform in "
-                   "Random/variables (and give no Random/modes), or write tensor");
+            rule +
+                " covers a bounded range, and normal variables are unbounded; make them uniform in "
+                "Random/variables (and give no Random/modes), or write tensor");
     require(sampling.rule == SampleRule::smolyak || sampling.counts.front() > 0,
-            "Sampling/counts = 0 with " + rule + " is no sample; write 1 or more");
+            "Sampling/counts = 0 with " + rule + " gives no sample; write 1 or more");
     require(sampling.rule != SampleRule::smolyak || sampling.growth != uq::Growth::nested ||
                 sampling.counts.back() < uq::n_genz_keister_rules ||
                 std::all_of(laws.begin(), laws.end(),

@@ -5,6 +5,7 @@
 #include "base/number_text.h"
 #include "base/text_file.h"
 #include "physics/expression.h"
+#include "scene/aliases.h"
 #include "scene/capabilities.h"
 #include "scene/checks.h"
 #include "scene/input_files.h"
@@ -26,7 +27,7 @@ namespace plumbline::scene
   {
     void declare(Keys &keys, Scene &scene)
     {
-      keys.add("Purpose", scene.purpose, "What the scene is for, in one line.");
+      keys.add("Purpose", scene.purpose, "Purpose of the scene, in one line.");
       const auto section = [&](const std::string &name, auto &members)
       {
         keys.enter(name);
@@ -52,7 +53,7 @@ namespace plumbline::scene
       section("Expected", scene.expected);
     }
 
-    /// What follows from the keys, once all are read.
+    /// Derived values and checks, once all keys are read.
     void complete(Scene &scene)
     {
       move_to_domain(scene);
@@ -89,7 +90,7 @@ namespace plumbline::scene
                 const std::vector<Setting> &settings, const std::vector<Override> &overrides,
                 const std::shared_ptr<const RandomField> &field = {});
 
-    /// Whether a scene's file, with nothing overridden, gives keys in vain.
+    /// Whether a scene's file has keys without effect even without overrides.
     bool has_unused_keys(const std::string &file, const std::vector<Setting> &settings,
                          const std::shared_ptr<const RandomField> &field)
     try
@@ -101,7 +102,7 @@ namespace plumbline::scene
     {
       return true;
     }
-    catch (const InputError &) // what it lacks may be among the overrides
+    catch (const InputError &) // the overrides may give the missing keys
     {
       return false;
     }
@@ -115,7 +116,7 @@ namespace plumbline::scene
     {
       const bool is_overridden =
           std::any_of(overrides.begin(), overrides.end(),
-                      [&](const Override &one) { return one.key == unused.key; });
+                      [&](const Override &one) { return current_key(one.key) == unused.key; });
       if (overrides.empty() || is_overridden || has_unused_keys(file, settings, field))
         throw KeyWithoutEffect(what + ": " + unused.text);
       overrides.push_back({unused.key, by_default});
@@ -123,7 +124,7 @@ namespace plumbline::scene
     }
 
     /// @param what  opens messages
-    /// @param field  that is known already, of the same scene; or nothing
+    /// @param field  random field of the same scene if it is known already, else null
     Scene build(const std::string &file, const std::string &what,
                 const std::vector<Setting> &settings, const std::vector<Override> &overrides,
                 const std::shared_ptr<const RandomField> &field)
@@ -164,7 +165,7 @@ namespace plumbline::scene
       return scene;
     }
 
-    /// That it can be taken at all values of its study's variable.
+    /// Checks that the scene is valid at all values of Study/variable.
     /// @param what  opens messages
     Scene checked(Scene scene, const std::string &what)
     try
@@ -185,7 +186,7 @@ namespace plumbline::scene
       return "scene '" + file + "'";
     }
 
-    /// A scene is a page or two.
+    /// Scene files are a page or two.
     constexpr std::size_t most_bytes = 10'000'000;
 
     /// The name of a scene that comes from a pipe.
@@ -260,7 +261,7 @@ namespace plumbline::scene
     try
     {
       Scene here = at_sample(scene, values, scene.random.realisation);
-      (void)make_kernel(here, level.horizon); // is its material one?
+      (void)make_kernel(here, level.horizon); // is the material valid?
       return here;
     }
     catch (const InputError &error)
@@ -278,7 +279,7 @@ namespace plumbline::scene
         texts.push_back(one.expression);
     if (problem.constraint)
       texts.push_back(*problem.constraint);
-    try // those that have t in them do not parse without it
+    try // expressions with t do not parse without it
     {
       for (const std::string &text : texts)
       {
@@ -301,7 +302,8 @@ namespace plumbline::scene
 
   namespace
   {
-    /// The file by which a scene is named; what a pipe names is found from the working directory.
+    /// The file that gives a scene its name; files named in a piped scene are relative to the
+    /// working directory.
     std::string place_of(const std::string &file)
     {
       return is_read_once(file) ? std::string(piped_name) + ".prm" : file;
@@ -313,7 +315,7 @@ namespace plumbline::scene
       const bool is_pipe = is_read_once(file);
       if (is_pipe && base::Communicator::all().n_ranks() > 1)
         throw InputError(what +
-                         " is a pipe, which one of several ranks alone can read; give a file");
+                         " is a pipe, which only one of several ranks can read; give a file");
       const std::string text = base::read_text_file(file, what, most_bytes, "a .prm or .json file");
       const bool is_json = is_pipe ? text.find_first_not_of(" \t\r\n") == text.find('{')
                                    : base::has_ending(file, ".json");
@@ -331,11 +333,16 @@ namespace plumbline::scene
                            const std::string &key)
   {
     std::string value;
+    const auto take = [&](const auto &one)
+    {
+      if (current_key(one.key) == key)
+        value = current_value(key, one.value);
+    };
     if (!is_read_once(file)) // its text is still to be read
       for (const Setting &one : settings_of_file(file))
-        value = one.key == key ? one.value : value;
+        take(one);
     for (const Override &one : overrides)
-      value = one.key == key ? one.value : value;
+      take(one);
     return value;
   }
 

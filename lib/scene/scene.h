@@ -11,14 +11,14 @@
 
 namespace plumbline::scene
 {
-  /// Everything a scene file says, checked.
+  /// A scene file, parsed and checked.
   struct Scene
   {
     std::string name, purpose;
-    /// All keys and values, and hashes of the files that it names in comments: two scenes with the
-    /// same text are the same. Parses to the same scene.
+    /// All keys and values, and, as comments, hashes of the files that it names: scenes with equal
+    /// texts are equal. Parses to the same scene.
     std::string text;
-    std::string folder; ///< of the scene's file: other files are named from there
+    std::string folder; ///< of the scene's file: other file names are relative to it
 
     DomainSection domain;
     RandomSection random;
@@ -43,48 +43,49 @@ namespace plumbline::scene
     {
       return kernel.coefficient.empty() && kernel.materials.empty() && material.is_homogeneous;
     }
-    bool is_vector() const; ///< a component for each axis
+    bool is_vector() const; ///< u has one component for each axis
     unsigned int n_components() const { return is_vector() ? domain.dimension : 1; }
 
-    /// It moves, or has cracks that do or stand in a strip: not one problem at a time.
+    /// Transient or with crack analyses: not a sequence of static problems.
     bool is_no_problem() const
     {
       return time.is_dynamic() || crack.is_there() || fracture.is_there() || strip.is_there();
     }
 
-    /// Its model's force is more than bonds, see Model::has_dilatation.
+    /// The forces depend on the dilatation, see Model::has_dilatation.
     bool has_dilatation() const;
 
-    /// Names in expressions of this scene: delta, t where it moves, and what is random.
+    /// Names in expressions of this scene: delta, t in transient analyses, random variables and
+    /// field.
     physics::Names names(double horizon, double t = 0) const;
 
-    /// No expression has t in it.
+    /// No expression depends on t.
     bool is_steady() const;
 
-    /// How far from Ω the constraint is needed: the horizon, or twice as far where dilatations of
-    /// neighbours count.
+    /// Width of the interaction domain around Ω: the horizon, or twice the horizon if forces depend
+    /// on the dilatations of neighbours.
     double reach(double horizon) const { return has_dilatation() ? 2 * horizon : horizon; }
   };
 
-  /// The kernel of its bonds; of double wells those of small strains.
+  /// The kernel of its bonds; for double wells, linearised at zero strain.
   physics::Kernel<2> make_kernel(const Scene &scene, double horizon);
 
-  /// The law of its bonds with two wells.
+  /// The double-well potential of its bonds.
   /// @throws InputError  a constant or an influence function (Kernel/type) that is not allowed
   /// @pre scene.material.model == &double_well()
   physics::DoubleWell make_double_well(const Scene &scene, double horizon);
 
-  /// The same scene at other values of its random variables; whether its material is one there is
-  /// seen when it is needed.
+  /// The same scene at other values of its random variables; whether its material is valid there is
+  /// checked when it is needed.
   /// @param values       of all of them, see RandomSection
-  /// @param realisation  of a field that is drawn as a whole
+  /// @param realisation  of a field without modes
   Scene at_sample(Scene scene, const std::vector<double> &values, unsigned int realisation);
 
-  /// The same scene at a level of its study, where that varies a number of it.
-  /// @throws InputError  the number does not fit the scene, naming Study/values
+  /// The same scene at a level of its study, with Study/variable at the level's value.
+  /// @throws InputError  naming Study/values if the scene is not valid at this value
   Scene at_level(const Scene &scene, const Level &level);
 
-  /// The same scene with nothing left out, to show that what is left out is not missed.
+  /// The same scene with Solver/model = full, to verify the smallest model.
   Scene full_model(Scene scene);
 
   /// Section/key = value, given on the command line after the file was read.
@@ -93,14 +94,13 @@ namespace plumbline::scene
     std::string key, value;
   };
 
-  /// Whether a scene's file is a pipe or a terminal ('cat SCENE | plumbline run /dev/stdin'): its
-  /// text is there once.
+  /// Whether a scene's file is a pipe or a terminal ('cat SCENE | plumbline run /dev/stdin'), which
+  /// can be read once.
   bool is_read_once(const std::string &file);
 
-  /// @param file  .prm or .json; from a pipe either, whose scene is called 'stdin' and names other
-  /// files from the working directory
-  /// @throws InputError  file not readable, unknown key, wrong type, or values that do not fit
-  /// together
+  /// @param file  .prm or .json; from a pipe, either of them; the scene is then called 'stdin' and
+  /// file names are relative to the working directory
+  /// @throws InputError  file not readable, unknown key, wrong type, or inconsistent values
   Scene read_scene(const std::string &file, const std::vector<Override> &overrides = {});
 
   /// The same from a text in .prm syntax.
@@ -111,7 +111,7 @@ namespace plumbline::scene
   /// "LPS", "variational" or "double-well".
   std::string scene_template(const std::string &model);
 
-  /// What a key means, its default and what it allows; for "Section" all its keys.
+  /// Meaning, default and allowed values of a key; for "Section", of all its keys.
   /// @throws InputError  unknown key; the message names similar ones
   std::string describe(const std::string &key);
 } // namespace plumbline::scene

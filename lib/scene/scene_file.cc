@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/text_file.h"
+#include "scene/aliases.h"
 
 #include <algorithm>
 #include <cctype>
@@ -14,7 +15,7 @@ namespace plumbline::scene
 {
   namespace
   {
-    /// What a line begins with.
+    /// The first word of a line.
     enum class Command
     {
       subsection,
@@ -37,10 +38,11 @@ namespace plumbline::scene
   {
     namespace fs = std::filesystem;
 
-    /// A scene is a page or two.
+    /// Scene files are a page or two.
     constexpr std::size_t most_bytes = 10'000'000;
 
-    /// Of files that are included, in all: two that include one another twice double at each level.
+    /// Total number of included files: two files that include each other twice would double at each
+    /// level.
     constexpr unsigned int most_files = 100;
 
     bool is_blank(char c)
@@ -80,7 +82,7 @@ namespace plumbline::scene
       return {word, without_blanks(std::string(end, line.end()))};
     }
 
-    /// What all files of a scene say.
+    /// Settings of all files of a scene.
     class Settings
     {
     public:
@@ -107,7 +109,7 @@ namespace plumbline::scene
           else if (command == Command::end && rest.empty())
           {
             if (sections.empty())
-              fail(place, "'end' closes no subsection; take it out");
+              fail(place, "'end' closes no subsection; remove it");
             sections.pop_back();
           }
           else if (command == Command::set && rest.find('=') != std::string::npos)
@@ -128,14 +130,14 @@ namespace plumbline::scene
         }
         if (!sections.empty())
           fail(sections.back().second, "subsection " + sections.back().first +
-                                           " is not closed; write 'end' behind its last line");
+                                           " is not closed; write 'end' after its last line");
       }
 
       void add(const std::string &key, const std::string &value, const std::string &place)
       {
-        const auto [found, is_new] = places_.emplace(key, place);
+        const auto [found, is_new] = places_.emplace(current_key(key), place);
         if (!is_new)
-          fail(place, key + " is given in " + found->second + " already; take one of them out");
+          fail(place, key + " is given in " + found->second + " already; remove one of them");
         settings.push_back({key, value, place});
       }
 
@@ -177,9 +179,9 @@ namespace plumbline::scene
         std::error_code error;
         if (const fs::path whole = fs::weakly_canonical(path, error);
             std::find(parents.begin(), parents.end(), whole) != parents.end())
-          fail(place, "'" + name +
-                          "' is being read already, so that it would include itself; take the "
-                          "line out");
+          fail(place,
+               "'" + name +
+                   "' is being read already, so that it would include itself; remove the line");
         if (++n_files_ > most_files)
           fail(place, "more than " + std::to_string(most_files) +
                           " files are included; write them in one");
@@ -233,7 +235,7 @@ namespace plumbline::scene
     const Json json = base::parse_json(text, what, "mend the file");
     Settings all(what);
     if (!json.is_object())
-      all.fail("line 1", "is no JSON object; write {\"Section\": {\"key\": \"value\"}}");
+      all.fail("line 1", "is not a JSON object; write {\"Section\": {\"key\": \"value\"}}");
     add_object(json, "", all);
     return all.settings;
   }

@@ -5,18 +5,18 @@
 
 namespace plumbline::scene
 {
-  /// One value of a scene file and where it stands.
+  /// One value of a scene file and its location.
   struct Setting
   {
     std::string key;   ///< "Section/key", or a key outside sections
     std::string value; ///< trimmed
-    std::string place; ///< for messages: "line 3", "line 3 of 'common.prm'", or JSON's key
+    std::string place; ///< for messages: "line 3", "line 3 of 'common.prm'", or the JSON key
   };
 
   /// The settings of a text in .prm syntax: lines 'set key = value', 'subsection NAME' ... 'end',
   /// 'include FILE' (named from the folder of the file that includes it); '#' begins a comment, and
   /// '\' at its end continues a line.
-  /// @param file  where the text is from: the folder of what it includes
+  /// @param file  origin of the text: included files are relative to its folder
   /// @param what  opens messages, e.g. "scene 'bar.prm'"
   /// @throws InputError  naming the line: anything else, a section that is not closed, a key given
   /// twice, a file that cannot be read or includes itself

@@ -18,20 +18,21 @@ namespace plumbline::scene
         throw InputError("Strip/length = " + short_number(strip.length) + " needs " + what);
     };
     needs(!scene.crack.is_there() && !scene.fracture.is_there() && !scene.time.is_dynamic(),
-          "Crack/notch = 0, Fracture/toughness empty and Time/final time = 0: its crack stands");
+          "Crack/notch = 0, Fracture/toughness empty and Time/final time = 0: its crack is "
+          "stationary");
     needs(scene.material.model == &lps() && !scene.has_dilatation() && scene.is_homogeneous(),
-          "Material/model = LPS of constants with lambda = mu (nu = 1/4 in plane strain), whose "
-          "bonds are all of it");
+          "Material/model = LPS of constants with lambda = mu (nu = 1/4 in plane strain), which "
+          "has bond forces only");
     needs(is_inverse_distance(scene.kernel),
           "Kernel/type = 1/r: other influence functions are not tested with cracks");
     needs(scene.domain.mesh.is_lattice() && scene.domain.cracks.empty() &&
               scene.domain.outside.empty() && !scene.domain.is_free_body,
-          "Domain as it is by default: the strip has its own sides and its own crack");
+          "the default values of Domain: the strip defines its own edges and crack");
     needs(scene.domain.boxes.exclude.empty() && !scene.domain.collar,
-          "Domain/holes empty and Domain/collar = auto");
-    needs(scene.problem.solutions.empty() && scene.problem.loads.empty() &&
-              !scene.problem.constraint,
-          "Problem/solution, load and constraint empty: grips move apart by 2");
+          "Domain/holes empty and Domain/interaction domain = auto");
+    needs(
+        scene.problem.solutions.empty() && scene.problem.loads.empty() && !scene.problem.constraint,
+        "Problem/solution, load and constraint empty: the relative displacement of the grips is 2");
     needs(scene.methods.nodes.kind() == NodeKind::centres && scene.methods.nodes.perturbation == 0,
           "nodes at centres that are not moved (Methods/nodes)");
     for (const Series &series : scene.study.series)
@@ -53,7 +54,7 @@ namespace plumbline::scene
         if (strip.height < 4 * level.horizon)
           throw InputError("Strip/height = " + short_number(strip.height) +
                            " is less than four horizons, " + short_number(4 * level.horizon) + at +
-                           "; raise it, or lower Study/h or Study/m");
+                           "; increase it, or decrease Study/h or Study/m");
         const double grown = strip.n_growth > 0 ? (strip.n_growth + 2) * level.h : 0;
         if (std::min(strip.crack, strip.length - strip.crack - grown) < 2 * level.horizon)
           throw InputError("Strip/crack = " + short_number(strip.crack) + " ends " +

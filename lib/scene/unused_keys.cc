@@ -29,7 +29,7 @@ namespace plumbline::scene
                "Study/regime = m or horizon; with " + base::word(regime) +
                    " the horizon is Study/m times Study/h"},
               {"Domain/boxes", scene.domain.mesh.is_of_boxes(),
-               "Domain/mesh = lattice, squares or triangles: other meshes say what the domain is"},
+               "Domain/mesh = lattice, squares or triangles: other meshes define the domain"},
               {"Time/critical fractions", scene.time.steps.empty(),
                "Time/steps to be empty, which gives the steps themselves"},
               {"Fracture/load step", scene.fracture.breaking == BreakMode::steps,
@@ -53,7 +53,7 @@ namespace plumbline::scene
                "Kernel/coefficient or Kernel/materials"},
               {"Material/plane",
                material.model->is_state_based() && material.keys[0] == youngs_modulus,
-               "Material/E and nu: other constants are those of the plane"},
+               "Material/E and nu: other constants are two-dimensional"},
               {"Material/c", is_double_well, of_wells},
               {"Material/beta", is_double_well, of_wells},
               {"Material/boundary function", is_double_well, of_wells}};
@@ -73,7 +73,7 @@ namespace plumbline::scene
               {"Random/length", is_covariance, covariance},
               {"Random/smoothness", random.field == FieldKind::matern, "Random/field = Matern"},
               {"Random/cell", is_covariance || (is_ellipses && has_modes),
-               "Random/field with modes that are found on a lattice"},
+               "Random/field with modes that are computed on a lattice"},
               {"Random/fraction", is_ellipses, ellipses},
               {"Random/semi-axes", is_ellipses, ellipses},
               {"Random/overlap", is_ellipses, ellipses},
@@ -83,11 +83,11 @@ namespace plumbline::scene
               {"Random/box", is_there, "Random/field"}};
     }
 
-    /// A section that is about one thing, and the key that says that it is there.
+    /// A section and the key that enables it.
     struct Switch
     {
       std::string section, key;
-      std::string needed_alone = ""; ///< a key that is of use without it
+      std::string needed_alone = ""; ///< a key that has an effect without it
     };
 
     const std::vector<Switch> switches = {{"Crack", "Crack/notch"},
@@ -96,7 +96,7 @@ namespace plumbline::scene
                                           {"Sampling", "Sampling/rule"},
                                           {"Time", "Time/final time", "Time/density"}};
 
-    /// A key that is of use where another says that its section is there.
+    /// A key that has an effect only if another key is given.
     struct Companion
     {
       std::string key, other;
@@ -111,7 +111,7 @@ namespace plumbline::scene
     UnusedKey unused(const Keys &keys, const std::string &key, const std::string &needs)
     {
       return {key, key + " = " + keys.value(key) + " has no effect here: it needs " + needs +
-                       "; take it out, or give what it needs"};
+                       "; remove it, or give what it needs"};
     }
   } // namespace
 
@@ -121,7 +121,7 @@ namespace plumbline::scene
       for (const Use &use : uses)
         if (!use.is_there && keys.is_changed(use.key))
           return unused(keys, use.key, use.needs);
-    // what is turned off by its key, e.g. on the command line, may keep its other keys
+    // a section that is disabled by its key, e.g. on the command line, may keep its other keys
     for (const Switch &one : switches)
       if (!keys.is_given(one.key))
         for (const std::string &key : keys.changed_keys(one.section))

@@ -9,15 +9,15 @@ namespace plumbline::scene
 {
   class Keys;
 
-  /// A key that is given in vain.
+  /// A key without effect.
   struct UnusedKey
   {
     std::string key;  ///< "Section/key"
-    std::string text; ///< its value and what it would need
+    std::string text; ///< message with its value and the settings that it needs
   };
 
-  /// The first key with another value than its default where nothing asks for it, or in a section
-  /// whose first key, which turns it on, is not given.
-  /// @param keys  those that were given, with the scene as their members
+  /// The first key with a value other than its default that has no effect: nothing uses it, or the
+  /// key that enables its section is not given.
+  /// @param keys  the given keys, bound to the members of the scene
   std::optional<UnusedKey> find_unused_key(const Keys &keys, const Scene &scene);
 } // namespace plumbline::scene

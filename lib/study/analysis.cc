@@ -25,8 +25,8 @@ namespace plumbline::study
   Record Place::record(const std::string &analysis, const Method &method) const
   {
     Record record;
-    record.key = {analysis, method.name(), method.family(), "", series_.name, "", level_,
-                  level().h, level().horizon, level().value};
+    record.key = {analysis, method.name(), method.family(), "",           series_.name, "",
+                  level_,   level().h,     level().horizon, level().value};
     return record;
   }
 
@@ -37,8 +37,9 @@ namespace plumbline::study
     {
       if (!record.failure.empty())
         continue;
-      const auto same = std::find_if(finest.begin(), finest.end(), [&](const Record *other)
-                                     { return other->key.is_same_series(record.key); });
+      const auto same =
+          std::find_if(finest.begin(), finest.end(),
+                       [&](const Record *other) { return other->key.is_same_series(record.key); });
       if (same == finest.end())
         finest.push_back(&record);
       else
@@ -136,13 +137,12 @@ namespace plumbline::study
       bool is_affordable(const Records &before, const Place &place, unsigned int level,
                          const Method &method)
       {
-        const double seconds =
-            control_.budget > 0 ? expected_seconds(before, place, level) : 0;
+        const double seconds = control_.budget > 0 ? expected_seconds(before, place, level) : 0;
         if (seconds <= control_.budget)
           return true;
         results_.left_out.push_back(
-            method.name() + ", " + place.series().name + ", h = " +
-            base::to_text(place.level().h, 6) +
+            method.name() + ", " + place.series().name +
+            ", h = " + base::to_text(place.level().h, 6) +
             (std::isfinite(seconds) ? ": some " + base::to_text(seconds, 6) + " CPU s" : ""));
         return false;
       }

@@ -64,10 +64,10 @@ namespace plumbline::study
     /// @param n_jobs  processes that do the same side by side
     std::function<Methods(const scene::Scene &, const Methods &available, unsigned int n_levels,
                           unsigned int n_jobs)>
-        choose_methods;
+        choose_methods = {};
     /// What one method finds at one level: a record, or several that differ in case or variant.
     /// NumericalError becomes the failure of a record.
-    std::function<Records(const Place &, const Method &)> analyse;
+    std::function<Records(const Place &, const Method &)> analyse = {};
     /// Trends, powers, verdicts and expectations of its own; empty: none.
     std::function<void(const scene::Scene &, StudyResults &)> conclude = {};
     /// The names of scalars that samples count, or how those names end; empty: all scalars.
@@ -81,7 +81,7 @@ namespace plumbline::study
   struct RunControl
   {
     unsigned int n_levels = 0; ///< the first so many of each series; 0: all
-    double budget = 0; ///< leave out what is expected to take longer [CPU s]; 0: nothing
+    double budget = 0;         ///< leave out what is expected to take longer [CPU s]; 0: nothing
     std::function<void(const std::string &what, double fraction)> on_progress = {};
     std::function<bool()> should_stop = {}; ///< asked before each method at each level
     std::function<void(const Records &)> on_records = {}; ///< that were made just now

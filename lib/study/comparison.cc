@@ -1,6 +1,5 @@
 #include "study/comparison.h"
 
-
 #include "geometry/rough_rule.h"
 #include "scene/scene.h"
 
@@ -122,8 +121,8 @@ namespace plumbline::study
       return sum;
     }
 
-    Accumulator averages_difference(const problem::Problem<2> &problem, const std::vector<double> &a,
-                                    const std::vector<double> &b)
+    Accumulator averages_difference(const problem::Problem<2> &problem,
+                                    const std::vector<double> &a, const std::vector<double> &b)
     {
       Accumulator sum;
       for (std::size_t i = 0; i < a.size(); ++i)
@@ -148,9 +147,9 @@ namespace plumbline::study
     void for_each_point(const problem::Problem<2> &problem, const dealii::Quadrature<2> &on_square,
                         unsigned int degree, const F &f)
     {
-      if (problem.lattice)
+      if (problem.lattice())
       {
-        const geometry::Lattice &lattice = *problem.lattice;
+        const geometry::Lattice &lattice = *problem.lattice();
         const double area = lattice.h() * lattice.h();
         for (int j = 0; j < lattice.n_cells()[1]; ++j)
           for (int i = 0; i < lattice.n_cells()[0]; ++i)
@@ -159,7 +158,7 @@ namespace plumbline::study
                 area * on_square.weight(q));
         return;
       }
-      const geometry::Mesh &mesh = *problem.mesh;
+      const geometry::Mesh &mesh = *problem.mesh();
       for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
         if (mesh.cells[cell].is_inside)
         {
@@ -187,10 +186,10 @@ namespace plumbline::study
     /// Bounding box of Ω.
     geometry::Box bounding_box(const problem::Problem<2> &problem)
     {
-      if (problem.mesh)
-        return geometry::bounding_box(*problem.mesh);
-      const auto &n = problem.lattice->n_cells();
-      return {problem.lattice->origin(), problem.lattice->point(n[0], n[1])};
+      if (problem.mesh())
+        return geometry::bounding_box(*problem.mesh());
+      const auto &n = problem.lattice()->n_cells();
+      return {problem.lattice()->origin(), problem.lattice()->point(n[0], n[1])};
     }
   } // namespace
 
@@ -235,32 +234,34 @@ namespace plumbline::study
 
   std::vector<double> cell_averages(const Field &field, const problem::Problem<2> &problem)
   {
-    if (problem.cells)
-      return cell_averages(field, *problem.cells, problem.n_components);
-    return cell_averages(field, *problem.lattice,
+    if (problem.cells())
+      return cell_averages(field, *problem.cells(), problem.n_components);
+    return cell_averages(field, *problem.lattice(),
                          method::comparison_nodes(problem, problem.n_components));
   }
 
   double cell_area(const problem::Problem<2> &problem, std::size_t cell)
   {
-    return problem.cells ? problem.cells->area[cell] : problem.h * problem.h;
+    return problem.cells() ? problem.cells()->area[cell] : problem.h * problem.h;
   }
 
   double node_area(const problem::Problem<2> &problem, const Solution &solution)
   {
-    if (problem.lattice)
+    if (problem.lattice())
       return problem.h * problem.h;
-    const auto &area = problem.cells->area;
+    const auto &area = problem.cells()->area;
     return std::accumulate(area.begin(),
-                           area.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free), 0.) /
+                           area.begin() + static_cast<std::ptrdiff_t>(problem.cells()->n_free),
+                           0.) /
            static_cast<double>(std::max<std::size_t>(1, solution.nodes.size()));
   }
 
   std::vector<dealii::Point<2>> comparison_points(const problem::Problem<2> &problem)
   {
-    if (problem.cells)
-      return {problem.cells->nodes.begin(),
-              problem.cells->nodes.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free)};
+    if (problem.cells())
+      return {problem.cells()->nodes.begin(),
+              problem.cells()->nodes.begin() +
+                  static_cast<std::ptrdiff_t>(problem.cells()->n_free)};
     std::vector<dealii::Point<2>> points;
     const NodeSet cells = method::comparison_nodes(problem, 1);
     for (int j = 0; j < cells.n[1]; ++j)
@@ -268,7 +269,7 @@ namespace plumbline::study
         if (cells.free(0, i, j))
         {
           const auto place = cells.place(0, i, j);
-          points.push_back(problem.lattice->point(place[0], place[1]));
+          points.push_back(problem.lattice()->point(place[0], place[1]));
         }
     return points;
   }
@@ -317,8 +318,8 @@ namespace plumbline::study
     return std::sqrt(sum.squares);
   }
 
-  ErrorMap error_map(scene::Norm decisive, const problem::Problem<2> &problem, const Solution &solution,
-                     const std::vector<double> &reference)
+  ErrorMap error_map(scene::Norm decisive, const problem::Problem<2> &problem,
+                     const Solution &solution, const std::vector<double> &reference)
   {
     ErrorMap map;
     const auto box = bounding_box(problem);

@@ -11,15 +11,17 @@ namespace plumbline::study
 
   /// P_κ of a field: its averages over the comparison cells, shape (n_cells, n_components). By
   /// exact integration of the field's series, or 6 × 6 Gauss points on each quarter of a cell.
-  std::vector<double> cell_averages(const problem::Field<2> &field, const geometry::Lattice &lattice,
+  std::vector<double> cell_averages(const problem::Field<2> &field,
+                                    const geometry::Lattice &lattice,
                                     const geometry::NodeSet &cells);
 
   /// The same over the cells of scattered nodes: by a rule of degree 9 on each piece.
-  std::vector<double> cell_averages(const problem::Field<2> &field, const geometry::NodeCells &cells,
-                                    unsigned int n_components);
+  std::vector<double> cell_averages(const problem::Field<2> &field,
+                                    const geometry::NodeCells &cells, unsigned int n_components);
 
   /// Over whichever cells the problem is compared on.
-  std::vector<double> cell_averages(const problem::Field<2> &field, const problem::Problem<2> &problem);
+  std::vector<double> cell_averages(const problem::Field<2> &field,
+                                    const problem::Problem<2> &problem);
 
   /// The node of each comparison cell.
   std::vector<dealii::Point<2>> comparison_points(const problem::Problem<2> &problem);
@@ -61,8 +63,8 @@ namespace plumbline::study
   /// the exact solution, or else other averages: the largest in each of at most 32 × 32 blocks of
   /// cells.
   /// @param decisive  the norm
-  ErrorMap error_map(scene::Norm decisive, const problem::Problem<2> &problem, const Solution &solution,
-                     const std::vector<double> &target);
+  ErrorMap error_map(scene::Norm decisive, const problem::Problem<2> &problem,
+                     const Solution &solution, const std::vector<double> &target);
 
   /// The errors of a solution in these norms against every target there is, by "norm |
   /// target". Linf takes the largest component; nodal values are at the method's own nodes; field

@@ -264,7 +264,7 @@ namespace plumbline::study
       else if (scene.domain.mesh.is_lattice())
         results.omissions.push_back(
             {"the dilatation as an unknown",
-             "homogeneous: eliminated, it is part of one stencil of twice the reach",
+             "homogeneous: condensed, it is part of one stencil of twice the reach",
              "a third of the unknowns, and a system that stays positive definite"});
       if (scene.material.model->is_state_based() && scene.material.is_homogeneous)
         results.omissions.push_back({"means of the material at both ends of each bond",

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "physics/gauss.h"
 #include "physics/load.h"
+#include "problem/manufactured_load.h"
 #include "study/comparison.h"
 
 #include <algorithm>
@@ -128,10 +129,9 @@ namespace plumbline::study
     return text.str();
   }
 
-  std::optional<Contradiction> measure_contradiction(const scene::Case &one)
+  std::optional<Contradiction> measure_contradiction(const problem::Problem<2> &problem)
   {
-    const problem::Problem<2> &problem = one.problem;
-    if (!problem.is_load_given || !problem.solution || !problem.damage.outside.empty())
+    if (!problem.is_load_given || !problem.solution || problem.damage.outside)
       return {};
     constexpr std::size_t n_points = 16;
     constexpr double round_off = 1e-10; // of the operator's scale times u
@@ -143,7 +143,7 @@ namespace plumbline::study
       else if (d < .75 * horizon && is_of_bonds(problem, x))
         cut.push_back(x);
     const Values u = problem.solution->value;
-    const auto lu = scene::operator_on_solution(one);
+    const auto lu = problem::plain_load(problem);
     double size = 0;
     for (const Point<2> &x : comparison_points(problem))
       for (unsigned int c = 0; c < problem.n_components; ++c)

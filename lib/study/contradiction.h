@@ -27,5 +27,5 @@ namespace plumbline::study
   /// @return  nothing unless the scene gives solution and load, or where u is not smooth enough
   ///          to tell. Not for: free surfaces (Domain/outside), dilatations within two horizons
   ///          of a crack; points there are left out.
-  std::optional<Contradiction> measure_contradiction(const scene::Case &one);
+  std::optional<Contradiction> measure_contradiction(const problem::Problem<2> &problem);
 } // namespace plumbline::study

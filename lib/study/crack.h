@@ -2,6 +2,7 @@
 
 #include "analysis/integrate.h"
 #include "base/cost.h"
+#include "method/dynamic_fracture_solver.h"
 #include "scene/scene.h"
 
 #include <array>
@@ -29,14 +30,7 @@ namespace plumbline::study
     double m() const { return horizon / h; }
   };
 
-  /// What is seen of a crack in a state.
-  struct CrackView
-  {
-    double tip = 0; ///< its x
-    double soft_energy = 0;
-    int n_branches = 0;
-    Vector damage; ///< of the nodes, in [0, 1]
-  };
+  using method::CrackView;
 
   /// A strip as one side makes it.
   struct CrackModel

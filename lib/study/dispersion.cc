@@ -300,12 +300,10 @@ namespace plumbline::study
       }
       record.curves[waves] = std::move(samples);
     }
-    const auto names = physics::polarisations(row.anisotropy.size() == 1
-                                                  ? physics::Structure::scalar
-                                                  : physics::Structure::tensor);
+    const auto names = physics::polarisations(
+        row.anisotropy.size() == 1 ? physics::Structure::scalar : physics::Structure::tensor);
     for (std::size_t i = 0; i < names.size(); ++i)
-      record.set("anisotropy" + (names.size() == 1 ? "" : " " + name(names[i])),
-                 row.anisotropy[i]);
+      record.set("anisotropy" + (names.size() == 1 ? "" : " " + name(names[i])), row.anisotropy[i]);
     record.set("error against the local limit", row.worst_local_error());
     record.set("error against the nonlocal operator", row.worst_nonlocal_error());
     record.set("round-off", row.round_off);
@@ -343,13 +341,12 @@ namespace plumbline::study
       if (!record.failure.empty() || !record.has(measure) || grows)
       {
         trend->outcome = Outcome::failed;
-        trend->reason =
-            !record.failure.empty()
-                ? record.failure
-                : "waves grow at h = " + base::to_text(key.h, 4) +
-                      (grows ? ", the least ω² is " +
-                                   base::to_text(record["least squared frequency"], 4)
-                             : ", also those of the nonlocal operator itself");
+        trend->reason = !record.failure.empty()
+                            ? record.failure
+                            : "waves grow at h = " + base::to_text(key.h, 4) +
+                                  (grows ? ", the least ω² is " +
+                                               base::to_text(record["least squared frequency"], 4)
+                                         : ", also those of the nonlocal operator itself");
         continue;
       }
       trend->x.push_back(coordinate(trend->axis, key));
@@ -358,8 +355,8 @@ namespace plumbline::study
       if (record["moment defect"] >= trend->proof.defect)
       {
         trend->proof.defect = record["moment defect"];
-        trend->proof.answer =
-            base::from_word<LimitProof::Answer>(record.text("proof")).value_or(LimitProof::Answer());
+        trend->proof.answer = base::from_word<LimitProof::Answer>(record.text("proof"))
+                                  .value_or(LimitProof::Answer());
         trend->proof.reason = record.text("proof, reason");
       }
     }
@@ -395,8 +392,8 @@ namespace plumbline::study
     Analysis analysis{"dispersion", "Dispersion"};
     for (const double angle : angles)
       analysis.options += (analysis.options.empty() ? "" : " ") + base::to_text(angle, 17);
-    analysis.choose_methods = [angles](const scene::Scene &scene, const Methods &available,
-                                       unsigned int, unsigned int)
+    analysis.choose_methods =
+        [angles](const scene::Scene &scene, const Methods &available, unsigned int, unsigned int)
     {
       (void)plan_waves(scene, angles);
       return study::choose_methods(scene, available);
@@ -405,8 +402,8 @@ namespace plumbline::study
     {
       WaveStudy waves = plan_waves(place.scene(), angles);
       Records records;
-      for (const DispersionRow &row : measure_waves(method, place.problem(), waves,
-                                                    place.series().name, place.is_finest()))
+      for (const DispersionRow &row :
+           measure_waves(method, place.problem(), waves, place.series().name, place.is_finest()))
       {
         Record record = place.record("dispersion", method);
         record.key.variant = row.method == method.name() ? "" : "lumped";

@@ -101,10 +101,6 @@ namespace plumbline::study
     const analysis::State &state;
   };
 
-  /// The torus without a mesh, n points a side.
-  using MakeTorus = std::function<std::unique_ptr<method::ContinuousMotion>(
-      const physics::DoubleWell &, const geometry::Box &, unsigned int dimension, unsigned int n)>;
-
   struct MotionControl
   {
     unsigned int n_levels = 0; ///< take the first so many levels only; 0: all
@@ -114,7 +110,9 @@ namespace plumbline::study
     std::function<void(const MotionRun &, const Frame &)> on_frame; ///< where Time/frames asks
     /// At the final time of each motion that comes there; area: of Ω.
     std::function<void(const MotionRun &, const Frame &, double area)> on_end;
-    MakeTorus make_torus;
+    /// Among which there is one that moves a torus without a mesh, where that is the reference;
+    /// empty: no reference is made.
+    Methods available = {};
   };
 
   /// What can be refused before anything moves: schemes that are not known or that a method cannot

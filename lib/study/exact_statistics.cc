@@ -53,7 +53,8 @@ namespace plumbline::study
     /// The same of averages over the comparison cells.
     Evaluate averages_at(const scene::Scene &scene, std::size_t case_index, const SampleCase &one)
     {
-      const problem::Field<2> nothing{[](const Point<2> &, unsigned int) { return 0.; }, std::nullopt};
+      const problem::Field<2> nothing{[](const Point<2> &, unsigned int) { return 0.; },
+                                      std::nullopt};
       const problem::Level level{one.h, one.horizon};
       const auto place = std::make_shared<const problem::Problem<2>>(
           make_problem(scene, static_cast<unsigned int>(case_index), level, 0, &nothing));
@@ -61,7 +62,7 @@ namespace plumbline::study
       return [=](const scene::Scene &at)
       {
         const problem::Problem<2> problem = make_problem(at, static_cast<unsigned int>(case_index),
-                                                    level, 0, &nothing, place.get());
+                                                         level, 0, &nothing, place.get());
         return cell_averages(is_local && problem.local_solution ? *problem.local_solution
                                                                 : *problem.solution,
                              *place);

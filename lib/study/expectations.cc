@@ -145,10 +145,10 @@ namespace plumbline::study
                   std::abs(found.back() / expected.values[found.size() - 1] - 1) <=
                       scene.expected.error_tolerance;
         }
-      results.expectations.push_back({expected.method + ", " + quantity, join(expected.values),
-                                      found.empty() ? "no such method, quantity or series was run"
-                                                    : join(found),
-                                      holds && !found.empty()});
+      results.expectations.push_back(
+          {expected.method + ", " + quantity, join(expected.values),
+           found.empty() ? "no such method, quantity or series was run" : join(found),
+           holds && !found.empty()});
     }
   }
 } // namespace plumbline::study

@@ -10,7 +10,7 @@ namespace plumbline::study
   /// method, case or series that was not run does not hold.
   void check_expectations(const scene::Scene &scene, Results &results);
 
-  /// Expected/values: any scalar of an analysis, level by level. A shortened sweep is checked as far
-  /// as it goes.
+  /// Expected/values: any scalar of an analysis, level by level. A shortened sweep is checked as
+  /// far as it goes.
   void check_values(const scene::Scene &scene, StudyResults &results);
 } // namespace plumbline::study

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "analysis/fracture.h"
-#include "uq/spectrum.h"
+#include "method/breakable_body.h"
 #include "scene/scene.h"
+#include "uq/spectrum.h"
 
 #include <array>
 #include <filesystem>
@@ -12,19 +13,7 @@
 // How a crack grows in equilibrium: run, found out and held against what is expected.
 namespace plumbline::study
 {
-  /// A body as one side makes it.
-  struct GrowthModel
-  {
-    method::QuasistaticFractureModel *body = nullptr;
-    double h = 0; ///< of the lattice [length]
-    std::vector<dealii::Point<2>> nodes;
-    std::vector<double> toughness;                       ///< G of each node [force/length]
-    std::vector<double> toughness_of_bonds;              ///< G of each bond [force/length]
-    std::vector<std::array<unsigned int, 2>> bonds, cut; ///< their nodes; of those the notch cuts
-    dealii::Point<2> notch_tip;
-    /// The part of each node's bonds that is broken or cut.
-    std::function<std::vector<double>(const std::vector<std::size_t> &broken)> damage;
-  };
+  using GrowthModel = method::BreakableBody;
 
   struct GrowthPlan
   {
@@ -105,7 +94,7 @@ namespace plumbline::study
     double plane_modulus = 0;     ///< mean of E/(1 - nu²) over the nodes [force/length²]
     std::vector<BrokenPart> parts;
     std::vector<dealii::Point<2>> nodes;
-    std::vector<double> toughness;            ///< see GrowthModel
+    std::vector<double> toughness;        ///< see GrowthModel
     std::optional<uq::Spectrum> spectrum; ///< of a random field of modes
     dealii::Point<2> notch_tip;
     dealii::Point<2> origin; ///< that places count from, see scene::DomainSection

@@ -19,7 +19,8 @@ namespace plumbline::study
     using analysis::TimeSeries;
     using analysis::Vector;
 
-    problem::Field<2> given(const std::string &key, const std::string &text, const physics::Names &names)
+    problem::Field<2> given(const std::string &key, const std::string &text,
+                            const physics::Names &names)
     {
       const physics::Expression u(key, text, names);
       return {[u](const dealii::Point<2> &x, unsigned int c) { return u(x, c); }, {}};
@@ -114,8 +115,8 @@ namespace plumbline::study
     MotionData data{{},
                     {},
                     {},
-                    series("Problem/load",
-                           [&](const problem::Problem<2> &instant) { return equation.drive(instant); }),
+                    series("Problem/load", [&](const problem::Problem<2> &instant)
+                           { return equation.drive(instant); }),
                     {}};
     if (!is_steady)
     {

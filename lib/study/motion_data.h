@@ -47,7 +47,7 @@ namespace plumbline::study
     Loads &loads_;
     std::map<double, std::unique_ptr<const problem::Problem<2>>> problems_;
     std::unique_ptr<const problem::Problem<2>> first_; ///< whose place all others take
-    std::optional<std::size_t> n_points_;         ///< in time
+    std::optional<std::size_t> n_points_;              ///< in time
     double seconds_ = 0;
   };
 

@@ -61,7 +61,7 @@ namespace plumbline::study
 
   void settle_quadrature(method::Discretisation &discretisation, const problem::Problem<2> &first)
   {
-    if (first.is_floating)
+    if (first.is_floating())
       return;
     problem::Problem<2> pulled = first;
     pulled.load = {[](const dealii::Point<2> &, unsigned int) { return 1.; }, {}};

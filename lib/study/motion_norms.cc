@@ -26,16 +26,16 @@ namespace plumbline::study
 
   double area_of(const problem::Problem<2> &problem)
   {
-    if (problem.cells)
+    if (problem.cells())
       return std::accumulate(
-          problem.cells->area.begin(),
-          problem.cells->area.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free), 0.);
-    const geometry::Lattice &lattice = *problem.lattice;
+          problem.cells()->area.begin(),
+          problem.cells()->area.begin() + static_cast<std::ptrdiff_t>(problem.cells()->n_free), 0.);
+    const geometry::Lattice &lattice = *problem.lattice();
     double n = 0;
     for (int j = 0; j < lattice.n_cells()[1]; ++j)
       for (int i = 0; i < lattice.n_cells()[0]; ++i)
         n += lattice.is_inside(i, j) ? 1 : 0;
-    return n * std::pow(lattice.h(), problem.dimension);
+    return n * std::pow(lattice.h(), problem.dimension());
   }
 
   double extent_of(const std::vector<double> &nodal, unsigned int n_components)

@@ -13,6 +13,6 @@ namespace plumbline::study
 
   std::vector<double> difference(std::vector<double> a, const std::vector<double> &b);
 
-  /// Of Ω. @pre problem.lattice
+  /// Of Ω. @pre problem.lattice()
   double area_of(const problem::Problem<2> &problem);
 } // namespace plumbline::study

@@ -358,7 +358,7 @@ namespace plumbline::study
       /// Of the run's case and horizon; the last one is kept.
       const Torus *torus_of(const MotionRun &run, ProblemsInTime &problems)
       {
-        if (!scene_.reference.method || !control_.make_torus)
+        if (!scene_.reference.method || control_.available.empty())
           return nullptr;
         if (!torus_ || torus_key_ != std::pair(run.problem, run.horizon))
         {

@@ -54,9 +54,9 @@ namespace plumbline::study
                        "or 0");
     const problem::Level &level = scene.study.series.front().levels.front();
     const scene::Scene here = at_level(scene, level);
-    const scene::Case first = make_case(here, 0, level);
+    const problem::Problem<2> first = make_problem(here, 0, level);
     const auto reason_against = [&](const Method &method)
-    { return refusal(method, first, available); };
+    { return refusal(method, here, first, available); };
     Methods chosen = named_methods(
         scene, available, [&](const Method &method) { return reason_against(method).empty(); });
     for (const auto &method : chosen)
@@ -84,7 +84,7 @@ namespace plumbline::study
     void check_lattice_data(const problem::Problem<2> &problem)
     {
       constexpr int n_samples = 24;
-      const geometry::Lattice &lattice = *problem.lattice;
+      const geometry::Lattice &lattice = *problem.lattice();
       const auto &n = lattice.n_cells();
       const double margin = problem.horizon() / problem.h + 1;
       for (int j = 0; j <= n_samples; ++j)
@@ -107,7 +107,7 @@ namespace plumbline::study
     void check_node_data(const problem::Problem<2> &problem)
     {
       constexpr std::size_t n_samples = 600;
-      const auto &cells = *problem.cells;
+      const auto &cells = *problem.cells();
       const std::size_t step = std::max<std::size_t>(1, cells.size() / n_samples);
       for (std::size_t i = 0; i < cells.size(); i += step)
         for (unsigned int component = 0; component < problem.n_components; ++component)
@@ -121,7 +121,7 @@ namespace plumbline::study
 
     void check_data(const problem::Problem<2> &problem)
     {
-      if (problem.lattice)
+      if (problem.lattice())
         check_lattice_data(problem);
       else
         check_node_data(problem);

@@ -99,7 +99,7 @@ namespace plumbline::study
       {
         try
         {
-          return solve_resized(resized, case_, method_);
+          return solve_resized(resized, problem_, method_);
         }
         catch (const NumericalError &)
         {
@@ -117,7 +117,7 @@ namespace plumbline::study
       bool has_few_cells() const
       {
         constexpr std::size_t few = 500;
-        return problem_.lattice || problem_.mesh->n_wholes() < few;
+        return problem_.lattice() || problem_.mesh()->n_wholes() < few;
       }
 
       Norms distance(const problem::Problem<2> &cells, const ResizedSolution &a,
@@ -131,7 +131,7 @@ namespace plumbline::study
       /// By how much the error of a smooth solution falls as h halves, at least.
       double expected_contraction() const
       {
-        const unsigned int geometry = geometry_order(case_.scene);
+        const unsigned int geometry = geometry_order(problem_);
         const unsigned int order =
             geometry == 0 ? method_.order() : std::min(geometry, method_.order());
         return std::pow(.5, order);
@@ -169,18 +169,19 @@ namespace plumbline::study
         const Resized fine = finer(case_, 2);
         // parts of the coarse cells, on which both fields are smooth; of a mesh made anew, ours
         problem::Problem<2> cells = problem_;
-        if (fine.problem.lattice)
+        if (fine.problem.lattice())
           cells = fine.problem;
         else
-          cells.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem_.mesh));
-        const Norms change = distance(cells, solution_, solve_resized(fine, case_, method_));
+          cells.on_mesh()->mesh =
+              std::make_shared<const geometry::Mesh>(geometry::refine(*problem_.mesh()));
+        const Norms change = distance(cells, solution_, solve_resized(fine, problem_, method_));
         const Norms before = on_coarse ? distance(problem_, solution_, *on_coarse) : Norms{};
         const Norms q = contraction(before, change);
         enter_changes(change, before);
         enter_rates(q);
         by_h_ = {safety * change.averages / (1 - q.averages),
                  safety * change.field / (1 - q.field)};
-        estimate_.is_of_polygon = fine.is_cut && geometry_order(case_.scene) > 0;
+        estimate_.is_of_polygon = fine.is_cut && geometry_order(problem_) > 0;
         if (const auto higher = higher_degree())
         {
           const Solution other = analysis::solve(*higher, problem_);
@@ -201,7 +202,7 @@ namespace plumbline::study
                  safety_of_coarse * change.field * q.field / (1 - q.field)};
         estimate_.is_of_polygon = false; // the mesh of 2 h was made anew
         if (const auto higher = higher_degree())
-          enter_p_change(distance(problem_, solution_, solve_resized(coarse, case_, *higher)));
+          enter_p_change(distance(problem_, solution_, solve_resized(coarse, problem_, *higher)));
       }
 
       /// Nothing where cells do not take it.
@@ -232,9 +233,9 @@ namespace plumbline::study
     return Estimator(one, method, solution).by_changes(is_cheap, solution.diagnostics);
   }
 
-  ReferenceAverages solve_reference(const scene::Case &one, const Method &method)
+  ReferenceAverages solve_reference(const scene::Case &one, const Method &method,
+                                    const scene::ReferenceSection &wanted)
   {
-    const scene::ReferenceSection &wanted = one.scene.reference;
     const problem::Problem<2> &problem = one.problem;
     const Solution solution = analysis::solve(method, problem);
     ReferenceAverages result{solution.averages, {}};

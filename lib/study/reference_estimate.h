@@ -34,5 +34,6 @@ namespace plumbline::study
   };
 
   /// @throws NumericalError  the estimate is larger than the scene's Reference/tolerance
-  ReferenceAverages solve_reference(const scene::Case &one, const Method &method);
+  ReferenceAverages solve_reference(const scene::Case &one, const Method &method,
+                                    const scene::ReferenceSection &wanted);
 } // namespace plumbline::study

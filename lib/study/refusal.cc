@@ -39,12 +39,18 @@ namespace plumbline::study
     }
   } // namespace
 
-  std::string refusal(const Method &method, const scene::Case &one, const Methods &available)
+  std::string refusal(const Method &method, const scene::Scene &scene,
+                      const problem::Problem<2> &problem, const Methods &available)
   {
-    const Capabilities needed = scene::needs(one.scene) | method::needs_of_cells(one.problem);
+    const Capabilities needed = scene::needs(scene) | problem::needs_of_cells(problem);
     const std::string why =
-        scene::refusal(one.scene, needed, method.can(), others(method, needed, available));
-    return why.empty() ? method.why_not(one.problem) : why;
+        scene::refusal(scene, needed, method.can(), others(method, needed, available));
+    return why.empty() ? method.why_not(problem) : why;
+  }
+
+  bool can_solve(const Method &method, const problem::Problem<2> &problem)
+  {
+    return can_do(method, problem::needs(problem)) && method.why_not(problem).empty();
   }
 
   std::string capability_table(const Methods &methods)

@@ -10,9 +10,13 @@ namespace plumbline::study
   using method::Methods;
 
   /// Why a method cannot do a scene, which others can, and what to write instead; empty: it can.
-  /// @param one        of any case and level
+  /// @param problem    of any case and level
   /// @param available  the others are among them
-  std::string refusal(const Method &method, const scene::Case &one, const Methods &available);
+  std::string refusal(const Method &method, const scene::Scene &scene,
+                      const problem::Problem<2> &problem, const Methods &available);
+
+  /// As far as the problem says so itself.
+  bool can_solve(const Method &method, const problem::Problem<2> &problem);
 
   /// Methods by capabilities, as a table in Markdown; methods that can do the same share a row.
   std::string capability_table(const Methods &methods);

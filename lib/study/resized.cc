@@ -9,16 +9,6 @@ namespace plumbline::study
 {
   namespace
   {
-    /// The scene with the simplest nodes: those of the first problem are what counts.
-    scene::Scene centred(const scene::Scene &scene)
-    {
-      scene::Scene result = scene;
-      result.methods.nodes.name = "centres";
-      result.methods.nodes.perturbation = 0;
-      result.geometry.n_checks = 0;
-      return result;
-    }
-
     double area(const geometry::Mesh &mesh)
     {
       double sum = 0;
@@ -47,13 +37,13 @@ namespace plumbline::study
       constexpr double like = 1.5;
       try
       {
-        Resized result{scene::make_problem(centred(one.scene), one.index, {h, problem.horizon()})};
-        if (result.problem.mesh)
+        Resized result{one.at_h(h)};
+        if (result.problem.mesh())
         {
-          const double ratio = mean_size(*result.problem.mesh) / mean_size(*problem.mesh);
+          const double ratio = mean_size(*result.problem.mesh()) / mean_size(*problem.mesh());
           if (std::abs(std::log(ratio * problem.h / h)) > std::log(like))
             return {};
-          result.problem.cells = problem.cells;
+          result.problem.on_mesh()->cells = problem.cells();
         }
         return result;
       }
@@ -69,48 +59,43 @@ namespace plumbline::study
       result.problem.settings.geometry.n_checks = 0;
       for (; n > 1; n /= 2)
       {
-        result.problem.mesh =
-            std::make_shared<const geometry::Mesh>(geometry::refine(*result.problem.mesh));
+        result.problem.on_mesh()->mesh =
+            std::make_shared<const geometry::Mesh>(geometry::refine(*result.problem.mesh()));
         result.problem.h /= 2;
       }
       return result;
     }
 
-    geometry::NodeSet centres(const scene::Scene &scene, double h, unsigned int n_components)
-    {
-      return free_nodes(geometry::Lattice(scene.domain.boxes, h), {{.5, false, 0}}, n_components);
-    }
-
     /// Averages over the cells of a finer lattice, halving by halving over those of the problem.
-    std::vector<double> coarsened(std::vector<double> averages, const scene::Case &one, double h)
+    std::vector<double> coarsened(std::vector<double> averages, const problem::Problem<2> &problem,
+                                  double h)
     {
-      const scene::Scene &scene = one.scene;
-      const problem::Problem<2> &problem = one.problem;
       const unsigned int n = problem.n_components;
+      const auto centres = [&](double size)
+      {
+        return free_nodes(
+            problem.lattice()->refined(static_cast<int>(std::lround(problem.h / size))),
+            {{.5, false, 0}}, n);
+      };
       const auto is_last = [&] { return 2 * h > .75 * problem.h; };
       for (; !is_last(); h *= 2)
-        averages = coarsen_averages(averages, centres(scene, h, n), centres(scene, 2 * h, n));
-      return coarsen_averages(averages, centres(scene, h, n), method::comparison_nodes(problem, n));
+        averages = coarsen_averages(averages, centres(h), centres(2 * h));
+      return coarsen_averages(averages, centres(h), method::comparison_nodes(problem, n));
     }
   } // namespace
 
-  unsigned int geometry_order(const scene::Scene &scene)
+  unsigned int geometry_order(const problem::Problem<2> &problem)
   {
-    if (scene.domain.mesh.is_of_boxes())
-      return scene.domain.mesh.map.empty() ? 0 : 2;
-    if (scene.domain.mesh.is_curved)
-      return 4;
-    return scene.domain.mesh.inside.empty() ? 2 : 1;
+    return problem.on_mesh() != nullptr ? problem.on_mesh()->boundary_order : 0;
   }
 
   Resized finer(const scene::Case &one, unsigned int n)
   {
     const problem::Problem<2> &problem = one.problem;
-    if (problem.lattice)
-      return {
-          scene::make_problem(centred(one.scene), one.index, {problem.h / n, problem.horizon()})};
+    if (problem.lattice())
+      return {one.at_h(problem.h / n)};
     // beyond the free boundary of a body no field has values: its polygon stays as it is
-    if (geometry_order(one.scene) > 0 && !problem.body)
+    if (geometry_order(problem) > 0 && !problem.body())
       if (auto result = made_anew(one, problem.h / n))
         return std::move(*result);
     return cut(problem, n);
@@ -122,21 +107,21 @@ namespace plumbline::study
     constexpr double same = 1e-9;
     const problem::Problem<2> &problem = one.problem;
     auto result = made_anew(one, problem.h * n);
-    if (result && problem.body &&
-        std::abs(area(*result->problem.mesh) / area(*problem.mesh) - 1) > same)
+    if (result && problem.body() &&
+        std::abs(area(*result->problem.mesh()) / area(*problem.mesh()) - 1) > same)
       return {};
     return result;
   }
 
-  ResizedSolution solve_resized(const Resized &resized, const scene::Case &one,
+  ResizedSolution solve_resized(const Resized &resized, const problem::Problem<2> &problem,
                                 const Method &method)
   {
-    const problem::Problem<2> &problem = one.problem;
     Solution solution = analysis::solve(method, resized.problem);
-    if (problem.lattice)
-      solution.averages = resized.problem.h < problem.h
-                              ? coarsened(std::move(solution.averages), one, resized.problem.h)
-                              : cell_averages(problem::Field<2>{solution.value, std::nullopt}, problem);
+    if (problem.lattice())
+      solution.averages =
+          resized.problem.h < problem.h
+              ? coarsened(std::move(solution.averages), problem, resized.problem.h)
+              : cell_averages(problem::Field<2>{solution.value, std::nullopt}, problem);
     return {std::move(solution.averages), std::move(solution.value)};
   }
 } // namespace plumbline::study

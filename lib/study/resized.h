@@ -1,7 +1,6 @@
 #pragma once
 
 #include "scene/problem.h"
-#include "scene/scene.h"
 #include "study/comparison.h"
 
 namespace plumbline::study
@@ -31,15 +30,12 @@ namespace plumbline::study
     Values value;
   };
 
-  /// @param one  the case whose problem was resized
+  /// @param problem  that was resized
   /// @throws as Method::solve
-  ResizedSolution solve_resized(const Resized &resized, const scene::Case &one,
+  ResizedSolution solve_resized(const Resized &resized, const problem::Problem<2> &problem,
                                 const Method &method);
 
-  /// Whether a scene makes its mesh anew for each h from a description that may be curved, and how
-  /// fast the domain's cells tend to what they stand for: a polygon's sides to its curve like h²,
-  /// those that follow it like h⁴ (see geometry::follow_curves), cells chosen by their centres
-  /// (Domain/inside) like h.
-  /// @return 0: nothing is curved
-  unsigned int geometry_order(const scene::Scene &scene);
+  /// How fast the cells of a problem's domain tend to what they stand for, see
+  /// problem::MeshDomain::boundary_order; 0: nothing is curved.
+  unsigned int geometry_order(const problem::Problem<2> &problem);
 } // namespace plumbline::study

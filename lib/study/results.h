@@ -20,13 +20,13 @@ namespace plumbline::study
   /// One method on one case at one level.
   struct Run
   {
-    std::string method;         ///< e.g. "IPA-AC"
+    std::string method;                           ///< e.g. "IPA-AC"
     MethodFamily family = MethodFamily::meshfree; ///< of the method
-    std::string problem;        ///< case name, e.g. "case1"
-    std::string series;         ///< what is held fixed, e.g. "m = 3"
-    unsigned int level = 0;     ///< from coarse to fine
-    double h = 0, horizon = 0;  ///< [length]
-    double value = 0;           ///< of Results::variable
+    std::string problem;                          ///< case name, e.g. "case1"
+    std::string series;                           ///< what is held fixed, e.g. "m = 3"
+    unsigned int level = 0;                       ///< from coarse to fine
+    double h = 0, horizon = 0;                    ///< [length]
+    double value = 0;                             ///< of Results::variable
     base::Cost cost;
     /// What making the mesh and, for meshfree methods, the cells of nodes took. Methods of a level
     /// share it; it is in no cost [CPU s].

@@ -13,13 +13,13 @@ namespace plumbline::study
     /// The smaller side of Ω's bounding box.
     double width(const problem::Problem<2> &problem)
     {
-      if (problem.mesh)
+      if (problem.mesh())
       {
-        const geometry::Box box = geometry::bounding_box(*problem.mesh);
+        const geometry::Box box = geometry::bounding_box(*problem.mesh());
         return std::min(box.upper[0] - box.lower[0], box.upper[1] - box.lower[1]);
       }
-      const auto &n = problem.lattice->n_cells();
-      return problem.lattice->h() * std::min(n[0], n[1]);
+      const auto &n = problem.lattice()->n_cells();
+      return problem.lattice()->h() * std::min(n[0], n[1]);
     }
 
     /// The least of ∫ C_aa ξ_c²: how stiff the operator is at least.
@@ -60,7 +60,7 @@ namespace plumbline::study
     for (const double average : solution.averages)
       largest = std::max(largest, std::abs(average));
     const double residual = std::max(solution.diagnostics.relative_residual, epsilon);
-    const double solved_for = problem.lattice ? variation(problem, solution) : largest;
+    const double solved_for = problem.lattice() ? variation(problem, solution) : largest;
     const double loaded_by = problem.is_load_given ? solved_for : largest; // manufactured from u
     return safety * (epsilon * (amplification * loaded_by + largest) + residual * solved_for);
   }

@@ -1,6 +1,7 @@
 #include "study/sample_sweep.h"
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "study/comparison.h"
 #include "study/motion_steps.h"
 
@@ -12,7 +13,8 @@ namespace plumbline::study
   {
     using dealii::Point;
 
-    SampleField field_of(const problem::Problem<2> &problem, const Solution &solution, bool is_nodal)
+    SampleField field_of(const problem::Problem<2> &problem, const Solution &solution,
+                         bool is_nodal)
     {
       SampleField field;
       field.n_components = problem.n_components;
@@ -60,11 +62,11 @@ namespace plumbline::study
   }
 
   std::vector<SampleCase> move_sample(const scene::Scene &scene, const Methods &methods,
-                                      const MakeTorus &make_torus)
+                                      const Methods &available)
   {
     std::vector<SampleCase> cases;
     MotionControl control;
-    control.make_torus = make_torus;
+    control.available = available;
     control.on_end = [&](const MotionRun &run, const Frame &end, double area)
     {
       SampleCase one;
@@ -101,6 +103,28 @@ namespace plumbline::study
       if (!run.failure.empty())
         throw NumericalError(run.method + ", " + run.problem + ", " + run.series + ", " +
                              run.scheme + ": " + run.failure);
+    return cases;
+  }
+
+  std::vector<SampleCase> sample_study(const Analysis &analysis, const scene::Scene &scene,
+                                       const Methods &available)
+  {
+    std::vector<SampleCase> cases;
+    const Methods methods = analysis.choose_methods(scene, available, 0, 1);
+    for (const Record &record : run_study(analysis, scene, methods).records)
+    {
+      const Key &key = record.key;
+      if (!record.failure.empty())
+        throw NumericalError(key.label() + ", " + key.series + ", h = " + base::to_text(key.h, 4) +
+                             ": " + record.failure);
+      SampleCase one{key.label(), key.problem, key.series,           key.level,
+                     key.h,       key.horizon, record.cost.seconds()};
+      for (const auto &[name, scalar] : record.scalars)
+        if (analysis.is_sampled(name))
+          one.quantities[name] = scalar.value;
+      if (!one.quantities.empty())
+        cases.push_back(std::move(one));
+    }
     return cases;
   }
 } // namespace plumbline::study

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "scene/scene.h"
 #include "uq/spectrum.h"
 #include "uq/statistics.h"
-#include "scene/scene.h"
 
 #include <functional>
 #include <map>
@@ -144,9 +144,9 @@ namespace plumbline::study
     scene::SamplingSection sampling;
     std::string target; ///< of errors of means, e.g. "local"; empty: none is known
     std::size_t n_samples = 0;
-    std::vector<std::string> variables;       ///< their names, those of modes last
-    std::vector<std::vector<double>> points;  ///< their values, shape (n_samples, n_variables)
-    std::optional<uq::Spectrum> spectrum; ///< of a field of modes
+    std::vector<std::string> variables;      ///< their names, those of modes last
+    std::vector<std::vector<double>> points; ///< their values, shape (n_samples, n_variables)
+    std::optional<uq::Spectrum> spectrum;    ///< of a field of modes
     std::vector<CaseStatistics> cases;
     std::vector<SampleFailure> failures;
     std::vector<CheapestPair> cheapest;

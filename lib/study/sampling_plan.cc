@@ -34,7 +34,7 @@ namespace plumbline::study
       const scene::SamplingSection &sampling = scene.sampling;
       const scene::RandomSection &random = scene.random;
       const std::vector<uq::Law> laws = random.laws(),
-                                     varying(laws.begin(), laws.end() - random.n_modes + n_modes);
+                                 varying(laws.begin(), laws.end() - random.n_modes + n_modes);
       const bool is_sequence =
           plan.are_independent || sampling.rule == SampleRule::quasi_monte_carlo;
       const std::size_t first = plan.values.size(); // of a sequence

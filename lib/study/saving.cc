@@ -1,7 +1,6 @@
 #include "study/saving.h"
 
 #include "base/error.h"
-#include "scene/models/model.h"
 #include "study/refusal.h"
 
 #include <algorithm>
@@ -46,27 +45,19 @@ namespace plumbline::study
     }
   } // namespace
 
-  bool has_fuller_model(const scene::Scene &scene)
-  {
-    const bool drops_dilatation = scene.material.model->is_state_based() && !scene.has_dilatation();
-    return !scene.solver.is_full_model && !scene.domain.collar &&
-           scene.solver.operator_backend == base::OperatorBackend::automatic &&
-           (scene.domain.is_free_body ? drops_dilatation : scene.domain.mesh.is_lattice());
-  }
-
   std::optional<Saving> measure_saving(const scene::Case &one, const Method &method,
                                        const Solution &solution)
   {
-    const scene::Scene full = scene::full_model(one.scene);
-    const problem::Level level = one.level();
-    const scene::Case fuller = make_case(full, one.index, level);
-    if (!refusal(method, fuller, {}).empty())
+    if (!one.full_model)
+      return {};
+    const problem::Problem<2> full = one.full_model();
+    if (!can_solve(method, full))
       return {};
     try
     {
-      const Solution whole = analysis::solve(method, fuller.problem);
-      return Saving{method.name(), level.h,    level.horizon,
-                    solution.cost, whole.cost, difference(solution, whole, level.h)};
+      const Solution whole = analysis::solve(method, full);
+      return Saving{method.name(), full.h,     full.horizon(),
+                    solution.cost, whole.cost, difference(solution, whole, full.h)};
     }
     catch (const NumericalError &)
     {

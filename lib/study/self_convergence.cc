@@ -25,7 +25,7 @@ namespace plumbline::study
   CellPieces comparison_pieces(const problem::Problem<2> &problem)
   {
     CellPieces result;
-    if (!problem.cells)
+    if (!problem.cells())
     {
       for (const dealii::Point<2> &centre : comparison_points(problem))
       {
@@ -35,7 +35,7 @@ namespace plumbline::study
       }
       return result;
     }
-    const geometry::NodeCells &cells = *problem.cells;
+    const geometry::NodeCells &cells = *problem.cells();
     for (std::size_t c = 0; c < cells.n_free; ++c)
     {
       result.area.push_back(cells.area[c]);

@@ -37,7 +37,8 @@ namespace plumbline::study
   class OwnFinest
   {
   public:
-    void keep(const Run &run, const problem::Problem<2> &problem, const std::vector<double> &averages);
+    void keep(const Run &run, const problem::Problem<2> &problem,
+              const std::vector<double> &averages);
 
     /// Enters "norm | own finest level" for the scene's norms of averages into all runs of a
     /// method, case and series that were kept, but the finest one; where that is missing, nowhere.

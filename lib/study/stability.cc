@@ -122,7 +122,8 @@ namespace plumbline::study
     std::vector<Power> powers;
     for (const Record &first : records)
     {
-      if (std::any_of(powers.begin(), powers.end(), [&](const Power &p)
+      if (std::any_of(powers.begin(), powers.end(),
+                      [&](const Power &p)
                       { return p.method == first.key.method && p.series == first.key.series; }))
         continue;
       std::vector<double> h, horizon;
@@ -132,13 +133,16 @@ namespace plumbline::study
         {
           h.push_back(record.key.h);
           horizon.push_back(record.key.horizon);
-          for (const char *const name : {"smallest eigenvalue", "largest eigenvalue", "inverse norm"})
+          for (const char *const name :
+               {"smallest eigenvalue", "largest eigenvalue", "inverse norm"})
             values[name].push_back(record[name]);
           if (!is_sound(record))
             values["smallest eigenvalue"].back() = 0;
         }
-      Power result{first.key.method, first.key.series,
-                   h.front() == h.back() ? Axis::horizon : Axis::mesh_size, {}};
+      Power result{first.key.method,
+                   first.key.series,
+                   h.front() == h.back() ? Axis::horizon : Axis::mesh_size,
+                   {}};
       for (const auto &[name, y] : values)
         if (const double p = power(result.axis == Axis::horizon ? horizon : h, y); std::isfinite(p))
           result.of[name] = p;
@@ -172,7 +176,8 @@ namespace plumbline::study
       result.explanation = "no level is sound: " + defect(records.back());
       return result;
     }
-    const std::string coercive = "coercive with " + base::to_text((*lowest)["smallest eigenvalue"], 4) +
+    const std::string coercive = "coercive with " +
+                                 base::to_text((*lowest)["smallest eigenvalue"], 4) +
                                  " or more (least at " + place(*lowest, variable) + ")";
     if (first_not(is_good) == records.end())
     {
@@ -263,7 +268,7 @@ namespace plumbline::study
           place.record("stability", method), stability,
           analysis::check_consistency(matrix, problem),
           critical_steps(*discretisation, problem, stability, place.scene().time.density))};
-      if (place.is_finest() && problem.double_well && problem.is_periodic)
+      if (place.is_finest() && problem.double_well && problem.is_periodic())
         for (Record &record : strain_records(place, method))
           records.push_back(std::move(record));
       return records;
@@ -273,8 +278,8 @@ namespace plumbline::study
   Record stability_record(Record record, const Stability &s, const Consistency &consistency,
                           const CriticalSteps &steps)
   {
-    const auto set = [&](bool is_known, const std::string &name, double value,
-                         const std::string &unit = "")
+    const auto set =
+        [&](bool is_known, const std::string &name, double value, const std::string &unit = "")
     {
       if (is_known)
         record.set(name, value, unit);

@@ -50,9 +50,9 @@ namespace plumbline::study
   /// "3", or "12 or more".
   std::string zero_modes(const Record &record);
 
-  /// For each method and series the powers of h, or of the horizon where h is fixed, of smallest and
-  /// largest eigenvalue and norm of the inverse, at the finest three levels. Absent: fewer levels
-  /// have the scalar, or their sizes are within a factor 2.
+  /// For each method and series the powers of h, or of the horizon where h is fixed, of smallest
+  /// and largest eigenvalue and norm of the inverse, at the finest three levels. Absent: fewer
+  /// levels have the scalar, or their sizes are within a factor 2.
   /// @param records  coarse to fine in each series
   std::vector<Power> stability_powers(const Records &records);
 

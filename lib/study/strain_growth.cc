@@ -179,8 +179,8 @@ namespace plumbline::study
         const analysis::Vector drive(equation->drive(problem).size());
         const analysis::Transient transient(*equation, analysis::TimeSeries(drive), density, 0);
         const problem::Field<2> stretched{[&](const dealii::Point<2> &x, unsigned int c)
-                                     { return gradient[c][0] * x[0] + gradient[c][1] * x[1]; },
-                                     {}};
+                                          { return gradient[c][0] * x[0] + gradient[c][1] * x[1]; },
+                                          {}};
         try
         {
           const auto found = analysis::observe_growth(
@@ -208,9 +208,14 @@ namespace plumbline::study
     record.set("criterion (64)", growth.thresholds.local);
     if (growth.first_wave > 0)
       record.set("first wave of the torus", growth.first_wave);
-    Curve curve = {{"X", "", {}},           {"strain", "", {}},         {"k1", "1/length", {}},
-                   {"k2", "1/length", {}},  {"symbol", "1/time", {}},   {"local", "1/time", {}},
-                   {"linear", "1/time", {}}, {"observed", "1/time", {}}};
+    Curve curve = {{"X", "", {}},
+                   {"strain", "", {}},
+                   {"k1", "1/length", {}},
+                   {"k2", "1/length", {}},
+                   {"symbol", "1/time", {}},
+                   {"local", "1/time", {}},
+                   {"linear", "1/time", {}},
+                   {"observed", "1/time", {}}};
     for (std::size_t i = 0; i < one.observed.size(); ++i)
     {
       const StrainSample &sample = growth.samples[i];
@@ -235,7 +240,8 @@ namespace plumbline::study
     const double density = place.scene().time.density;
     using Growths = std::vector<StrainGrowth>;
     Growths growths = place.shared<Growths>(
-        "strains", [&] { return strain_growths(place.scene(), place.series().name, place.level()); });
+        "strains",
+        [&] { return strain_growths(place.scene(), place.series().name, place.level()); });
     add_growth(method, place.problem(), density, growths);
     Records records;
     for (const StrainGrowth &growth : growths)
@@ -262,7 +268,7 @@ namespace plumbline::study
           if (record.failure.empty())
             worst = std::max(worst, record["difference from the symbol"]);
         }
-      results.push_back({"Expected/strain growth: " + expected.text,
+      results.push_back({"Expected/wave growth rates: " + expected.text,
                          "<= " + base::to_text(expected.values.front(), 4),
                          !is_found          ? "no such method on a torus of double wells"
                          : !failure.empty() ? failure

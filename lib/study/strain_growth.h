@@ -68,7 +68,7 @@ namespace plumbline::study
   /// The growth of waves on strains at a place by one method: a record for each direction.
   Records strain_records(const Place &place, const Method &method);
 
-  /// Expected/strain growth: the largest difference from the symbol of a method over all series and
-  /// directions.
+  /// Expected/wave growth rates: the largest difference from the symbol of a method over all series
+  /// and directions.
   std::vector<Expectation> check_growth(const scene::Scene &scene, const Records &records);
 } // namespace plumbline::study

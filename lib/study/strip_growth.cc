@@ -40,4 +40,25 @@ namespace plumbline::study
     }
     return result;
   }
+
+  std::optional<StripGrowth> grow_through_strip(const method::StripSolver &solver,
+                                                const GrowingStrip &strip,
+                                                const physics::Kernel<2> &influence)
+  {
+    const double h = strip.strip.h;
+    const auto make = [&](int n_crack, problem::SurfaceTerms terms)
+    {
+      method::RiceStrip shape = strip.strip;
+      shape.n_crack = n_crack;
+      return solver.breakable_strip(shape, strip.lame, terms, influence, strip.backend);
+    };
+    const int n_crack = strip.strip.n_crack;
+    const auto body = make(n_crack, strip.surface_terms);
+    if (!body)
+      return {};
+    const auto energy = [&](int n)
+    { return make(n, problem::SurfaceTerms::uncorrected)->body->response().energy; };
+    const double W1 = (energy(n_crack) - energy(n_crack + 1)) / h, tip = n_crack * h;
+    return measure_strip(*body, W1, tip + 2 * h, tip + (2 + strip.n_columns) * h);
+  }
 } // namespace plumbline::study

@@ -37,6 +37,14 @@ namespace plumbline::study
     std::map<std::string, double> of; ///< by the scalar's name
   };
 
+  /// q(h) = value + C h^rate through the three finest levels.
+  struct Limit
+  {
+    std::string method, series, quantity;
+    double value = 0, rate = 0;
+    double change = 0; ///< of the value, were the finest level left out; NaN: there are but three
+  };
+
   /// What a study of one analysis finds.
   struct StudyResults
   {
@@ -48,6 +56,7 @@ namespace plumbline::study
     Records records;                          ///< method by method, coarse to fine in each series
     std::vector<Trend> trends;
     std::vector<Power> powers;
+    std::vector<Limit> limits;
     std::vector<Verdict> verdicts;
     std::vector<Expectation> expectations;
     std::vector<std::string> left_out; ///< what the budget did not allow

@@ -65,6 +65,7 @@ namespace plumbline::study
       /// A case of the level that is being solved.
       struct OpenCase : scene::Case
       {
+        unsigned int index; ///< of its name
         Methods due;
         Targets targets = {};
       };
@@ -141,7 +142,7 @@ namespace plumbline::study
           if (take_earlier(due, cases_[c], series, level))
             continue;
           say(cases_[c], series, level, "load and reference");
-          open.push_back({make_case(here, c, series.levels[level]), std::move(due)});
+          open.push_back({make_case(here, c, series.levels[level]), c, std::move(due)});
         }
         warn(open, series, level);
         solve_targets(open, series, level);
@@ -156,7 +157,8 @@ namespace plumbline::study
       }
 
       /// Of the finest level, where the horizon is the shortest and limits are near.
-      void warn(const std::vector<OpenCase> &open, const problem::Series &series, unsigned int level)
+      void warn(const std::vector<OpenCase> &open, const problem::Series &series,
+                unsigned int level)
       {
         if (open.empty() || level + 1 < n_levels(series) ||
             series.name != scene_.study.series.front().name)
@@ -166,7 +168,7 @@ namespace plumbline::study
         for (const std::string &text : node_warnings(open.front(), methods_))
           results_.warnings.push_back(text);
         for (const OpenCase &one : open)
-          if (const auto found = measure_contradiction(one); found && found->is_clear())
+          if (const auto found = measure_contradiction(one.problem); found && found->is_clear())
             results_.warnings.push_back(cases_[one.index] + ": " + found->text());
       }
 
@@ -187,7 +189,8 @@ namespace plumbline::study
           if (scene_.reference.method)
           {
             ReferenceAverages reference = solve_reference(
-                one, *find_method(available_, *scene_.reference.method, "Reference/method"));
+                one, *find_method(available_, *scene_.reference.method, "Reference/method"),
+                scene_.reference);
             results_.references.push_back(
                 placed(reference.estimate, cases_[one.index], series, level));
             one.targets.reference = std::move(reference.averages);
@@ -257,7 +260,8 @@ namespace plumbline::study
       /// Besides the reference.
       bool is_estimated(const Method &method, const problem::Problem<2> &problem) const
       {
-        return method.family() == MethodFamily::reference && method.name() != scene_.reference.method &&
+        return method.family() == MethodFamily::reference &&
+               method.name() != scene_.reference.method &&
                (scene_.reference.estimate == scene::Estimate::every ||
                 (scene_.reference.estimate == scene::Estimate::automatic &&
                  !scene_.reference.method && !problem.solution));
@@ -268,7 +272,7 @@ namespace plumbline::study
       {
         constexpr std::uint64_t most_bonds = 100000;
         return run.problem == cases_.front() && run.series == scene_.study.series.front().name &&
-               run.level == 0 && run.cost.n_bonds <= most_bonds && has_fuller_model(one.scene) &&
+               run.level == 0 && run.cost.n_bonds <= most_bonds && one.full_model &&
                std::none_of(results_.runs.begin(), results_.runs.end(),
                             [&](const Run &other) { return other.family == method.family(); });
       }
@@ -285,8 +289,10 @@ namespace plumbline::study
         run.h = series.levels[level].h;
         run.horizon = series.levels[level].horizon;
         run.value = series.levels[level].value;
-        run.geometry_seconds = one.problem.mesh_seconds +
-                               (method.family() == MethodFamily::meshfree ? one.problem.cells_seconds : 0);
+        if (const problem::MeshDomain *mesh = one.problem.on_mesh())
+          run.geometry_seconds =
+              mesh->mesh_seconds +
+              (method.family() == MethodFamily::meshfree ? mesh->cells_seconds : 0);
         return run;
       }
 
@@ -323,7 +329,8 @@ namespace plumbline::study
       std::vector<double> local_averages(const problem::Problem<2> &problem) const
       {
         problem::Problem<2> fine = problem;
-        fine.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh));
+        fine.on_mesh()->mesh =
+            std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh()));
         return analysis::solve(*find_method(available_, "LOCAL", "Problem/local solution"), fine)
             .averages;
       }
@@ -363,8 +370,8 @@ namespace plumbline::study
       }
 
       /// What is done with a solution of the finest level: stored, and drawn for the first series.
-      void finish_series(const Solution &solution, const Run &run, const problem::Problem<2> &problem,
-                         const std::vector<double> &target)
+      void finish_series(const Solution &solution, const Run &run,
+                         const problem::Problem<2> &problem, const std::vector<double> &target)
       {
         if (control_.on_finest)
           control_.on_finest(solution, run);

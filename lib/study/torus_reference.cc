@@ -66,6 +66,20 @@ namespace plumbline::study
           worst = std::max(worst, unresolved_part(equation, scene, values, *field));
       return worst;
     }
+
+    /// By the first method that can.
+    std::shared_ptr<const method::ContinuousMotion>
+    make_torus(const scene::Scene &scene, const Methods &available, double horizon, unsigned int n)
+    {
+      for (const auto &method : available)
+        if (auto motion = method->continuous_motion(make_double_well(scene, horizon),
+                                                    scene.domain.boxes.include.front(),
+                                                    scene.domain.dimension, n))
+          return motion;
+      throw InputError(
+          "Reference/method = torus: none of the methods of this program moves a torus "
+          "without a mesh; set Reference/method = none");
+    }
   } // namespace
 
   TorusSolution solve_torus(const scene::Scene &scene, const MotionControl &control,
@@ -82,9 +96,7 @@ namespace plumbline::study
          scene.domain.dimension == 1 ? Sizes{32, 48, 72, 108, 162} : Sizes{16, 24, 36, 54})
     {
       coarse = std::move(fine);
-      fine.equation = control.make_torus(make_double_well(scene, horizon),
-                                         scene.domain.boxes.include.front(),
-                                         scene.domain.dimension, n);
+      fine.equation = make_torus(scene, control.available, horizon, n);
       const MotionData data = motion_data(scene, *fine.equation, problems);
       const Transient transient(*fine.equation, data.drive, scene.time.density, scene.time.damping);
       fine.state = move_exactly(scene, transient, data.start);

@@ -148,7 +148,8 @@ namespace plumbline::study
       Range there, at_nodes;
     };
 
-    Found look(const SpatialValue &value, const PlacesBetweenNodes &places, const NearbyNodes &nearby)
+    Found look(const SpatialValue &value, const PlacesBetweenNodes &places,
+               const NearbyNodes &nearby)
     {
       std::vector<double> at_nodes;
       for (const Point<2> &x : places.nodes)
@@ -180,8 +181,8 @@ namespace plumbline::study
       return found;
     }
 
-    std::string sentence(const std::string &key, const Found &found, const PlacesBetweenNodes &places,
-                         double h)
+    std::string sentence(const std::string &key, const Found &found,
+                         const PlacesBetweenNodes &places, double h)
     {
       const auto of = [](std::size_t n, std::size_t all, const std::string &what)
       { return std::to_string(n) + " of " + std::to_string(all) + " " + what; };
@@ -195,22 +196,6 @@ namespace plumbline::study
              " at the surrounding nodes";
     }
   } // namespace
-
-  std::vector<SpatialValue> material_values(const scene::Scene &scene)
-  {
-    std::vector<SpatialValue> values;
-    const scene::MaterialSection &material = scene.material;
-    if (!material.model->is_state_based())
-      return values;
-    for (unsigned int i = 0; i < 2; ++i)
-    {
-      const std::string key = "Material/" + material.keys[i];
-      const physics::Expression expression(key, material.expressions[i], material.names);
-      if (!expression.is_constant())
-        values.push_back({key, [expression](const Point<2> &x) { return expression(x); }});
-    }
-    return values;
-  }
 
   std::vector<std::string> unseen_features(const std::vector<SpatialValue> &values,
                                            const PlacesBetweenNodes &places, double h)
@@ -232,15 +217,10 @@ namespace plumbline::study
   std::vector<std::string> unseen_features(const scene::Case &one)
   {
     const problem::Problem<2> &problem = one.problem;
-    if (!problem.cells)
+    if (!problem.cells())
       return {};
-    std::vector<SpatialValue> values = material_values(one.scene);
-    const bool is_by_surfaces = !one.scene.kernel.materials.empty();
-    if (problem.coefficient && (is_by_surfaces || !one.scene.kernel.coefficient.empty()))
-      values.push_back({is_by_surfaces ? "Kernel/materials" : "Kernel/coefficient",
-                        [&problem](const Point<2> &x) { return problem.coefficient->at(x); }});
-    std::vector<std::string> result =
-        unseen_features(values, {problem.cells->nodes, problem.cells->pieces, {}}, problem.h);
+    std::vector<std::string> result = unseen_features(
+        problem.spatial_values, {problem.cells()->nodes, problem.cells()->pieces, {}}, problem.h);
     for (std::string &sentence : result)
       sentence +=
           "; methods that evaluate it at nodes ignore these features, and quadrature may miss "

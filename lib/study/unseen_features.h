@@ -9,15 +9,7 @@
 
 namespace plumbline::study
 {
-  /// A number of the material that varies in space, of which methods know its values at nodes.
-  struct SpatialValue
-  {
-    std::string key; ///< of the scene, e.g. "Material/E"
-    std::function<double(const dealii::Point<2> &)> at;
-  };
-
-  /// Constants of the material.
-  std::vector<SpatialValue> material_values(const scene::Scene &scene);
+  using SpatialValue = problem::SpatialValue<2>;
 
   /// Where values are looked for between nodes.
   struct PlacesBetweenNodes

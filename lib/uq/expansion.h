@@ -40,7 +40,8 @@ namespace plumbline::uq
 
     /// The field for ξ; modes beyond its length are left out.
     /// @throws InputError  more numbers than modes
-    GridField realise(const std::vector<double> &xi, Interpolation between = Interpolation::linear) const;
+    GridField realise(const std::vector<double> &xi,
+                      Interpolation between = Interpolation::linear) const;
 
     /// The ξ of n_modes() whose field is nearest to given values at the nodes; 0 for modes without
     /// variance.

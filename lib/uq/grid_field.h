@@ -47,7 +47,8 @@ namespace plumbline::uq
   public:
     GridField() = default;
     /// @param values  at the nodes, shape (n[1], n[0])
-    GridField(const Grid &grid, std::vector<double> values, Interpolation between = Interpolation::linear);
+    GridField(const Grid &grid, std::vector<double> values,
+              Interpolation between = Interpolation::linear);
 
     double operator()(const Point<2> &x) const;
 

@@ -15,7 +15,7 @@ namespace plumbline::meshfree
     VariationalBody make_body(const problem::Problem<2> &problem)
     {
       const auto lame = problem.lame;
-      return body_of_cells(*problem.body, *problem.cells,
+      return body_of_cells(*problem.body(), *problem.cells(),
                            {[lame](const Point<2> &x) { return lame(x).lambda + lame(x).mu; },
                             [lame](const Point<2> &x) { return 8 * lame(x).mu; }});
     }
@@ -32,7 +32,7 @@ namespace plumbline::meshfree
     algebra::Vector cell_integrals(const VariationalBody &body, const problem::Problem<2> &problem)
     {
       constexpr unsigned int degree = 5;
-      const geometry::NodeCells &cells = *problem.cells;
+      const geometry::NodeCells &cells = *problem.cells();
       algebra::Vector result(2 * body.size());
       for (std::size_t cell = 0; cell < cells.n_free; ++cell)
         for (std::size_t piece = cells.first_piece[cell]; piece < cells.first_piece[cell + 1];
@@ -93,7 +93,7 @@ namespace plumbline::meshfree
     {
     public:
       RuleOnBody(const problem::Problem<2> &problem, const Bonds &bonds)
-          : cells_(problem.cells), loads_are_averages_(problem.settings.loads_are_averages),
+          : cells_(problem.cells()), loads_are_averages_(problem.settings.loads_are_averages),
             matrix_(std::make_shared<const VariationalOperator>(
                 make_operator(make_body(problem), bonds, problem)))
       {
@@ -186,7 +186,7 @@ namespace plumbline::meshfree
   std::unique_ptr<method::Discretisation> discretise_on_body(const Rule &rule,
                                                              const problem::Problem<2> &problem)
   {
-    const Bonds bonds = lattice_bonds(rule.of(problem.kernel), problem.kernel, problem.body->h,
+    const Bonds bonds = lattice_bonds(rule.of(problem.kernel), problem.kernel, problem.body()->h,
                                       problem.settings.geometry.backend);
     return std::make_unique<RuleOnBody>(problem, bonds);
   }

@@ -142,9 +142,9 @@ namespace plumbline::meshfree
     {
       const Frame around = frame(body);
       Stencil stencil = inner_stencil(body, family);
-      const bool is_constrained = std::any_of(around.sides.begin(), around.sides.end(),
-                                       [](const auto &side)
-                                       { return side[0] == Side::zero || side[1] == Side::zero; });
+      const bool is_constrained = std::any_of(
+          around.sides.begin(), around.sides.end(),
+          [](const auto &side) { return side[0] == Side::zero || side[1] == Side::zero; });
       if (!is_constrained) // the constant is in the kernel: as if held over the size of the body
         for (unsigned int a = 0; a < 2; ++a)
           stencil(a, a, 0, 0) *=

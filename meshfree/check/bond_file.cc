@@ -1,11 +1,11 @@
 #include "meshfree/check/bond_file.h"
 
+#include "base/csv.h"
 #include "base/error.h"
 #include "base/number_text.h"
 #include "geometry/cell_locator.h"
 #include "meshfree/check/given_rows.h"
 #include "meshfree/rules/families.h"
-#include "base/csv.h"
 
 #include <algorithm>
 #include <cmath>

@@ -19,8 +19,8 @@ namespace plumbline::meshfree
     double factor = 1;         ///< the weights are the right ones times this
     bool is_own_error = false; ///< of a rule that is right for ever finer nodes
     double point_scale = 1;    ///< the kernel points are the right ones times this
-    /// The list of bonds or each weight is another than it should be: single bonds cannot be compared
-    /// against others before it is mended.
+    /// The list of bonds or each weight is another than it should be: single bonds cannot be
+    /// compared against others before it is mended.
     bool is_structural = false;
   };
 

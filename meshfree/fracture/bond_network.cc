@@ -28,8 +28,8 @@ namespace plumbline::meshfree
       double weight = 0; ///< w K
     };
 
-    std::vector<Half> half_family(const NeighbourhoodQuadrature &rule, const Kernel<2> &influence, double h,
-                                  Backend backend)
+    std::vector<Half> half_family(const NeighbourhoodQuadrature &rule, const Kernel<2> &influence,
+                                  double h, Backend backend)
     {
       const Bonds all = lattice_bonds(rule, physics::deviatoric_kernel(influence, 1), h, backend);
       std::vector<Half> result;
@@ -86,7 +86,8 @@ namespace plumbline::meshfree
             number[static_cast<std::size_t>(j) * n1 + i] = static_cast<int>(network.nodes.size());
             network.nodes.push_back(x);
             network.grip.push_back(grip_of(solid.grips, x, network.h));
-            network.constrained.push_back(network.grip.back() < 0 ? Tensor<1, 2>() : solid.constrained(x));
+            network.constrained.push_back(network.grip.back() < 0 ? Tensor<1, 2>()
+                                                                  : solid.constrained(x));
           }
       for (std::size_t g = 0; g < solid.grips.size(); ++g)
         if (std::find(network.grip.begin(), network.grip.end(), static_cast<int>(g)) ==
@@ -344,8 +345,8 @@ namespace plumbline::meshfree
     return lost;
   }
 
-  double lattice_toughness(const NeighbourhoodQuadrature &rule, const Kernel<2> &influence, double h,
-                           Backend backend, std::array<int, 2> along)
+  double lattice_toughness(const NeighbourhoodQuadrature &rule, const Kernel<2> &influence,
+                           double h, Backend backend, std::array<int, 2> along)
   {
     const double steps = std::hypot(along[0], along[1]);
     Assert(steps > 0, dealii::ExcMessage("a line without a direction"));

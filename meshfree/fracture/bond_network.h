@@ -1,9 +1,8 @@
 #pragma once
 
-#include "geometry/cracks.h"
 #include "meshfree/rules/quadrature_rule.h"
+#include "method/fracture_solver.h"
 #include "physics/state_based.h"
-#include "problem/surface_terms.h"
 
 #include <array>
 #include <functional>
@@ -14,28 +13,7 @@ namespace plumbline::meshfree
 {
   using dealii::Tensor;
 
-  /// What a body whose bonds break is made of.
-  struct BreakingSolid
-  {
-    geometry::Domain domain;          ///< with its grips
-    std::vector<geometry::Box> grips; ///< nodes are constrained whose cell shares area with one of them
-    std::vector<geometry::Box> unbreaking;              ///< bonds with an end in them do not break
-    std::vector<geometry::Polyline> notch;              ///< what it is cut by from the beginning
-    std::function<Tensor<1, 2>(const Point<2> &)> constrained; ///< u in the grips at load 1
-    std::function<physics::Lame(const Point<2> &)> material;
-    std::function<double(const Point<2> &)> toughness; ///< G [force/length]
-    /// Published, none or consistent, see SurfaceForces; else the forces have an energy.
-    problem::SurfaceTerms surface_terms = problem::SurfaceTerms::uncorrected;
-    bool takes_least_toughness = false; ///< of a bond: of samples along it; else its ends' mean
-    /// A line that bonds across have this G from, across several the smallest.
-    struct Interface
-    {
-      geometry::Polyline line;
-      double toughness = 0; ///< [force/length]
-    };
-    std::vector<Interface> interfaces = {};
-    double trapping = 1; ///< G is divided by it for critical stretches, see problem::Criterion
-  };
+  using method::BreakingSolid;
 
   /// A solid on the nodes of a lattice, cell centres, as bonds: its energy is
   ///   E = Σ_bonds k/2 (way·Δu)² + Σ_nodes τ/2 θ²,  θ = Σ_bonds share ξ·Δu,  Δu = u_to - u_from,
@@ -63,7 +41,7 @@ namespace plumbline::meshfree
     double h = 0, horizon = 0; ///< [length]
     std::vector<Point<2>> nodes;
     std::vector<int> grip;                        ///< of each node, -1: free
-    std::vector<Tensor<1, 2>> constrained;               ///< u of each node at load 1, 0 where it is free
+    std::vector<Tensor<1, 2>> constrained;        ///< u of each node at load 1, 0 where it is free
     std::vector<Bond> bonds;                      ///< that are whole at the beginning, each once
     std::vector<double> toughness;                ///< G of each of them [force/length]
     std::vector<std::array<unsigned int, 2>> cut; ///< nodes of bonds that the notch has cut
@@ -101,6 +79,6 @@ namespace plumbline::meshfree
   /// Energy of all bonds across an endless straight line that meets no node, each at its limit s0
   /// of G = 1, on a homogeneous lattice with λ = μ, per length: what a crack along it breaks.
   /// @param along  the line's direction in steps of the lattice, not (0, 0)
-  double lattice_toughness(const NeighbourhoodQuadrature &rule, const Kernel<2> &influence, double h,
-                           Backend backend, std::array<int, 2> along = {1, 0});
+  double lattice_toughness(const NeighbourhoodQuadrature &rule, const Kernel<2> &influence,
+                           double h, Backend backend, std::array<int, 2> along = {1, 0});
 } // namespace plumbline::meshfree

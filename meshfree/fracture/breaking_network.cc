@@ -44,9 +44,9 @@ namespace plumbline::meshfree
     n_events_ = 1;
     u_ = network_.constrained;
     if (!equilibrate())
-      throw NumericalError("iterations do not find equilibrium; stop before (Fracture/largest "
-                           "load, least reaction), or write Fracture/solver = factor and "
-                           "Fracture/surface terms = no");
+      throw NumericalError("iterations do not find equilibrium; stop before (Fracture/max "
+                           "load, min reaction), or write Fracture/solver = factor and "
+                           "Fracture/surface terms = uncorrected");
     ++work_.n_factorisations;
     work_.factor_seconds += timer.seconds();
     evaluate();
@@ -209,5 +209,24 @@ namespace plumbline::meshfree
       if (network_.grip[i] < 0)
         largest = std::max(largest, sums[i].norm_square());
     return std::sqrt(largest) / force_scale_;
+  }
+
+  method::BreakableBody breakable_body(std::shared_ptr<BreakingNetwork> body,
+                                       const dealii::Point<2> &notch_tip)
+  {
+    method::BreakableBody model;
+    const BondNetwork &network = body->network();
+    model.h = network.h;
+    model.nodes = network.nodes;
+    for (const BondNetwork::Bond &bond : network.bonds)
+      model.bonds.push_back({bond.from, bond.to});
+    model.toughness_of_bonds = network.toughness;
+    model.cut = network.cut;
+    model.notch_tip = notch_tip;
+    model.has_dilatation = !network.dilatation.empty();
+    model.damage = [body](const std::vector<std::size_t> &broken)
+    { return body->network().damage(broken); };
+    model.body = std::move(body);
+    return model;
   }
 } // namespace plumbline::meshfree

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "meshfree/fracture/surface_forces.h"
-#include "method/quasistatic_fracture_model.h"
+#include "method/breakable_body.h"
 #include "problem/fracture.h"
 
 #include <memory>
@@ -41,7 +41,7 @@ namespace plumbline::meshfree
     const Work &work() const override { return work_; }
 
     const BondNetwork &network() const { return network_; }
-    std::size_t n_unknowns() const { return equations_->n_unknowns(); }
+    std::size_t n_unknowns() const override { return equations_->n_unknowns(); }
     /// u of all nodes at load 1.
     const NodeField &displacements() const { return u_; }
 
@@ -73,4 +73,8 @@ namespace plumbline::meshfree
     Response response_;
     Work work_;
   };
+
+  /// The same with what is known of its nodes and bonds.
+  method::BreakableBody breakable_body(std::shared_ptr<BreakingNetwork> body,
+                                       const dealii::Point<2> &notch_tip);
 } // namespace plumbline::meshfree

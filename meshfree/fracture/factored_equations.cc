@@ -84,8 +84,8 @@ namespace plumbline::meshfree
         connections.hold(terms_.expand(*mode));
       }
       throw NumericalError("the body is a mechanism, its bonds are too few to hold it together; "
-                           "choose a larger horizon (Study/m), or stop before (Fracture/largest "
-                           "load, least reaction)");
+                           "choose a larger horizon (Study/m), or stop before (Fracture/max "
+                           "load, min reaction)");
     }
 
     void FactoredEquations::take_out(const std::vector<std::size_t> &bonds,

@@ -14,7 +14,8 @@ namespace plumbline::meshfree
   {
     using method::RiceStrip;
 
-    /// The strip with all that is constrained around it, which moves with the nearer grip or the field.
+    /// The strip with all that is constrained around it, which moves with the nearer grip or the
+    /// field.
     BreakingSolid make_solid(const RiceStrip &strip, int reach)
     {
       const double half = .5 * strip.h * strip.n_height, length = strip.h * strip.n_length,

@@ -2,6 +2,7 @@
 
 #include "meshfree/lattice/crack_column.h"
 #include "meshfree/lattice/double_well_force.h"
+#include "method/dynamic_fracture_solver.h"
 
 #include <array>
 #include <vector>
@@ -15,59 +16,50 @@ namespace plumbline::meshfree
   /// All other bonds soften and heal by their wells alone, as those of the paper do, so that a
   /// crack closes again where it is unloaded.
   /// Fields that are symmetric about y = 0 stay so to the last bit, on any number of threads.
-  class CrackStrip
+  class CrackStrip : public method::NotchedStrip
   {
   public:
-    struct Shape
-    {
-      std::array<int, 2> n{}; ///< nodes along x, and rows between the grips
-      int n_notch = 0;        ///< columns left of the notch's tip
-      double h = 0;           ///< of the lattice [length]
-    };
+    using Shape = method::NotchedStripShape;
+    using View = method::CrackView;
 
     /// @throws InputError  as CrackColumn; a notch of no column, or of all
     CrackStrip(const std::vector<WellBond> &bonds, const Shape &shape);
 
     const CrackColumn &column() const { return column_; }
-    const std::array<int, 2> &n() const { return n_; } ///< all nodes, those of the grips too
-    std::size_t size() const { return 2 * n_nodes(); }
+    const std::array<int, 2> &n() const override { return n_; }
+    std::size_t size() const override { return 2 * n_nodes(); }
     std::size_t n_nodes() const { return static_cast<std::size_t>(n_[0]) * n_[1]; }
-    std::uint64_t n_bonds() const { return force_.n_bonds(); }
-    double h() const { return h_; }
-    double x(int i) const { return .5 * h_ * (2 * i + 1 - n_[0]); }
-    double y(int j) const { return column_.y(j); }
-    double notch_tip() const { return .5 * h_ * (2 * n_notch_ - n_[0]); } ///< its x
+    std::uint64_t n_bonds() const override { return force_.n_bonds(); }
+    double h() const override { return h_; }
+    double x(int i) const override { return .5 * h_ * (2 * i + 1 - n_[0]); }
+    double y(int j) const override { return column_.y(j); }
+    double notch_tip() const override { return .5 * h_ * (2 * n_notch_ - n_[0]); }
 
     /// F(u) of the free nodes, 0 at those of the grips.
-    void force(const std::vector<double> &u, std::vector<double> &f) const;
+    void force(const std::vector<double> &u, std::vector<double> &f) const override;
 
     /// F'(u) v, symmetric; v counts as 0 at the grips' nodes, and so does the result.
     void tangent(const std::vector<double> &u, const std::vector<double> &v,
-                 std::vector<double> &f) const;
+                 std::vector<double> &f) const override;
+
+    double strain(double energy) const override { return column_.strain(energy); }
 
     /// Displacements at rest under a strain of the grips, as small strains have them, with the
     /// notch open or as if there were none; by conjugate gradients to 1e-10 of the first residual.
     /// Bonds that they stretch too far soften once the strip is let go.
     /// @throws NumericalError  conjugate gradients do not settle
-    std::vector<double> at_rest(double strain, bool is_open) const;
+    std::vector<double> at_rest(double strain, bool is_open) const override;
 
     /// PD(u) less the bonds of the notch.
-    double energy(const std::vector<double> &u) const;
+    double energy(const std::vector<double> &u) const override;
 
-    /// What is seen of a crack. A bond is soft where its force falls with its strain, q² > 1/2.
-    struct View
-    {
-      /// Where the first column right of the notch begins whose shortest bonds along y are not
-      /// soft; between columns by linear interpolation of q².
-      double tip = 0;
-      double soft_energy = 0; ///< of soft bonds
-      int n_branches = 0;     ///< most cracks side by side in a column before the tip, a grip apart
-      std::vector<double> damage; ///< part of a node's bonds that is soft or cut, shape (n_y, n_x)
-    };
-    View view(const std::vector<double> &u) const;
+    /// A bond is soft where q² > 1/2. The tip is where the first column right of the notch begins
+    /// whose shortest bonds along y are not soft, between columns by linear interpolation of q²;
+    /// branches are a grip apart.
+    View view(const std::vector<double> &u) const override;
 
     /// The largest difference of u from its mirror image about y = 0.
-    double asymmetry(const std::vector<double> &u) const;
+    double asymmetry(const std::vector<double> &u) const override;
 
   private:
     /// A bond of the notch from a node above the plane, and with it that of the mirror image.

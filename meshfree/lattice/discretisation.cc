@@ -22,7 +22,7 @@ namespace plumbline::meshfree
     Vector nodal_load(const problem::Problem<2> &problem, const NodeSet &nodes)
     {
       Vector load(nodes.size());
-      const geometry::Lattice &lattice = *problem.lattice;
+      const geometry::Lattice &lattice = *problem.lattice();
       std::size_t block = 0;
       for (unsigned int c = 0; c < nodes.n_components; ++c, block += nodes.n_positions())
       {
@@ -73,7 +73,7 @@ namespace plumbline::meshfree
                           [&problem, bonds](double largest, const dealii::Tensor<2, 2> &gradient)
                           { return move_double_well(problem, bonds, largest, gradient); })
                     : MoveWell()),
-            is_torus_(problem.is_periodic)
+            is_torus_(problem.is_periodic())
       {
         describe_weights(bonds.family, bonds.fit, diagnostics_);
         diagnostics_.notes = bonds.notes;
@@ -137,7 +137,7 @@ namespace plumbline::meshfree
                                                              const problem::Problem<2> &problem)
   {
     return std::make_unique<method::LineDiscretisation>(
-        problem.lattice->n_cells()[0], false,
+        problem.lattice()->n_cells()[0], false,
         [&problem, name = rule.name](bool, unsigned int)
         { return move_double_well_on_line(problem, name); });
   }
@@ -146,7 +146,7 @@ namespace plumbline::meshfree
                                                                 const problem::Problem<2> &problem)
   {
     return std::make_unique<RuleOnLattice>(
-        problem, lattice_bonds(rule.of(problem.kernel), problem.kernel, problem.lattice->h(),
+        problem, lattice_bonds(rule.of(problem.kernel), problem.kernel, problem.lattice()->h(),
                                problem.settings.geometry.backend));
   }
 } // namespace plumbline::meshfree

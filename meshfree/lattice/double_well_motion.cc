@@ -26,7 +26,7 @@ namespace plumbline::meshfree
     Box torus(const problem::Problem<2> &problem)
     {
       const double offset = problem.settings.nodes_are_vertices ? 0 : .5;
-      const geometry::Lattice &lattice = *problem.lattice;
+      const geometry::Lattice &lattice = *problem.lattice();
       Box box{lattice.n_cells(), {}, {}};
       for (int j = 0; j < box.n[1]; ++j)
         for (int i = 0; i < box.n[0]; ++i)
@@ -67,8 +67,8 @@ namespace plumbline::meshfree
       return reach;
     }
 
-    /// What drives states is b at the free nodes and behind it u at the constrained ones, of the same
-    /// shape.
+    /// What drives states is b at the free nodes and behind it u at the constrained ones, of the
+    /// same shape.
     template <int dim>
     class DoubleWellMotion : public method::NodalMotion<method::EquationOfMotion, dim>
     {
@@ -85,7 +85,7 @@ namespace plumbline::meshfree
           : cell_(std::pow(problem.h, dim)), largest_(largest_eigenvalue),
             toughness_(lattice_toughness(bonds, dim, problem.h)), n_all_(box.places.size()),
             force_(bonds, problem.h, box.n,
-                   problem.is_periodic ? Exterior::periodic : Exterior::empty,
+                   problem.is_periodic() ? Exterior::periodic : Exterior::empty,
                    boundary_function(problem, box), gradient),
             all_(dim * n_all_), other_(dim * n_all_)
       {
@@ -156,7 +156,8 @@ namespace plumbline::meshfree
         force_.force(all_, other_);
         for (unsigned int c = 0; c < dim; ++c)
           for (std::size_t k = 0; k < constrained_.size(); ++k)
-            sum -= cell_ * other_[c * n_all_ + constrained_[k]] * rate[size() + c * constrained_.size() + k];
+            sum -= cell_ * other_[c * n_all_ + constrained_[k]] *
+                   rate[size() + c * constrained_.size() + k];
         return sum;
       }
 
@@ -177,7 +178,8 @@ namespace plumbline::meshfree
           for (std::size_t k = 0; k < free_.size(); ++k)
             all[c * n_all_ + free_[k]] = u[c * free_.size() + k];
           for (std::size_t k = 0; k < constrained_.size(); ++k)
-            all[c * n_all_ + constrained_[k]] = constrained == nullptr ? 0 : constrained[c * constrained_.size() + k];
+            all[c * n_all_ + constrained_[k]] =
+                constrained == nullptr ? 0 : constrained[c * constrained_.size() + k];
         }
       }
 
@@ -206,16 +208,16 @@ namespace plumbline::meshfree
                                                              const dealii::Tensor<2, 2> &gradient)
   {
     const auto wells = well_bonds(*problem.double_well, bonds);
-    const Box box = problem.is_periodic ? torus(problem)
-                                        : with_margin(method::comparison_nodes(problem, 1),
-                                                      *problem.lattice, reach(wells));
+    const Box box = problem.is_periodic() ? torus(problem)
+                                          : with_margin(method::comparison_nodes(problem, 1),
+                                                        *problem.lattice(), reach(wells));
     const DoubleWellForce<2>::Gradient of_torus{
         {{gradient[0][0], gradient[0][1]}, {gradient[1][0], gradient[1][1]}}};
     return std::make_unique<DoubleWellMotion<2>>(problem, box, wells, largest_eigenvalue, of_torus);
   }
 
-  std::unique_ptr<method::EquationOfMotion> move_double_well_on_line(const problem::Problem<2> &problem,
-                                                                     const std::string &rule)
+  std::unique_ptr<method::EquationOfMotion>
+  move_double_well_on_line(const problem::Problem<2> &problem, const std::string &rule)
   {
     return std::make_unique<DoubleWellMotion<1>>(problem, torus(problem),
                                                  axis_bonds(*problem.double_well, problem.h, rule),

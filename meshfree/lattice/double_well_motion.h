@@ -12,14 +12,14 @@ namespace plumbline::meshfree
   /// which is that of a torus, and bounds that of other boxes from above
   /// @param gradient  G of a torus: states are G x and what is periodic
   /// @throws NumericalError  weights that differ between mirror images
-  /// @pre problem.double_well, problem.lattice; a torus where G is not 0
+  /// @pre problem.double_well, problem.lattice(); a torus where G is not 0
   std::unique_ptr<method::EquationOfMotion>
-  move_double_well(const problem::Problem<2> &problem, const Bonds &bonds, double largest_eigenvalue,
-                   const dealii::Tensor<2, 2> &gradient = {});
+  move_double_well(const problem::Problem<2> &problem, const Bonds &bonds,
+                   double largest_eigenvalue, const dealii::Tensor<2, 2> &gradient = {});
 
   /// The same on the torus of one axis, by axis_bonds.
   /// @throws InputError  as axis_bonds
-  /// @pre problem.dimension == 1
-  std::unique_ptr<method::EquationOfMotion> move_double_well_on_line(const problem::Problem<2> &problem,
-                                                                     const std::string &rule);
+  /// @pre problem.dimension() == 1
+  std::unique_ptr<method::EquationOfMotion>
+  move_double_well_on_line(const problem::Problem<2> &problem, const std::string &rule);
 } // namespace plumbline::meshfree

@@ -14,8 +14,8 @@ namespace plumbline::meshfree
     return boxes;
   }
 
-  Families::Families(NeighbourhoodQuadrature rule, const Kernel<2> &kernel, const geometry::NodeCells &cells,
-                     Backend backend)
+  Families::Families(NeighbourhoodQuadrature rule, const Kernel<2> &kernel,
+                     const geometry::NodeCells &cells, Backend backend)
       : rule_(std::move(rule)), kernel_(kernel), cells_(&cells), backend_(backend),
         pieces_(cells.pieces.begin(), cells.pieces.end()),
         search_(bounding_boxes(cells, cells.size())),

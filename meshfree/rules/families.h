@@ -23,8 +23,8 @@ namespace plumbline::meshfree
   {
   public:
     /// @param cells  must outlive the families
-    Families(NeighbourhoodQuadrature rule, const Kernel<2> &kernel, const geometry::NodeCells &cells,
-             Backend backend);
+    Families(NeighbourhoodQuadrature rule, const Kernel<2> &kernel,
+             const geometry::NodeCells &cells, Backend backend);
 
     std::size_t size() const { return cells_->n_free; } ///< free nodes
 

@@ -22,8 +22,8 @@ namespace plumbline::meshfree
     return std::min(1., (kernel.horizon() - candidate.xi.norm()) / size + .5);
   }
 
-  bool add_bond(const NeighbourhoodQuadrature &rule, const Kernel<2> &kernel, const Candidate &candidate,
-                Family &family)
+  bool add_bond(const NeighbourhoodQuadrature &rule, const Kernel<2> &kernel,
+                const Candidate &candidate, Family &family)
   {
     const Bond bond = rule.bond(kernel, candidate);
     if (bond.weight == 0)
@@ -35,7 +35,8 @@ namespace plumbline::meshfree
     return true;
   }
 
-  void finish(const NeighbourhoodQuadrature &rule, Family &family, const std::function<std::string()> &where)
+  void finish(const NeighbourhoodQuadrature &rule, Family &family,
+              const std::function<std::string()> &where)
   {
     if (family.bonds.empty())
       throw NumericalError("there are no neighbours " + where() + remedy);

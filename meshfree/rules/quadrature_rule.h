@@ -51,8 +51,8 @@ namespace plumbline::meshfree
   double ramp(const Kernel<2> &kernel, const Candidate &candidate);
 
   /// Add the bond to a candidate, if there is one.
-  bool add_bond(const NeighbourhoodQuadrature &rule, const Kernel<2> &kernel, const Candidate &candidate,
-                Family &family);
+  bool add_bond(const NeighbourhoodQuadrature &rule, const Kernel<2> &kernel,
+                const Candidate &candidate, Family &family);
 
   /// Adjust the weights of a family that has all its bonds.
   /// @param where  of the node, for the message

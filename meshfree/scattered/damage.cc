@@ -112,7 +112,7 @@ namespace plumbline::meshfree
   }
 
   void check_constrained(const std::vector<char> &is_intact, const geometry::NodeCells &cells,
-                  std::size_t node)
+                         std::size_t node)
   {
     if (std::find(is_intact.begin(), is_intact.end(), 1) != is_intact.end())
       return;

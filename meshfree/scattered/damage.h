@@ -57,7 +57,7 @@ namespace plumbline::meshfree
 
   /// @throws InputError  of a node whose family is not whole: nothing of it is left
   void check_constrained(const std::vector<char> &is_intact, const geometry::NodeCells &cells,
-                  std::size_t node);
+                         std::size_t node);
 
   /// What broken bonds make of a family.
   /// Source: Fan et al. 2022, doi:10.1016/j.cma.2022.115340, eqs. (3.21), (3.22).

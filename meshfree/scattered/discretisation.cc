@@ -24,10 +24,10 @@ namespace plumbline::meshfree
       options.is_symmetric = false;
       options.n_components = problem.n_components;
       if (problem.settings.solver.is_mixed)
-        options.n_first = problem.n_components * problem.cells->n_free;
-      const auto &nodes = problem.cells->nodes;
+        options.n_first = problem.n_components * problem.cells()->n_free;
+      const auto &nodes = problem.cells()->nodes;
       options.nodes.assign(nodes.begin(),
-                           nodes.begin() + static_cast<std::ptrdiff_t>(problem.cells->n_free));
+                           nodes.begin() + static_cast<std::ptrdiff_t>(problem.cells()->n_free));
       return options;
     }
 
@@ -37,7 +37,7 @@ namespace plumbline::meshfree
       RuleOnNodes(const problem::Problem<2> &problem, const base::Communicator &communicator,
                   ScatteredOperator matrix)
           : SparseDiscretisation(problem.settings.solver, solver_options(problem), communicator),
-            cells_(problem.cells), n_components_(problem.n_components),
+            cells_(problem.cells()), n_components_(problem.n_components),
             is_mixed_(problem.settings.solver.is_mixed)
       {
         const auto n = static_cast<std::size_t>(
@@ -50,7 +50,7 @@ namespace plumbline::meshfree
         diagnostics_ = matrix.statistics.diagnostics(communicator);
         diagnostics_.limit = method::limit_of(problem, diagnostics_.limit);
         if (problem.damage.is_there() && problem.dilatation)
-          is_ghost_ = find_ghosts(problem.damage, problem.horizon(), *cells_);
+          is_ghost_ = find_ghosts(problem.damage, *cells_);
       }
 
       method::CaseData data(const problem::Problem<2> &problem) const override
@@ -132,8 +132,8 @@ namespace plumbline::meshfree
 
       /// Of tips that have surface terms about them.
       /// @param constrained  u of the collar
-      std::vector<method::TipForce> tip_forces(const Vector &u, const std::vector<double> &constrained,
-                                               double horizon) const
+      std::vector<method::TipForce>
+      tip_forces(const Vector &u, const std::vector<double> &constrained, double horizon) const
       {
         const auto n_free = static_cast<std::ptrdiff_t>(cells_->n_free * n_components_);
         std::vector<double> all(u.begin(), u.begin() + n_free); // dilatations come after
@@ -203,14 +203,14 @@ namespace plumbline::meshfree
       unsigned int n_components_;
       bool is_mixed_;
       mutable method::PartitionedRows moving_; ///< rows by volumes, once there is a motion
-      std::vector<char> is_ghost_;        ///< of each node, or empty
+      std::vector<char> is_ghost_;             ///< of each node, or empty
       std::vector<TipRows> tips_;
       method::Diagnostics diagnostics_;
     };
 
     Families families_of(const Rule &rule, const problem::Problem<2> &problem)
     {
-      return {rule.of(problem.kernel), problem.kernel, *problem.cells,
+      return {rule.of(problem.kernel), problem.kernel, *problem.cells(),
               problem.settings.geometry.backend};
     }
 
@@ -243,13 +243,13 @@ namespace plumbline::meshfree
       if (!problem.dilatation)
         return scattered_operator(families, problem, share);
       const auto make = [&](std::size_t node, Family &family) { families.make(node, family); };
-      const StateBasedBody body{
-          problem.cells.get(),
-          *problem.dilatation,
-          {problem.damage.cracks, find_ghosts(problem.damage, problem.horizon(), *problem.cells),
-           problem.damage.surface_terms, problem::outside(problem.damage, problem.horizon())},
-          problem.has_collar_dilatation,
-          problem.settings.ball_order};
+      const StateBasedBody body{problem.cells().get(),
+                                *problem.dilatation,
+                                {problem.damage.cracks,
+                                 find_ghosts(problem.damage, *problem.cells()),
+                                 problem.damage.surface_terms, problem.damage.outside},
+                                problem.has_collar_dilatation,
+                                problem.settings.ball_order};
       if (!problem.settings.solver.is_mixed)
         return state_based_operator(make, body, share);
       return communicator.rank() == 0 ? state_based_system(make, body) : ScatteredOperator();
@@ -261,7 +261,8 @@ namespace plumbline::meshfree
       const problem::Problem<2> &problem, const base::Communicator &communicator)
   {
     ScatteredOperator matrix;
-    communicator.together([&] { matrix = make(communicator.owned_range(problem.cells->n_free)); });
+    communicator.together([&]
+                          { matrix = make(communicator.owned_range(problem.cells()->n_free)); });
     return std::make_unique<RuleOnNodes>(problem, communicator, std::move(matrix));
   }
 
@@ -274,7 +275,8 @@ namespace plumbline::meshfree
     if (!problem.double_well)
       return discretise_on_scattered_nodes(make, problem, communicator);
     ScatteredOperator matrix;
-    communicator.together([&] { matrix = make(communicator.owned_range(problem.cells->n_free)); });
+    communicator.together([&]
+                          { matrix = make(communicator.owned_range(problem.cells()->n_free)); });
     return std::make_unique<WellsOnNodes>(rule, problem, communicator, std::move(matrix));
   }
 

@@ -57,7 +57,7 @@ namespace plumbline::meshfree
     {
     public:
       ScatteredWells(const problem::Problem<2> &problem, const Families &families)
-          : cells_(problem.cells), start_{0}
+          : cells_(problem.cells()), start_{0}
       {
         const std::size_t n_free = cells_->n_free;
         nodes_.assign(cells_->nodes.begin(),
@@ -189,7 +189,8 @@ namespace plumbline::meshfree
             {
               const std::size_t constrained = size() + bonds_[k].neighbour - n;
               sum += pull(row, k - start_[i], bonds_[k]) *
-                     (bonds_[k].way[0] * rate[constrained] + bonds_[k].way[1] * rate[constrained + n_constrained]);
+                     (bonds_[k].way[0] * rate[constrained] +
+                      bonds_[k].way[1] * rate[constrained + n_constrained]);
             }
         }
         return sum;
@@ -203,7 +204,8 @@ namespace plumbline::meshfree
     private:
       double root(std::size_t i) const { return roots_[i % roots_.size()]; }
 
-      void add_bond(const problem::Problem<2> &problem, std::size_t i, unsigned int j, const Bond &bond)
+      void add_bond(const problem::Problem<2> &problem, std::size_t i, unsigned int j,
+                    const Bond &bond)
       {
         const WellBond well = well_bond(*problem.double_well, bond.weight, bond.kernel_point);
         double strength = ln2 * cells_->area[i] * well.strength;

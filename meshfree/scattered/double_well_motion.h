@@ -13,7 +13,7 @@ namespace plumbline::meshfree
   /// Accuracy: 1e-14 of Σ |bond forces|. The same bits for any number of threads.
   /// Not for: calling one object from several threads at a time.
   /// @throws NumericalError  a family that cannot be made
-  /// @pre problem.double_well, problem.cells, whose cells the families are made of
+  /// @pre problem.double_well, problem.cells(), whose cells the families are made of
   std::unique_ptr<method::EquationOfMotion> move_double_well(const problem::Problem<2> &problem,
                                                              const Families &families);
 } // namespace plumbline::meshfree

@@ -20,32 +20,33 @@ namespace plumbline::meshfree
     {
       std::vector<double> values;
       if (problem.coefficient)
-        for (const Point<2> &x : problem.cells->nodes)
+        for (const Point<2> &x : problem.cells()->nodes)
           values.push_back(problem.coefficient->at(x));
       return values;
     }
   } // namespace
 
-  ScatteredOperator scattered_operator(const FamilySource &families, const problem::Problem<2> &problem,
+  ScatteredOperator scattered_operator(const FamilySource &families,
+                                       const problem::Problem<2> &problem,
                                        std::pair<std::size_t, std::size_t> share)
   {
-    const std::size_t n_free = problem.cells->n_free;
+    const std::size_t n_free = problem.cells()->n_free;
     const unsigned int n_components = problem.n_components;
     const auto a = coefficients(problem);
     ScatteredOperator result;
     algebra::CsrMatrix rows; // columns of all nodes
     rows.start.assign(share.first * n_components + 1, 0);
-    result.statistics = {*problem.cells, problem.settings.ball_order};
-    const BrokenBonds broken({problem.damage.cracks, {}}, *problem.cells, problem.horizon());
+    result.statistics = {*problem.cells(), problem.settings.ball_order};
+    const BrokenBonds broken({problem.damage.cracks, {}}, *problem.cells(), problem.horizon());
     Family family;
     std::vector<char> is_intact;
     std::vector<Block> blocks;
     for (auto i = static_cast<unsigned int>(share.first); i < share.second; ++i)
     {
       families(i, family);
-      result.statistics.add(problem.kernel, problem.cells->nodes[i], family);
+      result.statistics.add(problem.kernel, problem.cells()->nodes[i], family);
       if (!broken.find(i, family, is_intact))
-        check_constrained(is_intact, *problem.cells, i);
+        check_constrained(is_intact, *problem.cells(), i);
       blocks.clear();
       Block own{i, {}};
       for (std::size_t k = 0; k < family.bonds.size(); ++k)

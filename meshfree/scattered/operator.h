@@ -41,7 +41,8 @@ namespace plumbline::meshfree
   /// nodes. Not symmetric in general: a bond's two weights differ.
   /// @throws NumericalError  a family that cannot be made
   /// @throws InputError  a coefficient that is not positive
-  ScatteredOperator scattered_operator(const FamilySource &families, const problem::Problem<2> &problem,
+  ScatteredOperator scattered_operator(const FamilySource &families,
+                                       const problem::Problem<2> &problem,
                                        std::pair<std::size_t, std::size_t> share);
   ScatteredOperator scattered_operator(const Families &families, const problem::Problem<2> &problem,
                                        std::pair<std::size_t, std::size_t> share);

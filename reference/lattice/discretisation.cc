@@ -57,7 +57,7 @@ namespace plumbline::reference
     void test_by_cells(const problem::Problem<2> &problem, const AxisShapes &shapes,
                        unsigned int component, std::size_t n_positions, double *blocks)
     {
-      const geometry::Lattice &lattice = *problem.lattice;
+      const geometry::Lattice &lattice = *problem.lattice();
       const auto &n = lattice.n_cells();
       const double h = lattice.h();
       const auto n_axis = static_cast<unsigned int>(shapes.families().size());
@@ -113,8 +113,8 @@ namespace plumbline::reference
           {
             const auto &series = *problem.load.series;
             const auto values =
-                series.contract(c, test_basis(series, 0, *problem.lattice, shapes, s % n_axis),
-                                test_basis(series, 1, *problem.lattice, shapes, s / n_axis));
+                series.contract(c, test_basis(series, 0, *problem.lattice(), shapes, s % n_axis),
+                                test_basis(series, 1, *problem.lattice(), shapes, s / n_axis));
             std::copy(values.begin(), values.end(), load.begin() + block);
           }
       }
@@ -126,7 +126,7 @@ namespace plumbline::reference
 
     algebra::Stencil make_stencil(const problem::Problem<2> &problem, const AxisShapes &shapes)
     {
-      const double h = problem.lattice->h();
+      const double h = problem.lattice()->h();
       const algebra::Stencil bonds =
           galerkin_stencil(problem.kernel, h, shapes, problem.settings.geometry.backend);
       if (!problem.dilatation)
@@ -163,13 +163,13 @@ namespace plumbline::reference
     public:
       GalerkinOnLattice(const problem::Problem<2> &problem, const AxisShapes &shapes)
           : LatticeDiscretisation(
-                problem, free_nodes(*problem.lattice, shapes.families(), problem.n_components),
-                make_stencil(problem, shapes), masses(shapes, problem.lattice->h())),
+                problem, free_nodes(*problem.lattice(), shapes.families(), problem.n_components),
+                make_stencil(problem, shapes), masses(shapes, problem.lattice()->h())),
             shapes_(shapes), horizon_(problem.horizon()),
             n_geometry_checks_(problem.settings.geometry.n_checks),
             seed_(problem.settings.geometry.seed),
             cells_(method::comparison_nodes(problem, problem.n_components)),
-            wells_(problem.double_well && problem.is_periodic ? &problem : nullptr)
+            wells_(problem.double_well && problem.is_periodic() ? &problem : nullptr)
       {
         if (shapes.degree() == 0)
           limit_ = method::prove_by_moments(problem, stencil(), problem.h * problem.h);
@@ -254,8 +254,9 @@ namespace plumbline::reference
       AxisShapes shapes_;
       double horizon_;
       unsigned int n_geometry_checks_, seed_;
-      NodeSet cells_;               ///< to compare over
-      const problem::Problem<2> *wells_; ///< double wells on a torus; the stencil is of small strains
+      NodeSet cells_; ///< to compare over
+      const problem::Problem<2>
+          *wells_; ///< double wells on a torus; the stencil is of small strains
       method::LimitProof limit_;
     };
   } // namespace
@@ -264,7 +265,7 @@ namespace plumbline::reference
                                                              const AxisShapes &shapes)
   {
     return std::make_unique<method::LineDiscretisation>(
-        problem.lattice->n_cells()[0] * shapes.degree(), true,
+        problem.lattice()->n_cells()[0] * shapes.degree(), true,
         [&problem, shapes](bool is_lumped, unsigned int n_more)
         { return move_galerkin_on_torus(problem, shapes, is_lumped, {}, n_more); });
   }

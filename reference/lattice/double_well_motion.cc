@@ -28,7 +28,7 @@ namespace plumbline::reference
       /// 3e-4, at a fifth of the cost, which errors of h = 1/20 show.
       GalerkinMotion(const problem::Problem<2> &problem, const AxisShapes &shapes, bool is_lumped,
                      std::optional<double> largest_eigenvalue, unsigned int n_more)
-          : lattice_(*problem.lattice), shapes_(shapes),
+          : lattice_(*problem.lattice()), shapes_(shapes),
             space_(*problem.double_well, problem.h, lattice_.n_cells(),
                    shapes.degree() + 2 + n_more, shapes.degree(), is_lumped),
             largest_(largest_eigenvalue)
@@ -136,10 +136,11 @@ namespace plumbline::reference
   } // namespace
 
   std::unique_ptr<method::EquationOfMotion>
-  move_galerkin_on_torus(const problem::Problem<2> &problem, const AxisShapes &shapes, bool is_lumped,
-                         std::optional<double> largest_eigenvalue, unsigned int n_more)
+  move_galerkin_on_torus(const problem::Problem<2> &problem, const AxisShapes &shapes,
+                         bool is_lumped, std::optional<double> largest_eigenvalue,
+                         unsigned int n_more)
   {
-    if (problem.dimension == 1)
+    if (problem.dimension() == 1)
       return std::make_unique<GalerkinMotion<1>>(problem, shapes, is_lumped, largest_eigenvalue,
                                                  n_more);
     return std::make_unique<GalerkinMotion<2>>(problem, shapes, is_lumped, largest_eigenvalue,

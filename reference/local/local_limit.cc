@@ -92,10 +92,10 @@ namespace plumbline::reference
     {
     public:
       explicit LocalLimit(const problem::Problem<2> &problem)
-          : mesh_(*problem.mesh), element_(*mesh_.element(true, degree), problem.n_components),
+          : mesh_(*problem.mesh()), element_(*mesh_.element(true, degree), problem.n_components),
             dofs_(mesh_.triangulation), gauss_(dealii::QGauss<2>(degree + 2)),
-            space_(std::make_shared<const MeshSpace>(problem.mesh, true, degree)),
-            cells_(std::make_shared<const MeshCells>(*problem.mesh)), averaged_(problem.cells)
+            space_(std::make_shared<const MeshSpace>(problem.mesh(), true, degree)),
+            cells_(std::make_shared<const MeshCells>(*problem.mesh())), averaged_(problem.cells())
       {
         if (!mesh_.triangulation.all_reference_cells_are_hyper_cube())
           gauss_ = dealii::QWitherdenVincentSimplex<2>(degree + 2);
@@ -109,7 +109,8 @@ namespace plumbline::reference
         constrained_matrix_.reinit(pattern_);
         constrained_matrix_.copy_from(matrix_);
         Vector ignored(dofs_.n_dofs()), also_ignored(dofs_.n_dofs());
-        dealii::MatrixTools::apply_boundary_values(boundary_, constrained_matrix_, ignored, also_ignored);
+        dealii::MatrixTools::apply_boundary_values(boundary_, constrained_matrix_, ignored,
+                                                   also_ignored);
       }
 
       std::size_t n_unknowns() const override { return dofs_.n_dofs() - boundary_.size(); }
@@ -255,7 +256,8 @@ namespace plumbline::reference
       dealii::Quadrature<2> gauss_;
       std::map<dealii::types::global_dof_index, double> boundary_; ///< with 0
       dealii::SparsityPattern pattern_;
-      dealii::SparseMatrix<double> matrix_, constrained_matrix_; ///< of all unknowns; the boundary's constrained
+      dealii::SparseMatrix<double> matrix_,
+          constrained_matrix_; ///< of all unknowns; the boundary's constrained
       std::shared_ptr<const MeshSpace> space_;
       std::shared_ptr<const MeshCells> cells_;
       std::shared_ptr<const geometry::NodeCells> averaged_;

@@ -29,7 +29,8 @@ namespace plumbline::reference
 
     /// The volume constraint at the degrees of freedom that are not free. Data may jump across
     /// cracks: a space that jumps as well takes them from inside of each cell.
-    std::vector<double> constrained_values(const problem::Problem<2> &problem, const MeshSpace &space)
+    std::vector<double> constrained_values(const problem::Problem<2> &problem,
+                                           const MeshSpace &space)
     {
       const double inwards = problem.damage.is_there() && !space.is_continuous() ? 1e-12 : 0;
       const unsigned int n = space.shapes().size(), nc = problem.n_components;
@@ -55,11 +56,11 @@ namespace plumbline::reference
     /// that is left carries all of the shear modulus.
     std::optional<physics::Coefficient> bond_coefficient(const problem::Problem<2> &problem)
     {
-      if (!problem.body)
+      if (!problem.body())
         return problem.coefficient;
       const auto influence =
           physics::influence_function(problem.kernel.profile(), problem.horizon());
-      const auto volume = std::make_shared<const WeightedVolume>(*problem.mesh, influence);
+      const auto volume = std::make_shared<const WeightedVolume>(*problem.mesh(), influence);
       return physics::Coefficient([mu = *problem.coefficient, volume](const Point<2> &x)
                                   { return mu.at(x) * 2 / (*volume)(x); },
                                   "shear modulus", physics::Mean::arithmetic);
@@ -74,7 +75,7 @@ namespace plumbline::reference
           assemble(space, cells, problem.kernel, bond_coefficient(problem), options, communicator);
       if (problem.dilatation)
       {
-        const DilatationOptions dilatation{options.refinement, problem.body.has_value(),
+        const DilatationOptions dilatation{options.refinement, problem.body() != nullptr,
                                            options.backend};
         matrix.rows = add(matrix.rows, assemble_dilatation(space, cells, *problem.dilatation,
                                                            dilatation, communicator));
@@ -87,17 +88,17 @@ namespace plumbline::reference
     /// Spaces stand on triangles with straight sides, whose functions go on up to the curves.
     std::shared_ptr<const geometry::Mesh> mesh_of_space(const problem::Problem<2> &problem)
     {
-      if (problem.mesh->wholes.empty())
-        return problem.mesh;
-      return std::make_shared<const geometry::Mesh>(geometry::straightened(*problem.mesh));
+      if (problem.mesh()->wholes.empty())
+        return problem.mesh();
+      return std::make_shared<const geometry::Mesh>(geometry::straightened(*problem.mesh()));
     }
 
-    std::shared_ptr<const MeshSpace> make_space(const problem::Problem<2> &problem, bool is_continuous,
-                                                unsigned int degree)
+    std::shared_ptr<const MeshSpace> make_space(const problem::Problem<2> &problem,
+                                                bool is_continuous, unsigned int degree)
     {
       const auto mesh = mesh_of_space(problem);
       MeshSpace::Middles middles;
-      for (const geometry::WholeCell &whole : problem.mesh->wholes)
+      for (const geometry::WholeCell &whole : problem.mesh()->wholes)
         middles.push_back(whole.middles);
       auto space = std::make_shared<const MeshSpace>(mesh, is_continuous, degree, middles);
       if (space->n_free() == 0)
@@ -106,7 +107,8 @@ namespace plumbline::reference
       return space;
     }
 
-    algebra::SparseOptions solver_options(const problem::Problem<2> &problem, const MeshSpace &space)
+    algebra::SparseOptions solver_options(const problem::Problem<2> &problem,
+                                          const MeshSpace &space)
     {
       algebra::SparseOptions options;
       options.is_symmetric = !problem.dilatation || problem.dilatation->is_symmetric();
@@ -133,7 +135,7 @@ namespace plumbline::reference
           : SparseDiscretisation(problem.settings.solver, solver_options(problem, *space),
                                  communicator),
             problem_(problem), space_(std::move(space)),
-            cells_(std::make_shared<const MeshCells>(*problem.mesh)),
+            cells_(std::make_shared<const MeshCells>(*problem.mesh())),
             options_{0, exact_entries, problem.settings.geometry.backend,
                      geometry::straight_parts(problem.damage.cracks)}
       {
@@ -151,9 +153,11 @@ namespace plumbline::reference
               result.load = load_vector(problem, *space_, *cells_, communicator());
             });
         method::subtract_constrained(constrained(), constrained_data, result.load);
-        const auto around = std::make_shared<const std::vector<double>>(std::move(constrained_data));
-        result.field = [this, around](const Vector &u)
-        { return as_field(std::make_shared<const MeshField>(field(u, *around)), *problem_.cells); };
+        const auto around =
+            std::make_shared<const std::vector<double>>(std::move(constrained_data));
+        result.field = [this, around](const Vector &u) {
+          return as_field(std::make_shared<const MeshField>(field(u, *around)), *problem_.cells());
+        };
         result.relative_change = [this, around](const Vector &u, const Vector &v)
         { return relative_change(field(u, *around), field(v, *around)); };
         return result;
@@ -185,7 +189,8 @@ namespace plumbline::reference
              is_lumped ? lumped_masses(*space_, *cells_) : std::vector<double>(), std::move(mass),
              [this](const problem::Problem<2> &instant)
              { return load_vector(instant, *space_, *cells_, communicator()); },
-             [this](const problem::Problem<2> &instant) { return constrained_values(instant, *space_); }});
+             [this](const problem::Problem<2> &instant)
+             { return constrained_values(instant, *space_); }});
       }
 
       method::Diagnostics diagnostics() const override
@@ -240,7 +245,7 @@ namespace plumbline::reference
       void add_entry_check(const problem::GeometrySettings &geometry,
                            method::Diagnostics &result) const
       {
-        if (problem_.dilatation || problem_.body || communicator().n_ranks() > 1 ||
+        if (problem_.dilatation || problem_.body() || communicator().n_ranks() > 1 ||
             problem_.damage.is_there() || (problem_.coefficient && !is_exact_))
           return;
         const EntryCheck check =
@@ -305,9 +310,10 @@ namespace plumbline::reference
                                             exact_entries, communicator);
   }
 
-  std::string refuse_curves(const problem::Problem<2> &problem, bool is_continuous, unsigned int degree)
+  std::string refuse_curves(const problem::Problem<2> &problem, bool is_continuous,
+                            unsigned int degree)
   {
-    if (!problem.mesh || problem.mesh->wholes.empty())
+    if (!problem.mesh() || problem.mesh()->wholes.empty())
       return "";
     const std::string reason = PolygonPairs::refuse(
         MeshSpace(mesh_of_space(problem), is_continuous, degree), problem.kernel);

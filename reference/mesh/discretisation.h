@@ -16,7 +16,8 @@ namespace plumbline::reference
                      bool exact_entries, const base::Communicator &communicator);
 
   /// Why a space cannot have its matrix where sides follow curves, and the remedy; empty: it can.
-  std::string refuse_curves(const problem::Problem<2> &problem, bool is_continuous, unsigned int degree);
+  std::string refuse_curves(const problem::Problem<2> &problem, bool is_continuous,
+                            unsigned int degree);
 
   /// Memory of its static solution at the peak [bytes], see method::Method::expected_bytes.
   double expected_mesh_bytes(const method::ProblemSize &size, unsigned int n_vertices,

@@ -282,7 +282,8 @@ namespace plumbline::reference
       const auto first_constrained =
           form.is_at_outside.begin() + static_cast<std::ptrdiff_t>(space.n_free());
       if (width < horizon * (1 - rounding) ||
-          std::any_of(form.is_at_outside.begin(), first_constrained, [](char is) { return is != 0; }))
+          std::any_of(form.is_at_outside.begin(), first_constrained,
+                      [](char is) { return is != 0; }))
         return "balls reach beyond the mesh";
       double widest = 0; // of supports that end at the outside, where potentials do not see them
       for (std::size_t dof = space.n_free(); dof < space.n_dofs(); ++dof)

@@ -107,7 +107,8 @@ namespace plumbline::reference
     const auto constrained =
         std::partition(edges.begin(), edges.end(), [&](const Edge &e) { return is_active(e); });
     n_active = static_cast<std::size_t>(constrained - edges.begin());
-    std::sort(edges.begin(), constrained, [](const Edge &a, const Edge &b) { return a.node < b.node; });
+    std::sort(edges.begin(), constrained,
+              [](const Edge &a, const Edge &b) { return a.node < b.node; });
   }
 
   PairWays::PairWays(const MeshSpace &space, const EdgeForm &form, const physics::Kernel<2> &kernel)

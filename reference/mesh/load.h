@@ -2,9 +2,9 @@
 
 #include "algebra/operator.h"
 #include "base/communicator.h"
+#include "problem/problem.h"
 #include "reference/mesh/cells.h"
 #include "reference/mesh/space.h"
-#include "problem/problem.h"
 
 namespace plumbline::reference
 {

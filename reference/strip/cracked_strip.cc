@@ -124,7 +124,8 @@ namespace plumbline::reference
       u.tail(n_constrained).setConstant(1);
       u.segment(n_constrained, n_free).setZero();
       const VectorXd force = -(all * u).segment(n_constrained, n_free);
-      u.segment(n_constrained, n_free) = all.block(n_constrained, n_constrained, n_free, n_free).ldlt().solve(force);
+      u.segment(n_constrained, n_free) =
+          all.block(n_constrained, n_constrained, n_free, n_free).ldlt().solve(force);
       return {{u.data(), u.data() + n}, .5 * u.dot(all * u), .25 * u.dot(across * u)};
     }
 
@@ -220,8 +221,8 @@ namespace plumbline::reference
       return .5 * both.dot(form * both);
     }
 
-    /// What is constrained: the grips and what is behind with them, what is ahead as the intact strip,
-    /// which is a first guess between them.
+    /// What is constrained: the grips and what is behind with them, what is ahead as the intact
+    /// strip, which is a first guess between them.
     Values begin(const RiceStrip &strip, const StripSpace &space, const IntactStrip &intact,
                  const AxisShapes &shapes)
     {

@@ -66,7 +66,8 @@ TEST(SineRow, has_a_length_that_is_transformed_fast_and_the_row_in_its_middle)
       EXPECT_EQ(row.n_constrained, n_constrained) << n;
       EXPECT_LT(length_penalty(row.n), 2.5) << n; // no large prime
       EXPECT_LE(row.n_after, 20) << n;
-      if (n_constrained == 0) // a zero 4.8 steps beyond the outermost node acts as the constraint does
+      if (n_constrained ==
+          0) // a zero 4.8 steps beyond the outermost node acts as the constraint does
       {
         EXPECT_GT(.5 * (row.n_before + row.n_after + 1), 2.5) << n;
         EXPECT_LT(.5 * (row.n_before + row.n_after + 1), 8.5) << n;

@@ -52,7 +52,7 @@ TEST_F(BadFiles, scenes_that_do_not_end_are_refused)
 {
   expect_found(refused_scene("self.prm", problem + "include self.prm\n"),
                "self.prm', line 4: 'self.prm' is being read already, so that it would include "
-               "itself; take the line out");
+               "itself; remove the line");
   std::string deep;
   for (int i = 0; i < 100000; ++i)
     deep += "{\"a\":";
@@ -62,8 +62,9 @@ TEST_F(BadFiles, scenes_that_do_not_end_are_refused)
 
 TEST_F(BadFiles, a_key_that_is_given_twice_is_refused_with_both_lines)
 {
-  expect_found(refused_scene("twice.prm", problem + methods + problem),
-               "twice.prm', line 8: Problem/solution is given in line 2 already; take one of them");
+  expect_found(
+      refused_scene("twice.prm", problem + methods + problem),
+      "twice.prm', line 8: Problem/solution is given in line 2 already; remove one of them");
   expect_found(refused_scene("twice.json", "{\"Study\": {\"m\": 3,\n\"m\": 4}}"),
                "twice.json', line 2: the key 'm' comes twice in one object");
 }
@@ -75,7 +76,7 @@ TEST_F(BadFiles, scenes_that_are_no_text_are_refused)
   expect_found(refused_scene("latin.prm", problem + "# \xE4\n"), "line 4: has a character that is");
   expect_found(refused("run " + folder_.string()), "cannot be read; give a .prm or .json file");
   expect_found(refused("run " + write("results.prm", "{\"schema\": 4}")), "is not understood");
-  expect_found(refused_scene("list.json", "[1, 2]"), "is no JSON object");
+  expect_found(refused_scene("list.json", "[1, 2]"), "is not a JSON object");
   expect_found(refused_scene("empty.json", ""), "is not JSON: the text ends too early");
 }
 

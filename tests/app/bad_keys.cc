@@ -30,7 +30,7 @@ TEST_F(BadKeys, are_refused_by_key_value_what_is_allowed_and_the_remedy)
   {
     return Trial{set(key, value),
                  {key + " = '" + value + "' is not allowed; write " + allowed +
-                  ", or take the key out: its default is '" + by_default + "'"}};
+                  ", or remove the key: its default is '" + by_default + "'"}};
   };
   const std::string whole = "a whole number from 0 to ", real = "a number such as 0.5 or 1e-3",
                     rest = "a number above 0 such as 0.5 or 1e-3";
@@ -64,7 +64,8 @@ TEST_F(BadKeys, in_lists_are_named_with_how_a_list_is_written)
        {set("Expected/errors", "FA: 1 one"),
         {"Expected/errors: 'one' is not a number; write numbers such as 0.05 or 1e-3, separated by "
          "blanks"}},
-       {set("Domain/collar", "wide"), {"Domain/collar: 'wide' is not a number; write one such as"}},
+       {set("Domain/interaction domain", "wide"),
+        {"Domain/interaction domain: 'wide' is not a number; write one such as"}},
        {set("Domain/boxes", "0, 0 : a, 1"),
         {no + ", for 'a' in it; write boxes 'x0, y0 : x1, y1'"}}});
 }
@@ -87,9 +88,9 @@ TEST_F(BadKeys, with_decimal_commas_are_refused_with_the_number_that_was_meant)
                    meant("Kernel/coefficients", "1, 0,05", "0.05")});
   // where one number is due
   expect_refusals(
-      {{set("Domain/collar", "1,5"), {"'1,5' is not a number", "did you mean 1.5?"}},
+      {{set("Domain/interaction domain", "1,5"), {"'1,5' is not a number", "did you mean 1.5?"}},
        {set("Problem/solution", "x^2 + 1,5"), {"has 2 component(s)", "did you mean 1.5?"}},
-       {set("Study/h", "1,5"), {"must run from large to small", "did you mean 1.5?"}},
+       {set("Study/h", "1,5"), {"must be strictly decreasing", "did you mean 1.5?"}},
        {set("Expected/errors", "FA: 2,5"), {"'2,5' is not a number", "did you mean 2.5?"}}});
   // lists are lists
   const Outcome outcome = run({{set("Study/m", "2,3") + set("Study/h", "0.25,0.125"), {}}})[0];
@@ -119,7 +120,7 @@ TEST_F(BadKeys, without_effect_are_refused_with_what_they_need)
        unused("Time/damping", "1", "Time/final time"),
        unused("Sampling/counts", "3", "Sampling/rule"),
        unused("Fracture/ties", "0.01", "Fracture/toughness"),
-       unused("Expected/growth ends", "parted", "Fracture/toughness"),
+       unused("Expected/growth ends", "separated", "Fracture/toughness"),
        unused("Domain/boxes", "0, 0 : 2, 1", "Domain/mesh = lattice, squares or triangles",
               set("Domain/mesh", "hyper_ball") + set("Domain/inside", "1"))});
   // defaults may stand, and what is turned off keeps its keys

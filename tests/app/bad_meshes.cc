@@ -152,9 +152,10 @@ TEST_F(BadMeshes, generators_and_maps_that_do_not_work_are_refused)
         {"mesh generator hyper_blob ()", "deal.II has no such generator", "by Domain/mesh"}},
        {ball + inside + set("Domain/arguments", "0, 0 : x"),
         {"(0, 0 : x) does not fit", "one of another kind", "by Domain/arguments"}},
-       {ball + arguments, {"Domain/inside is empty", "an expression that is positive there"}},
+       {ball + arguments, {"Domain/inside is empty", "an expression that is positive in Omega"}},
        {set("Domain/mesh", "Squares"),
-        {"Domain/mesh = Squares: lattice, squares, triangles and files .msh or .geo do without"}},
+        {"Domain/mesh = Squares: any name other than lattice, squares, triangles and files .msh or "
+         ".geo is a generator"}},
        {ball + arguments + set("Domain/inside", "-1"),
         {"none of the 320 cells of the mesh lies in the domain; mark", "Domain/inside"}},
        {ball + arguments + set("Domain/inside", "0.8 - x^2 - y^2"),

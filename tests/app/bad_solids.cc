@@ -75,9 +75,10 @@ TEST_F(BadSolids, constants_of_no_solid_are_refused)
         {"Material/lambda and mu: lambda = -1", "larger than -mu = -1"}},
        {variational("-1", "8"), {"Material/k and l: the bulk constant k = -1", "be positive"}},
        {variational("1", "-8"), {"Material/k and l: the shear constant l = -8", "be positive"}},
-       {no_E, {"Material/model = LPS needs its constants once: E and nu, lambda and mu, or k"}},
+       {no_E, {"Material/model = LPS needs one pair of constants: E and nu, lambda and mu, or k"}},
        {set("Material/model", "bond-based") + set("Kernel/type", "bond-tensor"),
-        {"Material/model = bond-based takes its constants from the kernel; clear Material/E"}}});
+        {"Material/model = bond-based takes its constants from section Kernel; clear "
+         "Material/E"}}});
 }
 
 TEST_F(BadSolids, material_that_is_none_somewhere_is_refused_with_its_place)
@@ -97,8 +98,8 @@ TEST_F(BadSolids, material_that_is_none_somewhere_is_refused_with_its_place)
 TEST_F(BadSolids, collars_of_one_horizon_are_too_thin)
 {
   const std::string lattice = set("Domain/mesh", "lattice");
-  const std::vector<std::string> needs = {"twice the horizon, which dilatations need, 1",
-                                          "balls would reach points without data; widen"};
+  const std::vector<std::string> needs = {"twice the horizon, which the dilatation needs, 1",
+                                          "balls would contain points without data; increase"};
   const auto refused = [&](const std::string &settings, const std::string &what)
   {
     Trial trial{settings, needs};
@@ -106,7 +107,8 @@ TEST_F(BadSolids, collars_of_one_horizon_are_too_thin)
     return trial;
   };
   expect_refusals(
-      {refused(lattice + set("Domain/collar", "0.75"), "Domain/collar = 0.75 is thinner than"),
+      {refused(lattice + set("Domain/collar", "0.75"),
+               "Domain/interaction domain = 0.75 is thinner than"),
        refused(set("Domain/mesh", std::string(PLUMBLINE_SCENES) + "/meshes/disk.geo"),
                "disk.geo: the collar is 0."),
        refused(set("Domain/mesh", "hyper_cube") + set("Domain/arguments", "-0.5 : 1.5 : false") +
@@ -142,7 +144,7 @@ TEST_F(BadSolids, cracks_that_cannot_be_used_are_refused)
        {good + set("Domain/mesh", "lattice"),
         {"Domain/cracks or Domain/outside is given", "write"}},
        {above + no_E + set("Material/model", "bond-based") + set("Kernel/type", "bond-tensor"),
-        {"Material/model = bond-based cannot do this scene: Domain/outside is given",
+        {"Material/model = bond-based does not support this scene: Domain/outside is given",
          "take LPS, or clear it"}},
        {above + set("Material/model", "variational"), {"take LPS, or clear it"}},
        {good + "--methods Q1",
@@ -174,7 +176,8 @@ TEST_F(BadBodies, bodies_that_are_not_held_or_not_free_are_refused)
        {fixed("2, 0 : 3, 0.5"), {"nothing of the body is fixed", "fix a part (Domain/fixed)"}},
        {fixed("0, 0 : 0.2, 0.5"), {"does not divide the box"}},
        {set("Domain/boundary", "constrained"),
-        {"Domain/fixed is given, but u is given in the collar", "write Domain/boundary = free"}},
+        {"Domain/fixed is given, but u is prescribed in the interaction domain",
+         "write Domain/boundary = free"}},
        {set("Problem/constraint", "0.5, 0"),
         {"Problem/constraint is 0.5 at (0 0)", "hold the fixed part at 0; write 0, 0"}},
        {set("Material/model", "LPS"), {"Domain/boundary = free; take variational, or write"}}});
@@ -193,9 +196,9 @@ TEST_F(BadBodies, what_bodies_cannot_do_is_refused)
        {set("Domain/holes", "0.5, 0.25 : 0.75, 0.5"),
         {"free needs one box (Domain/boxes) without"}},
        {set("Problem/solution", "x, y"), {"free needs Problem/load and", "Problem/solution empty"}},
-       {set("Domain/collar", "0.5"), {"free needs Domain/collar = auto"}},
+       {set("Domain/collar", "0.5"), {"free needs Domain/interaction domain = auto"}},
        {set("Domain/cracks", "0.5, 0.1 : 0.5, 0.2"),
-        {"Material/model = variational cannot do", "clear it"}},
+        {"Material/model = variational does not support", "clear it"}},
        {set("Domain/mesh", "squares") + set("Problem/local solution", "computed"),
         {"Problem/local solution = computed needs u all around", "write none"}}});
 }

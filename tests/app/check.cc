@@ -70,7 +70,7 @@ TEST(Check, its_example_is_what_the_library_makes)
   scene.methods.nodes.name = nodes_file;
   const auto problem = scene::make_problem(scene, 0, scene.study.series[0].levels[0]);
   const meshfree::Families families(meshfree::recalibrated(problem.kernel, 2), problem.kernel,
-                                    *problem.cells, meshfree::Backend::fast);
+                                    *problem.cells(), meshfree::Backend::fast);
   meshfree::Family family;
   std::ifstream good(bonds_file), wrong(folder / "bonds_wrong.csv");
   std::string row, wrong_row;
@@ -84,8 +84,8 @@ TEST(Check, its_example_is_what_the_library_makes)
     for (std::size_t k = 0; k < family.bonds.size(); ++k)
     {
       const meshfree::Bond &bond = family.bonds[k];
-      const std::size_t from = problem.cells->source[i] + 1,
-                        to = problem.cells->source[family.neighbours[k]] + 1;
+      const std::size_t from = problem.cells()->source[i] + 1,
+                        to = problem.cells()->source[family.neighbours[k]] + 1;
       ASSERT_TRUE(std::getline(good, row));
       std::istringstream in(row);
       std::size_t first = 0, second = 0;

@@ -207,7 +207,7 @@ TEST(Check, names_what_was_done_to_all_weights)
       {"the kernel points (qx, qy) are reversed",
        [](Bond &b, const Weights &, std::size_t) { b.kernel_point *= -1; }},
       {"the kernel points (qx, qy) are absolute", [](Bond &b, const Weights &w, std::size_t i)
-       { b.kernel_point += dealii::Tensor<1, 2>(w.problem.cells->nodes[i]); }}};
+       { b.kernel_point += dealii::Tensor<1, 2>(w.problem.cells()->nodes[i]); }}};
   for (const auto &[text, plant] : all)
   {
     Weights weights = example_weights("IPA-AC-R2", 0);

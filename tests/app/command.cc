@@ -92,7 +92,8 @@ TEST(Command, refuses_bad_input_with_2_and_leaves_nothing)
   expect_refusal("--set Study/mesh=1", "key 'Study/mesh' is not known");
   expect_refusal("--set Geometry/checks=few", "Geometry/checks = 'few' is not allowed");
   expect_refusal("--set Study/m=0.5", "is smaller than the mesh size");
-  expect_refusal("--set Domain/collar=0.01", "Domain/collar = 0.01 is thinner than the horizon");
+  expect_refusal("--set Domain/collar=0.01",
+                 "Domain/interaction domain = 0.01 is thinner than the horizon");
   expect_refusal("--set Kernel/limit=Navier", "does not fit the scalar kernel");
   expect_refusal("--set 'Problem/solution=x +* y'", "does not parse");
   expect_refusal("--set 'Problem/solution=case1: x; case2: y; case3: log(x)'", "gives");

@@ -95,7 +95,7 @@ TEST(CrackCommand, refuses_what_is_no_notched_strip)
                  "Crack/notch = 0, so there is no crack");
   expect_refused(set("Crack/notch=-1"), "Crack/notch = -1 must be a length > 0");
   expect_refused(set("Crack/notch=0.51"), "Crack/notch = 0.51 is 20.4 mesh sizes");
-  expect_refused(set("Crack/notch=3"), "parts the strip, which is 3 long");
+  expect_refused(set("Crack/notch=3"), "cuts through the strip, which is 3 long");
   expect_refused(set("Crack/load=0"), "Crack/load = 0 must be positive");
   expect_refused(set("Crack/load=50"), "bonds soften all over the strip");
   expect_refused(set("Crack/samples=2"), "Crack/samples = '2' is not allowed");
@@ -114,7 +114,7 @@ TEST(CrackCommand, refuses_what_is_no_notched_strip)
   expect_refused(set("Problem/solution=x, y"), "Problem/solution, load and constraint");
   expect_refused(strip + "--methods Q1", "'Q1' is no meshfree rule");
   expect_refused(strip + "--methods FA,PA-AC", "one meshfree method");
-  expect_refused("run " + scene("speed"), "'plumbline crack' follows it");
+  expect_refused("run " + scene("speed"), "'plumbline crack' simulates it");
 }
 
 TEST(CrackCommand, refuses_frames_that_would_fill_the_disk)

@@ -35,8 +35,9 @@ namespace
     const Json found = Json::parse(outcome.out);
     for (const Json &record : found.at("records"))
     {
-      const auto scalar = [&](const char *of)
-      { return record.at("scalars").value(of, Json{{"value", 0}}).at("value").get<double>(); };
+      const auto scalar = [&](const char *of) {
+        return record.at("scalars").value(of, Json{{"value", 0}}).at("value").get<double>();
+      };
       const auto count = [&](const char *of) { return static_cast<unsigned int>(scalar(of)); };
       const Json &key = record.at("key");
       levels.push_back({key.at("horizon").get<double>() / key.at("h").get<double>(), key.at("h"),
@@ -164,9 +165,11 @@ TEST(FailureScenes, dilatations_of_the_collar_are_dropped_where_there_are_some_a
     expect_found(outcome.err, message);
   };
   const std::string uniform = "--set Material/E=1 ";
-  refuse(uniform + "--set Domain/mesh=lattice", "Material/collar dilatation = zero needs");
-  refuse(uniform + "--set Material/nu=0.25", "Material/collar dilatation = zero needs");
-  refuse("--methods Q1", "Material/collar dilatation = zero; take FA");
+  refuse(uniform + "--set Domain/mesh=lattice",
+         "Material/dilatation in interaction domain = zero needs");
+  refuse(uniform + "--set Material/nu=0.25",
+         "Material/dilatation in interaction domain = zero needs");
+  refuse("--methods Q1", "Material/dilatation in interaction domain = zero; take FA");
 }
 
 TEST(FailureScenes, scenes_that_are_refused_are_listed_with_the_reason)

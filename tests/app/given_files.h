@@ -37,7 +37,7 @@ namespace plumbline::app
     bonds.precision(15);
     nodes << "id,x,y,volume\n";
     bonds << "i,j,weight,qx,qy\n";
-    const auto &cells = *weights.problem.cells;
+    const auto &cells = *weights.problem.cells();
     for (std::size_t k = 0; k < cells.size(); ++k)
       nodes << k + 1 << ',' << cells.nodes[k][0] << ',' << cells.nodes[k][1] << ','
             << weights.volumes[k] << '\n';

@@ -315,7 +315,7 @@ TEST(GrowCommand, refuses_what_cannot_grow)
   expect_refused(set("Fracture/toughness=x < 0.6 ? 1 : 0"), "give a positive value for each phase");
   expect_refused(set("Material/E=x < 0.6 ? 1 : 0"), "Young's modulus E = 0");
   expect_refused(set("Fracture/toughness=x, y"), "one component");
-  expect_refused(set("Domain/cracks="), "a notch that the crack grows from");
+  expect_refused(set("Domain/cracks="), "needs an initial notch in Domain/cracks");
   expect_refused(set("Domain/cracks=-1, 0 : -0.5, 0"), "the notch lies outside of the body");
   expect_refused(set("Domain/cracks=-0.1, 0.0125 : 0.5, 0.0125"), "goes through node");
   expect_refused(set("Domain/cracks=-0.1, 0 : 3, 0"), "no path of bonds joins the grips");
@@ -323,7 +323,7 @@ TEST(GrowCommand, refuses_what_cannot_grow)
   expect_refused(set("Domain/fixed=0, 5 : 1, 6"), "grip 0 holds no node");
   expect_refused(set("Domain/fixed=0, -0.5 : 2, 0.5"), "holds all nodes");
   expect_refused(set("Domain/boundary=constrained"), "Domain/boundary = free");
-  expect_refused(set("Problem/constraint=solution"), "what the grips do at load 1");
+  expect_refused(set("Problem/constraint=solution"), "the displacement of the grips at load 1");
   expect_refused(set("Problem/load=1, 0"), "neither solution nor load");
   expect_refused(set("Material/nu=0.6"), "nu");
   expect_refused(set("Material/model=variational"), "take LPS");
@@ -333,7 +333,7 @@ TEST(GrowCommand, refuses_what_cannot_grow)
   expect_refused(set("Study/h=0.0005"), "Study/h = 0.0005 gives a body of 8e+06 nodes");
   expect_refused(set("Fracture/breaking=steps"), "Fracture/load step = 0 must be positive");
   expect_refused(set("Fracture/breaking=often"), "Fracture/breaking");
-  expect_refused(set("Fracture/largest load=0"), "Fracture/largest load = 0 must be positive");
+  expect_refused(set("Fracture/largest load=0"), "Fracture/max load = 0 must be positive");
   expect_refused(set("Fracture/ties=-1"), "Fracture/ties");
   expect_refused(set("Expected/growth=holes: 3"), "the quantity one of broken bonds");
   expect_refused(body + "--methods Q1", "'Q1' is no meshfree rule");

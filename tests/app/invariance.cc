@@ -90,7 +90,8 @@ namespace
     static const std::regex noise(
         "seconds|_bytes|scene_text|/scene$|folder|file|purpose|n_iterations|most_iterations|"
         "residual|round_off|imbalance|/tied|/cost/|asymmetry|drift|round-off|version|machine|"
-        "omissions|savings|/values/|date|/estimates?/|singular_value|/expectations|n_updates|"
+        "omissions|savings|(trends|maps|fields)/.*values/|date|/estimates?/|singular_value|/"
+        "expectations|n_updates|"
         "n_factorisations|largest_rank|noise|/rates/|worst/node|advice/[0-9]+/choices/[0-9]+/"
         "(h|method|error)");
     return std::regex_search(key, noise);

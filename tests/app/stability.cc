@@ -55,6 +55,20 @@ TEST(StabilityCommand, interrupted_keeps_what_is_finished)
   expect_found(read(folder / "stability.html"), "interrupted: what was finished");
 }
 
+TEST(StabilityCommand, leaves_out_what_exceeds_the_budget_and_says_so)
+{
+  const fs::path folder = temporary("stability");
+  const std::string command = "stability " + scene("too_few_neighbours") +
+                              " --methods OPT --set Study/m=3 -o " + folder.string();
+  const Outcome outcome = run(command + " --budget 1e-9");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "left out by the budget: OPT, m = 3, h = ");
+  const auto json = nlohmann::json::parse(read(folder / "stability.json"));
+  EXPECT_EQ(json["records"].size(), 1u); // the first level has nothing before it to judge by
+  EXPECT_GE(json["left_out"].size(), 1u);
+  EXPECT_EQ(run(command + " --budget -1").exit_code, 2);
+}
+
 TEST(StabilityCommand, killed_goes_on_from_what_is_finished)
 {
   expect_to_go_on("stability " + std::string(PLUMBLINE_SCENES) +

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 namespace plumbline::io
 {
@@ -18,8 +19,10 @@ namespace plumbline::io
     Record full_record()
     {
       Record record;
-      record.key = {"stability", "Q1", analysis::MethodFamily::reference, "case 2", "m = 3",
-                    "lumped",    2,    .1 / 3,                            .1,       -.25};
+      record.key = {"stability", "Q1",    analysis::MethodFamily::reference,
+                    "case 2",    "m = 3", "lumped",
+                    2,           .1 / 3,  .1,
+                    -.25};
       record.cost.setup_seconds = 1. / 3;
       record.cost.solve_seconds = 2.5;
       record.cost.peak_bytes = 1e10;
@@ -97,6 +100,18 @@ namespace plumbline::io
     RecordJournal(file, "scene").append({full_record()});
     RecordJournal(file, "scene").append({full_record()});
     std::filesystem::resize_file(file, std::filesystem::file_size(file) - 9);
+    EXPECT_EQ(RecordJournal(file, "scene").earlier().size(), 1u);
+  }
+
+  TEST(RecordJournal, TakesNothingOfAFileThatIsNone)
+  {
+    const Folder folder;
+    const auto file = folder.path() / "rows.jsonl";
+    RecordJournal(file, "scene").append({full_record()});
+    std::ofstream(file, std::ios::app) << "{\"key\": {}}\n"; // whole, but no record
+    RecordJournal journal(file, "scene");
+    EXPECT_TRUE(journal.earlier().empty());
+    journal.append({full_record()}); // in its place
     EXPECT_EQ(RecordJournal(file, "scene").earlier().size(), 1u);
   }
 

@@ -32,7 +32,7 @@ namespace
   /// The families of all free nodes.
   std::vector<Family> all(const NeighbourhoodQuadrature &rule, const problem::Problem<2> &problem)
   {
-    const Families families(rule, problem.kernel, *problem.cells, Backend::fast);
+    const Families families(rule, problem.kernel, *problem.cells(), Backend::fast);
     std::vector<Family> result(families.size());
     for (std::size_t i = 0; i < families.size(); ++i)
       families.make(i, result[i]);
@@ -167,7 +167,7 @@ TEST(CheckWeights, partial_areas_add_up_to_the_ball)
   auto families = all(improved_partial_area(problem.kernel), problem);
   for (Family &family : families)
     for (std::size_t k = 0; k < family.bonds.size(); ++k)
-      family.bonds[k].area = problem.cells->area[family.neighbours[k]];
+      family.bonds[k].area = problem.cells()->area[family.neighbours[k]];
   const std::vector<double> volumes(64, h * h);
   WeightCheck check = check_weights(families, problem.kernel, volumes);
   EXPECT_LT(check.area.value, 1e-12);
@@ -216,7 +216,7 @@ TEST(CheckSymmetry, forces_balance_where_weights_are_volumes)
   const auto problem = make_problem(false);
   auto families = all(full_area(problem.kernel), problem);
   std::vector<double> volumes;
-  for (std::size_t i = 0; i < problem.cells->size(); ++i)
+  for (std::size_t i = 0; i < problem.cells()->size(); ++i)
     volumes.push_back(h * h * (1 + .1 * static_cast<double>(i % 3)));
   for (Family &family : families)
     for (std::size_t k = 0; k < family.bonds.size(); ++k)
@@ -292,8 +292,8 @@ TEST(GivenFamilies, are_read_in_any_order_of_rows_and_columns)
                                           ".5,.2,blue,-.125,-3\n.5, .3 ,red,.25,4\r\n"));
   EXPECT_EQ(nodes.id, (std::vector<std::int64_t>{9, -3, 4}));
   EXPECT_EQ(nodes.line, (std::vector<std::size_t>{2, 4, 5}));
-  EXPECT_EQ(nodes_inside(nodes, *problem.mesh), (std::vector<std::size_t>{0, 2}));
-  const auto cells = geometry::voronoi_cells(nodes.places, *problem.mesh);
+  EXPECT_EQ(nodes_inside(nodes, *problem.mesh()), (std::vector<std::size_t>{0, 2}));
+  const auto cells = geometry::voronoi_cells(nodes.places, *problem.mesh());
   const GivenFamilies given = read_given_families(
       write("bonds.csv", "j,i,weight,qx,qy\n4,9,.1,-.4,0\n9,-3,1,,\n9,4,-2e-1,,\n-3,4,3,,\n"),
       nodes, cells);

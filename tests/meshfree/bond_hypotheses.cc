@@ -53,7 +53,7 @@ namespace
             {"kernel points reversed",
              [](Bond &bond, const Weights &, std::size_t) { bond.kernel_point *= -1; }},
             {"kernel points absolute", [](Bond &bond, const Weights &weights, std::size_t i)
-             { bond.kernel_point += dealii::Tensor<1, 2>(weights.problem.cells->nodes[i]); }}};
+             { bond.kernel_point += dealii::Tensor<1, 2>(weights.problem.cells()->nodes[i]); }}};
   }
 } // namespace
 
@@ -191,7 +191,7 @@ TEST(RampEffects, are_those_of_sums_over_the_lattice)
         const RampEffect effect = effect_of(rule, problem);
         const RampSums sums = ramp_sums(kernel, m, rule == "LAMMPS");
         const std::string where = kernel + ", m = " + std::to_string(m) + ", " + rule;
-        const std::size_t n = problem.cells->n_free;
+        const std::size_t n = problem.cells()->n_free;
         EXPECT_EQ(effect.n_bonds, n * sums.n_bonds) << where;
         EXPECT_EQ(effect.n_changed, n * sums.n_changed) << where;
         EXPECT_NEAR(effect.before, std::abs(sums.whole - 1), 1e-10) << where;

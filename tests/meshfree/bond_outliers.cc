@@ -357,7 +357,7 @@ TEST(Outliers, a_volume_that_is_wrong_is_named)
     {
       Weights weights = weights_of("FA", problem);
       weights.volumes[j] *= 2;
-      const auto volumes = check_volumes(weights.given(), problem.cells->area).outliers;
+      const auto volumes = check_volumes(weights.given(), problem.cells()->area).outliers;
       ASSERT_EQ(volumes.size(), 1u) << nodes.text();
       EXPECT_EQ(volumes[0].node, j);
       EXPECT_NEAR(volumes[0].found / volumes[0].expected, 2, 1e-9);

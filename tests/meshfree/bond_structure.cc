@@ -229,7 +229,7 @@ TEST(Structure, bonds_as_long_as_the_horizon_may_be_left_out)
     return without(weights,
                    [&](std::size_t i, std::size_t j)
                    {
-                     const auto &nodes = weights.problem.cells->nodes;
+                     const auto &nodes = weights.problem.cells()->nodes;
                      return nodes[i].distance(nodes[j]) > weights.problem.horizon() * (1 - 1e-9);
                    });
   };
@@ -262,12 +262,12 @@ TEST(Volumes, carry_a_factor_that_is_told_from_the_areas)
       Weights weights = weights_of("FA", nodes_for(3, perturbation, "linear-decay"));
       for (double &volume : weights.volumes)
         volume *= factor;
-      const VolumeCheck check = check_volumes(weights.given(), weights.problem.cells->area);
+      const VolumeCheck check = check_volumes(weights.given(), weights.problem.cells()->area);
       EXPECT_NEAR(check.factor, factor, 1e-9 * factor) << perturbation;
       EXPECT_TRUE(check.outliers.empty());
       for (std::size_t i = 0; i < check.mended.size(); ++i)
-        EXPECT_NEAR(check.mended[i], weights.problem.cells->area[i],
-                    1e-9 * weights.problem.cells->area[i]);
+        EXPECT_NEAR(check.mended[i], weights.problem.cells()->area[i],
+                    1e-9 * weights.problem.cells()->area[i]);
     }
   EXPECT_NE(unit_text(1e6).find("mm for m"), std::string::npos);
   EXPECT_NE(unit_text(1550.0031).find("inches for m"), std::string::npos);
@@ -282,13 +282,13 @@ TEST(Volumes, of_bands_of_nodes_are_named_and_those_of_one_size_are_none)
       Weights weights = weights_of("FA", nodes_for(3, perturbation, "linear-decay"));
       std::vector<std::size_t> band;
       for (std::size_t i = 0; i < weights.families.size(); ++i)
-        if (std::abs(weights.problem.cells->nodes[i][0] - .5) < .15) // a quarter
+        if (std::abs(weights.problem.cells()->nodes[i][0] - .5) < .15) // a quarter
         {
           band.push_back(i);
           weights.volumes[i] *= factor;
         }
       ASSERT_GT(band.size(), weights.families.size() / 5);
-      const VolumeCheck check = check_volumes(weights.given(), weights.problem.cells->area);
+      const VolumeCheck check = check_volumes(weights.given(), weights.problem.cells()->area);
       EXPECT_EQ(check.factor, 1);
       ASSERT_EQ(check.outliers.size(), band.size()) << perturbation << ", " << factor;
       for (const Outlier &one : check.outliers)
@@ -298,7 +298,7 @@ TEST(Volumes, of_bands_of_nodes_are_named_and_those_of_one_size_are_none)
   Weights weights = weights_of("FA", nodes_for(3, .3, "linear-decay"));
   for (double &volume : weights.volumes)
     volume = node_distance * node_distance;
-  const VolumeCheck check = check_volumes(weights.given(), weights.problem.cells->area);
+  const VolumeCheck check = check_volumes(weights.given(), weights.problem.cells()->area);
   EXPECT_TRUE(check.outliers.empty());
   EXPECT_EQ(check.factor, 1);
 }
@@ -325,9 +325,9 @@ TEST(Outliers, are_none_of_families_whose_moments_are_exact)
   // weights recalibrated around one node that is moved: right, and unlike all others
   const auto problem = nodes_for(3, 0, "linear-decay");
   problem::Problem<2> moved = problem;
-  auto cells = std::make_shared<geometry::NodeCells>(*problem.cells);
+  auto cells = std::make_shared<geometry::NodeCells>(*problem.cells());
   cells->nodes[27] += dealii::Tensor<1, 2>({.02, -.015});
-  moved.cells = cells;
+  moved.on_mesh()->cells = cells;
   const Weights exact = weights_of("IPA-AC-R2", moved);
   EXPECT_LT(check_moments(exact.families, moved.kernel).second.value, 1e-10);
   EXPECT_TRUE(find_outliers(exact.given(), {}).empty());

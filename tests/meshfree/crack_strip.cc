@@ -114,9 +114,10 @@ TEST(CrackStrip, forces_are_the_slope_of_its_energy_and_tangents_that_of_forces)
       EXPECT_NEAR(f[unknown], -(more - strip.energy(u)) / (2 * step) / (.1 * .1), 1e-7 * size);
     }
   for (std::size_t i = 0; i < direction.size(); ++i)
-    direction[i] = i % strip.n_nodes() >= constrained && i % strip.n_nodes() < strip.n_nodes() - constrained
-                       ? std::cos(static_cast<double>(3 * i))
-                       : 0;
+    direction[i] =
+        i % strip.n_nodes() >= constrained && i % strip.n_nodes() < strip.n_nodes() - constrained
+            ? std::cos(static_cast<double>(3 * i))
+            : 0;
   Vector u = rough.u;
   analysis::add(u, step, direction);
   strip.force(u, right);

@@ -29,7 +29,8 @@ namespace
     return Kernel<2>::with_bulk_modulus(physics::kernel_type("bond-tensor").profile, m * h, 1);
   }
 
-  Bonds make(const NeighbourhoodQuadrature &rule, const Kernel<2> &kernel, Backend backend = Backend::fast)
+  Bonds make(const NeighbourhoodQuadrature &rule, const Kernel<2> &kernel,
+             Backend backend = Backend::fast)
   {
     return lattice_bonds(rule, kernel, h, backend);
   }

@@ -33,7 +33,7 @@ namespace
   }
 
   problem::Problem<2> make_problem(double perturbation, bool is_tensor, double h, double m,
-                              const std::string &kernel_keys = "")
+                                   const std::string &kernel_keys = "")
   {
     return scene::make_problem(
         make_scene(perturbation, is_tensor, is_tensor ? "x, y" : "x", kernel_keys), 0, {h, m * h});
@@ -47,7 +47,7 @@ namespace
 
   Families make_families(const std::string &name, const problem::Problem<2> &problem)
   {
-    return {rule(name).of(problem.kernel), problem.kernel, *problem.cells, Backend::fast};
+    return {rule(name).of(problem.kernel), problem.kernel, *problem.cells(), Backend::fast};
   }
 
   /// The largest |Σ C_ab w ξ^α - ∫ C_ab ξ^α| over all families, |α| <= degree, relative to
@@ -85,12 +85,13 @@ namespace
     {
       for (std::size_t row = 0; row < rows.n_rows(); ++row)
         for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
-          result[row] += rows.value[k] * problem.constraint.value(
-                                             problem.cells->nodes[first_node + rows.column[k] / nc],
-                                             rows.column[k] % nc);
+          result[row] +=
+              rows.value[k] *
+              problem.constraint.value(problem.cells()->nodes[first_node + rows.column[k] / nc],
+                                       rows.column[k] % nc);
     };
     multiply(matrix.rows.free, 0);
-    multiply(matrix.rows.constrained, problem.cells->n_free);
+    multiply(matrix.rows.constrained, problem.cells()->n_free);
     return result;
   }
 
@@ -103,7 +104,8 @@ namespace
                            problem);
   }
 
-  double nodal_error(const std::string &name, const scene::Scene &scene, const problem::Level &level)
+  double nodal_error(const std::string &name, const scene::Scene &scene,
+                     const problem::Level &level)
   {
     const auto problem = scene::make_problem(scene, 0, level);
     return study::errors(scene.study.norms, problem, solve(name, problem), {})
@@ -146,7 +148,7 @@ TEST(Families, are_the_lattices_where_nodes_are_not_moved)
 TEST(Families, partial_areas_add_up_to_the_ball_without_the_nodes_own_cell)
 {
   const auto problem = make_problem(.3, false, .125, 2.7);
-  const auto &cells = *problem.cells;
+  const auto &cells = *problem.cells();
   const auto families = make_families("PA-AC", problem);
   Family family;
   for (std::size_t i = 0; i < families.size(); ++i)
@@ -225,7 +227,7 @@ TEST(ScatteredOperator, takes_the_mean_of_the_coefficients_at_both_nodes)
       for (std::size_t k = a.start[i]; k < a.start[i + 1]; ++k)
         if (const unsigned int j = a.column[k]; j != i)
         {
-          const double x = 1 + plain.cells->nodes[i][0], y = 1 + plain.cells->nodes[j][0];
+          const double x = 1 + plain.cells()->nodes[i][0], y = 1 + plain.cells()->nodes[j][0];
           EXPECT_NEAR(b.value[k] / a.value[k], is_harmonic ? 2 * x * y / (x + y) : .5 * (x + y),
                       1e-12);
         }
@@ -338,8 +340,8 @@ TEST(ScatteredMethods, fields_take_the_value_of_the_nearest_node)
   const std::string file = ::testing::TempDir() + "scattered.vtu";
   solution.write_vtu(file);
   std::size_t n_triangles = 0;
-  for (std::size_t p = 0; p < problem.cells->first_piece[64]; ++p)
-    n_triangles += problem.cells->pieces[p].size() - 2;
+  for (std::size_t p = 0; p < problem.cells()->first_piece[64]; ++p)
+    n_triangles += problem.cells()->pieces[p].size() - 2;
   std::stringstream text;
   text << std::ifstream(file).rdbuf();
   EXPECT_NE(text.str().find("NumberOfCells=\"" + std::to_string(n_triangles) + '"'),
@@ -351,7 +353,7 @@ TEST(ScatteredMethods, fields_take_the_value_of_the_nearest_node)
 TEST(ScatteredField, averages_of_linear_fields_are_their_values_at_the_centroids)
 {
   const auto problem = make_problem(.3, false, .125, 3);
-  const geometry::NodeCells &cells = *problem.cells;
+  const geometry::NodeCells &cells = *problem.cells();
   const auto field = [](const Point<2> &x) { return 1 + 2 * x[0] - 5 * x[1]; };
   std::vector<double> values;
   double farthest = 0;

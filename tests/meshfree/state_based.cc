@@ -85,7 +85,8 @@ namespace
   }
 
   /// |L u - b| of a problem's own field on a lattice, relative to the load.
-  double stencil_defect(const StateBasedProblem &problem, NeighbourhoodQuadrature (*rule)(const Kernel<2> &))
+  double stencil_defect(const StateBasedProblem &problem,
+                        NeighbourhoodQuadrature (*rule)(const Kernel<2> &))
   {
     const Square square(.1, .1, 0);
     const StateBasedCase one(problem, square, rule);
@@ -310,15 +311,15 @@ TEST(Solver, iterations_and_dilatations_that_a_scene_cannot_have_are_refused)
     const std::string message = refusal(changes, is_lattice);
     EXPECT_NE(message.find(words), std::string::npos) << message;
   };
-  const scene::Override kept{"Solver/dilatation", "kept"};
+  const scene::Override kept{"Solver/dilatation", "mixed"};
   EXPECT_EQ(refusal({{"Solver/iteration", "cg"}}, true), "");
   expect({{"Solver/iteration", "gmres"}}, true,
          "symmetric positive definite; write automatic or cg");
   EXPECT_EQ(refusal({{"Solver/iteration", "bicgstab"}}, false), "");
   expect({{"Solver/iteration", "bicgstab"}, {"Solver/linear solver", "direct"}}, false,
-         "nothing iterates");
+         "does not iterate");
   EXPECT_EQ(refusal({kept}, false), "");
-  expect({kept}, true, "write eliminated, or Domain/mesh = squares");
+  expect({kept}, true, "write condensed, or Domain/mesh = squares");
   EXPECT_EQ(refusal({kept, {"Solver/linear solver", "amg"}, {"Solver/iteration", "gmres"}}, false),
             "");
   expect({kept, {"Solver/linear solver", "jacobi"}}, false, "write Solver/linear solver = auto");

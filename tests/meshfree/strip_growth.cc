@@ -38,11 +38,15 @@ namespace
 
     BreakingNetwork with_crack(int n_crack, double toughness = 1) const
     {
+      return {network(n_crack, toughness), problem::Stretch::linear};
+    }
+
+    BondNetwork network(int n_crack, double toughness) const
+    {
       BreakingSolid solid = meshfree::make_strip({height, length, n_crack, h}, lame, K.horizon());
       solid.surface_terms = surface_terms;
       solid.toughness = [toughness](const Point<2> &) { return toughness; };
-      return {make_bond_network(solid, rule, K, h, geometry::Backend::fast),
-              problem::Stretch::linear};
+      return make_bond_network(solid, rule, K, h, geometry::Backend::fast);
     }
 
     /// Energy of a column of the intact strip, per length: what a column more of it holds.
@@ -55,16 +59,10 @@ namespace
 
     study::StripGrowth growth(int from, double toughness = 1) const
     {
-      BreakingNetwork body = with_crack(from, toughness);
-      study::GrowthModel model;
-      model.body = &body;
-      model.h = h;
-      model.nodes = body.network().nodes;
-      for (const BondNetwork::Bond &bond : body.network().bonds)
-        model.bonds.push_back({bond.from, bond.to});
-      model.cut = body.network().cut;
-      model.notch_tip = {from * h, 0};
-      return measure_strip(model, W1(), (from + 2) * h, (from + 6) * h);
+      const auto body =
+          std::make_shared<BreakingNetwork>(network(from, toughness), problem::Stretch::linear);
+      return study::measure_strip(meshfree::breakable_body(body, {from * h, 0}), W1(),
+                                  (from + 2) * h, (from + 6) * h);
     }
   };
 } // namespace

@@ -271,7 +271,8 @@ TEST(SurfaceForces, are_in_equilibrium_while_a_crack_grows_and_go_on_to_the_same
     EXPECT_FALSE(body.has_energy());
     const Growth growth = grow(body);
     ASSERT_GT(growth.events.size(), 50u);
-    EXPECT_TRUE(growth.end == problem::GrowthEnd::unloaded || growth.end == problem::GrowthEnd::parted);
+    EXPECT_TRUE(growth.end == problem::GrowthEnd::unloaded ||
+                growth.end == problem::GrowthEnd::parted);
     double imbalance = 0;
     for (const analysis::Event &event : growth.events)
     {

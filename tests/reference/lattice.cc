@@ -227,12 +227,12 @@ namespace
   /// Degrees of freedom without a pattern.
   LatticeField some_field(const problem::Problem<2> &problem, const AxisShapes &shapes)
   {
-    const auto nodes = free_nodes(*problem.lattice, shapes.families(), problem.n_components);
+    const auto nodes = free_nodes(*problem.lattice(), shapes.families(), problem.n_components);
     std::vector<double> values(static_cast<std::size_t>(nodes.n_blocks()) * (nodes.n[0] + 2) *
                                (nodes.n[1] + 2));
     for (std::size_t i = 0; i < values.size(); ++i)
       values[i] = std::sin(1 + 7. * static_cast<double>(i * i % 1009));
-    return {*problem.lattice, shapes, problem.n_components, values};
+    return {*problem.lattice(), shapes, problem.n_components, values};
   }
 } // namespace
 
@@ -273,7 +273,7 @@ TEST(LatticeField, averages_are_the_integrals_of_the_field)
   for (const bool at_vertices : {false, true})
   {
     const geometry::AxisSpecies nodes{at_vertices ? 0. : .5, at_vertices, 0};
-    const auto cells = free_nodes(*problem.lattice, {nodes}, 1);
+    const auto cells = free_nodes(*problem.lattice(), {nodes}, 1);
     const auto averages = field.averages(cells);
     const dealii::QIterated<2> rule(dealii::QGauss<1>(3), 2);
     std::size_t index = 0;
@@ -285,8 +285,8 @@ TEST(LatticeField, averages_are_the_integrals_of_the_field)
           const auto place = cells.place(0, i, j);
           for (unsigned int q = 0; q < rule.size(); ++q)
             mean += rule.weight(q) *
-                    field.value(problem.lattice->point(place[0] - .5 + rule.point(q)[0],
-                                                       place[1] - .5 + rule.point(q)[1]),
+                    field.value(problem.lattice()->point(place[0] - .5 + rule.point(q)[0],
+                                                         place[1] - .5 + rule.point(q)[1]),
                                 0);
           EXPECT_NEAR(averages[index++], mean, 1e-14);
         }

@@ -183,12 +183,13 @@ TEST(MeshGalerkin, ContinuousAndDiscontinuousSolutionsAgreeWithinTheirEstimatedE
 {
   const auto scene = make_scene("triangles", wave, constant_kernel);
   const auto problem = make_problem(scene, 0, {.25, .25});
-  const auto exact = study::cell_averages(*problem.solution, *problem.cells, 1);
+  const auto exact = study::cell_averages(*problem.solution, *problem.cells(), 1);
   std::vector<std::vector<double>> averages;
   double sum = 0;
   for (const std::string name : {"P2", "DGP2"})
   {
-    const auto found = study::solve_reference({scene, 0, problem}, *method_named(name));
+    const auto found =
+        study::solve_reference(make_case(scene, 0, problem), *method_named(name), scene.reference);
     const double error = study::averages_l2(problem, found.averages, exact);
     EXPECT_GE(found.estimate.estimate, error) << name;
     EXPECT_LT(found.estimate.estimate, 3 * error) << name;
@@ -240,13 +241,14 @@ TEST(MeshField, ProjectsExactlyOntoLatticeAndVoronoiCells)
           make_scene(mesh, mesh == "squares" ? "x^2*y^2 - x*y + 2*y" : "x^2*1 - x*y + 2*y",
                      "subsection Methods\n" + nodes + "end\n");
       const auto problem = make_problem(scene, 0, {.25, .25});
-      const auto space = std::make_shared<const reference::MeshSpace>(problem.mesh, true, 2);
-      reference::MeshField field{space, std::make_shared<const reference::MeshCells>(*problem.mesh),
-                                 1, std::vector<double>(space->n_dofs())};
+      const auto space = std::make_shared<const reference::MeshSpace>(problem.mesh(), true, 2);
+      reference::MeshField field{space,
+                                 std::make_shared<const reference::MeshCells>(*problem.mesh()), 1,
+                                 std::vector<double>(space->n_dofs())};
       for (std::size_t dof = 0; dof < space->n_dofs(); ++dof)
         field.values[dof] = problem.solution->value(space->support(dof), 0);
-      const auto averages = field.averages(*problem.cells);
-      const auto exact = study::cell_averages(*problem.solution, *problem.cells, 1);
+      const auto averages = field.averages(*problem.cells());
+      const auto exact = study::cell_averages(*problem.solution, *problem.cells(), 1);
       for (std::size_t i = 0; i < exact.size(); ++i)
         ASSERT_NEAR(averages[i], exact[i], 1e-13) << mesh << nodes;
       EXPECT_NEAR(field.value(Point<2>(.3, .7), 0),
@@ -309,10 +311,10 @@ TEST(MeshMethods, SayWhyTheyCannotDoAMesh)
 {
   const auto scene = make_scene("triangles", wave);
   const auto problem = make_problem(scene, 0, {.25, .25});
-  EXPECT_EQ(study::refusal(*method_named("P1"), {scene, 0, problem}, reference::methods()), "");
-  EXPECT_NE(study::refusal(*method_named("Q1"), {scene, 0, problem}, reference::methods())
-                .find("take P1"),
-            std::string::npos);
+  EXPECT_EQ(study::refusal(*method_named("P1"), scene, problem, reference::methods()), "");
+  EXPECT_NE(
+      study::refusal(*method_named("Q1"), scene, problem, reference::methods()).find("take P1"),
+      std::string::npos);
 }
 
 TEST(MeshMethods, WriteFieldsForEveryDegree)
@@ -342,11 +344,11 @@ TEST(MeshGalerkin, DoesNotDependOnTheFirstVertexOfRectangles)
   const auto expected = analysis::solve(*method_named("Q2"), problem).averages;
   for (unsigned int turn = 1; turn < 4; ++turn)
   {
-    geometry::Mesh mesh = *problem.mesh;
+    geometry::Mesh mesh = *problem.mesh();
     for (auto &cell : mesh.cells)
       std::rotate(cell.vertex.begin(), cell.vertex.begin() + turn, cell.vertex.end());
     auto turned = problem;
-    turned.mesh = std::make_shared<const geometry::Mesh>(mesh);
+    turned.on_mesh()->mesh = std::make_shared<const geometry::Mesh>(mesh);
     EXPECT_LT(study::averages_l2(problem, analysis::solve(*method_named("Q2"), turned).averages,
                                  expected),
               1e-4)
@@ -354,11 +356,11 @@ TEST(MeshGalerkin, DoesNotDependOnTheFirstVertexOfRectangles)
   }
   // refined cells are rectangles like those they come from: entries stay exact
   auto fine = problem; // averaged over the same cells
-  fine.mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh));
+  fine.on_mesh()->mesh = std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh()));
   const auto refined = analysis::solve(*method_named("Q2"), fine);
   EXPECT_EQ(refined.diagnostics.n_refinements, 0u);
   auto half = make_problem(scene, 0, {.125, .3});
-  half.cells = problem.cells;
+  half.on_mesh()->cells = problem.cells();
   const auto direct = analysis::solve(*method_named("Q2"), half);
   EXPECT_LT(study::averages_l2(problem, refined.averages, direct.averages), 1e-11);
 }

@@ -127,7 +127,8 @@ TEST(Preconditioner, iterations_stay_below_6_16_of_long_kernels_and_26_of_tensor
     for (const int n : {32, 64, 128, 256, 1024})
       for (const double horizon : {.1, 3. / n})
       {
-        constexpr double longest = 9; // cells, of kernels beside whose domains nodes are constrained
+        constexpr double longest =
+            9; // cells, of kernels beside whose domains nodes are constrained
         const unsigned int bound = is_tensor ? 26 : horizon * n < longest ? 6 : 16;
         EXPECT_LE(n_iterations(scene, "Q1", 1. / n, horizon), bound)
             << "n = " << n << ", horizon = " << horizon;

@@ -45,7 +45,8 @@ namespace plumbline::atlas
       add(results, "cheap but stalling", "m = 3", {{1, .1}, {4, .09}}, Outcome::stalls);
       add(results, "good", "m = 3", {{2, .18}, {8, .01}, {32, .001}}, Outcome::converges);
       add(results, "as good, a little dearer", "m = 3", {{8.5, .01}}, Outcome::converges);
-      add(results, "dear", "m = 3", {{100, .01}}, Outcome::converges, study::MethodFamily::reference);
+      add(results, "dear", "m = 3", {{100, .01}}, Outcome::converges,
+          study::MethodFamily::reference);
       add(results, "short", "m = 3", {{.5, 1e-4}}, Outcome::undecided);
       add(results, "local", "m = 3", {{.01, 1e-9}}, Outcome::converges, study::MethodFamily::local);
       add(results, "rough", "m = 3", {{.1, .9}}, Outcome::converges);

@@ -1,7 +1,7 @@
 // What `plumbline dispersion` shows and writes.
+#include "study/dispersion.h"
 #include "io/results_json.h"
 #include "report/view.h"
-#include "study/dispersion.h"
 #include "study/trend.h"
 #include "tests/report/fixture.h"
 
@@ -93,8 +93,8 @@ namespace plumbline::report
       r.facts = {{"longest wave", "1"}, {"directions", "0°, 22.5°"}};
       for (const std::string method : {"good", "bad"})
         for (const double h : {.2, .1, .05})
-          r.records.push_back(study::wave_record(
-              record(method, h), row(method, h, method == "good" ? h * h : .0275)));
+          r.records.push_back(study::wave_record(record(method, h),
+                                                 row(method, h, method == "good" ? h * h : .0275)));
       study::DispersionRow none;
       none.failure = "no weights";
       r.records.push_back(study::wave_record(record("none", .2), none));

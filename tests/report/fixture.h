@@ -93,7 +93,8 @@ namespace plumbline::report::fixture
             run.cost.peak_bytes = 2000000 + 80 * run.cost.n_unknowns;
             run.cost.n_iterations = model.iterations + level;
             run.diagnostics.n_neighbours = static_cast<unsigned int>(3.14 * m * m);
-            run.diagnostics.smallest_weight_ratio = model.family == study::MethodFamily::meshfree ? .87 : 1;
+            run.diagnostics.smallest_weight_ratio =
+                model.family == study::MethodFamily::meshfree ? .87 : 1;
             run.diagnostics.relative_residual = 3e-13;
             run.diagnostics.operator_backend = "fft";
             run.diagnostics.n_geometry_checks = 40;

@@ -89,7 +89,7 @@ namespace plumbline::report
     ASSERT_NE(background, std::string::npos);
     for (const char *const colour : {"rgb(213,  94,   0)", "rgb(  0, 114, 178)"})
       EXPECT_NE(picture.find(colour, background), std::string::npos) << colour;
-    for (const char *const words : {"the crack", "parted elsewhere", "the notch"})
+    for (const char *const words : {"the crack", "separated elsewhere", "the notch"})
       EXPECT_NE(picture.find(words), std::string::npos) << words;
     const std::string page = fixture::read(folder.path() / "grow.html");
     EXPECT_EQ(fixture::count(page, "<image"), 3u); // of it, and of two moments

@@ -1,7 +1,7 @@
 // What `plumbline stability` shows and writes.
+#include "study/stability.h"
 #include "io/results_json.h"
 #include "report/view.h"
-#include "study/stability.h"
 #include "study/strain_growth.h"
 #include "tests/report/fixture.h"
 

@@ -1,112 +1,77 @@
-#include "report/row_journal.h"
-#include "report/strip_page.h"
-
+// What `plumbline strip` shows, also where nothing is finished yet.
+#include "report/view.h"
+#include "study/stationary_crack.h"
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
-
-#include <fstream>
 
 namespace plumbline::report
 {
   namespace
   {
-    using StripJournal = RowJournal<study::StripRow>;
-
-    study::StripRow strip(const std::string &method, double energy)
+    study::Record strip(const std::string &method, double h, double energy)
     {
-      study::StripRow row;
-      row.method = method;
-      row.family = method::MethodFamily::reference;
-      row.series = "m = 3";
-      row.h = .1;
-      row.horizon = .3;
-      row.strip = {20, 40, 15, .1, 15.5};
-      row.state.energy = energy;
-      row.state.intact = 1. / 7;
-      row.state.at_end = .3;
-      row.state.opening = {.1, 1. / 3};
-      row.state.n_unknowns = 17;
-      row.release = .1 + .2;
-      row.growth = study::StripGrowth{1.3, 1.1, 1.05, .9};
-      row.seconds = 2.5;
-      return row;
+      study::Record record;
+      record.key.analysis = "strip";
+      record.key.method = method;
+      record.key.family = method::MethodFamily::reference;
+      record.key.series = "m = 3";
+      record.key.h = h;
+      record.key.horizon = 3 * h;
+      method::StripState state;
+      state.energy = energy;
+      state.intact = 1. / 7;
+      state.at_end = .3;
+      state.opening = {.1, 1. / 3};
+      state.n_unknowns = 17;
+      return study::strip_record(record, {20, 40, 15, h, {}}, state, .1 + .2,
+                                 study::StripGrowth{1.3, 1.1, 1.05, .9});
+    }
+
+    study::StudyResults results()
+    {
+      study::StudyResults r;
+      r.analysis = "strip";
+      r.scene_name = "strip <1>";
+      r.facts = {{"edges", "grips"}, {"height", "2"}, {"crack", "1.5"}, {"mu", "1"}};
+      return r;
     }
   } // namespace
-
-  TEST(StripJournal, GivesBackAllThatAStripIsToTheLastBit)
-  {
-    const fixture::Folder folder;
-    const study::StripRow written = strip("Q1", 1. / 3);
-    StripJournal(folder.path() / "strip.jsonl", "scene").append({written});
-    const StripJournal journal(folder.path() / "strip.jsonl", "scene");
-    ASSERT_EQ(journal.earlier().size(), 1u);
-    const study::StripRow &read = journal.earlier().front();
-    EXPECT_EQ(read.method, "Q1");
-    EXPECT_EQ(read.family, method::MethodFamily::reference);
-    EXPECT_EQ(read.series, written.series);
-    EXPECT_EQ(read.h, written.h);
-    EXPECT_EQ(read.horizon, written.horizon);
-    EXPECT_EQ(read.strip.n_height, 20);
-    EXPECT_EQ(read.strip.n_length, 40);
-    EXPECT_EQ(read.strip.n_crack, 15);
-    EXPECT_EQ(read.strip.h, written.h);
-    EXPECT_EQ(read.strip.K_tip, 15.5);
-    EXPECT_EQ(read.state.energy, written.state.energy);
-    EXPECT_EQ(read.state.intact, written.state.intact);
-    EXPECT_EQ(read.state.at_end, written.state.at_end);
-    EXPECT_EQ(read.state.opening, written.state.opening);
-    EXPECT_EQ(read.state.n_unknowns, 17u);
-    EXPECT_EQ(read.release, written.release);
-    ASSERT_TRUE(read.growth);
-    EXPECT_EQ(read.growth->peak, 1.3);
-    EXPECT_EQ(read.growth->mean, 1.1);
-    EXPECT_EQ(read.growth->released, 1.05);
-    EXPECT_EQ(read.growth->bonds, .9);
-    EXPECT_EQ(read.seconds, 2.5);
-    EXPECT_TRUE(read.failure.empty());
-  }
-
-  TEST(StripJournal, KeepsWhatWasFinishedHoweverOftenARunIsKilled)
-  {
-    const fixture::Folder folder;
-    for (unsigned int i = 0; i < 3; ++i)
-    {
-      StripJournal journal(folder.path() / "strip.jsonl", "scene");
-      ASSERT_EQ(journal.earlier().size(), i);
-      journal.append({strip("Q1", i)});
-    }
-    const StripJournal journal(folder.path() / "strip.jsonl", "scene");
-    ASSERT_EQ(journal.earlier().size(), 3u);
-    for (unsigned int i = 0; i < 3; ++i)
-      EXPECT_EQ(journal.earlier()[i].state.energy, i);
-  }
-
-  TEST(StripJournal, TakesNothingOfAnotherSceneNorOfAFileThatIsNone)
-  {
-    const fixture::Folder folder;
-    const auto file = folder.path() / "strip.jsonl";
-    StripJournal(folder.path() / "strip.jsonl", "scene").append({strip("Q1", 1)});
-    EXPECT_TRUE(StripJournal(folder.path() / "strip.jsonl", "another").earlier().empty());
-    std::ofstream(file, std::ios::app) << "{\"method\": \"cut o";
-    EXPECT_EQ(StripJournal(folder.path() / "strip.jsonl", "scene").earlier().size(), 1u);
-    std::ofstream(file, std::ios::app) << "ff\"}\n"; // whole, but no strip
-    EXPECT_TRUE(StripJournal(folder.path() / "strip.jsonl", "scene").earlier().empty());
-  }
 
   TEST(StripPage, StandsWhereNothingIsFinishedYet)
   {
     const fixture::Folder folder;
-    study::StripResults results;
-    results.scene_name = "strip <1>";
-    results.is_complete = false;
-    write_strip(results, {}, folder.path());
+    study::StudyResults r = results();
+    r.is_complete = false;
+    write_study(strip_view(r), r, folder.path());
     const std::string page = fixture::read(folder.path() / "strip.html");
     EXPECT_NE(page.find("strip &lt;1&gt;"), std::string::npos);
     EXPECT_NE(page.find("interrupted: what was finished"), std::string::npos);
     EXPECT_EQ(page.find("<table>"), std::string::npos);
-    results.rows = {strip("Q1", 1)};
-    write_strip(results, {}, folder.path());
+    r.records = {strip("Q1", .1, 1)};
+    write_study(strip_view(r), r, folder.path());
     EXPECT_EQ(fixture::count(fixture::read(folder.path() / "strip.html"), "<table>"), 1u);
+  }
+
+  TEST(StripPage, SaysHowFarMethodsAgree)
+  {
+    study::StudyResults r = results();
+    for (const std::string method : {"Q1", "FA"})
+      for (const double h : {.4, .2, .1, .05})
+        r.records.push_back(strip(method, h, (method == "Q1" ? .5 : .51) + h * h));
+    r.limits = {{"Q1", "m = 3", "tip energy", .5, 2, .001},
+                {"FA", "m = 3", "tip energy", .51, 2, .001}};
+    const View view = strip_view(r);
+    EXPECT_EQ(view.answer,
+              "tip energy (m = 3) of 2 methods: limits between 0.5 and 0.51, 0.01961 apart.");
+    ASSERT_EQ(view.parts.size(), 3u);
+    EXPECT_EQ(view.parts[0].table.rows.size(), 8u);
+    EXPECT_EQ(view.parts[1].table.rows.size(), 2u);
+    std::vector<std::string> names;
+    for (const DataChart &chart : view.galleries.at(0).charts)
+      names.push_back(chart.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"tip-energy", "profile", "opening", "w1",
+                                               "growth-peak", "growth-released"}));
+    EXPECT_EQ(view.galleries[0].charts[0].plot.lines[0].points.back().x, 0); // its limit
   }
 } // namespace plumbline::report

@@ -64,13 +64,15 @@ TEST(Capabilities, refusals_say_what_is_missing_who_can_and_what_to_write)
 
 TEST(Capabilities, models_and_analyses_refuse_what_their_rows_leave_out)
 {
-  EXPECT_EQ(failure([] { (void)parse("subsection Domain\n set boundary = periodic\nend\n"); }),
-            "scene 'capable': Material/model = bond-based cannot do this scene: Domain/boundary = "
-            "periodic; take double well, or write constrained");
+  EXPECT_EQ(
+      failure([] { (void)parse("subsection Domain\n set boundary = periodic\nend\n"); }),
+      "scene 'capable': Material/model = bond-based does not support this scene: Domain/boundary = "
+      "periodic; take double well, or write constrained");
   const Scene mesh = parse("subsection Domain\n set mesh = squares\nend\n");
   EXPECT_EQ(failure([&] { check_analysis(mesh, Analysis::statics); }), "");
-  EXPECT_EQ(failure([&] { check_analysis(mesh, Analysis::dispersion); }),
-            "dispersion cannot do this scene: Domain/mesh = squares; write Domain/mesh = lattice");
+  EXPECT_EQ(
+      failure([&] { check_analysis(mesh, Analysis::dispersion); }),
+      "dispersion does not support this scene: Domain/mesh = squares; write Domain/mesh = lattice");
 }
 
 TEST(Capabilities, cracks_in_equilibrium_are_what_their_analyses_can_do)
@@ -91,8 +93,8 @@ TEST(Capabilities, cracks_in_equilibrium_are_what_their_analyses_can_do)
   { return failure([&] { check_analysis(parse_scene("capable", solid + text), analysis); }); };
   EXPECT_EQ(check(strip, Analysis::strip), "");
   EXPECT_EQ(check(plate, Analysis::growth), "");
-  EXPECT_EQ(failure([&] { (void)parse_scene("capable", solid + plate + kept); }).substr(0, 50),
-            "scene 'capable': growth cannot do this scene: Solv"); // before it is run
+  EXPECT_EQ(failure([&] { (void)parse_scene("capable", solid + plate + kept); }).substr(0, 57),
+            "scene 'capable': growth does not support this scene: Solv"); // before it is run
 }
 
 TEST(Capabilities, cracks_of_solids_change_dilatations_and_those_of_bonds_do_not)

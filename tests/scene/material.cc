@@ -34,7 +34,8 @@ namespace
     }
     catch (const InputError &error)
     {
-      EXPECT_NE(std::string(error.what()).find(fragment), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(fragment), std::string::npos)
+          << fragment << " is not in: " << error.what();
     }
   }
 
@@ -98,7 +99,7 @@ TEST(Material, BondsOfAHomogeneousSolidCarryMuAndThoseOfOthersACoefficient)
   EXPECT_NEAR(other.coefficient->at({.7, .5}), 2 * mu, 1e-14);
   EXPECT_NEAR(other.coefficient->mean(mu, 2 * mu), 4 * mu / 3, 1e-14); // harmonic
   EXPECT_FALSE(other.dilatation->is_symmetric());
-  EXPECT_NEAR(geometry::collar_width(*other.mesh), .6, 1e-12);
+  EXPECT_NEAR(geometry::collar_width(*other.mesh()), .6, 1e-12);
 }
 
 TEST(Material, ConstantsOfNoSolidAreRefusedByName)
@@ -108,8 +109,8 @@ TEST(Material, ConstantsOfNoSolidAreRefusedByName)
   expect_solid_error({{"Material/E", "0"}}, "Young's modulus E = 0, but it must be positive");
   expect_bar_error({{"Material/k", "-100"}}, "bulk constant k = -100, but it must be positive");
   expect_bar_error({{"Material/l", "-8"}}, "shear constant l = -8, but it must be positive");
-  expect_solid_error({{"Material/E", ""}, {"Material/nu", ""}}, "needs its constants once");
-  expect_solid_error({{"Material/k", "1"}, {"Material/l", "8"}}, "needs its constants once");
+  expect_solid_error({{"Material/E", ""}, {"Material/nu", ""}}, "needs one pair of constants");
+  expect_solid_error({{"Material/k", "1"}, {"Material/l", "8"}}, "needs one pair of constants");
   expect_solid_error({{"Material/nu", ""}}, "Material/E needs Material/nu");
   expect_solid_error({{"Material/model", "bond-based"}}, "clear Material/E");
   expect_solid_error({{"Material/E", "1, 2"}}, "must be one expression");
@@ -138,7 +139,7 @@ TEST(Material, FieldsAreCheckedEverywhere)
   // a phase without its constant
   for (const char *const part :
        {"Material/E and nu at (-0.", "Young's modulus E = 0, but it must be positive",
-        "give constants that are right at every point, for each phase its own"})
+        "give constants that are admissible at every point, different ones for each phase"})
     expect_error(
         [&] {
           (void)make_problem(solid(with("Material/E", "x > 0.5 ? 87 : 0")), 0, {.1, .3});
@@ -148,8 +149,8 @@ TEST(Material, FieldsAreCheckedEverywhere)
 
 TEST(Material, ModelsAndKernelsFit)
 {
-  expect_solid_error({{"Kernel/type", "bond-tensor"}}, "takes Kernel/type as its influence");
-  expect_solid_error({{"Kernel/limit", "-Laplace"}}, "takes Kernel/type as its influence");
+  expect_solid_error({{"Kernel/type", "bond-tensor"}}, "uses Kernel/type as its influence");
+  expect_solid_error({{"Kernel/limit", "-Laplace"}}, "uses Kernel/type as its influence");
   expect_solid_error({{"Problem/solution", "x"}}, "but the solid needs 2");
   expect_solid_error({{"Domain/collar", ".4"}}, "thinner than twice the horizon");
 }
@@ -158,11 +159,11 @@ TEST(FreeBody, IsAVariationalBoxThatIsHeldSomewhere)
 {
   const Scene scene = bar();
   const Problem problem = make_problem(scene, 0, {.05, .05});
-  ASSERT_TRUE(problem.body && problem.mesh && problem.cells && problem.coefficient);
-  EXPECT_FALSE(problem.lattice);
+  ASSERT_TRUE(problem.body() && problem.mesh() && problem.cells() && problem.coefficient);
+  EXPECT_FALSE(problem.lattice());
   // 41 × 21 vertices, those at x = 0, .05 and .1 hold the bar: the cell at .1 begins at .075
-  EXPECT_EQ(problem.cells->size(), 41u * 21u);
-  EXPECT_EQ(problem.cells->n_free, 38u * 21u);
+  EXPECT_EQ(problem.cells()->size(), 41u * 21u);
+  EXPECT_EQ(problem.cells()->n_free, 38u * 21u);
 
   expect_bar_error({{"Domain/fixed", ""}}, "3 rigid modes");
   expect_bar_error({{"Material/model", "LPS"}}, "Domain/boundary = free; take variational");
@@ -181,13 +182,13 @@ TEST(FreeBody, IsOfAnyShapeThatAMeshSays)
     Settings all = {{"Study/h", "0.1"}, {"Study/horizon", "0.2"}};
     all.insert(all.end(), settings.begin(), settings.end());
     const Problem problem = make_problem(bar(all), 0, {h, .2});
-    EXPECT_EQ(problem.body->h, h);
-    EXPECT_LT(problem.cells->n_free, problem.cells->size());
+    EXPECT_EQ(problem.body()->h, h);
+    EXPECT_LT(problem.cells()->n_free, problem.cells()->size());
     double sum = 0;
-    for (std::size_t c = 0; c < problem.mesh->cells.size(); ++c)
-      sum += geometry::area(geometry::view(problem.mesh->polygon(c)));
-    EXPECT_NEAR(std::accumulate(problem.cells->area.begin(), problem.cells->area.end(), 0.), sum,
-                1e-12 * sum);
+    for (std::size_t c = 0; c < problem.mesh()->cells.size(); ++c)
+      sum += geometry::area(geometry::view(problem.mesh()->polygon(c)));
+    EXPECT_NEAR(std::accumulate(problem.cells()->area.begin(), problem.cells()->area.end(), 0.),
+                sum, 1e-12 * sum);
     return sum;
   };
   // an L, whose lattice begins with its boxes; a slanted bar; a disk; the lower half of a square

@@ -40,7 +40,7 @@ namespace
     catch (const InputError &error)
     {
       EXPECT_NE(std::string(error.what()).find(message), std::string::npos)
-          << error.what() << "\nhas not: " << message;
+          << message << " is not in: " << error.what();
     }
   }
 
@@ -343,33 +343,36 @@ TEST(RandomScene, FilesThatMakeNoFieldAreRefused)
                  "Random/modes = 3, but Random/files (3, of 6 cells each) have 2 principal");
   expect_refused(modes(point + ", " + point + ", " + point, "2"),
                  "Random/modes = 2, but Random/files (3, of 1 cells each) have 1 principal");
-  expect_refused(with_files(wide, {{"Sampling/rule", "tensor"}}),
-                 "Random/field = files is drawn as a whole; write Random/modes");
+  expect_refused(
+      with_files(wide, {{"Sampling/rule", "tensor"}}),
+      "Random/field = files has complete realisations without variables; give Random/modes");
   expect_refused(
       with_files(wide, {{"Domain/mesh", "hyper_cube"},
                         {"Domain/arguments", "-3 : 3 : false"},
                         {"Domain/inside", "1 - x^2 - y^2"}}),
-      "Random/field = files with Domain/mesh = hyper_cube fills a box that is not known");
+      "Random/field = files with Domain/mesh = hyper_cube needs a box, which is not known");
 }
 
 TEST(RandomScene, IsRefusedWithTheRemedy)
 {
   expect_refused({{"Sampling/counts", ""}}, "needs Sampling/counts");
-  expect_refused({{"Sampling/counts", "3, 2"}}, "must rise");
-  expect_refused({{"Sampling/counts", "2, 0.5"}}, "'0.5' is no count");
-  expect_refused({{"Sampling/counts", "0, 2"}}, "is no sample");
-  expect_refused({{"Sampling/rule", "equidistant"}}, "normal variables have no ends");
+  expect_refused({{"Sampling/counts", "3, 2"}}, "must be strictly increasing");
+  expect_refused({{"Sampling/counts", "2, 0.5"}}, "'0.5' is not a count");
+  expect_refused({{"Sampling/counts", "0, 2"}}, "gives no sample");
+  expect_refused({{"Sampling/rule", "equidistant"}}, "normal variables are unbounded");
   expect_refused({{"Sampling/counts", "1001"}}, "1.002e+06 samples, more than");
   expect_refused({{"Random/variables", ""}}, "unknown name");
-  expect_refused({{"Random/variables", ""}, {"Problem/solution", "x"}}, "needs variables");
+  expect_refused({{"Random/variables", ""}, {"Problem/solution", "x"}}, "needs random variables");
   expect_refused({{"Random/variables", "c: normal 0 0"}}, "a deviation must be positive");
   expect_refused({{"Random/variables", "c: uniform 2 1"}}, "must be below");
-  expect_refused({{"Random/variables", "c: normal; x: normal"}}, "'x' means something already");
-  expect_refused({{"Random/variables", "c: normal; c: normal"}}, "'c' means something already");
+  expect_refused({{"Random/variables", "c: normal; x: normal"}},
+                 "'x' is a reserved or repeated name");
+  expect_refused({{"Random/variables", "c: normal; c: normal"}},
+                 "'c' is a reserved or repeated name");
   expect_refused({{"Random/variables", "c: gamma"}}, "write 'name: normal");
   expect_refused({{"Random/variables", "c: normal 1"}}, "write 'name: normal");
   expect_refused({{"Random/variables", "c"}}, "has no ':'");
-  expect_refused({{"Random/variables", "2c: normal"}}, "is no name");
+  expect_refused({{"Random/variables", "2c: normal"}}, "is not a name");
   expect_refused({{"Random/values", "1"}}, "1 numbers for 2 variables");
   expect_refused({{"Random/modes", "3"}}, "needs a field");
   expect_refused(
@@ -398,8 +401,8 @@ TEST(RandomScene, IsRefusedWithTheRemedy)
   refuse_counts("32", "c: uniform", nested,
                 "Smolyak and 1 variable takes at least 4.295e+09 samples, more than 1e+06");
   refuse_counts("12", "c: uniform", nested,
-                "Smolyak takes 4097 points of a variable, more than 1025, which a rule of one may "
-                "have; take a lower level, or Sampling/rule = quasi-Monte Carlo");
+                "Smolyak takes 4097 points of a variable, more than 1025, the limit of a "
+                "one-dimensional rule; take a lower level, or Sampling/rule = quasi-Monte Carlo");
   refuse_counts("100000", "c: normal", {},
                 "tensor takes 1e+05 points of a variable, more than 1025");
   expect_refused(solid({{"Random/field", "exponential"}}), "needs Random/modes");
@@ -418,7 +421,7 @@ TEST(RandomScene, IsRefusedWithTheRemedy)
   expect_refused(solid({{"Random/semi-axes", "1, -1"}}), "semi-ax");
   // realisations are no values of variables
   for (const char *const rule : {"tensor", "Smolyak", "quasi-Monte Carlo"})
-    expect_refused(solid({{"Sampling/rule", rule}}), "is drawn as a whole");
+    expect_refused(solid({{"Sampling/rule", rule}}), "has complete realisations without variables");
   expect_refused(solid({{"Random/fraction", "1"}, {"Random/modes", "2"}, {"Random/cell", "0.1"}}),
                  "is the same everywhere");
 }
@@ -450,14 +453,14 @@ TEST(ScenesOverAVariable, GoThroughItsValues)
     all.insert(all.end(), change.begin(), change.end());
     expect_refused(all, message);
   };
-  refuse({{"Study/variable", "e"}}, "Study/variable = 'e' is none of Random/variables (c, d)");
+  refuse({{"Study/variable", "e"}}, "Study/variable = 'e' is not one of Random/variables (c, d)");
   refuse({{"Study/values", ""}}, "needs Study/values, which is empty");
-  refuse({{"Study/values", "1, 1"}}, "rise without repetition; 1 does not");
+  refuse({{"Study/values", "1, 1"}}, "strictly increasing; 1 does not");
   refuse({{"Study/values", "-1, 1"}}, "': Study/values: at d = -1: ");
   refuse({{"Study/regime", "delta"}}, "are for Study/regime = variable; write that, or clear both");
   refuse({{"Sampling/rule", "Monte Carlo"}, {"Sampling/counts", "2"}}, "both vary variables");
   refuse(
       {{"Study/norms", "averages L2"}, {"Study/decisive error", "averages L2 | own finest level"}},
       "Study/regime = variable: nothing is refined there");
-  refuse({{"Fracture/toughness", "1"}}, "of growth and cracks take samples");
+  refuse({{"Fracture/toughness", "1"}}, "for fracture use samples");
 }

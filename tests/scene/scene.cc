@@ -45,7 +45,8 @@ namespace
     }
     catch (const InputError &error)
     {
-      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos)
+          << message << " is not in: " << error.what();
       EXPECT_EQ(std::string(error.what()).find("scene 'test.prm'"), 0u) << error.what();
     }
   }
@@ -190,7 +191,7 @@ TEST(SceneErrors, levels_that_do_not_fit)
   expect_error(section("Study", "h = 0.3"), "h = 0.3 does not divide the box");
   expect_error(section("Study", "h = -0.1"), "write numbers above 0");
   expect_error(section("Domain", "collar = 0.1"),
-               "Domain/collar = 0.1 is thinner than the horizon 0.3");
+               "Domain/interaction domain = 0.1 is thinner than the horizon 0.3");
   expect_error(section("Study", "regime = delta-m"), "Study/m has 1 values and Study/h has 4");
   expect_error(section("Domain", "boxes = 0, 0 : 1"),
                "'0, 0 : 1' is not allowed, for '1' in it; write boxes");
@@ -206,11 +207,10 @@ TEST(SceneErrors, kernels_and_models_that_do_not_fit)
                "has 1 component(s), but the bond tensor needs 2");
   expect_error(section("Problem", "solution = x, y"),
                "has 2 component(s), but the scalar kernel needs 1");
-  expect_error(section("Kernel", "type = polynomial"),
-               "needs its profile; give Kernel/coefficients");
+  expect_error(section("Kernel", "type = polynomial"), "needs a profile; give Kernel/coefficients");
   expect_error(section("Kernel", "coefficients = 1, 2"),
                "is for polynomial, bond-tensor polynomial");
-  expect_error(section("Kernel", "type = gaussian"), "needs its profile; give Kernel/width");
+  expect_error(section("Kernel", "type = gaussian"), "needs a profile; give Kernel/width");
   expect_error(section("Kernel", "type = gaussian\n set width = 0"),
                "Kernel/width = 0 horizons must be 0.05 or more");
   expect_error(section("Kernel", "type = gaussian\n set width = wide"), "Kernel/width");
@@ -251,12 +251,12 @@ TEST(SceneErrors, expressions_and_targets)
 
 TEST(SceneErrors, what_would_merge_or_mislead_silently)
 {
-  expect_error(section("Study", "h = 0.05, 0.1"), "Study/h must run from large to small");
-  expect_error(section("Study", "h = 0.1, 0.1, 0.05"), "without repetition");
-  expect_error(section("Study", "m = 3, 3"), "the series 'm = 3' comes twice");
+  expect_error(section("Study", "h = 0.05, 0.1"), "Study/h must be strictly decreasing");
+  expect_error(section("Study", "h = 0.1, 0.1, 0.05"), "strictly decreasing");
+  expect_error(section("Study", "m = 3, 3"), "the series 'm = 3' occurs twice");
   expect_error(
       "subsection Study\n set regime = horizon\n set h = 0.1\n set horizon = 0.2, 0.4\nend\n",
-      "Study/horizon must run from large to small");
+      "Study/horizon must be strictly decreasing");
   expect_error(section("Problem", "solution = x; y"), "two cases are called 'u'");
   expect_error(section("Problem", "solution = y = x"), "has a single '='");
   expect_error(section("Study", "decisive error = nodal Linf | local"),

@@ -72,12 +72,12 @@ TEST_F(SceneFile, says_in_which_line_it_is_not_understood)
   EXPECT_EQ(fault(problem_text + "sett h = 1\n"),
             "scene 'a.prm', line 4: 'sett h = 1' is not understood; write 'set key = value', "
             "'subsection NAME', 'end', 'include FILE', or '#' before a comment");
-  EXPECT_EQ(fault(problem_text + "set h\n").find("scene 'a.prm', line 4: 'set h' is not understood"),
-            0u);
-  EXPECT_EQ(fault("\n\nend\n"), "scene 'a.prm', line 3: 'end' closes no subsection; take it out");
-  EXPECT_EQ(fault(problem_text + "subsection Study\n set h = 1\n"),
-            "scene 'a.prm', line 4: subsection Study is not closed; write 'end' behind its last "
-            "line");
+  EXPECT_EQ(
+      fault(problem_text + "set h\n").find("scene 'a.prm', line 4: 'set h' is not understood"), 0u);
+  EXPECT_EQ(fault("\n\nend\n"), "scene 'a.prm', line 3: 'end' closes no subsection; remove it");
+  EXPECT_EQ(
+      fault(problem_text + "subsection Study\n set h = 1\n"),
+      "scene 'a.prm', line 4: subsection Study is not closed; write 'end' after its last line");
   EXPECT_EQ(fault("subsection Geometry\n\n set checks = few\nend\n")
                 .find("scene 'a.prm', line 3: Geometry/checks = 'few' is not allowed"),
             0u);
@@ -85,13 +85,13 @@ TEST_F(SceneFile, says_in_which_line_it_is_not_understood)
 
 TEST_F(SceneFile, with_a_key_given_twice_is_refused_with_both_lines)
 {
-  EXPECT_EQ(fault(problem_text + methods + "subsection Problem\n  set solution = y\nend\n"),
-            "scene 'a.prm', line 8: Problem/solution is given in line 2 already; take one of them "
-            "out");
+  EXPECT_EQ(
+      fault(problem_text + methods + "subsection Problem\n  set solution = y\nend\n"),
+      "scene 'a.prm', line 8: Problem/solution is given in line 2 already; remove one of them");
   write("common.prm", "# of all\n" + problem_text);
   EXPECT_EQ(fault("include common.prm\n" + methods + problem_text),
             "scene 'a.prm', line 6: Problem/solution is given in line 3 of 'common.prm' already; "
-            "take one of them out");
+            "remove one of them");
   EXPECT_EQ(fault("a.json", "{\"Problem\": {\"solution\": \"x\",\n \"solution\": \"y\"}}"),
             "scene 'a.json', line 2: the key 'solution' comes twice in one object; mend the file");
 }
@@ -102,9 +102,8 @@ TEST_F(SceneFile, includes_others_from_its_folder_and_never_itself)
   write("parts/problem.prm", problem_text);
   write("parts/all.prm", "include problem.prm\n" + methods);
   EXPECT_EQ(fault("include parts/all.prm\n"), "no error");
-  EXPECT_EQ(fault("\ninclude a.prm\n"),
-            "scene 'a.prm', line 2: 'a.prm' is being read already, so that it would include "
-            "itself; take the line out");
+  EXPECT_EQ(fault("\ninclude a.prm\n"), "scene 'a.prm', line 2: 'a.prm' is being read already, so "
+                                        "that it would include itself; remove the line");
   write("b.prm", "include ../" + path().filename().string() + "/a.prm\n");
   EXPECT_EQ(fault("include b.prm\n").find("scene 'a.prm', line 1 of 'b.prm': '../"), 0u);
   EXPECT_EQ(fault("include nowhere.prm\n"),
@@ -160,7 +159,7 @@ TEST_F(SceneFile, in_json_takes_numbers_and_truth_values_and_says_what_it_does_n
   EXPECT_EQ(fault("a.json", "{\"Study\": {\"m\": 1e400}}"),
             "scene 'a.json', line 1: a number is beyond the range of double precision; mend the "
             "file");
-  EXPECT_EQ(fault("a.json", "[]"), "scene 'a.json', line 1: is no JSON object; write "
+  EXPECT_EQ(fault("a.json", "[]"), "scene 'a.json', line 1: is not a JSON object; write "
                                    "{\"Section\": {\"key\": \"value\"}}");
   EXPECT_EQ(fault("a.json", "{\"Study\": {\"m\": \"3 # 4\"}}")
                 .find("scene 'a.json', Study/m: Study/m = '3 # 4' cannot be written in a scene"),

@@ -1,6 +1,6 @@
 #include "study/comparison.h"
-#include "scene/problem.h"
 #include "base/error.h"
+#include "scene/problem.h"
 #include "study/preflight.h"
 #include "study/sweep.h"
 
@@ -34,19 +34,19 @@ namespace
     }
     std::string why_not(const problem::Problem<2> &problem) const override
     {
-      return problem.lattice ? "" : "it is for lattices";
+      return problem.lattice() ? "" : "it is for lattices";
     }
 
   private:
     method::Field field(const problem::Problem<2> &problem) const override
     {
-      const double error = plateau_ + std::pow(problem.lattice->h(), rate_);
+      const double error = plateau_ + std::pow(problem.lattice()->h(), rate_);
       const auto cells = method::comparison_nodes(problem, problem.n_components);
       method::Field solution;
-      solution.nodes = method::free_points(*problem.lattice, cells);
+      solution.nodes = method::free_points(*problem.lattice(), cells);
       for (const auto &node : solution.nodes)
         solution.nodal.push_back(problem.solution->value(node, 0) + error);
-      solution.averages = cell_averages(*problem.solution, *problem.lattice, cells);
+      solution.averages = cell_averages(*problem.solution, *problem.lattice(), cells);
       for (double &average : solution.averages)
         average -= error;
       const auto exact = problem.solution->value;
@@ -66,7 +66,7 @@ TEST(CellAverages, are_exact_for_polynomials_at_centres_and_vertices)
     const auto scene = make_scene("subsection Methods\n set nodes = " + nodes + "\nend\n");
     const auto problem = make_problem(scene, 0, {.125, .25});
     const auto cells = method::comparison_nodes(problem, 1);
-    const auto averages = cell_averages(*problem.solution, *problem.lattice, cells);
+    const auto averages = cell_averages(*problem.solution, *problem.lattice(), cells);
     std::size_t index = 0;
     const auto mean = [](int power, double a, double b)
     { return (std::pow(b, power + 1) - std::pow(a, power + 1)) / (power + 1) / (b - a); };
@@ -90,8 +90,8 @@ TEST(CellAverages, without_a_series_agree_with_those_with_one)
   const auto cells = method::comparison_nodes(problem, 1);
   problem::Field<2> pointwise = *problem.solution;
   pointwise.series.reset();
-  const auto a = cell_averages(*problem.solution, *problem.lattice, cells);
-  const auto b = cell_averages(pointwise, *problem.lattice, cells);
+  const auto a = cell_averages(*problem.solution, *problem.lattice(), cells);
+  const auto b = cell_averages(pointwise, *problem.lattice(), cells);
   EXPECT_LT(averages_l2(problem, a, b), 1e-13);
 }
 
@@ -107,9 +107,9 @@ TEST(CoarsenAverages, of_exact_fine_averages_are_exact_coarse_averages)
     const auto cells = method::comparison_nodes(coarse, 1);
     const auto fine_cells = method::comparison_nodes(fine, 1);
     const auto coarsened = coarsen_averages(
-        cell_averages(*fine.solution, *fine.lattice, fine_cells), fine_cells, cells);
+        cell_averages(*fine.solution, *fine.lattice(), fine_cells), fine_cells, cells);
     EXPECT_LT(
-        averages_l2(coarse, coarsened, cell_averages(*coarse.solution, *coarse.lattice, cells)),
+        averages_l2(coarse, coarsened, cell_averages(*coarse.solution, *coarse.lattice(), cells)),
         1e-14);
   }
 }

@@ -57,8 +57,8 @@ namespace
   {
     problem::Problem<2> problem = disk(sides, h);
     problem.solution = problem::Field<2>{[](const dealii::Point<2> &x, unsigned int)
-                                    { return std::max(0., 1 - x.norm_square()); },
-                                    std::nullopt};
+                                         { return std::max(0., 1 - x.norm_square()); },
+                                         std::nullopt};
     problem.load = {[](const dealii::Point<2> &x, unsigned int)
                     { return load_of_cap(std::min(1., x.norm())); },
                     std::nullopt};

@@ -74,8 +74,8 @@ namespace
   {
     double seconds = 0;
     const auto problem = make_problem(scene, 0, level);
-    const unsigned int much_finer = problem.lattice ? 8 : 4; // meshes are dear
-    return audit::audit({scene, 0, problem}, *galerkin(method), much_finer, seconds);
+    const unsigned int much_finer = problem.lattice() ? 8 : 4; // meshes are dear
+    return audit::audit(make_case(scene, 0, problem), *galerkin(method), much_finer, seconds);
   }
 
   /// Floor of the digits that an error leaves.
@@ -102,7 +102,10 @@ namespace
   class QuadratureFault : public GivenSolutions
   {
   public:
-    explicit QuadratureFault(double part) : GivenSolutions("fault", MethodFamily::reference), part_(part) {}
+    explicit QuadratureFault(double part)
+        : GivenSolutions("fault", MethodFamily::reference), part_(part)
+    {
+    }
 
   private:
     method::Field field(const problem::Problem<2> &problem) const override
@@ -230,11 +233,12 @@ TEST(Estimates, of_a_mesh_file_hold_for_its_polygon_and_say_so)
   const auto problem = make_problem(scene, 0, {.25, .25});
   const auto method = galerkin("DGQ0");
   const Solution solution = analysis::solve(*method, problem);
-  EXPECT_TRUE(estimate_error({scene, 0, problem}, *method, solution, false).is_of_polygon);
+  EXPECT_TRUE(estimate_error(make_case(scene, 0, problem), *method, solution, false).is_of_polygon);
   const auto boxes = make_scene(with(rough, {{"Domain/mesh", "squares"}}));
   const auto same = make_problem(boxes, 0, {.25, .25});
-  EXPECT_FALSE(estimate_error({boxes, 0, same}, *method, analysis::solve(*method, same), false)
-                   .is_of_polygon);
+  EXPECT_FALSE(
+      estimate_error(make_case(boxes, 0, same), *method, analysis::solve(*method, same), false)
+          .is_of_polygon);
   std::filesystem::remove(file);
 }
 
@@ -317,7 +321,7 @@ TEST(Estimates, include_what_outer_quadrature_errs_whatever_the_size_of_the_solu
     const Solution solution = analysis::solve(method, problem);
     const auto exact = cell_averages(*problem.solution, problem);
     const double error = averages_l2(problem, solution.averages, exact);
-    const auto found = estimate_error({scene, 0, problem}, method, solution, false);
+    const auto found = estimate_error(make_case(scene, 0, problem), method, solution, false);
     EXPECT_LE(error * (1 - 1e-10), found.estimate) << size;
     EXPECT_LE(found.estimate, factor * error) << size;
     EXPECT_NEAR(found.outer_change, error, 2 * part * error) << size;
@@ -347,10 +351,10 @@ TEST(Norms, weigh_cell_averages_by_the_cells_areas)
                                  {"Problem/solution", "x"}});
   const auto problem = make_problem(scene, 0, {.25, .25});
   std::vector<double> zero, step;
-  for (std::size_t i = 0; i < problem.cells->n_free; ++i)
+  for (std::size_t i = 0; i < problem.cells()->n_free; ++i)
   {
     zero.push_back(0);
-    step.push_back(problem.cells->nodes[i][0] < .6 ? 2 : 0);
+    step.push_back(problem.cells()->nodes[i][0] < .6 ? 2 : 0);
   }
   // Voronoi cells of unequal rectangles' centres: the line between columns is in the middle
   const double centre_below = (.25 + .4 * .0625 + .6) / 2;
@@ -382,7 +386,7 @@ TEST(Estimates, of_the_reference_are_held_to_a_tolerance_relative_to_the_solutio
                                                {"Reference/method", "DGQ1"},
                                                {"Reference/tolerance", tolerance}}));
     const auto problem = make_problem(scene, 0, {.125, .25});
-    return solve_reference({scene, 0, problem}, *galerkin("DGQ1"));
+    return solve_reference(make_case(scene, 0, problem), *galerkin("DGQ1"), scene.reference);
   };
   EXPECT_NO_THROW(solve("1e6", "0.5")); // whatever the unit of u
   EXPECT_THROW(solve("1e6", "1e-9"), NumericalError);

@@ -14,8 +14,14 @@ namespace
 {
   using namespace plumbline;
   using analysis::Event;
+  using study::bonds_across;
+  using study::broken_parts;
+  using study::find_path;
+  using study::growth_moments;
   using study::GrowthModel;
   using study::GrowthResults;
+  using study::n_unpaired;
+  using study::run_growth;
 
   /// Rows at y = -1.5, -.5, .5, 1.5 of so many columns, bonds between next neighbours along y;
   /// the notch cuts those of the first three columns.
@@ -71,6 +77,7 @@ namespace
   public:
     Body() { response_.critical_loads.assign(4, std::numeric_limits<double>::infinity()); }
     std::size_t n_bonds() const override { return 4; }
+    std::size_t n_unknowns() const override { return 0; }
     const Response &response() const override { return response_; }
     Release break_bonds(const std::vector<std::size_t> &) override { return {}; }
     void restart(const std::vector<std::size_t> &) override {}
@@ -277,9 +284,8 @@ TEST(Growth, says_whether_the_body_has_parted)
 
 TEST(Growth, a_checkpoint_that_is_not_its_own_is_refused)
 {
-  Body body;
   GrowthModel model;
-  model.body = &body;
+  model.body = std::make_shared<Body>();
   const auto file = std::filesystem::temp_directory_path() / "plumbline_growth.h5";
   const study::GrowthPlan plan{{}, "body", file};
   const auto grown_from = [&](const std::string &subject, const std::vector<double> &records)

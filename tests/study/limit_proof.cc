@@ -84,7 +84,8 @@ TEST(LimitProof, tells_right_rules_from_wrong_ones_for_every_model)
 TEST(LimitProof, an_error_of_one_part_in_a_million_is_an_error)
 {
   const auto scene = scene_of(harmonic);
-  const problem::Problem<2> problem = make_problem(scene, 0, scene.study.series.front().levels.front());
+  const problem::Problem<2> problem =
+      make_problem(scene, 0, scene.study.series.front().levels.front());
   // the five-point stencil of -1/2 Laplace, with reach 1
   algebra::Stencil stencil(1, 1);
   const double a = .5 / (problem.h * problem.h);

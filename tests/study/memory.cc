@@ -26,15 +26,15 @@ namespace
     method::ProblemSize size;
     size.level = level;
     size.n_components = problem.n_components;
-    size.is_body = problem.body.has_value();
+    size.is_body = problem.body() != nullptr;
     size.has_dilatation = problem.dilatation.has_value();
-    if (problem.lattice)
+    if (problem.lattice())
       for (unsigned int d = 0; d < 2; ++d)
-        size.extents[d] = problem.lattice->n_cells()[d];
+        size.extents[d] = problem.lattice()->n_cells()[d];
     else
     {
-      size.n_cells = static_cast<double>(problem.mesh->cells.size());
-      size.n_free = static_cast<double>(problem.cells->n_free);
+      size.n_cells = static_cast<double>(problem.mesh()->cells.size());
+      size.n_free = static_cast<double>(problem.cells()->n_free);
       size.cell_area = level.h * level.h;
     }
     for (const std::string &name : scene.methods.names)

@@ -4,7 +4,6 @@
 
 #include "base/error.h"
 #include "meshfree/method.h"
-#include "reference/lattice/torus_motion.h"
 #include "reference/method.h"
 #include "study/preflight.h"
 #include "study/sample_sweep.h"
@@ -53,7 +52,7 @@ namespace
     const method::Methods methods = choose_methods(scene, all);
     check_motions(scene, methods, 0);
     MotionControl control;
-    control.make_torus = reference::move_on_torus;
+    control.available = all;
     DynamicResults results = run_motions(scene, methods, control);
     conclude(scene, results);
     for (const MotionRun &motion : results.runs)
@@ -251,7 +250,8 @@ TEST(Motions, of_galerkin_know_their_own_errors)
                                   {"Time/steps", "0.025"}}));
   for (const MotionRun &motion : results.runs)
   {
-    ASSERT_EQ(motion.estimate.has_value(), motion.family == MethodFamily::reference) << motion.method;
+    ASSERT_EQ(motion.estimate.has_value(), motion.family == MethodFamily::reference)
+        << motion.method;
     if (!motion.estimate)
       continue;
     const double error = motion.errors.at("nodal L2 | reference");

@@ -58,7 +58,7 @@ namespace
       if (is_last())
         fail_();
       method::Field solution;
-      const std::size_t n = problem.lattice->n_cells()[0] * problem.lattice->n_cells()[1];
+      const std::size_t n = problem.lattice()->n_cells()[0] * problem.lattice()->n_cells()[1];
       solution.averages.assign(n, 0);
       solution.nodal.assign(n, 0);
       for (std::size_t i = 0; i < n; ++i)

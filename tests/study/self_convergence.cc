@@ -1,7 +1,7 @@
 // Methods held against themselves, and scenes against themselves: averages carried from level to
 // level, and solutions that contradict their loads.
-#include "scene/problem.h"
 #include "study/self_convergence.h"
+#include "scene/problem.h"
 
 #include "scene/scene.h"
 #include "study/comparison.h"
@@ -83,7 +83,8 @@ TEST(SelfConvergence, every_level_is_held_against_the_last_one_of_the_same_metho
   for (const std::string method : {"A", "B"})
     for (unsigned int level = 0; level < 2; ++level)
     {
-      const problem::Problem<2> problem = make_problem(scene, 0, scene.study.series[0].levels[level]);
+      const problem::Problem<2> problem =
+          make_problem(scene, 0, scene.study.series[0].levels[level]);
       study::Run run;
       run.method = method;
       run.problem = "u";
@@ -107,7 +108,7 @@ namespace
   std::optional<Contradiction> contradiction(const std::string &text, double h = .05)
   {
     const scene::Scene scene = scene::parse_scene("test.prm", text);
-    return measure_contradiction(make_case(scene, 0, {h, 3 * h}));
+    return measure_contradiction(make_problem(scene, 0, {h, 3 * h}));
   }
 
   std::string problem_section(const std::string &solution, const std::string &load)

@@ -22,8 +22,8 @@ namespace
 {
   /// A tensor rule with exact moments of degree 2, n_a n_b ξ^α among them, from bonds as given.
   meshfree::NeighbourhoodQuadrature tensor_rule(const physics::Kernel<2> &kernel,
-                                       meshfree::Bond (*bond)(const physics::Kernel<2> &,
-                                                              const meshfree::Candidate &))
+                                                meshfree::Bond (*bond)(const physics::Kernel<2> &,
+                                                                       const meshfree::Candidate &))
   {
     // entries C_ab taken at the kernel point q, the field at the node: q_a q_b ξ^α / |q|²
     const std::vector<std::array<int, 4>> which = {
@@ -54,14 +54,14 @@ namespace
             }};
   }
 
-  Stability measure_rule(const meshfree::NeighbourhoodQuadrature &rule, const physics::Kernel<2> &kernel,
-                         double h)
+  Stability measure_rule(const meshfree::NeighbourhoodQuadrature &rule,
+                         const physics::Kernel<2> &kernel, double h)
   {
     const auto bonds = meshfree::lattice_bonds(rule, kernel, h, geometry::Backend::fast);
     const geometry::Lattice lattice({{{{0, 0}, {1, 1}}}, {}}, h);
     const auto nodes = free_nodes(lattice, {{.5, false, 0}}, kernel.n_components());
-    Stability found =
-        measure(method::make_discrete_operator(lattice, nodes, meshfree::lattice_operator(kernel, bonds), {1}));
+    Stability found = measure(method::make_discrete_operator(
+        lattice, nodes, meshfree::lattice_operator(kernel, bonds), {1}));
     meshfree::describe_weights(bonds.family, bonds.fit, found.diagnostics);
     return found;
   }
@@ -271,8 +271,8 @@ TEST(Stability, of_a_free_body_has_the_three_rigid_modes_and_of_a_held_one_none)
       if (is_constrained)
         fixed.push_back({{0, 0}, {.125, 0}, {.125, 1}, {0, 1}});
       const auto body = meshfree::body_on_vertices(lattice, fixed, {constant(1), constant(l)});
-      const Stability found = measure(
-          meshfree::make_discrete_operator(std::make_shared<meshfree::VariationalOperator>(body, influence, bonds)));
+      const Stability found = measure(meshfree::make_discrete_operator(
+          std::make_shared<meshfree::VariationalOperator>(body, influence, bonds)));
       EXPECT_EQ(found.n_zero, is_constrained ? 0u : 3u);
       EXPECT_EQ(found.modes.values.size(), is_constrained ? 1u : 3u);
       for (const auto &mode : found.modes.values)

@@ -1,8 +1,8 @@
 // Ellipses placed at random: what they cover, that no place differs from another, what is refused.
 #include "uq/ellipses.h"
 #include "base/error.h"
-#include "uq/torus_packing.h"
 #include "refusal.h"
+#include "uq/torus_packing.h"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ namespace
   bool meet(const Ellipse &first, const Ellipse &second)
   {
     return uq::meet(grain, first, second, second.centre[0] - first.centre[0],
-                        second.centre[1] - first.centre[1]);
+                    second.centre[1] - first.centre[1]);
   }
 
   std::string refusal_of(const EllipseModel &model)

@@ -2,9 +2,9 @@
 #include "uq/karhunen_loeve.h"
 #include "base/error.h"
 #include "physics/gauss.h"
+#include "refusal.h"
 #include "uq/boolean_covariance.h"
 #include "uq/spectrum.h"
-#include "refusal.h"
 
 #include <Eigen/Dense>
 #include <fftw3.h>

@@ -1,10 +1,10 @@
 // Principal components against the singular values of all realisations, covariances and samples.
 #include "uq/principal_components.h"
 #include "base/error.h"
+#include "refusal.h"
 #include "uq/boolean_covariance.h"
 #include "uq/generator.h"
 #include "uq/karhunen_loeve.h"
-#include "refusal.h"
 
 #include <deal.II/base/multithread_info.h>
 

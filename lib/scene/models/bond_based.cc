@@ -11,7 +11,10 @@ namespace plumbline::scene
     {
     public:
       std::string name() const override { return "bond-based"; }
-      std::string help() const override { return "the kernel is all"; }
+      std::string help() const override
+      {
+        return "scalar kernels and bond tensors, defined by section Kernel alone";
+      }
 
       Capabilities can() const override
       {
@@ -33,7 +36,8 @@ namespace plumbline::scene
 
       std::string constants() const override
       {
-        return " takes its constants from the kernel; clear Material/E, nu, lambda, mu, k and l, "
+        return " takes its constants from section Kernel; clear Material/E, nu, lambda, mu, k and "
+               "l, "
                "or "
                "choose LPS or variational";
       }

@@ -16,7 +16,7 @@ namespace plumbline::scene
       return base::to_text(value, 6);
     }
 
-    /// ω, which falls to 0 at the boundary of a box.
+    /// ω, which decreases to 0 at the boundary of a box.
     double smoothstep(const geometry::Box &box, double horizon, const dealii::Point<2> &x)
     {
       double distance = horizon;
@@ -32,8 +32,8 @@ namespace plumbline::scene
       std::string name() const override { return "double well"; }
       std::string help() const override
       {
-        return "bonds that soften and break (Jha & Lipton 2018), of c, beta and the boundary "
-               "function, for motions (Time/final time)";
+        return "nonlinear bonds that soften and break (Jha & Lipton 2018), with c, beta and the "
+               "boundary function, for transient analyses (Time/final time)";
       }
 
       Capabilities can() const override
@@ -55,34 +55,35 @@ namespace plumbline::scene
 
       std::map<std::string, Settings> templates() const override
       {
-        return {
-            {"double-well",
-             {{"Purpose", "A wave of double-well bonds on a torus: how fast do rules converge?"},
-              {"Domain/boundary", "periodic"},
-              {"Kernel/type", "linear-decay"},
-              {"Kernel/limit", "Navier"},
-              {"Material/model", "double well"},
-              {"Problem/local solution", "none"},
-              {"Time/final time", "0.5"},
-              {"Time/initial displacement", "0.1*sin(2*pi*x), 0"},
-              {"Methods/names", "FA, PA-AC, IPA-AC, IPA-AC-R2"},
-              {"Study/regime", "m"},
-              {"Study/h", "0.1, 0.05, 0.025, 0.0125"},
-              {"Study/horizon", "0.2"},
-              {"Study/norms", "nodal L2"},
-              {"Study/decisive error", "nodal L2 | reference"},
-              {"Reference/method", "torus"}}}};
+        return {{"double-well",
+                 {{"Purpose",
+                   "A wave in double-well bonds on a torus: order of convergence of the rules."},
+                  {"Domain/boundary", "periodic"},
+                  {"Kernel/type", "linear-decay"},
+                  {"Kernel/limit", "Navier"},
+                  {"Material/model", "double well"},
+                  {"Problem/local solution", "none"},
+                  {"Time/final time", "0.5"},
+                  {"Time/initial displacement", "0.1*sin(2*pi*x), 0"},
+                  {"Methods/names", "FA, PA-AC, IPA-AC, IPA-AC-R2"},
+                  {"Study/regime", "m"},
+                  {"Study/h", "0.1, 0.05, 0.025, 0.0125"},
+                  {"Study/horizon", "0.2"},
+                  {"Study/norms", "nodal L2"},
+                  {"Study/decisive error", "nodal L2 | reference"},
+                  {"Reference/method", "torus"}}}};
       }
 
       void declare(Keys &keys, MaterialSection &material) const override
       {
         keys.add("c", material.c, any_number(),
-                 "Of double wells f(s) = c (1 - exp(-beta s)): the energy of a broken bond, > 0. "
-                 "[force/length]");
-        keys.add("beta", material.beta, any_number(), "Of double wells, > 0. [1/length]");
+                 "c > 0 of the double-well potential f(s) = c (1 - exp(-beta s)), the energy of a "
+                 "broken bond. [force/length]");
+        keys.add("beta", material.beta, any_number(),
+                 "beta > 0 of the double-well potential. [1/length]");
         keys.add("boundary function", material.boundary_function,
                  "omega of double wells: one, or smoothstep, t^2 (3 - 2t) with t = min(1, distance "
-                 "to the boundary / horizon), which lets bonds fade out there.");
+                 "to the boundary / horizon), which weakens bonds near the boundary.");
       }
 
       bool is_linear() const override { return false; }
@@ -101,9 +102,9 @@ namespace plumbline::scene
                                                          short_number(value) +
                                                          " must be positive and finite; " + remedy);
         };
-        positive("c", material.c, "it is the energy of a broken bond, take for example 1");
+        positive("c", material.c, "it is the energy of a broken bond; use for example 1");
         positive("beta", material.beta,
-                 "bonds soften at strains 1/sqrt(2 beta r), take for example 1");
+                 "bonds soften at strains 1/sqrt(2 beta r); use for example 1");
         (void)make_double_well(scene, 1);
         if (material.boundary_function == BoundaryFunction::one)
           return;
@@ -111,11 +112,12 @@ namespace plumbline::scene
                 "Material/boundary function = smoothstep falls to 0 at the sides of Domain/boxes, "
                 "which Domain/mesh = " +
                     scene.domain.mesh.name +
-                    " need not have; write one, or Domain/mesh = lattice, squares or triangles");
+                    " need not have; write Material/boundary function = one, or Domain/mesh = "
+                    "lattice, squares or triangles");
         require(scene.problem.solutions.empty() || !scene.problem.loads.empty(),
                 "Problem/load = manufactured with Material/boundary function = smoothstep: its "
-                "kinks in the ball would spoil the quadrature (2.5e-5 of the load); write one, or "
-                "give Problem/load as expressions");
+                "kinks inside the ball reduce the accuracy of the quadrature (2.5e-5 of the load); "
+                "write boundary function = one, or give Problem/load as expressions");
       }
 
       physics::Kernel<2> kernel(const Scene &scene, double horizon) const override
@@ -147,12 +149,12 @@ namespace plumbline::scene
         if (law.dim() == 1)
         {
           facts.emplace_back("modulus of the elastic limit", number(law.modulus()));
-          facts.emplace_back("speed of long waves", number(speeds.longitudinal));
+          facts.emplace_back("long-wave speed", number(speeds.longitudinal));
         }
         else
         {
           facts.emplace_back("λ = μ of the elastic limit", number(law.modulus()));
-          facts.emplace_back("speeds of long waves c_L, c_T",
+          facts.emplace_back("long-wave speeds c_L, c_T",
                              number(speeds.longitudinal) + ", " + number(speeds.transverse));
         }
         facts.emplace_back("toughness G_c", number(law.toughness()));
@@ -160,10 +162,11 @@ namespace plumbline::scene
                            number(law.c1()) + ", " + number(law.c2()) + ", " + number(law.c3()));
         facts.emplace_back("C̄; Lipschitz bound 6 C̄/ε² of F in L²",
                            number(law.c_bar()) + "; " + number(lipschitz));
-        facts.emplace_back("rates proven (Jha & Lipton 2018, doi:10.1137/17M1112236, Theorem 3)",
-                           "h^γ/ε² for data in C^(0,γ), γ <= 1, and Δt; smooth data show more");
-        facts.emplace_back("factor of that bound, T exp(T (1 + 6 C̄/ε²)), (17) there: large as it "
-                           "is, it says nothing of sizes",
+        facts.emplace_back(
+            "proven order of convergence (Jha & Lipton 2018, doi:10.1137/17M1112236, Theorem 3)",
+            "h^γ/ε² for data in C^(0,γ), γ <= 1, and Δt; smooth data converge faster");
+        facts.emplace_back("factor of that bound, T exp(T (1 + 6 C̄/ε²)), eq. (17) there; too large "
+                           "to bound the actual error usefully",
                            number(final_time * std::exp(final_time * (1 + lipschitz))));
         facts.emplace_back("softening strain of a bond as long as the horizon",
                            number(law.softening_strain(horizon)));

@@ -15,57 +15,56 @@ namespace plumbline::scene
   /// Keys with their values.
   using Settings = std::vector<std::pair<std::string, std::string>>;
 
-  /// What a body is made of, a value of Material/model: one file of this folder and a row of
+  /// A constitutive model, a value of Material/model: one file of this folder and a row of
   /// models().
   class Model
   {
   public:
     virtual ~Model() = default;
     virtual std::string name() const = 0;
-    virtual std::string help() const = 0; ///< what it is, behind its name
+    virtual std::string help() const = 0; ///< description that follows its name
     virtual Capabilities can() const = 0;
 
-    /// What a scene needs since it is of this model.
+    /// Capabilities that scenes of this model need.
     virtual Capabilities needs(const Scene &) const { return {}; }
 
-    /// What scenes of it begin with, by the name of their template.
+    /// Settings of its scene templates, by the template's name.
     virtual std::map<std::string, Settings> templates() const = 0;
 
-    /// Keys of section Material that no model before it in models() has.
+    /// Declares the keys of section Material that no earlier model of models() has.
     virtual void declare(Keys &, MaterialSection &) const {}
 
-    /// Kernel/type is its influence function and u has a component for each axis; else the kernel
-    /// is all of it.
+    /// Kernel/type is its influence function and u is a vector; else the kernel defines the model.
     virtual bool takes_influence() const { return true; }
 
-    /// It has λ and μ, given by one pair of keys.
+    /// Its constants are λ and μ, given by one pair of keys.
     virtual bool is_state_based() const { return false; }
 
-    /// Dilatations count in a scene of it, so that data reach twice as far.
+    /// Its forces depend on the dilatation, so that data are needed within twice the horizon.
     virtual bool has_dilatation(const Scene &) const { return false; }
 
-    virtual bool is_linear() const { return true; } ///< its force, in u
+    virtual bool is_linear() const { return true; } ///< its force depends linearly on u
 
-    /// What follows "Material/model = NAME" where λ and μ are given or missing against
+    /// Ends the message "Material/model = NAME..." if λ and μ are given or missing contrary to
     /// is_state_based().
     virtual std::string constants() const = 0;
 
-    /// Of λ and μ at both ends of a bond.
+    /// Mean of λ and μ at the two ends of a bond.
     virtual physics::Mean mean() const { return physics::Mean::arithmetic; }
 
-    /// @throws InputError  constants that it cannot have, though solids can
+    /// @throws InputError  constants that this model does not admit
     virtual void check(const physics::Lame &, bool /*is_homogeneous*/) const {}
 
-    /// @throws InputError  what does not fit together where it moves
+    /// @throws InputError  keys that are inconsistent in a transient analysis
     virtual void check_motion(const Scene &) const {}
 
-    /// Of its bonds, of small strains where it is not linear.
+    /// Kernel of its bonds; of a nonlinear model, linearised at zero strain.
     virtual physics::Kernel<2> kernel(const Scene &scene, double horizon) const = 0;
 
-    /// What a problem has of it besides.
+    /// Adds the model's other data to a problem.
     virtual void complete(const Scene &, const Level &, Problem &) const {}
 
-    /// Its constants, what they are and their values, for reports of motions.
+    /// Its constants as pairs of description and value, for transient reports.
     virtual std::vector<std::pair<std::string, std::string>> facts(const Scene &,
                                                                    double /*horizon*/) const
     {

@@ -39,7 +39,7 @@ namespace plumbline::scene
 
       bool is_state_based() const override { return true; }
 
-      /// λ = μ leaves the bonds alone.
+      /// For λ = μ there are bond forces only.
       bool has_dilatation(const Scene &scene) const override
       {
         const MaterialSection &material = scene.material;
@@ -51,7 +51,7 @@ namespace plumbline::scene
 
       std::string constants() const override
       {
-        return " needs its constants once: E and nu, lambda and mu, or k and l";
+        return " needs one pair of constants: E and nu, lambda and mu, or k and l";
       }
 
       physics::Kernel<2> kernel(const Scene &scene, double horizon) const override
@@ -80,8 +80,8 @@ namespace plumbline::scene
       std::string name() const override { return "LPS"; }
       std::string help() const override
       {
-        return "the linear peridynamic solid, with harmonic means of lambda and of mu at both ends "
-               "of a bond";
+        return "the linear peridynamic solid, with harmonic means of lambda and of mu at the two "
+               "ends of a bond";
       }
 
       Capabilities can() const override { return StateBased::can() | of_damage(); }
@@ -113,17 +113,20 @@ namespace plumbline::scene
             one_of({"automatic", "published", "none", "consistent"}),
             [&material](const std::string &text)
             { material.surface_terms = *base::from_word<SurfaceTerms>(text); },
-            "Forces of missing bonds at crack faces and free surfaces (Domain/cracks, "
-            "Domain/outside). The dilatation is corrected in any case. published: Fan et al. 2022, "
-            "eqs. (3.19)-(3.22); they exert a net force of sqrt(delta) at crack tips, so that the "
-            "observed order tends to 1/2, and are inexact across interfaces and on oblique faces. "
-            "none: no pair terms; first order at cracks, but uniaxial stress along a face is not "
-            "exact. consistent: exact in uniaxial stress along straight faces, also oblique ones "
-            "and on interfaces, and no net force at tips of cracks along rows of nodes. automatic: "
-            "published; in 'plumbline grow' as Fracture/surface terms says.");
-        keys.add("collar dilatation", material.has_collar_dilatation, "zero", "from data",
-                 "theta in the collar, of state-based solids on scattered nodes: from data, or "
-                 "zero, which is wrong and there to show by how much.");
+            "Forces that replace those of missing bonds at crack faces and free surfaces "
+            "(Domain/cracks, Domain/outside). The dilatation is corrected in all cases. published: "
+            "Fan et al. 2022, "
+            "eqs. (3.19)-(3.22); they exert a net force of order sqrt(delta) at crack tips, so "
+            "that the observed order tends to 1/2, and are inexact across interfaces and on "
+            "oblique faces. none: no pair terms; first order at cracks, but not exact in uniaxial "
+            "stress along a face. consistent: exact in uniaxial stress along straight faces, also "
+            "oblique ones "
+            "and on interfaces, and without a net force at tips of cracks along rows of nodes. "
+            "automatic: published; in 'plumbline grow' Fracture/surface terms decides.");
+        keys.add("dilatation in interaction domain", material.has_collar_dilatation, "zero",
+                 "from data",
+                 "theta in the interaction domain, for state-based solids on scattered nodes: from "
+                 "data, or zero, which is wrong and demonstrates the size of this error.");
       }
 
       physics::Mean mean() const override { return physics::Mean::harmonic; }
@@ -144,7 +147,10 @@ namespace plumbline::scene
     {
     public:
       std::string name() const override { return "variational"; }
-      std::string help() const override { return "constants at one point"; }
+      std::string help() const override
+      {
+        return "the variational model, with constants at one point";
+      }
 
       Capabilities can() const override
       {
@@ -154,7 +160,7 @@ namespace plumbline::scene
       std::map<std::string, Settings> templates() const override
       {
         return {{"variational",
-                 {{"Purpose", "A bar that is held on the left and pulled on the right."},
+                 {{"Purpose", "A bar constrained on the left and pulled on the right."},
                   {"Domain/boxes", "0, 0 : 2, 1"},
                   {"Domain/boundary", "free"},
                   {"Domain/fixed", "0, 0 : 0.1, 1"},
@@ -179,8 +185,9 @@ namespace plumbline::scene
       void declare(Keys &keys, MaterialSection &material) const override
       {
         keys.add("k", material.given[2][0],
-                 "lambda + mu > 0 of the variational model, instead. [force/length^2]");
-        keys.add("l", material.given[2][1], "8 mu > 0, given with k. [force/length^2]");
+                 "lambda + mu > 0 of the variational model, instead of E and nu. [force/length^2]");
+        keys.add("l", material.given[2][1],
+                 "8 mu > 0 of the variational model, given with k. [force/length^2]");
       }
     };
   } // namespace

@@ -15,7 +15,7 @@ namespace plumbline::scene
   {
     using Words = std::vector<std::string>;
 
-    /// The verdicts that there are; none: numbers are expected.
+    /// Possible verdicts; empty: numbers are expected.
     Words verdicts(ExpectedKind kind)
     {
       switch (kind)
@@ -120,21 +120,22 @@ namespace plumbline::scene
         "'method[, case][, series]: verdict' separated by ';', e.g. 'IPA-AC: not AC; Q1: AC'.");
     add(ExpectedKind::errors,
         "'method[, case][, series]: e0 e1 ...', the decisive error at each level.");
-    keys.add("error tolerance", error_tolerance, positive(), "Relative, of Expected/errors.");
-    add(ExpectedKind::rates,
-        "'method[, case][, series]: p', the observed rate between the two finest levels.");
+    keys.add("error tolerance", error_tolerance, positive(),
+             "Relative tolerance of Expected/errors.");
+    add(ExpectedKind::rates, "'method[, case][, series]: p', the observed order of convergence "
+                             "between the two finest levels.");
     keys.add("rate tolerance", rate_tolerance, positive(),
-             "Absolute, of Expected/rates and of rates in Expected/strip.");
+             "Absolute tolerance of Expected/rates and of the rates in Expected/strip.");
     add(ExpectedKind::bounds,
         "'method[, case][, series]: e', the decisive error stays below e at every level.");
     add(ExpectedKind::monotone, "'method[, case][, series]: yes' or 'no', whether the decisive "
-                                "error falls from every level to the next.");
+                                "error decreases from every level to the next.");
     add(ExpectedKind::jitter,
-        "'method[, case][, series]: least most', bounds of the sum of all rises of the decisive "
-        "error from a level to the next, over its first value; 0 where it falls throughout.");
-    add(ExpectedKind::orders,
-        "'method, scheme: p', the order of a scheme in time at the finest level, over Time/steps "
-        "or critical fractions.");
+        "'method[, case][, series]: minimum maximum', bounds of the sum of all increases of the "
+        "decisive error between consecutive levels, relative to its first value; 0 if the error "
+        "decreases monotonically.");
+    add(ExpectedKind::orders, "'method, scheme: p', the observed order in time of a scheme at the "
+                              "finest level, from Time/steps or Time/critical fractions.");
     keys.add(
         "crack", crack,
         "Expected outcome of 'plumbline crack': arrests, runs, branches, or too short to tell (the "
@@ -142,37 +143,37 @@ namespace plumbline::scene
     keys.add(
         "growth", "", any_text(), [this](const std::string &text) { growth = to_growth(text); },
         "'quantity: value' separated by ';', of 'plumbline grow': " + growth_words() +
-            ", to Expected/error tolerance.");
+            "; the tolerance is Expected/error tolerance.");
     keys.add("growth ends", growth_end,
-             "Of 'plumbline grow': parted, no path of bonds joins two grips; unloaded, at "
-             "Fracture/least reaction; loaded, at Fracture/largest load; whole, no bond is left "
-             "that can break; unknown: nothing is expected.");
+             "Reason why 'plumbline grow' ends. separated: no path of bonds connects two grips. "
+             "unloaded: Fracture/min reaction is reached. loaded: Fracture/max load is reached. "
+             "whole: no further bond can break. unknown: no expectation.");
     add(ExpectedKind::stability,
-        "'method: stable', 'conditionally stable' or 'unstable', of 'plumbline stability'.");
+        "'method: VERDICT' of 'plumbline stability': stable, conditionally stable or unstable.");
     add(ExpectedKind::sampling,
-        "'method, quantity: value' of 'plumbline sample', of the largest set of samples at the "
-        "finest level, to Expected/error tolerance; quantities as its table calls them, or "
-        "variance kept, the share of a field's modes.");
+        "'method, quantity: value' of 'plumbline sample', from the largest set of samples at the "
+        "finest level, to Expected/error tolerance; quantities as named in its table, or variance "
+        "kept, the fraction of a field's variance in its modes.");
     add(ExpectedKind::strip,
         "'method, quantity[, series]: q0 q1 ...' of 'plumbline strip' at each level, to "
-        "Expected/error tolerance; quantities are W1, tip energy, opening, G (over what is "
-        "exact locally; of Strip/edges = K field), and their limits and observed rates, "
-        "e.g. tip energy limit and tip energy rate, which are one number; rates to "
-        "Expected/rate tolerance.");
+        "Expected/error tolerance. Quantities: W1, tip energy, opening, G (relative to the local "
+        "exact value; for Strip/edges = K field), and, as one number each, their limits and "
+        "observed orders, e.g. tip energy limit and tip energy rate; orders to Expected/rate "
+        "tolerance.");
     add(ExpectedKind::values,
-        "'method, quantity[, series]: v0 v1 ...', the value of any quantity that an analysis "
-        "records (see its JSON file), at each level, to Expected/error tolerance.");
-    add(ExpectedKind::growth,
-        "'method: d': growth rates that 'plumbline stability' observes on strained double wells "
-        "differ from the symbol's by no more than d of the largest.");
+        "'method, quantity[, series]: v0 v1 ...': the value of any quantity that an analysis "
+        "records (see its JSON file) at each level, to Expected/error tolerance.");
+    add(ExpectedKind::growth, "'method: d': growth rates of waves on uniformly strained "
+                              "double-well bonds, observed by 'plumbline stability', differ from "
+                              "those of the symbol by at most d times the largest rate.");
   }
 
   void ExpectedSection::complete(const std::vector<std::string> &cases) const
   {
     for (const Expected &one : all)
       if (one.kind != ExpectedKind::orders && one.kind != ExpectedKind::sampling &&
-          one.kind != ExpectedKind::strip && one.kind != ExpectedKind::values && !one.problem.empty() &&
-          std::find(cases.begin(), cases.end(), one.problem) == cases.end())
+          one.kind != ExpectedKind::strip && one.kind != ExpectedKind::values &&
+          !one.problem.empty() && std::find(cases.begin(), cases.end(), one.problem) == cases.end())
         throw InputError("Expected/" + base::word(one.kind) + ": '" + one.problem + "' in '" +
                          one.text + "' is neither a case of Problem nor a series like 'm = 3'");
   }

@@ -1,5 +1,5 @@
-#include "base/error.h"
 #include "base/csv.h"
+#include "base/error.h"
 #include "scene/keys.h"
 #include "scene/problem_sections.h"
 #include "scene/values.h"
@@ -24,10 +24,10 @@ namespace plumbline::scene
     keys.add("limit", limit,
              "The local operator that the kernel is scaled to as the horizon tends to 0: -1/2 "
              "Laplace (the moment of xi_1^2 is 1), -Laplace, Navier with 'bulk modulus' (bond "
-             "tensors), or none: 'constant' is taken as it is.");
+             "tensors), or none: 'constant' is used as given.");
     keys.add("bulk modulus", bulk_modulus, positive(),
              "kappa of bond tensors; lambda = mu = 3 kappa / 5 (plane strain). [force/length^2]");
-    keys.add("constant", constant, any_number(), "The factor c where limit = none.");
+    keys.add("constant", constant, any_number(), "The factor c if limit = none.");
     keys.add("coefficients", coefficients, numbers(),
              "a_0, a_1, ... of the profile p(t) = a_0 + a_1 t + ..., t = r / horizon, of "
              "polynomial kernels.");
@@ -44,8 +44,8 @@ namespace plumbline::scene
         "r "
         "/ horizon.");
     keys.add("table file", table_file,
-             "Of kernels given as a table: a .csv file with the columns t = r / horizon, from 0 to "
-             "1, and rho. Linear between its rows, of which there are 1000 at most.");
+             "For tabulated kernels: a .csv file with the columns t = r / horizon, from 0 to 1, "
+             "and rho; piecewise linear interpolation, 1000 rows at most.");
     keys.add("coefficient", coefficient,
              "a > 0 of a kernel a C: an expression in x and y. Empty: homogeneous. Needs a mesh.");
     keys.add(
@@ -56,10 +56,10 @@ namespace plumbline::scene
           for (const NamedExpression &one : to_named_expressions(text))
             materials.push_back({one.name, to_number(one.expression)});
         },
-        "The same by the physical surfaces of a gmsh file: 'omega_steel: 5; omega_resin: 1; "
+        "The coefficient a by physical surface of a gmsh file: 'omega_steel: 5; omega_resin: 1; "
         "collar: 1', a positive number for each.");
     keys.add("symmetrisation", symmetrisation,
-             "The mean of the coefficients at both ends of a bond.");
+             "Mean of the coefficients at the two ends of a bond.");
   }
 
   namespace
@@ -95,7 +95,7 @@ namespace plumbline::scene
         throw InputError("Kernel/" + std::string(key) + " is for " + types_with(key) +
                          ", but Kernel/type = '" + type + "'; clear it or choose one of them");
       if (!is_given && known.key == key)
-        throw InputError("Kernel/type = '" + type + "' needs its profile; give Kernel/" + key);
+        throw InputError("Kernel/type = '" + type + "' needs a profile; give Kernel/" + key);
     }
     profile = known.profile;
     if (known.make == nullptr)

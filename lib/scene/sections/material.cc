@@ -62,7 +62,8 @@ namespace plumbline::scene
           message << " at (" << x << ")";
         message << ": " << error.what();
         if (!material.is_homogeneous)
-          message << "; give constants that are right at every point, for each phase its own";
+          message << "; give constants that are admissible at every point, different ones for each "
+                     "phase";
         throw InputError(message.str());
       }
     };
@@ -87,8 +88,8 @@ namespace plumbline::scene
           model = *std::find_if(models().begin(), models().end(),
                                 [&](const Model *one) { return one->name() == text; });
         },
-        help + "All but the first take Kernel/type as their influence function, with Kernel/limit "
-               "= Navier.");
+        help + "All but the first use Kernel/type as the influence function, with Kernel/limit = "
+               "Navier.");
     for (const Model *const one : models())
       one->declare(by_name, *this);
   }

@@ -18,25 +18,25 @@ namespace plumbline::scene
   {
     keys.add(
         "names", "", any_text(), [this](const std::string &text) { names = to_methods(text); },
-        "Methods to compare, separated by ','; 'all' takes those that can do the scene. See "
-        "'plumbline list methods'. What IPA-AC takes at the centroid of ball and cell, everything "
-        "else being taken at the node: scalar kernels and bond tensors, the kernel with its "
-        "direction; double wells in the plane, J, r and e; on a line, J alone; LPS (run, grow), "
-        "the influence function and the direction of bond forces, not the dilatation or the "
-        "stretch at which bonds break; variational, the influence function alone. IPA-AC-R2 and "
-        "IPA-AC-R4 do so for scalar kernels; they take tensors, double wells and LPS at the "
-        "node.");
+        "Methods to compare, separated by ','; 'all' selects every method that supports the scene. "
+        "See 'plumbline list methods'. IPA-AC evaluates these quantities at the centroid of the "
+        "intersection of ball and cell, and all others at the node: for scalar kernels and bond "
+        "tensors, the kernel with its direction; for double-well bonds in the plane, J, r and e, "
+        "on a line J alone; for LPS (run, grow), the influence function and the direction of bond "
+        "forces, but not the dilatation or the stretch that breaks bonds; for the variational "
+        "model, the influence function alone. IPA-AC-R2 and IPA-AC-R4 do so for scalar kernels; "
+        "they evaluate tensors, double wells and LPS at the node.");
     keys.add("nodes", nodes.name,
-             "Meshfree nodes: centres of lattice cells, vertices (of a lattice, the boundary among "
-             "the data), mesh (centroids of its cells), or a file .csv with columns x and y, one "
-             "for each level if "
-             "{h} is in its name (pd_{h}.csv: pd_0.05.csv at h = 0.05). On meshes their cells are "
-             "Voronoi cells.");
+             "Meshfree nodes: centres of lattice cells, vertices (of a lattice, with constrained "
+             "nodes on the boundary), mesh (centroids of mesh cells), or a .csv file with columns "
+             "x and y; {h} in its name selects one file for each level (pd_{h}.csv: pd_0.05.csv at "
+             "h = 0.05). On meshes the node cells are Voronoi cells.");
     keys.add("perturbation", nodes.perturbation, between(0, .49),
-             "Centres are moved at random by up to so many h in x and in y (Geometry/seed). Needs "
-             "a mesh.");
+             "Random displacement of centres by up to this multiple of h in x and in y "
+             "(Geometry/seed). Needs a mesh.");
     keys.add("load", loads_are_averages, "nodes", "cells",
-             "Meshfree right-hand sides: the load at the nodes, or its averages over their cells.");
+             "Right-hand sides of meshfree methods: the load at the nodes, or its averages over "
+             "the node cells.");
   }
 
   void MethodsSection::complete() const

@@ -11,10 +11,10 @@ namespace plumbline::scene
         "solution", "", any_text(),
         [this](const std::string &text) { solutions = to_named_expressions(text); },
         "The exact nonlocal solution: a muParser expression in x, y and delta (the horizon), "
-        "and t where the scene moves (Time/final time), components separated by ','; several cases "
-        "as 'name: expression; name: expression'. weierstrass(x, gamma, n) is a sum of n + 1 waves "
-        "of Hoelder exponent gamma, weierstrass_mean(x, gamma, n, width) its average about x. "
-        "Empty: not known.");
+        "and t in transient analyses (Time/final time), components separated by ','; several cases "
+        "as 'name: expression; name: expression'. weierstrass(x, gamma, n) is a Weierstrass sum of "
+        "n + 1 waves with Hoelder exponent gamma, weierstrass_mean(x, gamma, n, width) its average "
+        "over an interval of that width centred at x. Empty: not known.");
     keys.add(
         "load", manufactured, any_text(),
         [this, manufactured](const std::string &text) {
@@ -23,8 +23,8 @@ namespace plumbline::scene
         },
         "The body load b: manufactured (the nonlocal operator applied to the solution), or "
         "expressions written like the solution. Loads with jumps or kinks are integrated over "
-        "parts of cells. Integrals may miss features narrower than a seventh of a cell, and rules "
-        "that evaluate at nodes miss features between nodes.");
+        "subdivided cells. Integrals may miss features narrower than a seventh of a cell, and "
+        "rules that evaluate at nodes miss features between nodes.");
     keys.add(
         "constraint", solution, any_text(),
         [this, solution](const std::string &text)
@@ -33,8 +33,9 @@ namespace plumbline::scene
           if (text != solution)
             constraint = text;
         },
-        "u in the collar: solution, or an expression. Taken at nodes: DGQ0 and DGP0 hold its value "
-        "at the centre of each cell, as one-point rules do, not its average.");
+        "u in the interaction domain: solution, or an expression. It is evaluated at nodes: DGQ0 "
+        "and DGP0 use its value at the centre of each cell, as one-point rules do, not its "
+        "average.");
     keys.add(
         "local solution", solution, any_text(),
         [this](const std::string &text)
@@ -42,8 +43,8 @@ namespace plumbline::scene
           local_solution = base::from_word<LocalSolution>(text).value_or(LocalSolution::expression);
           local_expression = local_solution == LocalSolution::expression ? text : "";
         },
-        "The solution of the local limit: solution (where it does not depend on the horizon), "
-        "none, computed (by classical finite elements; needs a mesh), or an expression.");
+        "Solution of the local limit: solution (if it does not depend on the horizon), none, "
+        "computed (by classical finite elements; needs a mesh), or an expression.");
   }
 
   std::vector<std::string> ProblemSection::case_names() const

@@ -55,7 +55,7 @@ namespace plumbline::scene
                       [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
       if (!is_name)
         throw InputError("'" + variable.name +
-                         "' is no name; write a letter, then letters, digits and '_'");
+                         "' is not a name; write a letter, then letters, digits and '_'");
       return variable;
     }
 
@@ -112,7 +112,7 @@ namespace plumbline::scene
               variables.push_back(to_variable(part));
         },
         "Independent random variables that expressions of Material, Kernel, Problem and Fracture "
-        "may name: 'name: normal MEAN DEVIATION' (0 and 1 if left out) or 'name: uniform LOWEST "
+        "may use: 'name: normal MEAN DEVIATION' (0 and 1 if left out) or 'name: uniform LOWEST "
         "HIGHEST' (-1 and 1), separated by ';'.");
     keys.add(
         "keys", "", any_text(),
@@ -123,20 +123,17 @@ namespace plumbline::scene
             if (!part.empty())
               random_keys.push_back(to_random_key(part));
         },
-        "Other keys whose numbers are random: 'Section/key: expression' of the variables, "
-        "separated "
-        "by ';', e.g. 'Crack/load: 1 + 0.05*a'. They are read as if they stood in the scene.");
-    keys.add(
-        "values", values, numbers(),
-        "At which the scene is taken, one for each variable, then one for each mode; 'plumbline "
-        "sample' takes many. Empty: their means.");
-    keys.add(
-        "field", field,
-        "A random field, R in the same expressions. exponential, separable exponential, Gaussian, "
-        "Matern: of Karhunen and Loeve's modes of such a covariance. ellipses: 1 in ellipses that "
-        "lie at random, else 0, drawn whole, or, with Random/modes, of the principal components "
-        "of many. files: those of Random/files, one drawn whole, or of their principal "
-        "components.");
+        "Further keys with random numbers: 'Section/key: expression' in the variables, separated "
+        "by ';', e.g. 'Crack/load: 1 + 0.05*a'. The values are read as if the scene gave them.");
+    keys.add("values", values, numbers(),
+             "Values of the random variables, one for each variable, then one for each mode; "
+             "'plumbline sample' varies them. Empty: their means.");
+    keys.add("field", field,
+             "A random field, called R in these expressions. exponential, separable exponential, "
+             "Gaussian, Matern: truncated Karhunen-Loeve expansion of the covariance. ellipses: 1 "
+             "in randomly placed ellipses, else 0; complete realisations, or, with Random/modes, "
+             "an expansion in the principal components of many. files: the fields of Random/files, "
+             "as complete realisations or expanded in their principal components.");
     keys.add("modes", n_modes, count(0, 10000),
              "Of the field, each a standard normal variable after Random/variables; 0: it is drawn "
              "whole (ellipses, files). Of n files n - 1 at most.");
@@ -158,19 +155,21 @@ namespace plumbline::scene
     keys.add(
         "length", "1", any_text(), [this](const std::string &text) { length = to_pair(text); },
         "Correlation length > 0, or two, along x and y, separated by ','. [length]");
-    keys.add("smoothness", smoothness, any_number(),
-             "nu > 0 of Matern: 0.5 is exponential, large ones are Gaussian.");
-    keys.add("fraction", fraction, between(0, 1), "Of the area that lies in ellipses, on average.");
+    keys.add(
+        "smoothness", smoothness, any_number(),
+        "nu > 0 of the Matern covariance: 0.5 is exponential, the limit of large nu is Gaussian.");
+    keys.add("fraction", fraction, between(0, 1), "Expected area fraction of the ellipses.");
     keys.add(
         "semi-axes", "1, 1", any_text(),
         [this](const std::string &text) { semi_axes = to_pair(text); },
-        "Of ellipses, two numbers > 0 separated by ','. [length]");
+        "Semi-axes of the ellipses, two numbers > 0 separated by ','. [length]");
     keys.add("overlap", may_overlap, "no", "yes", "Whether ellipses may overlap.");
     keys.add("realisation", realisation, count(0),
-             "Which of the fields that are drawn whole; 'plumbline sample' takes many.");
-    keys.add("realisations", n_realisations, count(2, 1000000),
-             "Of ellipses, that principal components are found from.");
-    keys.add("seed", seed, count(0), "Of random fields.");
+             "Number of the realisation of ellipses or files; 'plumbline sample' draws many.");
+    keys.add(
+        "realisations", n_realisations, count(2, 1000000),
+        "Number of realisations of ellipses from which the principal components are computed.");
+    keys.add("seed", seed, count(0), "Seed of random fields.");
   }
 
   std::vector<Law> RandomSection::laws() const
@@ -211,7 +210,7 @@ namespace plumbline::scene
     for (const Variable &variable : variables)
       require(taken.insert(variable.name).second,
               "Random/variables: '" + variable.name +
-                  "' means something already; take a name of its own");
+                  "' is a reserved or repeated name; choose another");
     const std::size_t n = variables.size() + n_modes;
     require(values.empty() || values.size() == n,
             "Random/values has " + std::to_string(values.size()) + " numbers for " +
@@ -229,7 +228,7 @@ namespace plumbline::scene
       const physics::Expression number("Random/keys: " + one.key, one.expression, of_variables);
       require(number.n_components() == 1 && number.is_constant(),
               "Random/keys: " + one.key + " = '" + one.expression +
-                  "' is no number; write one of Random/variables alone");
+                  "' is not a number; use only constants and Random/variables");
       result.emplace_back(one.key, number({}));
     }
     return result;
@@ -251,13 +250,14 @@ namespace plumbline::scene
                                 " needs a field; give Random/field, or write 0");
       return;
     }
-    require(box.size() <= 1, "Random/box has " + std::to_string(box.size()) +
-                                 " boxes; give one, about the domain and its collar");
+    require(box.size() <= 1,
+            "Random/box has " + std::to_string(box.size()) +
+                " boxes; give one that covers the domain and its interaction domain");
     require(!box.empty() || (domain.mesh.is_of_boxes() && domain.mesh.map.empty()),
             "Random/field = " + base::word(field) + " with Domain/mesh = " + domain.mesh.name +
                 (domain.mesh.map.empty() ? "" : " and Domain/map") +
-                " fills a box that is not known before the mesh is made; give Random/box = 'x0, y0 "
-                ": x1, y1'");
+                " needs a box, which is not known before the mesh is made; give Random/box = 'x0, "
+                "y0 : x1, y1'");
     if (!source)
       source = std::make_shared<const RandomField>(
           *this, box.empty() ? bounding_box(domain.boxes) : box.front(), folder);

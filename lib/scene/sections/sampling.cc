@@ -16,7 +16,7 @@ namespace plumbline::scene
       {
         const double number = name.empty() ? -1 : to_number(name);
         if (!(number >= 0 && number <= 1e9) || number != std::floor(number))
-          throw InputError("'" + name + "' is no count; write whole numbers separated by ','");
+          throw InputError("'" + name + "' is not a count; write whole numbers separated by ','");
         counts.push_back(static_cast<unsigned int>(number));
       }
       return counts;
@@ -27,28 +27,27 @@ namespace plumbline::scene
   {
     keys.add(
         "rule", rule,
-        "Where 'plumbline sample' takes the scene. tensor: Gauss points (Hermite, Legendre) in "
-        "each variable. Smolyak: sparse combinations of them, some weights negative. Monte "
-        "Carlo: independent samples. quasi-Monte Carlo: Sobol's points. equidistant: from end to "
-        "end of uniform variables; of one variable, charts of what depends on it.");
+        "Sampling rule of 'plumbline sample'. tensor: tensor products of Gauss rules (Hermite, "
+        "Legendre). Smolyak: sparse grids, with some negative weights. Monte Carlo: independent "
+        "samples. quasi-Monte Carlo: Sobol points. equidistant: equidistant points over the range "
+        "of uniform variables; with one variable, charts show the results as functions of it.");
     keys.add("analysis", analysis,
-             "What is done with a sample. of the scene: statics, a motion (Time), a moving crack "
-             "(Crack), growth (Fracture) or a standing crack (Strip), as the scene has it; "
-             "stability, dispersion: what these commands measure.");
+             "Analysis of each sample. scene: the analysis that the scene defines: statics, "
+             "transient (Time), dynamic fracture (Crack), quasi-static fracture (Fracture) or "
+             "stationary crack (Strip). stability, dispersion: the analyses of these commands.");
     keys.add(
         "counts", "", any_text(), [this](const std::string &text) { counts = to_counts(text); },
-        "Of each set of samples, few to many: points a variable (tensor, equidistant), levels 0, "
-        "1, ... "
-        "(Smolyak), or samples.");
+        "Size of each set of samples, increasing: points per variable (tensor, equidistant), "
+        "levels 0, 1, ... (Smolyak), or number of samples.");
     keys.add(
         "modes", "", any_text(), [this](const std::string &text) { modes = to_counts(text); },
-        "How many of Random/modes vary, few to many, the others 0: each with every count. Empty: "
-        "all.");
+        "Numbers of modes (Random/modes) that vary, increasing, each combined with every count; "
+        "the other modes are 0. Empty: all vary.");
     keys.add("growth", growth,
-             "Points of a variable at level l of Smolyak's rule: linear, l Gauss points (l = 1 at "
-             "level 0); odd, 2l - 1; doubling, 2^l - 1; nested, 1, 3, 5, 9, ... points of Clenshaw "
-             "and Curtis for uniform variables, 1, 3, 9, 19, 35 of Genz and Keister for normal "
-             "ones.");
-    keys.add("seed", seed, count(0), "Of random numbers; the same seed gives the same samples.");
+             "Points per variable at level l of the Smolyak rule: linear, l Gauss points (l = 1 at "
+             "level 0); odd, 2l - 1; doubling, 2^l - 1; nested, 1, 3, 5, 9, ... Clenshaw-Curtis "
+             "points for uniform variables, 1, 3, 9, 19, 35 Genz-Keister points for normal ones.");
+    keys.add("seed", seed, count(0),
+             "Seed of the random numbers; the same seed gives the same samples.");
   }
 } // namespace plumbline::scene

@@ -18,7 +18,7 @@ namespace plumbline::scene
         const auto norm = base::from_word<Norm>(name);
         if (!norm)
           throw InputError("'" + name +
-                           "' is not a norm; choose of nodal Linf, nodal L2, averages Linf, "
+                           "' is not a norm; choose from nodal Linf, nodal L2, averages Linf, "
                            "averages L2, field Linf, field L2");
         norms.push_back(*norm);
       }
@@ -33,7 +33,7 @@ namespace plumbline::scene
       if (parts.size() != 2 || !norm || !target)
         throw InputError("'" + text +
                          "' must be 'norm | target' with a norm of Study/norms (add it there) and "
-                         "a target of exact, local, reference, own finest level");
+                         "a target, one of exact, local, reference, own finest level");
       return {*norm, *target};
     }
 
@@ -76,21 +76,22 @@ namespace plumbline::scene
              "Ratios horizon / h, real numbers >= 1 (delta, delta-m, variable).");
     keys.add("horizon", horizon, positive_numbers(), "Horizons (m, horizon). [length]");
     keys.add("variable", variable,
-             "Name of one of Random/variables, which stands for any number of the scene: in "
+             "Name of one of Random/variables, which can replace any number of the scene: in "
              "expressions, or in other keys by Random/keys, e.g. 'Time/steps: dt'.");
-    keys.add("values", values, numbers(), "Of Study/variable, separated by ',', rising.");
+    keys.add("values", values, numbers(),
+             "Values of Study/variable, separated by ',', increasing.");
     keys.add(
         "norms", "nodal Linf, averages L2, field L2", any_text(),
         [this](const std::string &text) { norms = to_norms(text); },
-        "Of nodal Linf, nodal L2 (at the method's own nodes, which all count alike: sqrt(area * "
-        "mean e^2)), averages Linf, averages L2 (cell averages of the solution; each counts by its "
-        "area), field Linf, field L2 (of the function), separated by ','.");
+        "Error norms, separated by ',': nodal Linf, nodal L2 (at the method's own nodes with equal "
+        "weights: sqrt(area * mean e^2)), averages Linf, averages L2 (cell averages of the "
+        "solution, weighted by area), field Linf, field L2 (of the function).");
     keys.add(
         "decisive error", decisive_error.text(), any_text(),
         [this](const std::string &text) { decisive_error = to_decisive_error(text); },
-        "The 'norm | target' that verdicts rest on; targets: exact, local, reference, "
-        "own finest level (of averages, for scenes without any other: has a method a limit? Its "
-        "levels should halve h, since others' cells are not parts of each other).");
+        "The error that decides the verdicts, as 'norm | target'. Targets: exact, local, "
+        "reference, own finest level (self-convergence in cell averages, for scenes without "
+        "another target; each level should halve h, so that cells are nested).");
   }
 
   void StudySection::complete()

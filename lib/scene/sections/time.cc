@@ -11,33 +11,34 @@ namespace plumbline::scene
   void TimeSection::declare(Keys &keys)
   {
     keys.add("final time", final_time, any_number(),
-             "T > 0 of a scene that moves: rho u'' = F(u) + b - eta rho u' from t = 0 to T, and "
-             "expressions may have t in them. 0: statics. [time]");
+             "Final time T > 0 of a transient analysis: rho u'' = F(u) + b - eta rho u' from t = 0 "
+             "to T; expressions may depend on t. 0: statics. [time]");
     keys.add(
         "schemes", schemes.front(), any_text(),
         [this](const std::string &text) { schemes = to_names(text); },
-        "Time-stepping schemes, separated by ',': explicit Euler (there to fail), symplectic "
-        "Euler, velocity Verlet, Blanes-Moan (order 4), trapezoidal, implicit Euler, Runge-Kutta "
-        "(steps of its own).");
+        "Time-stepping schemes, separated by ',': explicit Euler (unstable, for demonstration), "
+        "symplectic Euler, velocity Verlet, Blanes-Moan (order 4), trapezoidal, implicit Euler, "
+        "Runge-Kutta (adaptive steps).");
     keys.add("steps", steps, numbers(),
-             "Time steps, separated by ',', long to short. Empty: critical fractions. [time]");
+             "Time steps, separated by ',', decreasing. Empty: see critical fractions. [time]");
     keys.add("critical fractions", fractions, numbers(),
-             "Time steps as parts of the longest stable one of scheme, method and level; implicit "
-             "schemes and Runge-Kutta, which have none, take that of velocity Verlet.");
+             "Time steps as fractions of the critical time step of scheme, method and level; "
+             "implicit schemes and Runge-Kutta, which have none, use that of velocity Verlet.");
     keys.add("density", density, any_number(), "rho > 0. [mass/length^2]");
     keys.add("damping", damping, any_number(), "eta >= 0. [1/time]");
     keys.add("initial displacement", initial_displacement,
-             "u at t = 0, expressions in x, y, delta and h (the mesh size). Empty: of "
+             "u at t = 0, expressions in x, y, delta and h (the mesh size). Empty: from "
              "Problem/solution.");
     keys.add("initial velocity", initial_velocity,
-             "u' at t = 0, expressions in x, y, delta and h. Empty: of Problem/solution, or 0.");
+             "u' at t = 0, expressions in x, y, delta and h. Empty: from Problem/solution, or 0.");
     keys.add("show blow-up", shows_blow_up, yes_or_no(),
-             "Take steps of explicit schemes that are longer than the critical one, and show what "
-             "becomes of it; else they are refused.");
+             "Permit steps of explicit schemes that exceed the critical time step, to show the "
+             "instability; otherwise they are refused.");
     keys.add("mass", is_lumped, "consistent", "lumped",
-             "Of Galerkin methods: the mass matrix, solved exactly, or its scaled diagonal.");
+             "Mass matrix of Galerkin methods: consistent, solved exactly, or lumped, its scaled "
+             "diagonal.");
     keys.add("frames", n_frames, count(0, 100000),
-             "States to write as VTU, at equal distances of time, with a PVD file; of each method "
+             "Number of equidistant states written as VTU files, with a PVD file, for each method "
              "at the finest level with the first scheme and the shortest step.");
   }
 
@@ -50,23 +51,23 @@ namespace plumbline::scene
         throw InputError("Time/" + key + " = " + short_number(value) + " " + otherwise);
     };
     require(final_time >= 0 && std::isfinite(final_time), "final time", final_time,
-            "lies before the start at t = 0; give a time > 0, or 0 for statics");
+            "must be positive and finite; give a time > 0, or 0 for statics");
     require(density > 0 && std::isfinite(density), "density", density,
-            "must be positive and finite; give the mass of a unit of area");
+            "must be positive and finite; give the mass per unit area");
     require(damping >= 0 && std::isfinite(damping), "damping", damping,
-            "would feed energy in; give a rate >= 0");
+            "must not be negative, which would add energy; give a rate >= 0");
     for (const double step : steps)
       require(step > 0 && std::isfinite(step), "steps", step, "must be positive; give a time > 0");
     for (const double fraction : fractions)
       require(fraction > 0 && std::isfinite(fraction), "critical fractions", fraction,
-              "must be positive; give a part of the critical step such as 0.5");
+              "must be positive; give a fraction of the critical step such as 0.5");
     const std::vector<double> &given = steps.empty() ? fractions : steps;
     const std::string key = steps.empty() ? "critical fractions" : "steps";
     if (given.empty() || schemes.empty())
-      throw InputError("Time/steps and Time/critical fractions, or Time/schemes are empty; give "
-                       "at least one scheme and one step");
+      throw InputError("Time/steps and Time/critical fractions are both empty, or Time/schemes is; "
+                       "give at least one scheme and one step");
     for (std::size_t i = 1; i < given.size(); ++i)
       require(given[i] < given[i - 1], key, given[i],
-              "stands behind a shorter or equal one; write them from long to short");
+              "follows a shorter or equal one; write steps in decreasing order");
   }
 } // namespace plumbline::scene

@@ -91,8 +91,8 @@ namespace anisotropic
                                                          const base::Communicator &) const override
       {
         const auto bonds =
-            meshfree::lattice_bonds(rule_.of(problem.kernel), problem.kernel, problem.lattice->h(),
-                                    problem.settings.geometry.backend);
+            meshfree::lattice_bonds(rule_.of(problem.kernel), problem.kernel,
+                                    problem.lattice()->h(), problem.settings.geometry.backend);
         return std::make_unique<Discretisation>(problem, bonds, a_);
       }
 

@@ -1,4 +1,4 @@
-#include "scene/manufactured_load.h"
+#include "problem/manufactured_load.h"
 
 #include "physics/double_well_load.h"
 #include "physics/load.h"
@@ -11,13 +11,12 @@
 #include <stdexcept>
 #include <utility>
 
-namespace plumbline::scene
+namespace plumbline::problem
 {
   namespace
   {
     using dealii::Point;
     using physics::ChebyshevField;
-    using physics::Expression;
     using physics::FewestRadii;
     using physics::Panels;
     using Function = ChebyshevField::Function;
@@ -53,7 +52,7 @@ namespace plumbline::scene
     }
 
     /// The largest value of a field over the samples: for noise levels.
-    double magnitude(const Field &field, unsigned int n_components, const Extent &extent)
+    double magnitude(const Field<2> &field, unsigned int n_components, const Extent &extent)
     {
       double largest = 0;
       for (const Point<2> &x : extent.samples)
@@ -157,7 +156,7 @@ namespace plumbline::scene
     struct WellLoad
     {
       physics::WellForce<dim> force;
-      Expression u;
+      Function u;
       mutable std::map<std::pair<double, double>, dealii::Tensor<1, dim>> known;
 
       double operator()(const Point<2> &x, unsigned int component) const
@@ -185,16 +184,16 @@ namespace plumbline::scene
 
     /// By enough points for a field that is a polynomial of this degree in a ball: the 12 radii and
     /// 32 angles of WellForce are for 12.
-    Function well_load(const Problem &problem, const Expression &u, unsigned int degree)
+    Function well_load(const Problem<2> &problem, const Function &u, unsigned int degree)
     {
       const unsigned int n_radii = std::max(12u, degree), n_angles = std::max(32u, 3 * degree);
-      if (problem.dimension == 1)
+      if (problem.dimension() == 1)
         return WellLoad<1>{physics::WellForce<1>(*problem.double_well, n_radii, n_angles), u, {}};
       return WellLoad<2>{physics::WellForce<2>(*problem.double_well, n_radii, n_angles), u, {}};
     }
 
     /// What varies in the material of a problem, of so many components.
-    std::pair<Function, unsigned int> material_of(const Problem &problem)
+    std::pair<Function, unsigned int> material_of(const Problem<2> &problem)
     {
       if (problem.dilatation && !problem.dilatation->is_homogeneous)
         return {[material = problem.dilatation->material](const Point<2> &x, unsigned int c)
@@ -209,7 +208,7 @@ namespace plumbline::scene
     }
 
     /// θ of a field, as a series where it is smooth: a load asks for it all over the ball.
-    std::function<double(const Point<2> &)> dilatation_of(const Expression &u,
+    std::function<double(const Point<2> &)> dilatation_of(const Function &u,
                                                           const physics::Dilatation &dilatation,
                                                           const Ingredients &of, double noise)
     {
@@ -224,7 +223,7 @@ namespace plumbline::scene
     }
 
     /// Of bonds, and of dilatations, whose forces reach two horizons.
-    Function linear_load(const Problem &problem, const Expression &u, const Ingredients &of,
+    Function linear_load(const Problem<2> &problem, const Function &u, const Ingredients &of,
                          const FewestRadii &fewest, double magnitude)
     {
       const physics::ManufacturedLoad bonds(problem.kernel, u, problem.coefficient, fewest);
@@ -240,21 +239,21 @@ namespace plumbline::scene
     }
   } // namespace
 
-  Extent extent(const Problem &problem)
+  Extent extent(const Problem<2> &problem)
   {
     Extent result;
     result.h = problem.h;
-    if (problem.lattice)
+    if (const geometry::Lattice *lattice = problem.lattice())
     {
-      const auto &n = problem.lattice->n_cells();
-      result.box = {problem.lattice->origin(), problem.lattice->point(n[0], n[1])};
-      result.is_rectangle = problem.lattice->is_rectangle();
-      find_samples(*problem.lattice, result.samples);
+      const auto &n = lattice->n_cells();
+      result.box = {lattice->origin(), lattice->point(n[0], n[1])};
+      result.is_rectangle = lattice->is_rectangle();
+      find_samples(*lattice, result.samples);
     }
     else
     {
-      result.box = geometry::bounding_box(*problem.mesh);
-      find_samples(*problem.mesh, result.samples);
+      result.box = geometry::bounding_box(*problem.mesh());
+      find_samples(*problem.mesh(), result.samples);
     }
     return result;
   }
@@ -277,8 +276,9 @@ namespace plumbline::scene
     return ChebyshevField::resolve(value, n_components, box.lower, box.upper, noise, search);
   }
 
-  Function plain_load(const Problem &problem, const Expression &u)
+  Function plain_load(const Problem<2> &problem)
   {
+    const Function &u = problem.solution->value;
     constexpr unsigned int n_radii = 24;
     if (problem.double_well)
       return well_load(problem, u, n_radii);
@@ -289,16 +289,17 @@ namespace plumbline::scene
         magnitude(*problem.solution, problem.n_components, omega));
   }
 
-  Field manufactured_load(const Problem &problem, const Expression &u, const Extent &extent)
+  Field<2> manufactured_load(const Problem<2> &problem, const Extent &extent)
   {
+    const Function &u = problem.solution->value;
     const unsigned int n_components = problem.n_components;
     const double size = magnitude(*problem.solution, n_components, extent),
                  noise = noise_of(problem.kernel, size), horizon = problem.horizon(),
-                 reach = problem.dilatation ? 2 * horizon : horizon;
+                 reach = problem.reach();
     const auto [material, n_constants] = material_of(problem);
     const Ingredients of{u, n_components, material, n_constants, extent};
     const auto panels = panels_of(of, extent.box, reach);
-    Field load;
+    Field<2> load;
     // an operator smooths, and looking closer would take a ball at each of many points
     load.is_smooth_in_cells = true;
     if (problem.double_well)
@@ -322,4 +323,4 @@ namespace plumbline::scene
     load.fast = by_panels(load.value, n_components, panels, noise);
     return load;
   }
-} // namespace plumbline::scene
+} // namespace plumbline::problem

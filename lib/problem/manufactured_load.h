@@ -1,8 +1,8 @@
 #pragma once
 
-#include "scene/problem.h"
+#include "problem/problem.h"
 
-namespace plumbline::scene
+namespace plumbline::problem
 {
   /// Where Ω is: its bounding box, whether it fills it, and some points of it.
   struct Extent
@@ -13,7 +13,7 @@ namespace plumbline::scene
     std::vector<dealii::Point<2>> samples;
   };
 
-  Extent extent(const Problem &problem);
+  Extent extent(const Problem<2> &problem);
 
   /// The series of a field that is smooth on a box. It is held against the field at one point in
   /// each h of both axes, 100 to 2000 of them along an axis: what is wider than 2 h and 2 % of the
@@ -24,13 +24,12 @@ namespace plumbline::scene
                                                    const geometry::Box &box, const Extent &extent,
                                                    double noise, unsigned int most = 129);
 
-  /// The load of a solution, -F(u) or L u, of an Expression u; by series where it is smooth, on
-  /// panels if need be (physics::Panels).
+  /// The load of the problem's solution, -F(u) or L u; by series where it is smooth, on panels if
+  /// need be (physics::Panels).
   /// @pre  problem.solution
-  Field manufactured_load(const Problem &problem, const physics::Expression &u,
-                          const Extent &extent);
+  Field<2> manufactured_load(const Problem<2> &problem, const Extent &extent);
 
   /// The same without any series, for a few places.
-  physics::ChebyshevField::Function plain_load(const Problem &problem,
-                                               const physics::Expression &u);
-} // namespace plumbline::scene
+  /// @throws NumericalError  when called, as physics::ManufacturedLoad
+  physics::ChebyshevField::Function plain_load(const Problem<2> &problem);
+} // namespace plumbline::problem

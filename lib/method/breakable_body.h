@@ -1,0 +1,28 @@
+#pragma once
+
+#include "method/quasistatic_fracture_model.h"
+
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace plumbline::method
+{
+  /// A body whose bonds can break, with what is known of its nodes and bonds.
+  struct BreakableBody
+  {
+    std::shared_ptr<QuasistaticFractureModel> body;
+    double h = 0; ///< of the lattice [length]
+    std::vector<dealii::Point<2>> nodes;
+    std::vector<double> toughness;                       ///< G of each node [force/length]
+    std::vector<double> toughness_of_bonds;              ///< G of each bond [force/length]
+    std::vector<std::array<unsigned int, 2>> bonds, cut; ///< their nodes; of those the notch cuts
+    dealii::Point<2> notch_tip;
+    bool has_dilatation = false; ///< else bonds are all
+    /// The fraction of each node's bonds that is broken or cut.
+    std::function<std::vector<double>(const std::vector<std::size_t> &broken)> damage;
+  };
+} // namespace plumbline::method

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "geometry/ball_cell.h"
+#include "geometry/cracks.h"
+#include "method/breakable_body.h"
+#include "physics/kernel.h"
+#include "physics/state_based.h"
+#include "problem/fracture.h"
+#include "problem/surface_terms.h"
+
+#include <functional>
+#include <vector>
+
+namespace plumbline::method
+{
+  /// What a body whose bonds break is made of.
+  struct BreakingSolid
+  {
+    geometry::Domain domain; ///< with its grips
+    std::vector<geometry::Box>
+        grips; ///< nodes are constrained whose cell shares area with one of them
+    std::vector<geometry::Box> unbreaking; ///< bonds with an end in them do not break
+    std::vector<geometry::Polyline> notch; ///< what it is cut by from the beginning
+    std::function<dealii::Tensor<1, 2>(const dealii::Point<2> &)>
+        constrained; ///< u in the grips at load 1
+    std::function<physics::Lame(const dealii::Point<2> &)> material;
+    std::function<double(const dealii::Point<2> &)> toughness; ///< G [force/length]
+    /// Published, none or consistent, see meshfree::SurfaceForces; else the forces have an energy.
+    problem::SurfaceTerms surface_terms = problem::SurfaceTerms::uncorrected;
+    bool takes_least_toughness = false; ///< of a bond: of samples along it; else its ends' mean
+    /// A line that bonds across have this G from, across several the smallest.
+    struct Interface
+    {
+      geometry::Polyline line;
+      double toughness = 0; ///< [force/length]
+    };
+    std::vector<Interface> interfaces = {};
+    double trapping = 1; ///< G is divided by it for critical stretches, see problem::Criterion
+  };
+
+  /// What makes bodies whose bonds can break, on the nodes of a lattice.
+  class FractureSolver
+  {
+  public:
+    virtual ~FractureSolver() = default;
+
+    /// @param influence  1/r, ∫K|ξ|² = 2
+    /// @throws InputError  h that does not fit the boxes; grips without a node; G <= 0; a notch
+    /// through a node
+    /// @throws NumericalError  the body is a mechanism
+    virtual BreakableBody breakable_body(const BreakingSolid &solid,
+                                         const physics::Kernel<2> &influence, double h,
+                                         geometry::Backend backend, problem::Stretch stretch,
+                                         problem::GrowthSolver solver) const = 0;
+
+    /// Energy of all bonds across an endless straight line, each at its limit of G = 1, per length.
+    virtual double lattice_toughness(const physics::Kernel<2> &influence, double h,
+                                     geometry::Backend backend) const = 0;
+  };
+} // namespace plumbline::method

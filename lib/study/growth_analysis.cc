@@ -1,0 +1,333 @@
+#include "study/growth_analysis.h"
+
+#include "base/cost.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/number_text.h"
+#include "geometry/crack_tips.h"
+#include "method/fracture_solver.h"
+#include "physics/expression.h"
+#include "scene/origin.h"
+#include "scene/problem.h"
+#include "study/sampling.h"
+#include "study/strip_growth.h"
+#include "study/unseen_features.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::study
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    /// @param trapping  G is divided by it
+    method::BreakingSolid make_solid(const scene::Scene &scene, double horizon, double trapping)
+    {
+      method::BreakingSolid solid;
+      solid.domain = scene.domain.boxes;
+      solid.grips = scene.domain.fixed;
+      solid.unbreaking = scene.fracture.unbreaking;
+      solid.notch = scene.domain.cracks;
+      const physics::Expression constrained("Problem/constraint", *scene.problem.constraint,
+                                            scene.names(horizon)),
+          toughness("Fracture/toughness", scene.fracture.toughness, scene.names(horizon));
+      solid.constrained = [constrained](const Point<2> &x)
+      {
+        Tensor<1, 2> u;
+        for (unsigned int d = 0; d < 2; ++d)
+          u[d] = constrained(x, d);
+        return u;
+      };
+      solid.material = scene.material.lame();
+      solid.surface_terms = scene.fracture.surface_terms;
+      solid.toughness = [toughness](const Point<2> &x) { return toughness(x); };
+      solid.takes_least_toughness = scene.fracture.of_bonds == problem::BondToughness::minimum;
+      for (std::size_t k = 0; k < scene.fracture.interfaces.size(); ++k)
+        solid.interfaces.push_back(
+            {scene.fracture.interfaces[k], scene.fracture.toughness_of_interface(k)});
+      solid.trapping = trapping;
+      return solid;
+    }
+
+    std::string surface_words(problem::SurfaceTerms terms)
+    {
+      switch (terms)
+      {
+      case problem::SurfaceTerms::published:
+        return "with surface terms (Fan et al. 2022, eq. (3.19))";
+      case problem::SurfaceTerms::consistent:
+        return "with consistent surface terms";
+      case problem::SurfaceTerms::none:
+        return "with corrected dilatations, without surface terms";
+      default:
+        return "without surface terms";
+      }
+    }
+
+    /// @param is_bonds  no node has a dilatation
+    std::string model_words(const scene::Scene &scene, bool is_bonds)
+    {
+      if (is_bonds && !scene.fracture.is_corrected())
+        return "bond-based: for lambda = mu the dilatation term vanishes";
+      return std::string(is_bonds ? "bonds (lambda = mu) " : "LPS ") +
+             surface_words(scene.fracture.surface_terms) +
+             (scene.material.is_homogeneous ? ""
+                                            : ", each node's dilatation with its own constants");
+    }
+
+    /// By what G is to be divided for a crack to go on at G in this lattice: the largest energy,
+    /// over G, that one needs in a strip whose height is eight horizons.
+    double find_trapping(const scene::Scene &scene, const Method &method,
+                         const physics::Kernel<2> &influence, double h)
+    {
+      const int m = static_cast<int>(std::ceil(influence.horizon() / h - 1e-9)), height = 8 * m;
+      const physics::Lame lame = scene.material.lame()(scene.domain.cracks.front().back());
+      // as far from the left end as the crack is long, farther from the right one
+      return grow_through_strip(*method.strip_solver(),
+                                {{height, 5 * height, 2 * height, h, {}},
+                                 4,
+                                 lame,
+                                 scene.fracture.surface_terms,
+                                 scene.geometry.backend},
+                                influence)
+          ->peak;
+    }
+
+    /// y in the middle of the body.
+    double middle(const scene::Scene &scene)
+    {
+      double lower = scene.domain.boxes.include.front().lower[1], upper = lower;
+      for (const geometry::Box &box : scene.domain.boxes.include)
+      {
+        lower = std::min(lower, box.lower[1]);
+        upper = std::max(upper, box.upper[1]);
+      }
+      return .5 * (lower + upper);
+    }
+
+    /// The mean of E/(1 - nu²) in plane strain over nodes.
+    double mean_plane_modulus(const scene::Scene &scene, const std::vector<Point<2>> &nodes)
+    {
+      const auto lame = scene.material.lame();
+      double sum = 0;
+      for (const Point<2> &node : nodes)
+      {
+        const physics::Lame at = lame(node);
+        sum += 4 * at.mu * (at.lambda + at.mu) / (at.lambda + 2 * at.mu);
+      }
+      return sum / static_cast<double>(nodes.size());
+    }
+
+    std::vector<double> toughness_of_nodes(const scene::Scene &scene,
+                                           const std::vector<Point<2>> &nodes, double horizon)
+    {
+      const physics::Expression toughness("Fracture/toughness", scene.fracture.toughness,
+                                          scene.names(horizon));
+      std::vector<double> at_nodes;
+      for (const Point<2> &node : nodes)
+        at_nodes.push_back(toughness(node));
+      return at_nodes;
+    }
+
+    /// What of G and of the material lies between nodes, where bonds do not know of it.
+    std::vector<std::string> find_unseen(const scene::Scene &scene, const GrowthModel &model,
+                                         double horizon)
+    {
+      std::vector<SpatialValue> values = scene::material_values(scene);
+      const physics::Expression toughness("Fracture/toughness", scene.fracture.toughness,
+                                          scene.names(horizon));
+      if (!toughness.is_constant() && scene.fracture.of_bonds == problem::BondToughness::mean)
+        values.push_back(
+            {"Fracture/toughness", [toughness](const Point<2> &x) { return toughness(x); }});
+      if (values.empty())
+        return {};
+      PlacesBetweenNodes places{model.nodes, {}, {}};
+      const double half = .5 * model.h;
+      for (const Point<2> &x : model.nodes)
+        places.cells.push_back({x + Point<2>(-half, -half), x + Point<2>(half, -half),
+                                x + Point<2>(half, half), x + Point<2>(-half, half)});
+      for (const auto &bond : model.bonds)
+        places.middles_of_bonds.push_back(model.nodes[bond[0]] +
+                                          .5 * (model.nodes[bond[1]] - model.nodes[bond[0]]));
+      std::vector<std::string> warnings = unseen_features(values, places, model.h);
+      for (std::string &one : warnings)
+        one += "; refine Study/h, or make the features wider than h" +
+               std::string(one.find("Fracture/") == 0
+                               ? ", or write Fracture/bond toughness = minimum, or give a weak "
+                                 "line as Fracture/interfaces"
+                               : "");
+      return warnings;
+    }
+
+    /// λ = μ at every one of some points.
+    bool is_of_bonds(const scene::Scene &scene)
+    {
+      constexpr int n = 16; // along each side
+      const auto material = scene.material.lame();
+      for (const geometry::Box &box : scene.domain.boxes.include)
+        for (int k = 0; k < n * n; ++k)
+        {
+          const Tensor<1, 2> side = box.upper - box.lower;
+          const physics::Lame lame = material(
+              box.lower + Tensor<1, 2>({(k % n + .5) / n * side[0], (k / n + .5) / n * side[1]}));
+          if (std::abs(lame.lambda - lame.mu) > 1e-12 * lame.mu)
+            return false;
+        }
+      return true;
+    }
+  } // namespace
+
+  namespace
+  {
+    /// The scene's body at its level.
+    GrowthModel make_body(const scene::Scene &scene, const Method &method,
+                          const physics::Kernel<2> &influence, double trapping,
+                          problem::GrowthSolver solver)
+    {
+      try
+      {
+        return method.fracture_solver()->breakable_body(
+            make_solid(scene, influence.horizon(), trapping), influence,
+            scene.study.series.front().levels.front().h, scene.geometry.backend,
+            scene.fracture.stretch, solver);
+      }
+      catch (const InputError &error)
+      {
+        throw InputError(scene::with_origin(error.what(), scene.domain.origin));
+      }
+    }
+  } // namespace
+
+  std::shared_ptr<const Method> fracture_method(const std::string &name, const Methods &available)
+  {
+    std::string known;
+    for (const auto &method : available)
+      if (method->fracture_solver() != nullptr)
+      {
+        if (method->name() == name)
+          return method;
+        if (method->is_in_all())
+          known += (known.empty() ? "" : ", ") + method->name();
+      }
+    throw InputError("Methods/names = '" + name +
+                     "' is no meshfree rule, but cracks are open to those alone (Galerkin "
+                     "fields would need jumps); take one of " +
+                     known);
+  }
+
+  GrowthSize expected_size(const scene::Scene &scene, unsigned int n_jobs)
+  {
+    const problem::Level &level = scene.study.series.front().levels.front();
+    const double m = level.horizon / level.h;
+    const Point<2> tip = scene.domain.cracks.front().back(), mouth = scene.domain.cracks.front()[0];
+    GrowthSize size;
+    double way = 0; // along x from the notch's tip to the far side
+    for (const geometry::Box &box : scene.domain.boxes.include)
+    {
+      size.n_nodes +=
+          (box.upper[0] - box.lower[0]) * (box.upper[1] - box.lower[1]) / (level.h * level.h);
+      way = std::max(way, tip[0] >= mouth[0] ? box.upper[0] - tip[0] : tip[0] - box.lower[0]);
+    }
+    size.n_bonds = .5 * M_PI * m * m * size.n_nodes;
+    const bool is_bonds = is_of_bonds(scene);
+    // with dilatations the reach is twice as far; nested dissection: entries of the factor grow
+    // with the logarithm of n
+    const double n_entries = 4 * M_PI * m * m * (is_bonds ? 1 : 4) * size.n_nodes,
+                 n_factor = (is_bonds ? 6 : 18) * m * m * size.n_nodes *
+                            std::log2(std::max(2., size.n_nodes));
+    // bonds with their books; the factor with entries of the matrix while it is made, and room for
+    // some 400 solutions of Woodbury's formula; or the matrix, multigrid's copy and coarser levels
+    size.factor_bytes = 400 * size.n_bonds + 16 * n_factor + 6400 * size.n_nodes;
+    size.multigrid_bytes = 400 * size.n_bonds + 44 * n_entries;
+    size.solver = scene.fracture.solver;
+    if (size.solver == problem::GrowthSolver::automatic)
+      size.solver =
+          scene.fracture.can_iterate() && n_jobs * size.factor_bytes > base::available_memory()
+              ? problem::GrowthSolver::multigrid
+              : problem::GrowthSolver::factor;
+    size.n_breaks = 2. / 3 * m * m * m * way / level.h; // 18 a column of nodes at m = 3
+    // a solution for each bond, 2 ns an entry of the factor, and half of that for updates and new
+    // factors; or iterations of 6.6 ns an entry of the matrix, and a fourth of that for set-ups
+    const double n_iterations = 1.5 * std::pow(2 * size.n_nodes, .25);
+    size.seconds = size.n_breaks * (size.solver == problem::GrowthSolver::factor
+                                        ? 1.5 * 2e-9 * n_factor
+                                        : 1.25 * 6.6e-9 * n_entries * n_iterations);
+    return size;
+  }
+
+  GrowthSize check_growth_size(const scene::Scene &scene, unsigned int n_jobs)
+  {
+    const GrowthSize size = expected_size(scene, n_jobs);
+    const bool is_factor = size.solver == problem::GrowthSolver::factor;
+    const bool may_iterate = is_factor && scene.fracture.can_iterate();
+    base::require_memory(
+        is_factor ? size.factor_bytes : size.multigrid_bytes,
+        "Study/h = " + base::to_text(scene.study.series.front().levels.front().h, 4) +
+            " gives a body of " + base::to_text(size.n_nodes, 3) + " nodes",
+        may_iterate ? "choose a larger h, or Fracture/solver = multigrid, which takes " +
+                          base::bytes_to_text(size.multigrid_bytes)
+                    : "choose a larger h",
+        n_jobs);
+    return size;
+  }
+
+  GrowthResults grow_body(const scene::Scene &scene, const Methods &available,
+                          const std::filesystem::path &checkpoint,
+                          const std::function<void()> &before_it_grows)
+  {
+    const problem::Level &level = scene.study.series.front().levels.front();
+    const problem::GrowthSolver solver = check_growth_size(scene).solver;
+    const auto influence = physics::influence_function(scene.kernel.profile, level.horizon);
+    const auto method = fracture_method(scene.methods.names.front(), available);
+    const double trapping = scene.fracture.criterion == problem::Criterion::calibrated
+                                ? find_trapping(scene, *method, influence, level.h)
+                                : 1;
+    GrowthModel model = make_body(scene, *method, influence, trapping, solver);
+    if (before_it_grows)
+      before_it_grows();
+    model.toughness = toughness_of_nodes(scene, model.nodes, level.horizon);
+    std::vector<std::string> warnings = find_unseen(scene, model, level.horizon);
+    const base::CpuTimer timer;
+    GrowthResults results;
+    results.growth =
+        run_growth(model, {scene.fracture, "plumbline grow\n" + scene.text, checkpoint});
+    results.seconds = timer.seconds();
+    results.scene_name = scene.name;
+    results.purpose = scene.purpose;
+    results.scene_text = scene.text;
+    results.random = scene.random;
+    results.method = method->name();
+    results.model = model_words(scene, !model.has_dilatation);
+    results.rules = scene.fracture;
+    results.rules.solver = solver;
+    results.h = level.h;
+    results.horizon = level.horizon;
+    results.lattice_toughness =
+        method->fracture_solver()->lattice_toughness(influence, level.h, scene.geometry.backend);
+    results.trapping = trapping;
+    results.nodes = model.nodes;
+    results.notch_tip = model.notch_tip;
+    results.origin = scene.domain.origin;
+    results.n_bonds = model.body->n_bonds();
+    results.n_unknowns = model.body->n_unknowns();
+    results.work = model.body->work();
+    results.path = find_path(model, results.growth.events);
+    results.moments = growth_moments(model, results.growth.events);
+    std::vector<std::size_t> broken;
+    for (const analysis::Event &event : results.growth.events)
+      broken.insert(broken.end(), event.bonds.begin(), event.bonds.end());
+    results.n_unpaired = n_unpaired(model, broken, middle(scene));
+    results.plane_modulus = mean_plane_modulus(scene, model.nodes);
+    results.parts = broken_parts(model, broken);
+    results.warnings = std::move(warnings);
+    results.toughness = model.toughness;
+    results.spectrum = field_spectrum(scene.random);
+    for (const geometry::TipOnBonds &tip :
+         geometry::tips_on_bonds(scene.domain.cracks, results.nodes, results.horizon))
+      results.warnings.push_back(tip.text(results.origin));
+    return results;
+  }
+} // namespace plumbline::study

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "algebra/spectrum.h"
+#include "meshfree/check/bond_check.h"
+#include "meshfree/check/bond_file.h"
+#include "meshfree/check/bond_hypotheses.h"
+#include "meshfree/check/bond_outliers.h"
+#include "meshfree/check/volume_check.h"
+#include "problem/problem.h"
+
+#include <memory>
+
+namespace plumbline::meshfree
+{
+  /// Weights of another code, in arrays: what find_defects takes.
+  struct GivenWeights
+  {
+    GivenNodes nodes;
+    std::shared_ptr<const geometry::NodeCells> cells; ///< of the nodes, by their places
+    GivenFamilies given;
+    std::vector<double> volumes; ///< of the nodes as given, numbered as the cells
+  };
+
+  /// All that is found of the weights of another code, whatever is solved with them.
+  struct Findings : GivenWeights
+  {
+    std::vector<double> mended_volumes; ///< as the cells' areas tell, numbered as the cells
+    double volume_factor = 1;           ///< of the volumes, see VolumeCheck
+    double volume_defect = 0; ///< of the free nodes' volumes against their cells' area, relative
+    Precision precision;      ///< of the data
+    MomentCheck moments;
+    WeightCheck weights;
+    SymmetryCheck symmetry;
+    algebra::MatrixCheck matrix;
+    std::string matrix_failure; ///< empty: there is a matrix that can be factorised
+    std::string rule; ///< of ours that the weights are, once their list is mended; empty: none
+    bool is_mended = false; ///< the rule is that of the weights with structural causes undone
+    double rule_factor = 1;
+    std::string rule_remark; ///< what else there is to say of the rule
+    std::vector<Cause> causes;
+    std::vector<Outlier> outliers; ///< volumes first
+  };
+
+  /// @param problem      on the cells of the nodes
+  /// @param uncut_areas  of the nodes' cells before Ω cuts them [length²]
+  /// @param spacing      of the nodes [length]
+  /// @param meant        names of the rules that the weights are meant to be; empty: not known
+  Findings find_defects(GivenWeights given, const problem::Problem<2> &problem,
+                        const std::vector<double> &uncut_areas, double spacing,
+                        const std::vector<std::string> &meant);
+} // namespace plumbline::meshfree

@@ -1,0 +1,44 @@
+#!/usr/bin/env python3
+"""Results of every analysis that returns records are as lib/io/results.schema.json says.
+
+usage: results_schema.py PLUMBLINE SOURCE
+"""
+import copy
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import jsonschema
+
+command, source = sys.argv[1], pathlib.Path(sys.argv[2])
+schema = json.loads((source / "lib/io/results.schema.json").read_text())
+jsonschema.Draft202012Validator.check_schema(schema)
+validator = jsonschema.Draft202012Validator(schema)
+
+runs = [
+    ["stability", "failures/too_few_neighbours.prm", "--levels", "3"],
+    ["stability", "dynamics/strained.prm", "--levels", "1", "--methods", "FA"],
+    ["dispersion", "waves/diffusion.prm", "--methods", "Q1,FA"],
+    ["strip", "fracture/strip.prm", "--methods", "DGQ0,PA-AC", "--levels", "3"],
+]
+seen = {"scalars": 0, "curves": 0, "fields": 0}
+for analysis, scene, *options in runs:
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([command, analysis, str(source / "scenes" / scene), *options, "--quiet",
+                        "-o", folder], check=True)
+        results = json.loads(pathlib.Path(folder, analysis + ".json").read_text())
+    for error in validator.iter_errors(results):
+        sys.exit(f"{analysis} {scene}: {error.json_path}: {error.message}")
+    for record in results["records"]:
+        for part in seen:
+            seen[part] += len(record[part])
+    for key in results:  # what is missing is found
+        broken = copy.deepcopy(results)
+        del broken[key]
+        if validator.is_valid(broken):
+            sys.exit(f"{analysis} {scene}: valid without '{key}'")
+for part, n in seen.items():
+    if n == 0:
+        sys.exit(f"no results have {part}: nothing was tested of them")
