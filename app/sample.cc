@@ -8,9 +8,9 @@
 #include "report/formats.h"
 #include "report/sample_files.h"
 #include "report/sampling_page.h"
-#include "study/growth_analysis.h"
 #include "run_parts.h"
 #include "sample_taker.h"
+#include "study/growth_analysis.h"
 #include "workers.h"
 
 #include <algorithm>

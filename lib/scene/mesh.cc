@@ -159,11 +159,11 @@ namespace plumbline::scene
       std::ostringstream message;
       message << "Domain/mesh = " << scene.domain.mesh.name << ": the collar is " << width
               << " wide at its thinnest place, thinner than "
-              << (scene.has_dilatation() ? "twice the horizon, which dilatations need, "
+              << (scene.has_dilatation() ? "twice the horizon, which the dilatation needs, "
                                          : "the horizon ")
               << scene.reach(level.horizon)
-              << ", so balls would reach points without data; widen the collar in the mesh, or "
-                 "choose a smaller horizon (Study)";
+              << ", so that balls would contain points without data; widen the collar in the "
+                 "mesh, or choose a smaller horizon (Study)";
       throw InputError(message.str());
     }
     return mesh;

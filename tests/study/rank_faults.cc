@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <new>
 
 using namespace plumbline;
@@ -58,7 +59,7 @@ namespace
       if (is_last())
         fail_();
       method::Field solution;
-      const std::size_t n = problem.lattice()->n_cells()[0] * problem.lattice()->n_cells()[1];
+      const auto n_side = static_cast<std::size_t>(std::lround(1 / problem.h)), n = n_side * n_side;
       solution.averages.assign(n, 0);
       solution.nodal.assign(n, 0);
       for (std::size_t i = 0; i < n; ++i)
