@@ -22,7 +22,7 @@ namespace plumbline::app
       for (std::size_t i = 0; i < n; ++i)
       {
         double sum = found.mended_volumes[i];
-        for (const Bond &bond : found.given.families[i].bonds)
+        for (const Bond<2> &bond : found.given.families[i].bonds)
           sum += bond.weight;
         area[i] = std::abs(sum / ball - 1);
       }

@@ -173,7 +173,7 @@ namespace plumbline::app
         find_defects(std::move(weights), first.problem, cells.uncut_areas, found.level.node_size,
                      scene.methods.names);
     found.notes = all_notes(found, options);
-    const FamilySource source = [&](std::size_t i, Family &family)
+    const FamilySource source = [&](std::size_t i, Family<2> &family)
     { family = found.given.families[i]; };
     const auto names = scene.problem.case_names();
     for (unsigned int c = 0; c < names.size(); ++c)

@@ -64,8 +64,8 @@ namespace plumbline::benchmarks
       std::size_t n_bonds = 0;
       for (auto _ : state)
         benchmark::DoNotOptimize(
-            n_bonds =
-                meshfree::lattice_bonds(rule.of(kernel), kernel, 1, Backend::fast).family.size());
+            n_bonds = meshfree::lattice_bonds(rule.in_plane(kernel), kernel, 1, Backend::fast)
+                          .family.size());
       count(state, "families", 1);
       state.counters["bonds/family"] = static_cast<double>(n_bonds);
       count_also(state, "bonds", static_cast<double>(n_bonds));
@@ -82,8 +82,8 @@ namespace plumbline::benchmarks
                                  kernel.horizon() + (1 + perturbation) * h, false);
       const auto cells =
           geometry::voronoi_cells(geometry::lattice_nodes(mesh, h, perturbation, 1), mesh);
-      const meshfree::Families families(rule.of(kernel), kernel, cells, Backend::fast);
-      meshfree::Family family;
+      const meshfree::Families families(rule.in_plane(kernel), kernel, cells, Backend::fast);
+      meshfree::Family<2> family;
       std::size_t n_bonds = 0;
       // one iteration is all families: the same nodes whatever the number of iterations
       for (auto _ : state)

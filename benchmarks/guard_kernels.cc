@@ -59,7 +59,7 @@ namespace plumbline::benchmarks
     }
 
     GuardKernel family(const std::string &rule,
-                       meshfree::NeighbourhoodQuadrature (*of)(const physics::Kernel<2> &))
+                       meshfree::NeighbourhoodQuadrature<2> (*of)(const physics::Kernel<2> &))
     {
       return {"family " + rule, "family", 1, 8,
               [=]
@@ -267,7 +267,7 @@ namespace plumbline::benchmarks
       return {"LPS rows", "node", static_cast<double>(cells->n_free), 4,
               [=, owner = cells]
               {
-                const auto source = [&](std::size_t node, meshfree::Family &family)
+                const auto source = [&](std::size_t node, meshfree::Family<2> &family)
                 { families->make(node, family); };
                 sink = state_based_operator(source, body, {0, owner->n_free}).rows.free.value[0];
               }};
@@ -281,7 +281,7 @@ namespace plumbline::benchmarks
     kernels.push_back(ball_cell("ball-cell exact", Backend::cgal, 16, 4));
     kernels.push_back(polar_rule());
     for (const meshfree::Rule &rule : meshfree::rules())
-      kernels.push_back(family(rule.name, rule.of));
+      kernels.push_back(family(rule.name, rule.in_plane));
     kernels.push_back(stencil_apply());
     kernels.push_back(row_apply());
     kernels.push_back(galerkin_entries());

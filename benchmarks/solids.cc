@@ -104,7 +104,7 @@ namespace
     const auto kernel = physics::deviatoric_kernel(influence, 1);
     const meshfree::Families families(meshfree::optimisation_based(kernel), kernel, cells,
                                       geometry::Backend::fast);
-    const auto source = [&](std::size_t node, meshfree::Family &family)
+    const auto source = [&](std::size_t node, meshfree::Family<2> &family)
     { families.make(node, family); };
     const meshfree::StateBasedBody body{&cells,
                                         {influence,
@@ -127,7 +127,7 @@ namespace
       }
       benchmark::DoNotOptimize(y[0]);
     }
-    meshfree::Family family;
+    meshfree::Family<2> family;
     families.make(0, family);
     const auto n_values = static_cast<double>(rows.value.size());
     const double bytes = 12 * n_values + 16 * static_cast<double>(rows.n_rows());

@@ -93,7 +93,7 @@ namespace plumbline::meshfree
       {
         return meshfree::breakable_body(
             std::make_shared<BreakingNetwork>(
-                make_bond_network(solid, rule_.of(physics::deviatoric_kernel(influence, 1)),
+                make_bond_network(solid, rule_.in_plane(physics::deviatoric_kernel(influence, 1)),
                                   influence, h, backend),
                 stretch, solver),
             solid.notch.empty() ? dealii::Point<2>() : solid.notch.front().back());
@@ -101,7 +101,7 @@ namespace plumbline::meshfree
       double lattice_toughness(const Kernel<2> &influence, double h,
                                geometry::Backend backend) const override
       {
-        return meshfree::lattice_toughness(rule_.of(physics::deviatoric_kernel(influence, 1)),
+        return meshfree::lattice_toughness(rule_.in_plane(physics::deviatoric_kernel(influence, 1)),
                                            influence, h, backend);
       }
 
@@ -109,8 +109,8 @@ namespace plumbline::meshfree
       method::StripState solve_strip(const method::RiceStrip &strip,
                                      const Kernel<2> &influence) const override
       {
-        return meshfree::solve_strip(strip, rule_.of(physics::deviatoric_kernel(influence, 1)),
-                                     influence);
+        return meshfree::solve_strip(
+            strip, rule_.in_plane(physics::deviatoric_kernel(influence, 1)), influence);
       }
 
       std::optional<method::BreakableBody> breakable_strip(const method::RiceStrip &strip,
@@ -123,7 +123,7 @@ namespace plumbline::meshfree
         solid.surface_terms = terms;
         return meshfree::breakable_body(
             std::make_shared<BreakingNetwork>(
-                make_bond_network(solid, rule_.of(physics::deviatoric_kernel(influence, 1)),
+                make_bond_network(solid, rule_.in_plane(physics::deviatoric_kernel(influence, 1)),
                                   influence, strip.h, backend),
                 problem::Stretch::linear),
             {strip.n_crack * strip.h, 0});
@@ -139,7 +139,7 @@ namespace plumbline::meshfree
                                      geometry::Backend backend) const
       {
         const auto kernel = law.linear_kernel();
-        return well_bonds(law, lattice_bonds(rule_.of(kernel), kernel, h, backend));
+        return well_bonds(law, lattice_bonds(rule_.in_plane(kernel), kernel, h, backend));
       }
 
       Rule rule_;

@@ -287,9 +287,9 @@ namespace plumbline::geometry
     }
   } // namespace
 
-  SolidMoments intersect(const Point<3> &centre, double radius, const ConvexPolyhedron &cell,
-                         unsigned int degree)
+  SolidMoments intersect(const SolidBall &ball, const ConvexPolyhedron &cell, unsigned int degree)
   {
+    const auto &[centre, radius] = ball;
     if (!(radius > 0) || !std::isfinite(radius))
       throw InputError("the radius of a ball is " + std::to_string(radius) + "; give one above 0");
     CutBoundary boundary;

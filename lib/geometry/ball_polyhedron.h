@@ -4,10 +4,14 @@
 
 namespace plumbline::geometry
 {
+  struct SolidBall
+  {
+    dealii::Point<3> centre; ///< [length]
+    double radius = 0;       ///< > 0 [length]
+  };
+
   /// Volume, centroid and second moments of ball ∩ cell; where the volume is 0, the centroid is the
   /// point of the cell nearest to the ball's centre.
-  /// @param centre  of the ball [length]
-  /// @param radius  > 0 [length]
   /// @param degree  0, 1 or 2: the highest moment; those above it are left at 0
   /// @throws InputError  radius <= 0 or not finite
   /// Accuracy: relative to min(|ball|, |cell|) and its diameter, 1e-14 for every position,
@@ -16,6 +20,6 @@ namespace plumbline::geometry
   /// Method: the divergence theorem makes of the moments sums over the faces, and over the part of
   /// the sphere inside the cell; Green's theorem in the planes and Stokes' theorem on the sphere
   /// make sums over segments and arcs of those, which both sides share.
-  SolidMoments intersect(const dealii::Point<3> &centre, double radius,
-                         const ConvexPolyhedron &cell, unsigned int degree = 2);
+  SolidMoments intersect(const SolidBall &ball, const ConvexPolyhedron &cell,
+                         unsigned int degree = 2);
 } // namespace plumbline::geometry

@@ -20,7 +20,7 @@ namespace plumbline::meshfree
                             [lame](const Point<2> &x) { return 8 * lame(x).mu; }});
     }
 
-    VariationalOperator make_operator(const VariationalBody &body, const Bonds &bonds,
+    VariationalOperator make_operator(const VariationalBody &body, const Bonds<2> &bonds,
                                       const problem::Problem<2> &problem)
     {
       return {body, physics::influence_function(problem.kernel.profile(), problem.horizon()), bonds,
@@ -92,7 +92,7 @@ namespace plumbline::meshfree
     class RuleOnBody : public method::Discretisation
     {
     public:
-      RuleOnBody(const problem::Problem<2> &problem, const Bonds &bonds)
+      RuleOnBody(const problem::Problem<2> &problem, const Bonds<2> &bonds)
           : cells_(problem.cells()), loads_are_averages_(problem.settings.loads_are_averages),
             matrix_(std::make_shared<const VariationalOperator>(
                 make_operator(make_body(problem), bonds, problem)))
@@ -186,8 +186,8 @@ namespace plumbline::meshfree
   std::unique_ptr<method::Discretisation> discretise_on_body(const Rule &rule,
                                                              const problem::Problem<2> &problem)
   {
-    const Bonds bonds = lattice_bonds(rule.of(problem.kernel), problem.kernel, problem.body()->h,
-                                      problem.settings.geometry.backend);
+    const Bonds<2> bonds = lattice_bonds(rule.in_plane(problem.kernel), problem.kernel,
+                                         problem.body()->h, problem.settings.geometry.backend);
     return std::make_unique<RuleOnBody>(problem, bonds);
   }
 

@@ -29,7 +29,7 @@ namespace plumbline::meshfree
       throw InputError(message.str());
     }
 
-    void check(const VariationalBody &body, const Bonds &bonds)
+    void check(const VariationalBody &body, const Bonds<2> &bonds)
     {
       if (!(std::abs(bonds.h - body.h) <= 1e-12 * body.h))
       {
@@ -50,11 +50,11 @@ namespace plumbline::meshfree
     }
 
     std::vector<Neighbour> make_family(const VariationalBody &body, const Kernel<2> &influence,
-                                       const Bonds &bonds)
+                                       const Bonds<2> &bonds)
     {
       check(body, bonds);
       std::vector<Neighbour> family;
-      for (const Bond &bond : bonds.family)
+      for (const Bond<2> &bond : bonds.family)
         family.push_back({{static_cast<int>(std::lround(bond.xi[0] / bonds.h)),
                            static_cast<int>(std::lround(bond.xi[1] / bonds.h))},
                           bond.xi,
@@ -81,7 +81,7 @@ namespace plumbline::meshfree
   } // namespace
 
   VariationalOperator::VariationalOperator(VariationalBody body, const Kernel<2> &influence,
-                                           const Bonds &bonds, OperatorBackend backend)
+                                           const Bonds<2> &bonds, OperatorBackend backend)
       : body_(std::move(body)), family_(make_family(body_, influence, bonds)),
         sums_(make_sums(state_stencil(family_), body_.n, backend)), tau_(body_.size()),
         alpha_(body_.size()), input_(3 * body_.size()), bonds_(3 * body_.size()),

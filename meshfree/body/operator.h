@@ -29,7 +29,7 @@ namespace plumbline::meshfree
     /// @throws InputError  k <= 0, l <= 0 or V outside [0, h²] at a node, another h,
     /// OperatorBackend::sparse
     /// @throws NumericalError  a node without neighbours
-    VariationalOperator(VariationalBody body, const Kernel<2> &influence, const Bonds &bonds,
+    VariationalOperator(VariationalBody body, const Kernel<2> &influence, const Bonds<2> &bonds,
                         algebra::OperatorBackend backend = algebra::OperatorBackend::automatic);
 
     void vmult(algebra::Vector &result, const algebra::Vector &input) const override;

@@ -14,20 +14,20 @@ namespace plumbline::meshfree
   namespace
   {
     /// Σ w C_ab(kernel_point) ξ^α.
-    double discrete_moment(const Family &family, const Kernel<2> &kernel, const Exponents &alpha,
-                           unsigned int a, unsigned int b)
+    double discrete_moment(const Family<2> &family, const Kernel<2> &kernel,
+                           const Exponents<2> &alpha, unsigned int a, unsigned int b)
     {
       double sum = 0;
-      for (const Bond &bond : family.bonds)
+      for (const Bond<2> &bond : family.bonds)
         sum += bond.weight * kernel_value(kernel, bond, a, b) * std::pow(bond.xi[0], alpha[0]) *
                std::pow(bond.xi[1], alpha[1]);
       return sum;
     }
 
-    double moment_defect(const Family &family, const Kernel<2> &kernel, int degree)
+    double moment_defect(const Family<2> &family, const Kernel<2> &kernel, int degree)
     {
       double worst = 0;
-      for (const Exponents &alpha : exponents(degree, degree))
+      for (const Exponents<2> &alpha : exponents<2>(degree, degree))
         for (unsigned int a = 0; a < kernel.n_components(); ++a)
           for (unsigned int b = a; b < kernel.n_components(); ++b)
             worst = std::max(worst, std::abs(discrete_moment(family, kernel, alpha, a, b) -
@@ -36,11 +36,11 @@ namespace plumbline::meshfree
     }
 
     /// Of Σ w tr C |ξ|² to its exact value.
-    double second_moment_ratio(const Family &family, const Kernel<2> &kernel)
+    double second_moment_ratio(const Family<2> &family, const Kernel<2> &kernel)
     {
       double exact = 0, sum = 0;
       for (unsigned int a = 0; a < kernel.n_components(); ++a)
-        for (const Exponents &alpha : {Exponents{2, 0}, Exponents{0, 2}})
+        for (const Exponents<2> &alpha : {Exponents<2>{2, 0}, Exponents<2>{0, 2}})
         {
           exact += kernel.moment(alpha, a, a);
           sum += discrete_moment(family, kernel, alpha, a, a);
@@ -82,7 +82,7 @@ namespace plumbline::meshfree
     return median(larger);
   }
 
-  MomentCheck check_moments(const std::vector<Family> &families, const Kernel<2> &kernel)
+  MomentCheck check_moments(const std::vector<Family<2>> &families, const Kernel<2> &kernel)
   {
     constexpr int highest = 4;
     const double second_moment = kernel.moment({2, 0}), second_size = kernel_size(kernel, 2);
@@ -117,7 +117,7 @@ namespace plumbline::meshfree
     return check;
   }
 
-  WeightCheck check_weights(const std::vector<Family> &families, const Kernel<2> &kernel,
+  WeightCheck check_weights(const std::vector<Family<2>> &families, const Kernel<2> &kernel,
                             const std::vector<double> &volumes)
   {
     const double ball = M_PI * kernel.horizon() * kernel.horizon();
@@ -127,9 +127,9 @@ namespace plumbline::meshfree
     std::vector<double> defects;
     for (std::size_t i = 0; i < families.size(); ++i)
     {
-      const std::vector<Bond> &bonds = families[i].bonds;
+      const std::vector<Bond<2>> &bonds = families[i].bonds;
       double sum = volumes[i];
-      for (const Bond &bond : bonds)
+      for (const Bond<2> &bond : bonds)
       {
         sum += bond.weight;
         check.n_negative += bond.weight < 0 ? 1 : 0;
@@ -145,7 +145,7 @@ namespace plumbline::meshfree
     return check;
   }
 
-  SymmetryCheck check_symmetry(const std::vector<Family> &families, const Kernel<2> &kernel,
+  SymmetryCheck check_symmetry(const std::vector<Family<2>> &families, const Kernel<2> &kernel,
                                const std::vector<double> &volumes)
   {
     SymmetryCheck check;
@@ -153,7 +153,7 @@ namespace plumbline::meshfree
     for (std::size_t i = 0; i < families.size(); ++i)
       for (std::size_t k = 0; k < families[i].bonds.size(); ++k)
       {
-        const Bond &bond = families[i].bonds[k];
+        const Bond<2> &bond = families[i].bonds[k];
         const double size = std::abs(bond.weight * radial_value(kernel, bond));
         scale = std::max(scale, size);
         scale_of_forces = std::max(scale_of_forces, volumes[i] * size);
@@ -162,7 +162,7 @@ namespace plumbline::meshfree
           continue;
         const auto &others = families[j].neighbours;
         const auto partner = std::lower_bound(others.begin(), others.end(), i);
-        const Bond *back = nullptr;
+        const Bond<2> *back = nullptr;
         if (partner != others.end() && *partner == i)
           back = &families[j].bonds[partner - others.begin()];
         else

@@ -48,7 +48,7 @@ namespace plumbline::meshfree
   };
 
   /// @throws InputError  the kernel's second moment is 0: there is no local limit
-  MomentCheck check_moments(const std::vector<Family> &families, const Kernel<2> &kernel);
+  MomentCheck check_moments(const std::vector<Family<2>> &families, const Kernel<2> &kernel);
 
   struct WeightCheck
   {
@@ -59,7 +59,7 @@ namespace plumbline::meshfree
   };
 
   /// @param volumes  of the free nodes, shape (n_families)
-  WeightCheck check_weights(const std::vector<Family> &families, const Kernel<2> &kernel,
+  WeightCheck check_weights(const std::vector<Family<2>> &families, const Kernel<2> &kernel,
                             const std::vector<double> &volumes);
 
   /// Pairs of free nodes seen from both ends.
@@ -74,6 +74,6 @@ namespace plumbline::meshfree
   };
 
   /// @param volumes  of the free nodes, shape (n_families)
-  SymmetryCheck check_symmetry(const std::vector<Family> &families, const Kernel<2> &kernel,
+  SymmetryCheck check_symmetry(const std::vector<Family<2>> &families, const Kernel<2> &kernel,
                                const std::vector<double> &volumes);
 } // namespace plumbline::meshfree

@@ -63,15 +63,15 @@ namespace plumbline::meshfree
   struct CollarBond
   {
     std::size_t node = 0, neighbour = 0; ///< numbered as the cells
-    Bond bond;
+    Bond<2> bond;
   };
 
   /// Families of another code.
   struct GivenFamilies
   {
-    std::vector<Family> families; ///< of the free nodes; the area of a bond is the neighbour's
-                                  ///< volume
-    std::size_t n_ignored = 0;    ///< bonds of nodes in the collar
+    std::vector<Family<2>> families; ///< of the free nodes; the area of a bond is the neighbour's
+                                     ///< volume
+    std::size_t n_ignored = 0;       ///< bonds of nodes in the collar
     std::vector<std::vector<std::size_t>> lines = {}; ///< of the bonds in the file
     std::vector<CollarBond> of_collar = {};           ///< those that are ignored
     bool is_half_list = false;  ///< every pair stands once: some nodes may have no bonds

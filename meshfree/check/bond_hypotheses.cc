@@ -42,7 +42,7 @@ namespace plumbline::meshfree
       double typical, worst;
     };
 
-    Defect defect_of(const std::vector<Family> &families, const Kernel<2> &kernel)
+    Defect defect_of(const std::vector<Family<2>> &families, const Kernel<2> &kernel)
     {
       const MomentCheck check = check_moments(families, kernel);
       return {check.typical(), std::max(check.defects[0].worst.value, check.second.value)};
@@ -62,7 +62,7 @@ namespace plumbline::meshfree
     {
       const auto undo_all_but = [&](const Mend *left)
       {
-        std::vector<Family> families = given.families;
+        std::vector<Family<2>> families = given.families;
         for (const Mend &mend : mends)
           if (&mend != left)
             mend.undo(families);
@@ -119,7 +119,7 @@ namespace plumbline::meshfree
   {
     Explanation result{{}, rule};
     std::vector<Mend> mends;
-    std::vector<Family> families = given.families;
+    std::vector<Family<2>> families = given.families;
     const GivenBonds mended{families,      given.kernel,    given.cells,
                             given.volumes, given.precision, given.origin};
     for (const Hypothesis &hypothesis : hypotheses)
@@ -155,9 +155,9 @@ namespace plumbline::meshfree
     return explain(given, rule, {meant}).causes;
   }
 
-  std::function<void(std::vector<Family> &)> for_each_bond(Change change)
+  std::function<void(std::vector<Family<2>> &)> for_each_bond(Change change)
   {
-    return [change = std::move(change)](std::vector<Family> &families)
+    return [change = std::move(change)](std::vector<Family<2>> &families)
     {
       for (std::size_t i = 0; i < families.size(); ++i)
         for (std::size_t k = 0; k < families[i].bonds.size(); ++k)
@@ -165,16 +165,16 @@ namespace plumbline::meshfree
     };
   }
 
-  double typical(const std::vector<Family> &families, const Kernel<2> &kernel)
+  double typical(const std::vector<Family<2>> &families, const Kernel<2> &kernel)
   {
     return check_moments(families, kernel).typical();
   }
 
-  double common_ratio(const std::vector<Family> &families)
+  double common_ratio(const std::vector<Family<2>> &families)
   {
     std::vector<double> ratios;
-    for (const Family &family : families)
-      for (const Bond &bond : family.bonds)
+    for (const Family<2> &family : families)
+      for (const Bond<2> &bond : family.bonds)
         ratios.push_back(bond.weight / bond.area);
     return spread_of(ratios).median;
   }

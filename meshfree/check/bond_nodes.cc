@@ -76,8 +76,8 @@ namespace plumbline::meshfree
     return outliers;
   }
 
-  std::vector<Family> without_factors(std::vector<Family> families,
-                                      const std::vector<Outlier> &scaled)
+  std::vector<Family<2>> without_factors(std::vector<Family<2>> families,
+                                         const std::vector<Outlier> &scaled)
   {
     for (const Outlier &one : scaled)
       for (std::size_t i = 0; i < families.size(); ++i)

@@ -15,6 +15,6 @@ namespace plumbline::meshfree
                                          const BondProfile &profile);
 
   /// The families with the weights of such nodes divided by their factors.
-  std::vector<Family> without_factors(std::vector<Family> families,
-                                      const std::vector<Outlier> &scaled);
+  std::vector<Family<2>> without_factors(std::vector<Family<2>> families,
+                                         const std::vector<Outlier> &scaled);
 } // namespace plumbline::meshfree

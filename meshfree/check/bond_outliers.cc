@@ -145,7 +145,7 @@ namespace plumbline::meshfree
       for (const Pair &pair : pairs)
         if (pair.bond != Outlier::none && pair.neighbour < given.families.size())
         {
-          const Bond &bond = bond_of(given, pair);
+          const Bond<2> &bond = bond_of(given, pair);
           index_of[{pair.node, pair.neighbour}] = bonds.size();
           bonds.push_back(pair);
           xi.push_back(pair.xi);
@@ -314,7 +314,7 @@ namespace plumbline::meshfree
       const BondProfile profile(xi, node_size(raw), raw.precision.length);
       outliers = find_scaled_nodes(raw, pairs, profile);
       exact.acquit(outliers);
-      const std::vector<Family> families = without_factors(raw.families, outliers);
+      const std::vector<Family<2>> families = without_factors(raw.families, outliers);
       const GivenBonds given{families,    raw.kernel,    raw.cells,
                              raw.volumes, raw.precision, raw.origin};
       compare_weights(given, pairs, profile, outliers);
@@ -332,10 +332,10 @@ namespace plumbline::meshfree
       add_new(more, outliers);
     }
 
-    std::vector<Family> scaled(std::vector<Family> families, double scale)
+    std::vector<Family<2>> scaled(std::vector<Family<2>> families, double scale)
     {
-      for (Family &family : families)
-        for (Bond &bond : family.bonds)
+      for (Family<2> &family : families)
+        for (Bond<2> &bond : family.bonds)
           bond.weight *= scale;
       return families;
     }
@@ -370,7 +370,7 @@ namespace plumbline::meshfree
     else
     {
       const double scale = weight_scale(given, pairs);
-      const std::vector<Family> families = scaled(given.families, 1 / scale);
+      const std::vector<Family<2>> families = scaled(given.families, 1 / scale);
       find_by_others({families, given.kernel, given.cells, given.volumes, given.precision}, pairs,
                      exact, point_scale, outliers);
       for (Outlier &one : outliers)

@@ -13,8 +13,8 @@ namespace plumbline::meshfree
     double reach_of(const GivenBonds &given)
     {
       std::vector<double> lengths;
-      for (const Family &family : given.families)
-        for (const Bond &bond : family.bonds)
+      for (const Family<2> &family : given.families)
+        for (const Bond<2> &bond : family.bonds)
           lengths.push_back(bond.xi.norm());
       if (lengths.empty())
         return given.kernel.horizon();
@@ -43,7 +43,7 @@ namespace plumbline::meshfree
     std::vector<unsigned int> near;
     for (std::size_t i = 0; i < given.families.size(); ++i)
     {
-      const Family &family = given.families[i];
+      const Family<2> &family = given.families[i];
       const Point<2> &x = given.cells.nodes[i];
       search.find(box_around(x, reach), near);
       std::size_t k = 0;

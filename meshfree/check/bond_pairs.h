@@ -18,7 +18,7 @@ namespace plumbline::meshfree
   /// All bonds, and all pairs without a bond that are no longer than most bonds and a half cell.
   std::vector<Pair> all_pairs(const GivenBonds &given);
 
-  inline const Bond &bond_of(const GivenBonds &given, const Pair &pair)
+  inline const Bond<2> &bond_of(const GivenBonds &given, const Pair &pair)
   {
     return given.families[pair.node].bonds[pair.bond];
   }

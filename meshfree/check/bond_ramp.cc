@@ -11,12 +11,13 @@ namespace plumbline::meshfree
   namespace
   {
     /// Adds what differs from one family to the other; largest is of |w C|.
-    void compare(const Family &mine, const Family &ramped, const Kernel<2> &kernel,
+    void compare(const Family<2> &mine, const Family<2> &ramped, const Kernel<2> &kernel,
                  RampEffect &effect, double &largest)
     {
-      const auto entry = [&](const Bond &bond) { return bond.weight * radial_value(kernel, bond); };
+      const auto entry = [&](const Bond<2> &bond)
+      { return bond.weight * radial_value(kernel, bond); };
       for_both(mine, ramped,
-               [&](const Bond *one, const Bond *other, std::size_t)
+               [&](const Bond<2> *one, const Bond<2> *other, std::size_t)
                {
                  const double weight = one ? one->weight : 0,
                               ramped_weight = other ? other->weight : 0;
@@ -31,13 +32,14 @@ namespace plumbline::meshfree
 
   } // namespace
 
-  std::vector<RampEffect> ramp_effects(const GivenBonds &given, const std::vector<Family> &families)
+  std::vector<RampEffect> ramp_effects(const GivenBonds &given,
+                                       const std::vector<Family<2>> &families)
   {
     const double before = check_moments(families, given.kernel).typical();
     std::vector<RampEffect> effects;
     for (const std::string name : {"LAMMPS", "QWJ", "PA-AC"})
     {
-      const std::vector<Family> ramped = rule_families(name, given);
+      const std::vector<Family<2>> ramped = rule_families(name, given);
       RampEffect effect;
       effect.rule = name;
       double largest = 0;

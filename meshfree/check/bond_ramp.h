@@ -23,7 +23,7 @@ namespace plumbline::meshfree
   /// Of LAMMPS, QWJ and PA-AC.
   /// @param families  weights that are those of FA
   std::vector<RampEffect> ramp_effects(const GivenBonds &given,
-                                       const std::vector<Family> &families);
+                                       const std::vector<Family<2>> &families);
 
   /// The same for people: that the weights are whole cells, and what ramps would make of the
   /// moments.

@@ -13,13 +13,13 @@ namespace plumbline::meshfree
   namespace
   {
     /// The factor between the weights of most bonds.
-    double common_factor(const std::vector<Family> &given, const std::vector<Family> &rule)
+    double common_factor(const std::vector<Family<2>> &given, const std::vector<Family<2>> &rule)
     {
       constexpr double small = .1; // weights of which say little
       std::vector<double> ratios;
       for (std::size_t i = 0; i < given.size(); ++i)
         for_both(given[i], rule[i],
-                 [&](const Bond *a, const Bond *b, std::size_t)
+                 [&](const Bond<2> *a, const Bond<2> *b, std::size_t)
                  {
                    if (a && b && std::abs(b->weight) > small * a->area)
                      ratios.push_back(a->weight / b->weight);
@@ -32,13 +32,13 @@ namespace plumbline::meshfree
       std::size_t n_bonds = 0, n_weights = 0, n_points = 0;
     };
 
-    Agreement agreement(const GivenBonds &given, const std::vector<Family> &rule, double factor)
+    Agreement agreement(const GivenBonds &given, const std::vector<Family<2>> &rule, double factor)
     {
       const Precision &precision = given.precision;
       Agreement result;
       for (std::size_t i = 0; i < rule.size(); ++i)
         for_both(given.families[i], rule[i],
-                 [&](const Bond *a, const Bond *b, std::size_t)
+                 [&](const Bond<2> *a, const Bond<2> *b, std::size_t)
                  {
                    if (!(a && b) && is_at_horizon(given, (a ? a : b)->xi))
                      return;
@@ -57,12 +57,12 @@ namespace plumbline::meshfree
       return result;
     }
 
-    std::vector<Family> families_of(const Rule &rule, const GivenBonds &given)
+    std::vector<Family<2>> families_of(const Rule &rule, const GivenBonds &given)
     {
       geometry::NodeCells cells = given.cells;
       cells.area = given.volumes;
-      const Families families(rule.of(given.kernel), given.kernel, cells, Backend::fast);
-      std::vector<Family> result(families.size());
+      const Families families(rule.in_plane(given.kernel), given.kernel, cells, Backend::fast);
+      std::vector<Family<2>> result(families.size());
       for (std::size_t i = 0; i < families.size(); ++i)
         families.make(i, result[i]);
       return result;
@@ -76,7 +76,7 @@ namespace plumbline::meshfree
            std::max(tie_tolerance * horizon, 4 * given.precision.length);
   }
 
-  std::vector<Family> rule_families(const std::string &name, const GivenBonds &given)
+  std::vector<Family<2>> rule_families(const std::string &name, const GivenBonds &given)
   {
     for (const Rule &rule : rules())
       if (rule.name == name)
@@ -87,7 +87,8 @@ namespace plumbline::meshfree
   bool Recognised::is_full_area() const
   {
     return std::any_of(rules().begin(), rules().end(),
-                       [this](const Rule &one) { return one.name == rule && one.of == full_area; });
+                       [this](const Rule &one)
+                       { return one.name == rule && one.in_plane == full_area<2>; });
   }
 
   std::optional<Recognised> recognise(const GivenBonds &given)
@@ -100,7 +101,7 @@ namespace plumbline::meshfree
     for (const Rule &rule : candidates)
       try
       {
-        std::vector<Family> families = families_of(rule, given);
+        std::vector<Family<2>> families = families_of(rule, given);
         const double factor = common_factor(given.families, families);
         if (factor == 0)
           continue;
@@ -110,8 +111,8 @@ namespace plumbline::meshfree
         if (static_cast<double>(found.n_weights) < wanted || score <= best_score)
           continue;
         best_score = score;
-        for (Family &family : families)
-          for (Bond &bond : family.bonds)
+        for (Family<2> &family : families)
+          for (Bond<2> &bond : family.bonds)
             bond.weight *= factor;
         best = {rule.name, factor, static_cast<double>(found.n_points) >= wanted,
                 std::move(families)};

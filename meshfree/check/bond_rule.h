@@ -11,7 +11,7 @@ namespace plumbline::meshfree
   /// Weights and kernel points of another code, and the nodes they belong to.
   struct GivenBonds
   {
-    const std::vector<Family> &families; ///< of the free nodes
+    const std::vector<Family<2>> &families; ///< of the free nodes
     const Kernel<2> &kernel;
     const geometry::NodeCells &cells;   ///< of all nodes
     const std::vector<double> &volumes; ///< of all nodes, numbered as the cells
@@ -22,7 +22,7 @@ namespace plumbline::meshfree
   /// Calls visit(given bond or nullptr, bond of the rule or nullptr, neighbour) for the neighbours
   /// of either.
   template <class Visit>
-  void for_both(const Family &given, const Family &rule, const Visit &visit)
+  void for_both(const Family<2> &given, const Family<2> &rule, const Visit &visit)
   {
     std::size_t a = 0, b = 0;
     while (a < given.bonds.size() || b < rule.bonds.size())
@@ -44,15 +44,15 @@ namespace plumbline::meshfree
   {
     std::string rule;
     double factor = 1;
-    bool has_kernel_points = false; ///< those of the rule, too
-    std::vector<Family> families;   ///< what the rule makes, its weights times the factor
+    bool has_kernel_points = false;  ///< those of the rule, too
+    std::vector<Family<2>> families; ///< what the rule makes, its weights times the factor
 
     bool is_full_area() const; ///< whole cells, whatever part of them the horizon cuts off
   };
 
   /// What a rule makes of these nodes and volumes.
   /// @throws NumericalError  as Families::make
-  std::vector<Family> rule_families(const std::string &name, const GivenBonds &given);
+  std::vector<Family<2>> rule_families(const std::string &name, const GivenBonds &given);
 
   /// Of all rules and counterexamples the one that most weights and kernel points agree with, nine
   /// of ten weights at least, relative to the neighbours' volumes and their √. Bonds as long as the

@@ -13,14 +13,15 @@ namespace plumbline::meshfree
     using Vector = dealii::Tensor<1, 2>;
 
     /// Σ w C ξ of each node, with the kernel's radial factor, over ∫ |C| |ξ|.
-    std::vector<Vector> first_moments(const std::vector<Family> &families, const Kernel<2> &kernel)
+    std::vector<Vector> first_moments(const std::vector<Family<2>> &families,
+                                      const Kernel<2> &kernel)
     {
       const double size = kernel_size(kernel, 1);
       std::vector<Vector> result;
-      for (const Family &family : families)
+      for (const Family<2> &family : families)
       {
         result.emplace_back();
-        for (const Bond &bond : family.bonds)
+        for (const Bond<2> &bond : family.bonds)
           result.back() += bond.weight * radial_value(kernel, bond) / size * Vector(bond.xi);
       }
       return result;
@@ -57,19 +58,19 @@ namespace plumbline::meshfree
 
     /// Takes a share off the weights ahead and adds it behind, as linear in ξ, so that the first
     /// moments vanish on average.
-    void level(const Kernel<2> &kernel, std::vector<Family> &families)
+    void level(const Kernel<2> &kernel, std::vector<Family<2>> &families)
     {
       dealii::Tensor<2, 2> second;
-      for (const Family &family : families)
-        for (const Bond &bond : family.bonds)
+      for (const Family<2> &family : families)
+        for (const Bond<2> &bond : family.bonds)
           second += bond.weight * radial_value(kernel, bond) / kernel_size(kernel, 1) *
                     outer_product(Vector(bond.xi), Vector(bond.xi));
       second /= static_cast<double>(families.size());
       if (!(std::abs(determinant(second)) > 0))
         return;
       const Vector slope = invert(second) * middle(first_moments(families, kernel));
-      for (Family &family : families)
-        for (Bond &bond : family.bonds)
+      for (Family<2> &family : families)
+        for (Bond<2> &bond : family.bonds)
           bond.weight *= 1 - slope * Vector(bond.xi);
     }
   } // namespace
@@ -82,17 +83,17 @@ namespace plumbline::meshfree
     const Vector mean = middle(moments);
     if (mean.norm() < 10 * given.precision.moments || mean.norm() < alike * median_norm(moments))
       return {};
-    std::vector<Family> levelled = given.families;
+    std::vector<Family<2>> levelled = given.families;
     level(given.kernel, levelled);
     if (median_norm(first_moments(levelled, given.kernel)) > much_less * mean.norm())
       return {};
-    Mend mend{{"drift", "the weights have a drift: the first moments of most nodes are off alike, "
-                        "by " +
-                            base::to_percent(mean.norm()) + " in the direction " +
-                            direction_text(mean) +
-                            ", since weights to that side are larger than those to the other; it "
-                            "acts as a term b . grad u with b that grows like 1/horizon"},
-              [&kernel = given.kernel](std::vector<Family> &families) { level(kernel, families); }};
+    Mend mend{
+        {"drift", "the weights have a drift: the first moments of most nodes are off alike, "
+                  "by " +
+                      base::to_percent(mean.norm()) + " in the direction " + direction_text(mean) +
+                      ", since weights to that side are larger than those to the other; it "
+                      "acts as a term b . grad u with b that grows like 1/horizon"},
+        [&kernel = given.kernel](std::vector<Family<2>> &families) { level(kernel, families); }};
     return mend;
   }
 } // namespace plumbline::meshfree

@@ -17,19 +17,19 @@ namespace plumbline::meshfree
   {
     constexpr double exact = file_tolerance;
 
-    std::vector<Family> undone(std::vector<Family> families,
-                               const std::function<void(std::vector<Family> &)> &undo)
+    std::vector<Family<2>> undone(std::vector<Family<2>> families,
+                                  const std::function<void(std::vector<Family<2>> &)> &undo)
     {
       undo(families);
       return families;
     }
 
     /// How far kernel points of most bonds are from the neighbours, in sizes of their cells.
-    double misplacement(const std::vector<Family> &families)
+    double misplacement(const std::vector<Family<2>> &families)
     {
       std::vector<double> distances;
-      for (const Family &family : families)
-        for (const Bond &bond : family.bonds)
+      for (const Family<2> &family : families)
+        for (const Bond<2> &bond : family.bonds)
           distances.push_back(bond.kernel_point.distance(bond.xi) / std::sqrt(bond.area));
       return spread_of(distances).median;
     }
@@ -46,18 +46,18 @@ namespace plumbline::meshfree
     {
       return {{"kernel at midpoints",
                "the kernel is taken at the midpoints of the bonds, not at the neighbours", .5,
-               [](Bond &bond, std::size_t, std::size_t) { bond.kernel_point *= 2; }},
+               [](Bond<2> &bond, std::size_t, std::size_t) { bond.kernel_point *= 2; }},
               {"kernel points reversed",
                "the kernel points (qx, qy) are reversed: on the other side of node i, as if taken "
                "from the neighbour to it",
-               -1, [](Bond &bond, std::size_t, std::size_t) { bond.kernel_point *= -1; }},
+               -1, [](Bond<2> &bond, std::size_t, std::size_t) { bond.kernel_point *= -1; }},
               {"kernel points absolute",
                "the kernel points (qx, qy) are absolute places, not relative to node i", 1,
-               [&given](Bond &bond, std::size_t i, std::size_t)
+               [&given](Bond<2> &bond, std::size_t i, std::size_t)
                { bond.kernel_point -= given.origin + given.cells.nodes[i]; }},
               {"kernel points from the neighbour",
                "the kernel points (qx, qy) are relative to node j, not to node i", 1,
-               [](Bond &bond, std::size_t, std::size_t)
+               [](Bond<2> &bond, std::size_t, std::size_t)
                { bond.kernel_point += dealii::Tensor<1, 2>(bond.xi); }}};
     }
   } // namespace
@@ -65,7 +65,7 @@ namespace plumbline::meshfree
   std::optional<Mend> kernel_points(const Evidence &evidence)
   {
     constexpr double in_place = .5, much_closer = .25;
-    const std::vector<Family> &families = evidence.given.families;
+    const std::vector<Family<2>> &families = evidence.given.families;
     const double given_misplacement = misplacement(families);
     if (given_misplacement < in_place)
       return {};
@@ -88,19 +88,20 @@ namespace plumbline::meshfree
     const GivenBonds &given = evidence.given;
     const double ball = M_PI * given.kernel.horizon() * given.kernel.horizon();
     std::vector<double> sums;
-    for (const Family &family : given.families)
+    for (const Family<2> &family : given.families)
     {
       double sum = 0;
-      for (const Bond &bond : family.bonds)
+      for (const Bond<2> &bond : family.bonds)
         sum += bond.weight;
       sums.push_back(std::abs(sum / ball - 1));
     }
     if (spread_of(sums).median > given.precision.weight)
       return {};
-    Mend mend{{"own volume counted", "the weights of a node add up to the whole ball: its own "
-                                     "volume is counted in, though it has no bond"},
-              for_each_bond([&volumes = given.volumes, ball](Bond &bond, std::size_t i, std::size_t)
-                            { bond.weight *= 1 - volumes[i] / ball; })};
+    Mend mend{
+        {"own volume counted", "the weights of a node add up to the whole ball: its own "
+                               "volume is counted in, though it has no bond"},
+        for_each_bond([&volumes = given.volumes, ball](Bond<2> &bond, std::size_t i, std::size_t)
+                      { bond.weight *= 1 - volumes[i] / ball; })};
     mend.cause.factor = 1 / (1 - given.volumes[0] / ball);
     mend.changes_rule = true;
     return mend;
@@ -160,9 +161,9 @@ namespace plumbline::meshfree
       return spread_of(check_moments(given.families, given.kernel).ratios).median;
     }
 
-    std::function<void(std::vector<Family> &)> divide_by(double factor)
+    std::function<void(std::vector<Family<2>> &)> divide_by(double factor)
     {
-      return for_each_bond([factor](Bond &bond, std::size_t, std::size_t)
+      return for_each_bond([factor](Bond<2> &bond, std::size_t, std::size_t)
                            { bond.weight /= factor; });
     }
 
@@ -256,12 +257,12 @@ namespace plumbline::meshfree
       Mend mend{{"missing ramp",
                  "all weights are whole cells where the horizon cuts them: the partial areas of " +
                      effect.rule + " are missing"},
-                [right = rule_families(effect.rule, given)](std::vector<Family> &families)
+                [right = rule_families(effect.rule, given)](std::vector<Family<2>> &families)
                 {
                   const double ratio = common_ratio(families);
                   families = right;
-                  for (Family &family : families)
-                    for (Bond &bond : family.bonds)
+                  for (Family<2> &family : families)
+                    for (Bond<2> &bond : family.bonds)
                       bond.weight *= ratio;
                 }};
       if (is_meant(effect.rule) && !is_meant("FA") && !is_meant("all") && effect.is_seen())

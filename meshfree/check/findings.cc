@@ -12,10 +12,10 @@ namespace plumbline::meshfree
   namespace
   {
     /// The families with the volumes of their neighbours.
-    std::vector<Family> with_volumes(std::vector<Family> families,
-                                     const std::vector<double> &volumes)
+    std::vector<Family<2>> with_volumes(std::vector<Family<2>> families,
+                                        const std::vector<double> &volumes)
     {
-      for (Family &family : families)
+      for (Family<2> &family : families)
         for (std::size_t k = 0; k < family.bonds.size(); ++k)
           family.bonds[k].area = volumes[family.neighbours[k]];
       return families;
@@ -25,7 +25,7 @@ namespace plumbline::meshfree
     struct Recognition
     {
       std::vector<double> volumes; ///< that the weights were made with, as far as it is known
-      std::vector<Family> families;
+      std::vector<Family<2>> families;
       std::optional<Recognised> rule;
     };
 
@@ -41,7 +41,7 @@ namespace plumbline::meshfree
       using Volumes = const std::vector<double> *;
       for (const Volumes volumes : {&found.mended_volumes, static_cast<Volumes>(&as_given)})
       {
-        std::vector<Family> families = with_volumes(found.given.families, *volumes);
+        std::vector<Family<2>> families = with_volumes(found.given.families, *volumes);
         auto rule =
             recognise({families, problem.kernel, *problem.cells(), *volumes, found.precision});
         if (!rule && !result.volumes.empty())
@@ -128,14 +128,14 @@ namespace plumbline::meshfree
   {
     Findings found{std::move(given)};
     find_volumes(found, problem, uncut_areas, spacing);
-    const std::vector<Family> &families = found.given.families;
+    const std::vector<Family<2>> &families = found.given.families;
     found.moments = check_moments(families, problem.kernel);
     found.weights = check_weights(families, problem.kernel, found.mended_volumes);
     found.symmetry = check_symmetry(families, problem.kernel, found.mended_volumes);
     find_causes(found, problem, meant);
     try
     {
-      const FamilySource source = [&](std::size_t i, Family &family) { family = families[i]; };
+      const FamilySource source = [&](std::size_t i, Family<2> &family) { family = families[i]; };
       found.matrix = algebra::check_matrix(
           scattered_operator(source, problem, {0, found.cells->n_free}).rows.free);
     }

@@ -28,7 +28,7 @@ namespace plumbline::meshfree
   struct Mend
   {
     Cause cause;
-    std::function<void(std::vector<Family> &)> undo;
+    std::function<void(std::vector<Family<2>> &)> undo;
     Need need = Need::better;
     bool changes_rule = false; ///< another rule may be recognised once it is undone
     bool says_closer = true;   ///< its sentence ends with what it does to the moments
@@ -50,16 +50,16 @@ namespace plumbline::meshfree
   std::optional<Mend> factor_of_weights(const Evidence &evidence);
   std::optional<Mend> missing_ramp(const Evidence &evidence);
 
-  using Change = std::function<void(Bond &bond, std::size_t node, std::size_t neighbour)>;
+  using Change = std::function<void(Bond<2> &bond, std::size_t node, std::size_t neighbour)>;
 
   /// A mend of each bond by itself.
-  std::function<void(std::vector<Family> &)> for_each_bond(Change change);
+  std::function<void(std::vector<Family<2>> &)> for_each_bond(Change change);
 
   /// Median defect of the moments of degree 1 and 2.
-  double typical(const std::vector<Family> &families, const Kernel<2> &kernel);
+  double typical(const std::vector<Family<2>> &families, const Kernel<2> &kernel);
 
   /// Median of weights over the neighbours' volumes.
-  double common_ratio(const std::vector<Family> &families);
+  double common_ratio(const std::vector<Family<2>> &families);
 
   /// To be explained by a cause that leaves no other mark, a defect must shrink to a quarter of
   /// itself, or to round-off of a file.

@@ -78,7 +78,7 @@ namespace plumbline::meshfree
     for (std::size_t i = 0; i < given.families.size(); ++i)
       for (std::size_t k = 0; k < given.families[i].bonds.size(); ++k)
       {
-        const Bond &bond = given.families[i].bonds[k];
+        const Bond<2> &bond = given.families[i].bonds[k];
         const double length = bond.xi.norm();
         const std::size_t node = volume == VolumeOf::node ? i : given.families[i].neighbours[k];
         if (length <= longest)

@@ -16,7 +16,7 @@ namespace plumbline::meshfree
     struct Component
     {
       unsigned int degree;
-      Exponents alpha;
+      Exponents<2> alpha;
       unsigned int a, b;
       double size; ///< of ∫ |C| |ξ|^degree, or the ball
     };
@@ -26,7 +26,8 @@ namespace plumbline::meshfree
       const double ball = M_PI * kernel.horizon() * kernel.horizon();
       std::vector<Component> result{{0, {0, 0}, 0, 0, ball}};
       for (const unsigned int degree : {1U, 2U})
-        for (const Exponents &alpha : exponents(static_cast<int>(degree), static_cast<int>(degree)))
+        for (const Exponents<2> &alpha :
+             exponents<2>(static_cast<int>(degree), static_cast<int>(degree)))
           for (unsigned int a = 0; a < kernel.n_components(); ++a)
             for (unsigned int b = a; b < kernel.n_components(); ++b)
               result.push_back(
@@ -35,7 +36,7 @@ namespace plumbline::meshfree
     }
 
     /// What a weight of 1 adds to a moment.
-    double share(const Kernel<2> &kernel, const Bond &bond, const Component &c)
+    double share(const Kernel<2> &kernel, const Bond<2> &bond, const Component &c)
     {
       if (c.degree == 0)
         return 1 / c.size;
@@ -86,7 +87,7 @@ namespace plumbline::meshfree
         {
           Vector own(given.families.size());
           for (std::size_t i = 0; i < own.size(); ++i)
-            for (const Bond &bond : given.families[i].bonds)
+            for (const Bond<2> &bond : given.families[i].bonds)
               if (component.degree > 0 || !is_at_horizon(given, bond.xi))
                 own[i] += bond.weight * share(given.kernel, bond, component);
           spreads.push_back(spread_of(own));
@@ -115,8 +116,8 @@ namespace plumbline::meshfree
       const Pair *at = nullptr;
       for (const Pair *pair = first; pair != last; ++pair)
       {
-        const Bond bond =
-            pair->bond != Outlier::none ? bond_of(given, *pair) : Bond{pair->xi, 0, pair->xi, 0};
+        const Bond<2> bond =
+            pair->bond != Outlier::none ? bond_of(given, *pair) : Bond<2>{pair->xi, 0, pair->xi, 0};
         Vector direction;
         for (std::size_t c = 0; c < residual.size(); ++c)
           direction.push_back(share(given.kernel, bond, moments.components[c]) /

@@ -25,7 +25,7 @@ namespace plumbline::meshfree
       for (std::size_t i = 0; i < given.families.size(); ++i)
         for_both(
             given.families[i], rule.families[i],
-            [&](const Bond *own, const Bond *right, std::size_t j)
+            [&](const Bond<2> *own, const Bond<2> *right, std::size_t j)
             {
               if (!own || !right)
                 return;
@@ -50,9 +50,9 @@ namespace plumbline::meshfree
     std::vector<Outlier> outliers;
     for (std::size_t i = 0; i < given.families.size(); ++i)
     {
-      const Bond *const first = given.families[i].bonds.data();
+      const Bond<2> *const first = given.families[i].bonds.data();
       for_both(given.families[i], rule.families[i],
-               [&](const Bond *own, const Bond *right, std::size_t j)
+               [&](const Bond<2> *own, const Bond<2> *right, std::size_t j)
                {
                  if (!(own && right) && is_at_horizon(given, (own ? own : right)->xi))
                    return; // see missing_at_horizon

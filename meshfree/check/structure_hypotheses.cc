@@ -12,11 +12,11 @@ namespace plumbline::meshfree
 {
   std::optional<Mend> all_zero(const Evidence &evidence)
   {
-    for (const Family &family : evidence.given.families)
-      for (const Bond &bond : family.bonds)
+    for (const Family<2> &family : evidence.given.families)
+      for (const Bond<2> &bond : family.bonds)
         if (bond.weight != 0)
           return {};
-    Mend mend{{"all zero", "all weights are zero"}, [](std::vector<Family> &) {}};
+    Mend mend{{"all zero", "all weights are zero"}, [](std::vector<Family<2>> &) {}};
     mend.cause.factor = 0;
     mend.cause.is_structural = true;
     mend.need = Need::nothing;
@@ -30,9 +30,9 @@ namespace plumbline::meshfree
     class Ratios
     {
     public:
-      Ratios(const GivenBonds &given, const std::vector<Family> &families)
+      Ratios(const GivenBonds &given, const std::vector<Family<2>> &families)
       {
-        for (const Family &family : families)
+        for (const Family<2> &family : families)
           for (std::size_t k = 0; k < family.bonds.size(); ++k)
             samples_.emplace_back(family.bonds[k].xi.norm(),
                                   family.bonds[k].weight / given.volumes[family.neighbours[k]]);
@@ -58,7 +58,7 @@ namespace plumbline::meshfree
       std::vector<std::pair<double, double>> samples_;
     };
 
-    const Bond *find_bond(const Family &family, std::size_t j)
+    const Bond<2> *find_bond(const Family<2> &family, std::size_t j)
     {
       const auto at = std::lower_bound(family.neighbours.begin(), family.neighbours.end(), j);
       return at != family.neighbours.end() && *at == j
@@ -66,7 +66,7 @@ namespace plumbline::meshfree
                  : nullptr;
     }
 
-    void add_bond(Family &family, std::size_t j, const Bond &bond)
+    void add_bond(Family<2> &family, std::size_t j, const Bond<2> &bond)
     {
       const auto at = std::lower_bound(family.neighbours.begin(), family.neighbours.end(), j);
       family.bonds.insert(family.bonds.begin() + (at - family.neighbours.begin()), bond);
@@ -74,7 +74,7 @@ namespace plumbline::meshfree
     }
 
     /// The bond from its other end, with the volume there.
-    Bond reversed(const Bond &bond, double volume_here, double volume_there)
+    Bond<2> reversed(const Bond<2> &bond, double volume_here, double volume_there)
     {
       const Point<2> none;
       return {none - dealii::Tensor<1, 2>(bond.xi), bond.weight * volume_here / volume_there,
@@ -84,11 +84,11 @@ namespace plumbline::meshfree
     /// Adds the other one of each pair: from the bond that is there, else, where a neighbour in the
     /// collar has none either, with the weight that bonds of that length have.
     void complete_pairs(const GivenBonds &given, const std::vector<CollarBond> &of_collar,
-                        std::vector<Family> &families)
+                        std::vector<Family<2>> &families)
     {
       constexpr double rounding = 1e-9;
-      const std::vector<Family> before = families;
-      const auto add_reversed = [&](std::size_t i, std::size_t j, const Bond &bond)
+      const std::vector<Family<2>> before = families;
+      const auto add_reversed = [&](std::size_t i, std::size_t j, const Bond<2> &bond)
       {
         if (j < families.size() && !find_bond(families[j], i))
           add_bond(families[j], i, reversed(bond, given.volumes[i], given.volumes[j]));
@@ -130,7 +130,7 @@ namespace plumbline::meshfree
          "to j and from j to i"},
         [&given_volumes = given.volumes, &kernel = given.kernel, &cells = given.cells,
          precision = given.precision,
-         &of_collar = evidence.circumstances.of_collar](std::vector<Family> &families) {
+         &of_collar = evidence.circumstances.of_collar](std::vector<Family<2>> &families) {
           complete_pairs({families, kernel, cells, given_volumes, precision}, of_collar, families);
         }};
     mend.cause.is_structural = true;
@@ -237,9 +237,10 @@ namespace plumbline::meshfree
     if (best.name.empty() && !best.is_own && profile.variation() < very_much)
       return {};
     const double sign = profile.bins.front().ratio < 0 ? -1 : 1;
-    Mend mend{{"kernel in the weights", kernel_text(profile, best)},
-              for_each_bond([&volumes = given.volumes, sign](Bond &bond, std::size_t, std::size_t j)
-                            { bond.weight = sign * volumes[j]; })};
+    Mend mend{
+        {"kernel in the weights", kernel_text(profile, best)},
+        for_each_bond([&volumes = given.volumes, sign](Bond<2> &bond, std::size_t, std::size_t j)
+                      { bond.weight = sign * volumes[j]; })};
     mend.cause.is_structural = true;
     mend.changes_rule = true;
     return mend;
@@ -257,7 +258,7 @@ namespace plumbline::meshfree
       return {};
     Mend mend{{"own volume", "the weights are made with the volume of node i itself, not with that "
                              "of its neighbour j"},
-              for_each_bond([&volumes = given.volumes](Bond &bond, std::size_t i, std::size_t j)
+              for_each_bond([&volumes = given.volumes](Bond<2> &bond, std::size_t i, std::size_t j)
                             { bond.weight *= volumes[j] / volumes[i]; })};
     mend.cause.is_structural = true;
     mend.changes_rule = true;
@@ -273,7 +274,7 @@ namespace plumbline::meshfree
     std::size_t n = 0;
     for (std::size_t i = 0; i < given.families.size(); ++i)
       for_both(given.families[i], evidence.rule->families[i],
-               [&](const Bond *own, const Bond *right, std::size_t j)
+               [&](const Bond<2> *own, const Bond<2> *right, std::size_t j)
                {
                  if (!right || !is_at_horizon(given, right->xi))
                    return;
@@ -289,7 +290,7 @@ namespace plumbline::meshfree
                    " bonds as long as the horizon are left out" +
                    (are_all ? ", r < horizon instead of r <= horizon" : ", as rounding decides")},
               [missing, &nodes = given.cells.nodes,
-               &volumes = given.volumes](std::vector<Family> &families)
+               &volumes = given.volumes](std::vector<Family<2>> &families)
               {
                 const double ratio = common_ratio(families);
                 for (const auto &[i, j] : missing)

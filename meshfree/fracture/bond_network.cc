@@ -28,12 +28,13 @@ namespace plumbline::meshfree
       double weight = 0; ///< w K
     };
 
-    std::vector<Half> half_family(const NeighbourhoodQuadrature &rule, const Kernel<2> &influence,
-                                  double h, Backend backend)
+    std::vector<Half> half_family(const NeighbourhoodQuadrature<2> &rule,
+                                  const Kernel<2> &influence, double h, Backend backend)
     {
-      const Bonds all = lattice_bonds(rule, physics::deviatoric_kernel(influence, 1), h, backend);
+      const Bonds<2> all =
+          lattice_bonds(rule, physics::deviatoric_kernel(influence, 1), h, backend);
       std::vector<Half> result;
-      for (const Bond &bond : all.family)
+      for (const Bond<2> &bond : all.family)
       {
         const int k1 = static_cast<int>(std::lround(bond.xi[0] / h)),
                   k2 = static_cast<int>(std::lround(bond.xi[1] / h));
@@ -129,7 +130,7 @@ namespace plumbline::meshfree
 
       geometry::NodeCells cells_; // before what is made of them
       BrokenBonds broken_;
-      Family one_;
+      Family<2> one_;
       std::vector<char> is_intact_;
     };
 
@@ -253,7 +254,7 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  BondNetwork make_bond_network(const BreakingSolid &solid, const NeighbourhoodQuadrature &rule,
+  BondNetwork make_bond_network(const BreakingSolid &solid, const NeighbourhoodQuadrature<2> &rule,
                                 const Kernel<2> &influence, double h, Backend backend)
   {
     BondNetwork network;
@@ -345,7 +346,7 @@ namespace plumbline::meshfree
     return lost;
   }
 
-  double lattice_toughness(const NeighbourhoodQuadrature &rule, const Kernel<2> &influence,
+  double lattice_toughness(const NeighbourhoodQuadrature<2> &rule, const Kernel<2> &influence,
                            double h, Backend backend, std::array<int, 2> along)
   {
     const double steps = std::hypot(along[0], along[1]);

@@ -73,12 +73,12 @@ namespace plumbline::meshfree
   /// G <= 0 at a bond; a notch or an interface through a node, or that crosses no bond
   /// Source: Fan et al. 2022, eqs. (2.24)-(2.26); Silling & Askari 2005 for λ = μ,
   /// doi:10.1016/j.compstruc.2004.11.026.
-  BondNetwork make_bond_network(const BreakingSolid &solid, const NeighbourhoodQuadrature &rule,
+  BondNetwork make_bond_network(const BreakingSolid &solid, const NeighbourhoodQuadrature<2> &rule,
                                 const Kernel<2> &influence, double h, Backend backend);
 
   /// Energy of all bonds across an endless straight line that meets no node, each at its limit s0
   /// of G = 1, on a homogeneous lattice with λ = μ, per length: what a crack along it breaks.
   /// @param along  the line's direction in steps of the lattice, not (0, 0)
-  double lattice_toughness(const NeighbourhoodQuadrature &rule, const Kernel<2> &influence,
+  double lattice_toughness(const NeighbourhoodQuadrature<2> &rule, const Kernel<2> &influence,
                            double h, Backend backend, std::array<int, 2> along = {1, 0});
 } // namespace plumbline::meshfree

@@ -81,7 +81,7 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  method::StripState solve_strip(const RiceStrip &strip, const NeighbourhoodQuadrature &rule,
+  method::StripState solve_strip(const RiceStrip &strip, const NeighbourhoodQuadrature<2> &rule,
                                  const Kernel<2> &influence)
   {
     // partial areas reach a cell farther

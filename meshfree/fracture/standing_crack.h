@@ -9,5 +9,6 @@ namespace plumbline::meshfree
   /// @param rule       with the deviatoric kernel of μ = 1
   /// @param influence  1/r, ∫K|ξ|² = 2
   method::StripState solve_strip(const method::RiceStrip &strip,
-                                 const NeighbourhoodQuadrature &rule, const Kernel<2> &influence);
+                                 const NeighbourhoodQuadrature<2> &rule,
+                                 const Kernel<2> &influence);
 } // namespace plumbline::meshfree

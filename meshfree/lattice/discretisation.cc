@@ -56,7 +56,7 @@ namespace plumbline::meshfree
       return load;
     }
 
-    algebra::Stencil make_stencil(const problem::Problem<2> &problem, const Bonds &bonds)
+    algebra::Stencil make_stencil(const problem::Problem<2> &problem, const Bonds<2> &bonds)
     {
       return problem.dilatation ? state_based_stencil(*problem.dilatation, bonds)
                                 : lattice_operator(problem.kernel, bonds);
@@ -64,7 +64,7 @@ namespace plumbline::meshfree
     class RuleOnLattice : public method::LatticeDiscretisation
     {
     public:
-      RuleOnLattice(const problem::Problem<2> &problem, const Bonds &bonds)
+      RuleOnLattice(const problem::Problem<2> &problem, const Bonds<2> &bonds)
           : LatticeDiscretisation(problem, method::comparison_nodes(problem, problem.n_components),
                                   make_stencil(problem, bonds), {1}),
             move_well_(
@@ -146,7 +146,7 @@ namespace plumbline::meshfree
                                                                 const problem::Problem<2> &problem)
   {
     return std::make_unique<RuleOnLattice>(
-        problem, lattice_bonds(rule.of(problem.kernel), problem.kernel, problem.lattice()->h(),
-                               problem.settings.geometry.backend));
+        problem, lattice_bonds(rule.in_plane(problem.kernel), problem.kernel,
+                               problem.lattice()->h(), problem.settings.geometry.backend));
   }
 } // namespace plumbline::meshfree

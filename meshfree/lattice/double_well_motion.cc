@@ -203,7 +203,7 @@ namespace plumbline::meshfree
   } // namespace
 
   std::unique_ptr<method::EquationOfMotion> move_double_well(const problem::Problem<2> &problem,
-                                                             const Bonds &bonds,
+                                                             const Bonds<2> &bonds,
                                                              double largest_eigenvalue,
                                                              const dealii::Tensor<2, 2> &gradient)
   {

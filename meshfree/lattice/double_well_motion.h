@@ -14,7 +14,7 @@ namespace plumbline::meshfree
   /// @throws NumericalError  weights that differ between mirror images
   /// @pre problem.double_well, problem.lattice(); a torus where G is not 0
   std::unique_ptr<method::EquationOfMotion>
-  move_double_well(const problem::Problem<2> &problem, const Bonds &bonds,
+  move_double_well(const problem::Problem<2> &problem, const Bonds<2> &bonds,
                    double largest_eigenvalue, const dealii::Tensor<2, 2> &gradient = {});
 
   /// The same on the torus of one axis, by axis_bonds.

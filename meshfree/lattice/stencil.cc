@@ -9,21 +9,21 @@ namespace plumbline::meshfree
   namespace
   {
     /// Where a bond ends, in cells.
-    std::array<int, 2> offset(const Bond &bond, double h)
+    std::array<int, 2> offset(const Bond<2> &bond, double h)
     {
       return {static_cast<int>(std::lround(bond.xi[0] / h)),
               static_cast<int>(std::lround(bond.xi[1] / h))};
     }
   } // namespace
 
-  algebra::Stencil lattice_operator(const physics::Kernel<2> &kernel, const Bonds &bonds)
+  algebra::Stencil lattice_operator(const physics::Kernel<2> &kernel, const Bonds<2> &bonds)
   {
     int reach = 0;
-    for (const Bond &bond : bonds.family)
+    for (const Bond<2> &bond : bonds.family)
       for (const int k : offset(bond, bonds.h))
         reach = std::max(reach, std::abs(k));
     algebra::Stencil stencil(kernel.n_components(), reach);
-    for (const Bond &bond : bonds.family)
+    for (const Bond<2> &bond : bonds.family)
       for (unsigned int a = 0; a < kernel.n_components(); ++a)
         for (unsigned int b = 0; b < kernel.n_components(); ++b)
         {
@@ -35,14 +35,14 @@ namespace plumbline::meshfree
     return stencil;
   }
 
-  algebra::Stencil state_based_stencil(const physics::Dilatation &dilatation, const Bonds &bonds)
+  algebra::Stencil state_based_stencil(const physics::Dilatation &dilatation, const Bonds<2> &bonds)
   {
     const physics::Lame lame = dilatation.material({});
     const auto deviatoric =
         lattice_operator(physics::deviatoric_kernel(dilatation.influence, lame.mu), bonds);
     algebra::Stencil stencil(2, 2 * deviatoric.reach());
-    for (const Bond &one : bonds.family)
-      for (const Bond &two : bonds.family)
+    for (const Bond<2> &one : bonds.family)
+      for (const Bond<2> &two : bonds.family)
       {
         const auto k = offset(one, bonds.h), l = offset(two, bonds.h);
         const double factor = (lame.lambda - lame.mu) * one.weight * two.weight *

@@ -8,7 +8,7 @@ namespace plumbline::meshfree
 {
   /// The rule's operator L_h on a lattice: row i is -Σ C(kernel_point) (u(x_i + ξ) - u_i)
   /// weight.
-  algebra::Stencil lattice_operator(const physics::Kernel<2> &kernel, const Bonds &bonds);
+  algebra::Stencil lattice_operator(const physics::Kernel<2> &kernel, const Bonds<2> &bonds);
 
   /// The same of a homogeneous state-based solid, θ eliminated: with g_k = w_k K(q_k) ξ_k, q the
   /// kernel point, and Σ g = 0 by symmetry, θ_i = Σ_k g_k·u_{i+k} adds -(λ - μ) Σ_k,l g_k ⊗ g_l
@@ -16,5 +16,6 @@ namespace plumbline::meshfree
   /// Σ w 8μ K ξ⊗ξ/|ξ|² ξ^α exactly (OPT, IPA-AC-R2) give those of K, their trace, exactly as well,
   /// and so the dilatation.
   /// @param bonds  of its deviatoric kernel
-  algebra::Stencil state_based_stencil(const physics::Dilatation &dilatation, const Bonds &bonds);
+  algebra::Stencil state_based_stencil(const physics::Dilatation &dilatation,
+                                       const Bonds<2> &bonds);
 } // namespace plumbline::meshfree

@@ -13,12 +13,14 @@ namespace plumbline::meshfree
   using physics::Kernel;
 
   /// One bond of a node's family.
+  template <int dim>
   struct Bond
   {
-    Point<2> xi;           ///< to the neighbour's node [length]
-    double weight = 0;     ///< [length^2]
-    Point<2> kernel_point; ///< where the kernel is taken, relative to the node [length]
-    double area = 0;       ///< of ball ∩ cell where the rule uses it, else of the cell [length^2]
+    Point<dim> xi;           ///< to the neighbour's node [length]
+    double weight = 0;       ///< [length^dim]
+    Point<dim> kernel_point; ///< where the kernel is taken, relative to the node [length]
+    /// Of ball ∩ cell where the rule uses it, else of the cell: a volume in space [length^dim].
+    double area = 0;
   };
 
   /// How well weights meet the moments that were asked of them.
@@ -35,10 +37,11 @@ namespace plumbline::meshfree
 
   /// What a meshfree rule yields on a lattice, where all nodes share one family:
   /// L_h u_i = -Σ C(kernel_point) (u(x_i + ξ) - u_i) weight.
+  template <int dim>
   struct Bonds
   {
     double h = 0; ///< of the lattice [length]
-    std::vector<Bond> family;
+    std::vector<Bond<dim>> family;
     Fit fit = {};
     std::vector<std::string> notes = {}; ///< what the rule had to do that a user should know
   };
@@ -49,8 +52,11 @@ namespace plumbline::meshfree
 
   /// The kernel's radial factor at a bond's kernel point; a negative profile beyond the horizon
   /// counts as 0.
-  double radial_value(const Kernel<2> &kernel, const Bond &bond);
+  template <int dim>
+  double radial_value(const Kernel<dim> &kernel, const Bond<dim> &bond);
 
   /// The kernel C_ab at a bond's kernel point.
-  double kernel_value(const Kernel<2> &kernel, const Bond &bond, unsigned int a, unsigned int b);
+  template <int dim>
+  double kernel_value(const Kernel<dim> &kernel, const Bond<dim> &bond, unsigned int a,
+                      unsigned int b);
 } // namespace plumbline::meshfree

@@ -57,10 +57,10 @@ namespace plumbline::meshfree
     return make_bond(law, {}, weight, law.influence(kernel_point.norm()), kernel_point);
   }
 
-  std::vector<WellBond> well_bonds(const physics::DoubleWell &law, const Bonds &bonds)
+  std::vector<WellBond> well_bonds(const physics::DoubleWell &law, const Bonds<2> &bonds)
   {
     std::vector<WellBond> result;
-    for (const Bond &bond : bonds.family)
+    for (const Bond<2> &bond : bonds.family)
     {
       result.push_back(well_bond(law, bond.weight, bond.kernel_point));
       result.back().k = {static_cast<int>(std::lround(bond.xi[0] / bonds.h)),

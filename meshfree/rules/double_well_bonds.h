@@ -23,7 +23,7 @@ namespace plumbline::meshfree
   /// A rule's bonds, sorted. What the rule takes at the kernel point is the kernel of small strains
   /// as a whole, J, r and e: at the node for most rules, at the centroid for IPA-AC.
   /// @pre law.dim() == 2
-  std::vector<WellBond> well_bonds(const physics::DoubleWell &law, const Bonds &bonds);
+  std::vector<WellBond> well_bonds(const physics::DoubleWell &law, const Bonds<2> &bonds);
 
   /// The bonds of a lattice with one axis, y = 0. The cell of the neighbour k reaches from (k-½)h
   /// to (k+½)h, and w is the length of its part in the horizon (FA: h if |k|h <= ε). J is taken at

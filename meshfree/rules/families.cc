@@ -14,7 +14,7 @@ namespace plumbline::meshfree
     return boxes;
   }
 
-  Families::Families(NeighbourhoodQuadrature rule, const Kernel<2> &kernel,
+  Families::Families(NeighbourhoodQuadrature<2> rule, const Kernel<2> &kernel,
                      const geometry::NodeCells &cells, Backend backend)
       : rule_(std::move(rule)), kernel_(kernel), cells_(&cells), backend_(backend),
         pieces_(cells.pieces.begin(), cells.pieces.end()),
@@ -25,7 +25,7 @@ namespace plumbline::meshfree
   {
   }
 
-  void Families::make(std::size_t node, Family &family) const
+  void Families::make(std::size_t node, Family<2> &family) const
   {
     const Point<2> &x = cells_->nodes[node];
     family.bonds.clear();
@@ -36,11 +36,11 @@ namespace plumbline::meshfree
     for (const unsigned int j : family.neighbours)
     {
       const std::size_t first = cells_->first_piece[j];
-      const Candidate candidate{{x, kernel_.horizon()},
-                                backend_,
-                                Point<2>(cells_->nodes[j] - x),
-                                cells_->area[j],
-                                {pieces_.data() + first, cells_->first_piece[j + 1] - first}};
+      const Candidate<2> candidate{{x, kernel_.horizon()},
+                                   backend_,
+                                   Point<2>(cells_->nodes[j] - x),
+                                   cells_->area[j],
+                                   {pieces_.data() + first, cells_->first_piece[j + 1] - first}};
       if (j != node && add_bond(rule_, kernel_, candidate, family))
         family.neighbours[n++] = j;
     }

@@ -23,7 +23,7 @@ namespace plumbline::meshfree
   {
   public:
     /// @param cells  must outlive the families
-    Families(NeighbourhoodQuadrature rule, const Kernel<2> &kernel,
+    Families(NeighbourhoodQuadrature<2> rule, const Kernel<2> &kernel,
              const geometry::NodeCells &cells, Backend backend);
 
     std::size_t size() const { return cells_->n_free; } ///< free nodes
@@ -32,13 +32,13 @@ namespace plumbline::meshfree
     /// @param family  overwritten
     /// @throws NumericalError  no neighbours, or too few for the moments asked of them; names the
     /// node by the index it was given with
-    void make(std::size_t node, Family &family) const;
+    void make(std::size_t node, Family<2> &family) const;
 
     const Kernel<2> &kernel() const { return kernel_; }
     const geometry::NodeCells &cells() const { return *cells_; }
 
   private:
-    NeighbourhoodQuadrature rule_;
+    NeighbourhoodQuadrature<2> rule_;
     Kernel<2> kernel_;
     const geometry::NodeCells *cells_;
     Backend backend_;

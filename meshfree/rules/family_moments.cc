@@ -31,13 +31,13 @@ namespace plumbline::meshfree
                              (scale_ * std::pow(kernel.horizon(), n - 2)));
   }
 
-  std::vector<double> BallMoments::defects(const std::vector<Bond> &family) const
+  std::vector<double> BallMoments::defects(const std::vector<Bond<2>> &family) const
   {
     constexpr unsigned int most = 6;
     const double horizon = kernel_.horizon();
     std::vector<double> defects(exact_.size());
     std::array<std::array<double, most + 1>, 2> power{};
-    for (const Bond &bond : family)
+    for (const Bond<2> &bond : family)
     {
       for (unsigned int d = 0; d < 2; ++d)
       {
@@ -61,7 +61,7 @@ namespace plumbline::meshfree
     return defects;
   }
 
-  double BallMoments::worst_defect(const std::vector<Bond> &family) const
+  double BallMoments::worst_defect(const std::vector<Bond<2>> &family) const
   {
     double worst = 0;
     for (const double defect : defects(family))
@@ -69,10 +69,10 @@ namespace plumbline::meshfree
     return worst;
   }
 
-  double BallMoments::area_defect(const std::vector<Bond> &family) const
+  double BallMoments::area_defect(const std::vector<Bond<2>> &family) const
   {
     double difference = 0, whole = 0;
-    for (const Bond &bond : family)
+    for (const Bond<2> &bond : family)
     {
       const double size = std::abs(radial_value(kernel_, bond)) * bond.xi.norm_square();
       difference += std::abs(bond.weight - bond.area) * size;

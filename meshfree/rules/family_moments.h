@@ -19,13 +19,13 @@ namespace plumbline::meshfree
     /// Σ w C_ab ξ^α less ∫ C_ab ξ^α over the ball for all pairs a <= b and |α| = 1, 2, ..., order,
     /// over the largest exact second moment times horizon^(|α| - 2). Fixed places; of order 2: 5
     /// numbers for scalar kernels, 15 for tensors.
-    std::vector<double> defects(const std::vector<Bond> &family) const;
+    std::vector<double> defects(const std::vector<Bond<2>> &family) const;
 
     /// The largest size of them.
-    double worst_defect(const std::vector<Bond> &family) const;
+    double worst_defect(const std::vector<Bond<2>> &family) const;
 
     /// Σ |w - area| |C| |ξ|² / Σ area |C| |ξ|².
-    double area_defect(const std::vector<Bond> &family) const;
+    double area_defect(const std::vector<Bond<2>> &family) const;
 
   private:
     Kernel<2> kernel_;

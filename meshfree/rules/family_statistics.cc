@@ -7,12 +7,12 @@
 
 namespace plumbline::meshfree
 {
-  void describe_weights(const std::vector<Bond> &family, const Fit &fit,
+  void describe_weights(const std::vector<Bond<2>> &family, const Fit &fit,
                         method::Diagnostics &diagnostics)
   {
     diagnostics.n_neighbours =
         std::max(diagnostics.n_neighbours, static_cast<unsigned int>(family.size()));
-    for (const Bond &bond : family)
+    for (const Bond<2> &bond : family)
     {
       diagnostics.smallest_weight_ratio =
           std::min(diagnostics.smallest_weight_ratio, bond.weight / bond.area);
@@ -69,7 +69,7 @@ namespace plumbline::meshfree
     bias_ = {lower, upper};
   }
 
-  void FamilyStatistics::add(const Kernel<2> &kernel, const Point<2> &node, const Family &family)
+  void FamilyStatistics::add(const Kernel<2> &kernel, const Point<2> &node, const Family<2> &family)
   {
     const auto any = [&](const auto &is) -> int
     { return std::any_of(family.bonds.begin(), family.bonds.end(), is) ? 1 : 0; };
@@ -93,9 +93,9 @@ namespace plumbline::meshfree
       ball_defect_ = std::max(ball_defect_, all_->worst_defect(family.bonds));
       area_defect_ = std::max(area_defect_, all_->area_defect(family.bonds));
     }
-    n_negative_ += any([](const Bond &bond) { return bond.weight < 0; });
+    n_negative_ += any([](const Bond<2> &bond) { return bond.weight < 0; });
     n_unstable_ +=
-        any([&](const Bond &bond) { return bond.weight * radial_value(kernel, bond) < 0; });
+        any([&](const Bond<2> &bond) { return bond.weight * radial_value(kernel, bond) < 0; });
     n_dependent_ += family.fit.rank < family.fit.n_conditions ? 1 : 0;
     n_clipped_ += family.is_clipped ? 1 : 0;
   }

@@ -11,7 +11,7 @@
 namespace plumbline::meshfree
 {
   /// Add a family to what a method says of its weights.
-  void describe_weights(const std::vector<Bond> &family, const Fit &fit,
+  void describe_weights(const std::vector<Bond<2>> &family, const Fit &fit,
                         method::Diagnostics &diagnostics);
 
   /// What the families of scattered nodes are like.
@@ -22,7 +22,7 @@ namespace plumbline::meshfree
     /// @param ball_order  see problem::MethodSettings
     FamilyStatistics(const geometry::NodeCells &cells, unsigned int ball_order);
 
-    void add(const Kernel<2> &kernel, const Point<2> &node, const Family &family);
+    void add(const Kernel<2> &kernel, const Point<2> &node, const Family<2> &family);
 
     /// The largest family, the distribution of moments, the smallest weight and the number of
     /// negative ones, with notes on how many families are concerned; over all ranks.

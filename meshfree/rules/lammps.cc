@@ -4,16 +4,21 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    Bond bond(const Kernel<2> &kernel, const Candidate &candidate)
+    template <int dim>
+    Bond<dim> bond(const Kernel<dim> &kernel, const Candidate<dim> &candidate)
     {
-      Bond result = full_area_bond(kernel, candidate);
+      Bond<dim> result = full_area_bond(kernel, candidate);
       result.weight *= ramp(kernel, candidate);
       return result;
     }
   } // namespace
 
-  NeighbourhoodQuadrature lammps(const Kernel<2> &)
+  template <int dim>
+  NeighbourhoodQuadrature<dim> lammps(const Kernel<dim> &)
   {
-    return {bond};
+    return {bond<dim>};
   }
+
+  template NeighbourhoodQuadrature<2> lammps(const Kernel<2> &);
+  template NeighbourhoodQuadrature<3> lammps(const Kernel<3> &);
 } // namespace plumbline::meshfree

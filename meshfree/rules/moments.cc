@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace plumbline::meshfree
 {
@@ -90,43 +91,61 @@ namespace plumbline::meshfree
       smallest_singular = smallest_singular_value(R);
       return y;
     }
+
+    /// Those of an order in all axes from `axis` on, the first axes' exponents falling.
+    template <int dim>
+    void append_exponents(Exponents<dim> e, unsigned int axis, int order,
+                          std::vector<Exponents<dim>> &result)
+    {
+      if (axis + 1 == dim)
+      {
+        e[axis] = order;
+        result.push_back(e);
+        return;
+      }
+      for (e[axis] = order; e[axis] >= 0; --e[axis])
+        append_exponents<dim>(e, axis + 1, order - e[axis], result);
+    }
   } // namespace
 
-  std::vector<Exponents> exponents(int lowest, int highest)
+  template <int dim>
+  std::vector<Exponents<dim>> exponents(int lowest, int highest)
   {
-    std::vector<Exponents> result;
+    std::vector<Exponents<dim>> result;
     for (int order = lowest; order <= highest; ++order)
-      for (int a = order; a >= 0; --a)
-        result.push_back({a, order - a});
+      append_exponents<dim>({}, 0, order, result);
     return result;
   }
 
-  std::vector<Exponents> even_exponents(int lowest, int highest)
+  template <int dim>
+  std::vector<Exponents<dim>> even_exponents(int lowest, int highest)
   {
-    std::vector<Exponents> result;
-    for (const Exponents &e : exponents(lowest, highest))
-      if (e[0] % 2 == 0 && e[1] % 2 == 0)
+    std::vector<Exponents<dim>> result;
+    for (const Exponents<dim> &e : exponents<dim>(lowest, highest))
+      if (std::all_of(e.begin(), e.end(), [](int one) { return one % 2 == 0; }))
         result.push_back(e);
     return result;
   }
 
-  void meet(const MomentConditions &conditions, Family &family)
+  template <int dim>
+  void meet(const MomentConditions<dim> &conditions, Family<dim> &family)
   {
     const auto n = static_cast<Index>(family.bonds.size());
     const auto n_conditions = static_cast<Index>(conditions.exponents.size());
-    const int highest = conditions.exponents.back()[0] + conditions.exponents.back()[1];
+    const int highest =
+        std::accumulate(conditions.exponents.back().begin(), conditions.exponents.back().end(), 0);
     // in y = w / √ω the conditions have the columns g s^α √ω, scaled to norm 1
     VectorXd root(n), before(n);
-    std::array<MatrixXd, 2> powers{MatrixXd(n, highest + 1), MatrixXd(n, highest + 1)};
+    std::array<MatrixXd, dim> powers;
+    powers.fill(MatrixXd::Ones(n, highest + 1));
     for (Index j = 0; j < n; ++j)
     {
-      const Bond &bond = family.bonds[j];
+      const Bond<dim> &bond = family.bonds[j];
       root[j] = std::sqrt(conditions.scale(bond));
       before[j] = bond.weight / root[j];
       powers[0](j, 0) = conditions.factor(bond) * root[j];
-      powers[1](j, 0) = 1;
-      const Point<2> along = bond.xi / conditions.horizon;
-      for (unsigned int d = 0; d < 2; ++d)
+      const Point<dim> along = bond.xi / conditions.horizon;
+      for (unsigned int d = 0; d < dim; ++d)
         for (int p = 0; p < highest; ++p)
           powers[d](j, p + 1) = powers[d](j, p) * along[d];
     }
@@ -134,8 +153,10 @@ namespace plumbline::meshfree
     VectorXd moments(n_conditions);
     for (Index i = 0; i < n_conditions; ++i)
     {
-      const Exponents &alpha = conditions.exponents[i];
+      const Exponents<dim> &alpha = conditions.exponents[i];
       columns.col(i) = powers[0].col(alpha[0]).cwiseProduct(powers[1].col(alpha[1]));
+      for (unsigned int d = 2; d < dim; ++d)
+        columns.col(i) = columns.col(i).cwiseProduct(powers[d].col(alpha[d]));
       for (Index j = 0; j < n && conditions.own_factor; ++j)
         columns(j, i) *= conditions.own_factor(family.bonds[j], i);
       const double norm = columns.col(i).norm(), scale = norm > 0 ? 1 / norm : 1;
@@ -150,4 +171,12 @@ namespace plumbline::meshfree
     for (Index j = 0; j < n; ++j)
       family.bonds[j].weight = after[j] * root[j];
   }
+
+#define PLUMBLINE_INSTANTIATE(dim)                                                                 \
+  template std::vector<Exponents<dim>> exponents<dim>(int, int);                                   \
+  template std::vector<Exponents<dim>> even_exponents<dim>(int, int);                              \
+  template void meet(const MomentConditions<dim> &, Family<dim> &);
+  PLUMBLINE_INSTANTIATE(2)
+  PLUMBLINE_INSTANTIATE(3)
+#undef PLUMBLINE_INSTANTIATE
 } // namespace plumbline::meshfree

@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -14,18 +15,49 @@ namespace plumbline::meshfree
     constexpr double moment_tolerance = 1e-10;
 
     constexpr auto remedy = "; raise m = horizon / h (Study/m, Study/horizon)";
+
+    /// The next index of -n ... n along each axis, the first being the fastest.
+    /// @return  whether there is one
+    template <std::size_t dim>
+    bool advance(std::array<int, dim> &k, int n)
+    {
+      for (int &one : k)
+      {
+        if (++one <= n)
+          return true;
+        one = -n;
+      }
+      return false;
+    }
+
+    /// The cell about node k of a lattice.
+    template <class Use>
+    void with_cell(const std::array<int, 2> &k, double h, const Use &use)
+    {
+      const auto square = geometry::square(Point<2>((k[0] - .5) * h, (k[1] - .5) * h), h);
+      use(geometry::ConvexCell(geometry::view(square)));
+    }
+
+    template <class Use>
+    void with_cell(const std::array<int, 3> &k, double h, const Use &use)
+    {
+      const Point<3> node(k[0] * h, k[1] * h, k[2] * h), half(.5 * h, .5 * h, .5 * h);
+      use(geometry::ConvexPolyhedron::box(Point<3>(node - half), node + half));
+    }
   } // namespace
 
-  double ramp(const Kernel<2> &kernel, const Candidate &candidate)
+  template <int dim>
+  double ramp(const Kernel<dim> &kernel, const Candidate<dim> &candidate)
   {
-    const double size = std::sqrt(candidate.area);
+    const double size = dim == 2 ? std::sqrt(candidate.area) : std::cbrt(candidate.area);
     return std::min(1., (kernel.horizon() - candidate.xi.norm()) / size + .5);
   }
 
-  bool add_bond(const NeighbourhoodQuadrature &rule, const Kernel<2> &kernel,
-                const Candidate &candidate, Family &family)
+  template <int dim>
+  bool add_bond(const NeighbourhoodQuadrature<dim> &rule, const Kernel<dim> &kernel,
+                const Candidate<dim> &candidate, Family<dim> &family)
   {
-    const Bond bond = rule.bond(kernel, candidate);
+    const Bond<dim> bond = rule.bond(kernel, candidate);
     if (bond.weight == 0)
       return false;
     const double r = bond.kernel_point.norm();
@@ -35,7 +67,8 @@ namespace plumbline::meshfree
     return true;
   }
 
-  void finish(const NeighbourhoodQuadrature &rule, Family &family,
+  template <int dim>
+  void finish(const NeighbourhoodQuadrature<dim> &rule, Family<dim> &family,
               const std::function<std::string()> &where)
   {
     if (family.bonds.empty())
@@ -55,22 +88,33 @@ namespace plumbline::meshfree
     throw NumericalError(message.str());
   }
 
-  Bonds lattice_bonds(const NeighbourhoodQuadrature &rule, const Kernel<2> &kernel, double h,
-                      Backend backend)
+  template <int dim>
+  Bonds<dim> lattice_bonds(const NeighbourhoodQuadrature<dim> &rule, const Kernel<dim> &kernel,
+                           double h, Backend backend)
   {
     const double horizon = kernel.horizon();
     const int n = static_cast<int>(horizon / h + .5 + tie_tolerance);
-    Family family;
-    for (int k2 = -n; k2 <= n; ++k2)
-      for (int k1 = -n; k1 <= n; ++k1)
-        if (k1 != 0 || k2 != 0)
-        {
-          const auto square = geometry::square(Point<2>((k1 - .5) * h, (k2 - .5) * h), h);
-          const geometry::ConvexCell cell(geometry::view(square));
-          add_bond(rule, kernel,
-                   {{Point<2>(), horizon}, backend, Point<2>(k1 * h, k2 * h), h * h, {&cell, 1}},
-                   family);
-        }
+    Family<dim> family;
+    std::array<int, dim> k;
+    k.fill(-n);
+    for (bool is_more = true; is_more; is_more = advance(k, n))
+      if (k != std::array<int, dim>{})
+      {
+        Point<dim> xi;
+        for (unsigned int d = 0; d < dim; ++d)
+          xi[d] = k[d] * h;
+        with_cell(k, h,
+                  [&](const auto &cell)
+                  {
+                    Candidate<dim> candidate;
+                    candidate.ball = {Point<dim>(), horizon};
+                    candidate.backend = backend;
+                    candidate.xi = xi;
+                    candidate.area = dim == 2 ? h * h : h * h * h;
+                    candidate.pieces = {&cell, 1};
+                    add_bond(rule, kernel, candidate, family);
+                  });
+      }
     finish(rule, family,
            [&]
            {
@@ -78,7 +122,7 @@ namespace plumbline::meshfree
              place << "for m = " << horizon / h;
              return place.str();
            });
-    Bonds bonds{h, std::move(family.bonds), family.fit};
+    Bonds<dim> bonds{h, std::move(family.bonds), family.fit};
     if (family.is_clipped)
       bonds.notes.push_back("kernel negative at nodes beyond the horizon, clipped at 0");
     if (family.fit.rank < family.fit.n_conditions)
@@ -86,4 +130,16 @@ namespace plumbline::meshfree
                             std::to_string(family.fit.n_conditions) + ", feasible by symmetry");
     return bonds;
   }
+
+#define PLUMBLINE_INSTANTIATE(dim)                                                                 \
+  template double ramp(const Kernel<dim> &, const Candidate<dim> &);                               \
+  template bool add_bond(const NeighbourhoodQuadrature<dim> &, const Kernel<dim> &,                \
+                         const Candidate<dim> &, Family<dim> &);                                   \
+  template void finish(const NeighbourhoodQuadrature<dim> &, Family<dim> &,                        \
+                       const std::function<std::string()> &);                                      \
+  template Bonds<dim> lattice_bonds(const NeighbourhoodQuadrature<dim> &, const Kernel<dim> &,     \
+                                    double, Backend);
+  PLUMBLINE_INSTANTIATE(2)
+  PLUMBLINE_INSTANTIATE(3)
+#undef PLUMBLINE_INSTANTIATE
 } // namespace plumbline::meshfree

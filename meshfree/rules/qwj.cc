@@ -4,7 +4,8 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    Bond bond(const Kernel<2> &kernel, const Candidate &candidate)
+    template <int dim>
+    Bond<dim> bond(const Kernel<dim> &kernel, const Candidate<dim> &candidate)
     {
       const double share = ramp(kernel, candidate);
       return {candidate.xi, share > tie_tolerance ? share * candidate.area : 0, candidate.xi,
@@ -12,8 +13,12 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  NeighbourhoodQuadrature qwj(const Kernel<2> &)
+  template <int dim>
+  NeighbourhoodQuadrature<dim> qwj(const Kernel<dim> &)
   {
-    return {bond};
+    return {bond<dim>};
   }
+
+  template NeighbourhoodQuadrature<2> qwj(const Kernel<2> &);
+  template NeighbourhoodQuadrature<3> qwj(const Kernel<3> &);
 } // namespace plumbline::meshfree

@@ -2,22 +2,32 @@
 
 namespace plumbline::meshfree
 {
+  namespace
+  {
+    template <int dim, unsigned int degree>
+    NeighbourhoodQuadrature<dim> of_degree(const Kernel<dim> &kernel)
+    {
+      return recalibrated(kernel, degree);
+    }
+  } // namespace
+
   const std::vector<Rule> &rules()
   {
     static const std::vector<Rule> table = {
-        {"FA", "full area of cells whose node is in the ball", full_area},
-        {"LAMMPS", "full area with a ramp inside the horizon", lammps},
-        {"QWJ", "full area with a ramp across the horizon, also known as HHB", qwj},
-        {"PA-AC", "exact partial areas, kernel at the node", partial_area},
+        {"FA", "full area of cells whose node is in the ball", full_area<2>, full_area<3>},
+        {"LAMMPS", "full area with a ramp inside the horizon", lammps<2>, lammps<3>},
+        {"QWJ", "full area with a ramp across the horizon, also known as HHB", qwj<2>, qwj<3>},
+        {"PA-AC", "exact partial areas, kernel at the node", partial_area<2>, partial_area<3>},
         {"IPA-AC",
          "exact partial areas, kernel at the centroid of ball and cell ('plumbline describe "
          "Methods/names': what of each model)",
-         improved_partial_area},
-        {"IPA-AC-R2", "IPA-AC recalibrated to exact moments of degree 2",
-         [](const Kernel<2> &kernel) { return recalibrated(kernel, 2); }},
-        {"IPA-AC-R4", "IPA-AC recalibrated to exact moments of degree 4",
-         [](const Kernel<2> &kernel) { return recalibrated(kernel, 4); }},
-        {"OPT", "optimisation-based quadrature weights", optimisation_based},
+         improved_partial_area<2>, improved_partial_area<3>},
+        {"IPA-AC-R2", "IPA-AC recalibrated to exact moments of degree 2", of_degree<2, 2>,
+         of_degree<3, 2>},
+        {"IPA-AC-R4", "IPA-AC recalibrated to exact moments of degree 4", of_degree<2, 4>,
+         of_degree<3, 4>},
+        {"OPT", "optimisation-based quadrature weights", optimisation_based<2>,
+         optimisation_based<3>},
     };
     return table;
   }
@@ -26,7 +36,7 @@ namespace plumbline::meshfree
   {
     static const std::vector<Rule> table = {
         {"IPA-AC-R2c", "IPA-AC-R2 with tensors at the centroid: negative weights, a counterexample",
-         recalibrated_at_centroid},
+         recalibrated_at_centroid<2>, recalibrated_at_centroid<3>},
     };
     return table;
   }

@@ -6,27 +6,33 @@ namespace plumbline::meshfree
 {
   // Every rule for one kernel: lattice_bonds(rule, kernel, h, backend) makes the bonds on a
   // lattice of size h, where all nodes share one family, Families(rule, kernel, cells, backend)
-  // those on scattered nodes, where each cell has its own area A and size √A.
+  // those on scattered nodes, where each cell has its own area A and size √A. In space, dim = 3,
+  // volumes take the place of areas.
 
   /// Full area: A for nodes in the ball, kernel at the node.
   /// Source: Silling & Askari 2005, doi:10.1016/j.compstruc.2004.11.026.
-  NeighbourhoodQuadrature full_area(const Kernel<2> &kernel);
+  template <int dim>
+  NeighbourhoodQuadrature<dim> full_area(const Kernel<dim> &kernel);
 
   /// A times a ramp from 1 at r = δ - √A/2 to 1/2 at r = δ, 0 beyond, kernel at the node.
   /// Source: Parks et al. 2008, doi:10.1016/j.cpc.2008.06.011.
-  NeighbourhoodQuadrature lammps(const Kernel<2> &kernel);
+  template <int dim>
+  NeighbourhoodQuadrature<dim> lammps(const Kernel<dim> &kernel);
 
   /// The same ramp down to 0 at r = δ + √A/2, kernel at the node, clipped at 0. Also known as HHB.
   /// Source: Le, Chan & Schwartz 2014, doi:10.1002/nme.4642.
-  NeighbourhoodQuadrature qwj(const Kernel<2> &kernel);
+  template <int dim>
+  NeighbourhoodQuadrature<dim> qwj(const Kernel<dim> &kernel);
 
   /// Exact area of ball ∩ cell, also of cells whose node is outside; kernel at the node, clipped
   /// at 0. Source: Seleson 2014, doi:10.1016/j.cma.2014.06.016.
-  NeighbourhoodQuadrature partial_area(const Kernel<2> &kernel);
+  template <int dim>
+  NeighbourhoodQuadrature<dim> partial_area(const Kernel<dim> &kernel);
 
   /// Exact area, kernel at the centroid of ball ∩ cell. Second order at fixed horizon, not AC.
   /// Source: Seleson 2014, doi:10.1016/j.cma.2014.06.016.
-  NeighbourhoodQuadrature improved_partial_area(const Kernel<2> &kernel);
+  template <int dim>
+  NeighbourhoodQuadrature<dim> improved_partial_area(const Kernel<dim> &kernel);
 
   /// IPA-AC areas A changed as little as possible, min Σ (w - A)²/A, so that the discrete operator
   /// has the exact moments up to a degree: asymptotically compatible of order 2 (degree 2) or 4
@@ -34,24 +40,28 @@ namespace plumbline::meshfree
   /// or 22 for tensors. Scalar kernels at the centroid; tensors at the node, since at the centroid
   /// a third, nearly dependent constraint asks for negative weights.
   /// Infeasible, a NumericalError, where a node has too few neighbours to meet the moments.
-  NeighbourhoodQuadrature recalibrated(const Kernel<2> &kernel, unsigned int degree);
+  template <int dim>
+  NeighbourhoodQuadrature<dim> recalibrated(const Kernel<dim> &kernel, unsigned int degree);
 
   /// The same with tensors at the centroid, where IPA-AC takes them: a counterexample. The moments
   /// of C_ab ξ^α up to degree 2, 5 conditions on lattices and 15 on scattered nodes, of which those
   /// of C_11 ξ_2² and C_12 ξ_1 ξ_2, one and the same at the node, nearly depend on each other:
   /// weights turn negative, for non-integer m by many areas. For scalars it is `recalibrated`.
-  NeighbourhoodQuadrature recalibrated_at_centroid(const Kernel<2> &kernel);
+  template <int dim>
+  NeighbourhoodQuadrature<dim> recalibrated_at_centroid(const Kernel<dim> &kernel);
 
-  /// Weights of least Σ w² that integrate s1^a s2^b / |s|³, 2 <= a + b <= 5, exactly.
+  /// Weights of least Σ w² that integrate s^α / |s|³, 2 <= |α| <= 5, exactly.
   /// Source: Trask et al. 2019, doi:10.1016/j.cma.2018.08.016.
   /// Infeasible, a NumericalError, where a node has too few neighbours for the constraints.
-  NeighbourhoodQuadrature optimisation_based(const Kernel<2> &kernel);
+  template <int dim>
+  NeighbourhoodQuadrature<dim> optimisation_based(const Kernel<dim> &kernel);
 
   /// A row of the table of rules.
   struct Rule
   {
     std::string name, help;
-    NeighbourhoodQuadrature (*of)(const Kernel<2> &);
+    NeighbourhoodQuadrature<2> (*in_plane)(const Kernel<2> &) = nullptr;
+    NeighbourhoodQuadrature<3> (*in_space)(const Kernel<3> &) = nullptr; ///< null: there is none
   };
 
   /// All rules; a new one is one source file and one row here.

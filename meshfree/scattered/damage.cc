@@ -61,14 +61,15 @@ namespace plumbline::meshfree
            on_segment < length + (segment.ends ? -tolerance_ : tolerance_);
   }
 
-  bool BrokenBonds::find(std::size_t node, const Family &family, std::vector<char> &is_intact) const
+  bool BrokenBonds::find(std::size_t node, const Family<2> &family,
+                         std::vector<char> &is_intact) const
   {
     is_intact.assign(family.bonds.size(), 1);
     if (segments_.empty() && is_ghost_.empty())
       return true;
     const Point<2> &x = cells_->nodes[node];
     double reach = 0;
-    for (const Bond &bond : family.bonds)
+    for (const Bond<2> &bond : family.bonds)
       reach = std::max(reach, bond.xi.norm());
     std::vector<unsigned int> near;
     search_.find(box_around(x, reach), near);
@@ -122,7 +123,7 @@ namespace plumbline::meshfree
     throw InputError(message.str());
   }
 
-  Remainder remainder(const Kernel<2> &influence, const Family &family,
+  Remainder remainder(const Kernel<2> &influence, const Family<2> &family,
                       const std::vector<char> &is_intact)
   {
     Tensor<2, 2> shape;
@@ -130,7 +131,7 @@ namespace plumbline::meshfree
     for (std::size_t k = 0; k < family.bonds.size(); ++k)
       if (is_intact[k] != 0)
       {
-        const Bond &bond = family.bonds[k];
+        const Bond<2> &bond = family.bonds[k];
         shape += bond.weight * radial_value(influence, bond) * outer_product(bond.xi, bond.xi);
         inward += bond.weight * bond.xi;
       }

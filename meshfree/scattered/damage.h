@@ -32,7 +32,7 @@ namespace plumbline::meshfree
     /// Thread safe.
     /// @param is_intact  overwritten, of each bond
     /// @return           whether all are
-    bool find(std::size_t node, const Family &family, std::vector<char> &is_intact) const;
+    bool find(std::size_t node, const Family<2> &family, std::vector<char> &is_intact) const;
 
     bool is_ghost(std::size_t node) const { return !is_ghost_.empty() && is_ghost_[node] != 0; }
 
@@ -68,6 +68,6 @@ namespace plumbline::meshfree
     Tensor<1, 2> normal;     ///< out of the body; 0 where bonds are missing on all sides alike
   };
 
-  Remainder remainder(const Kernel<2> &influence, const Family &family,
+  Remainder remainder(const Kernel<2> &influence, const Family<2> &family,
                       const std::vector<char> &is_intact);
 } // namespace plumbline::meshfree

@@ -210,7 +210,7 @@ namespace plumbline::meshfree
 
     Families families_of(const Rule &rule, const problem::Problem<2> &problem)
     {
-      return {rule.of(problem.kernel), problem.kernel, *problem.cells(),
+      return {rule.in_plane(problem.kernel), problem.kernel, *problem.cells(),
               problem.settings.geometry.backend};
     }
 
@@ -242,7 +242,7 @@ namespace plumbline::meshfree
       const Families families = families_of(rule, problem);
       if (!problem.dilatation)
         return scattered_operator(families, problem, share);
-      const auto make = [&](std::size_t node, Family &family) { families.make(node, family); };
+      const auto make = [&](std::size_t node, Family<2> &family) { families.make(node, family); };
       const StateBasedBody body{problem.cells().get(),
                                 *problem.dilatation,
                                 {problem.damage.cracks,

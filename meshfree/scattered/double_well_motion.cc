@@ -62,7 +62,7 @@ namespace plumbline::meshfree
         const std::size_t n_free = cells_->n_free;
         nodes_.assign(cells_->nodes.begin(),
                       cells_->nodes.begin() + static_cast<std::ptrdiff_t>(n_free));
-        Family family;
+        Family<2> family;
         for (std::size_t i = 0; i < n_free; ++i)
         {
           roots_.push_back(std::sqrt(cells_->area[i]));
@@ -205,7 +205,7 @@ namespace plumbline::meshfree
       double root(std::size_t i) const { return roots_[i % roots_.size()]; }
 
       void add_bond(const problem::Problem<2> &problem, std::size_t i, unsigned int j,
-                    const Bond &bond)
+                    const Bond<2> &bond)
       {
         const WellBond well = well_bond(*problem.double_well, bond.weight, bond.kernel_point);
         double strength = ln2 * cells_->area[i] * well.strength;

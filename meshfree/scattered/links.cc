@@ -9,7 +9,7 @@ namespace plumbline::meshfree
     const Kernel<2> &influence = body.dilatation.influence;
     const BrokenBonds broken(body.damage, *body.cells, influence.horizon());
     const Kernel<2> deviatoric = physics::deviatoric_kernel(influence, 1);
-    Family family;
+    Family<2> family;
     std::vector<char> is_intact;
     const auto add = [&](std::size_t i)
     {
@@ -23,7 +23,7 @@ namespace plumbline::meshfree
         node.remainder = meshfree::remainder(influence, family, is_intact);
       for (std::size_t k = 0; k < family.bonds.size(); ++k)
       {
-        const Bond &bond = family.bonds[k];
+        const Bond<2> &bond = family.bonds[k];
         links_.push_back({family.neighbours[k], is_intact[k] != 0,
                           bond.weight * radial_value(influence, bond), bond.xi,
                           bond.kernel_point / bond.kernel_point.norm()});

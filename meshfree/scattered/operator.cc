@@ -38,7 +38,7 @@ namespace plumbline::meshfree
     rows.start.assign(share.first * n_components + 1, 0);
     result.statistics = {*problem.cells(), problem.settings.ball_order};
     const BrokenBonds broken({problem.damage.cracks, {}}, *problem.cells(), problem.horizon());
-    Family family;
+    Family<2> family;
     std::vector<char> is_intact;
     std::vector<Block> blocks;
     for (auto i = static_cast<unsigned int>(share.first); i < share.second; ++i)
@@ -53,7 +53,7 @@ namespace plumbline::meshfree
       {
         if (is_intact[k] == 0)
           continue;
-        const Bond &bond = family.bonds[k];
+        const Bond<2> &bond = family.bonds[k];
         const unsigned int j = family.neighbours[k];
         const double mean = a.empty() ? 1 : problem.coefficient->mean(a[i], a[j]);
         const double factor = mean * bond.weight * radial_value(problem.kernel, bond);
@@ -91,7 +91,7 @@ namespace plumbline::meshfree
   ScatteredOperator scattered_operator(const Families &families, const problem::Problem<2> &problem,
                                        std::pair<std::size_t, std::size_t> share)
   {
-    return scattered_operator([&](std::size_t i, Family &family) { families.make(i, family); },
+    return scattered_operator([&](std::size_t i, Family<2> &family) { families.make(i, family); },
                               problem, share);
   }
 } // namespace plumbline::meshfree

@@ -34,7 +34,7 @@ namespace plumbline::meshfree
   };
 
   /// Yields the family of a free node, as Families::make does: neighbours ascending.
-  using FamilySource = std::function<void(std::size_t node, Family &family)>;
+  using FamilySource = std::function<void(std::size_t node, Family<2> &family)>;
 
   /// The operator L_h of families on a share [first, last) of the free nodes: rows
   /// -Σ a C(kernel_point) (u_j - u_i) weight, where a is the mean of the coefficients at both

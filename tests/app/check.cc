@@ -71,7 +71,7 @@ TEST(Check, its_example_is_what_the_library_makes)
   const auto problem = scene::make_problem(scene, 0, scene.study.series[0].levels[0]);
   const meshfree::Families families(meshfree::recalibrated(problem.kernel, 2), problem.kernel,
                                     *problem.cells(), meshfree::Backend::fast);
-  meshfree::Family family;
+  meshfree::Family<2> family;
   std::ifstream good(bonds_file), wrong(folder / "bonds_wrong.csv");
   std::string row, wrong_row;
   std::getline(good, row);
@@ -83,7 +83,7 @@ TEST(Check, its_example_is_what_the_library_makes)
     families.make(i, family);
     for (std::size_t k = 0; k < family.bonds.size(); ++k)
     {
-      const meshfree::Bond &bond = family.bonds[k];
+      const meshfree::Bond<2> &bond = family.bonds[k];
       const std::size_t from = problem.cells()->source[i] + 1,
                         to = problem.cells()->source[family.neighbours[k]] + 1;
       ASSERT_TRUE(std::getline(good, row));

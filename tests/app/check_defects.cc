@@ -12,13 +12,13 @@ namespace
   using namespace plumbline::app;
   using namespace plumbline::meshfree;
 
-  std::size_t bond_to(const Family &family, std::size_t j)
+  std::size_t bond_to(const Family<2> &family, std::size_t j)
   {
     const auto at = std::find(family.neighbours.begin(), family.neighbours.end(), j);
     return static_cast<std::size_t>(at - family.neighbours.begin());
   }
 
-  void remove_bond(Family &family, std::size_t j)
+  void remove_bond(Family<2> &family, std::size_t j)
   {
     const auto at = static_cast<std::ptrdiff_t>(bond_to(family, j));
     family.bonds.erase(family.bonds.begin() + at);
@@ -27,7 +27,7 @@ namespace
 
   void double_weights_to(Weights &weights, std::size_t node)
   {
-    for (Family &family : weights.families)
+    for (Family<2> &family : weights.families)
       for (std::size_t k = 0; k < family.bonds.size(); ++k)
         family.bonds[k].weight *= family.neighbours[k] == node ? 2 : 1;
   }
@@ -191,28 +191,28 @@ TEST(Check, names_nothing_in_sound_weights)
 
 TEST(Check, names_what_was_done_to_all_weights)
 {
-  using Change = std::function<void(Bond &, const Weights &, std::size_t)>;
+  using Change = std::function<void(Bond<2> &, const Weights &, std::size_t)>;
   const double m = 3;
   const std::vector<std::pair<std::string, Change>> all = {
       {"all weights have the wrong sign",
-       [](Bond &b, const Weights &, std::size_t) { b.weight *= -1; }},
+       [](Bond<2> &b, const Weights &, std::size_t) { b.weight *= -1; }},
       {"all weights are twice too large, as if made for the limit -Laplace, not -0.5 Laplace",
-       [](Bond &b, const Weights &, std::size_t) { b.weight *= 2; }},
+       [](Bond<2> &b, const Weights &, std::size_t) { b.weight *= 2; }},
       {"all weights are half of what they should be",
-       [](Bond &b, const Weights &, std::size_t) { b.weight *= .5; }},
+       [](Bond<2> &b, const Weights &, std::size_t) { b.weight *= .5; }},
       {"all weights carry the factor 3/(4 m) = 0.25, the volume of the horizon in 2D",
-       [m](Bond &b, const Weights &, std::size_t) { b.weight *= .75 / m; }},
+       [m](Bond<2> &b, const Weights &, std::size_t) { b.weight *= .75 / m; }},
       {"the kernel is taken at the midpoints of the bonds",
-       [](Bond &b, const Weights &, std::size_t) { b.kernel_point *= .5; }},
+       [](Bond<2> &b, const Weights &, std::size_t) { b.kernel_point *= .5; }},
       {"the kernel points (qx, qy) are reversed",
-       [](Bond &b, const Weights &, std::size_t) { b.kernel_point *= -1; }},
-      {"the kernel points (qx, qy) are absolute", [](Bond &b, const Weights &w, std::size_t i)
+       [](Bond<2> &b, const Weights &, std::size_t) { b.kernel_point *= -1; }},
+      {"the kernel points (qx, qy) are absolute", [](Bond<2> &b, const Weights &w, std::size_t i)
        { b.kernel_point += dealii::Tensor<1, 2>(w.problem.cells()->nodes[i]); }}};
   for (const auto &[text, plant] : all)
   {
     Weights weights = example_weights("IPA-AC-R2", 0);
     for (std::size_t i = 0; i < weights.families.size(); ++i)
-      for (Bond &bond : weights.families[i].bonds)
+      for (Bond<2> &bond : weights.families[i].bonds)
         plant(bond, weights, i);
     const Files files = files_of(weights);
     const Outcome outcome = check(files.nodes, files.bonds, "--json");

@@ -44,7 +44,7 @@ namespace plumbline::app
     for (std::size_t i = 0; i < weights.families.size(); ++i)
       for (std::size_t k = 0; k < weights.families[i].bonds.size(); ++k)
       {
-        const Bond &bond = weights.families[i].bonds[k];
+        const Bond<2> &bond = weights.families[i].bonds[k];
         bonds << i + 1 << ',' << weights.families[i].neighbours[k] + 1 << ',' << bond.weight << ','
               << bond.kernel_point[0] << ',' << bond.kernel_point[1] << '\n';
       }

@@ -35,7 +35,7 @@ namespace plumbline::geometry
     std::array<double, 2> errors(const Point<3> &centre, double radius, const Point<3> &upper)
     {
       const ConvexPolyhedron box = ConvexPolyhedron::box({0, 0, 0}, upper);
-      const SolidMoments found = intersect(centre, radius, box, 1);
+      const SolidMoments found = intersect({centre, radius}, box, 1);
       const double whole = std::min(ball(radius), box.moments().volume),
                    length = std::min(2 * radius, upper.norm());
       std::array<double, 2> worst{};
@@ -156,7 +156,7 @@ namespace plumbline::geometry
           {
             const Point<3> lower(i, j, k);
             const SolidMoments m = intersect(
-                centre, radius, ConvexPolyhedron::box(lower, lower + Vector({1., 1., 1.})));
+                {centre, radius}, ConvexPolyhedron::box(lower, lower + Vector({1., 1., 1.})));
             volume += m.volume;
             first += m.volume * (m.centroid - centre);
             second += about(m, centre);
@@ -178,7 +178,7 @@ namespace plumbline::geometry
       for (int trial = 0; trial < 200; ++trial)
       {
         const Point<3> centre = random.centre(radius), upper(1, 1, 1);
-        const SolidMoments cube = intersect(centre, radius, unit_cube());
+        const SolidMoments cube = intersect({centre, radius}, unit_cube());
         double volume = 0;
         dealii::SymmetricTensor<2, 3> second;
         std::array<unsigned int, 3> order{0, 1, 2};
@@ -188,7 +188,7 @@ namespace plumbline::geometry
           a[order[0]] = 1;
           b[order[0]] = b[order[1]] = 1;
           const SolidMoments part =
-              intersect(centre, radius, ConvexPolyhedron::tetrahedron({Point<3>(), a, b, upper}));
+              intersect({centre, radius}, ConvexPolyhedron::tetrahedron({Point<3>(), a, b, upper}));
           volume += part.volume;
           second += about(part, cube.centroid);
         } while (std::next_permutation(order.begin(), order.end()));
@@ -203,15 +203,15 @@ namespace plumbline::geometry
 
   TEST(BallPolyhedron, KnowsTheWholeCellAndTheWholeBall)
   {
-    const SolidMoments cube = intersect({.5, .5, .5}, .87, unit_cube());
+    const SolidMoments cube = intersect({{.5, .5, .5}, .87}, unit_cube());
     EXPECT_DOUBLE_EQ(cube.volume, 1);
     EXPECT_DOUBLE_EQ((cube.second[{0, 0}]), 1. / 12);
     EXPECT_NEAR((cube.second[{0, 1}]), 0, 1e-16);
-    const SolidMoments inside = intersect({.4, .5, .6}, .4, unit_cube());
+    const SolidMoments inside = intersect({{.4, .5, .6}, .4}, unit_cube());
     EXPECT_NEAR(inside.volume, ball(.4), 1e-16);
     EXPECT_NEAR(inside.centroid.distance({.4, .5, .6}), 0, 1e-15);
     EXPECT_NEAR((inside.second[{2, 2}]), ball(.4) * .4 * .4 / 5, 1e-17);
-    const SolidMoments apart = intersect({3, .5, 2}, .5, unit_cube());
+    const SolidMoments apart = intersect({{3, .5, 2}, .5}, unit_cube());
     EXPECT_EQ(apart.volume, 0);
     EXPECT_NEAR(apart.centroid.distance({1, .5, 1}), 0, 1e-15);
   }
@@ -221,14 +221,15 @@ namespace plumbline::geometry
   {
     const Point<3> centre(1.3, .4, -.2);
     const double radius = 1.1;
-    const SolidMoments plain = intersect(centre, radius, unit_cube());
+    const SolidMoments plain = intersect({centre, radius}, unit_cube());
     ASSERT_GT(plain.volume, 0);
     for (const double unit : {1e-9, 1e6})
     {
       const Vector shift({7, -3, 5});
       const auto moved = [&](const Point<3> &x) { return Point<3>(unit * (x + shift)); };
-      const SolidMoments other = intersect(
-          moved(centre), unit * radius, ConvexPolyhedron::box(moved({0, 0, 0}), moved({1, 1, 1})));
+      const SolidMoments other =
+          intersect({moved(centre), unit * radius},
+                    ConvexPolyhedron::box(moved({0, 0, 0}), moved({1, 1, 1})));
       EXPECT_NEAR(other.volume / (unit * unit * unit), plain.volume, 1e-13);
       EXPECT_NEAR((other.centroid / unit - shift).distance(plain.centroid), 0, 1e-13);
       EXPECT_NEAR((other.second[{0, 0}]) / std::pow(unit, 5), (plain.second[{0, 0}]), 1e-13);
@@ -238,6 +239,6 @@ namespace plumbline::geometry
   TEST(BallPolyhedron, RefusesWhatIsNoBall)
   {
     for (const double radius : {0., -1., std::nan("")})
-      EXPECT_THROW(intersect({0, 0, 0}, radius, unit_cube()), InputError);
+      EXPECT_THROW(intersect({{0, 0, 0}, radius}, unit_cube()), InputError);
   }
 } // namespace plumbline::geometry

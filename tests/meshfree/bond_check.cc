@@ -30,33 +30,34 @@ namespace
   }
 
   /// The families of all free nodes.
-  std::vector<Family> all(const NeighbourhoodQuadrature &rule, const problem::Problem<2> &problem)
+  std::vector<Family<2>> all(const NeighbourhoodQuadrature<2> &rule,
+                             const problem::Problem<2> &problem)
   {
     const Families families(rule, problem.kernel, *problem.cells(), Backend::fast);
-    std::vector<Family> result(families.size());
+    std::vector<Family<2>> result(families.size());
     for (std::size_t i = 0; i < families.size(); ++i)
       families.make(i, result[i]);
     return result;
   }
 
-  std::vector<Family> good_families(const problem::Problem<2> &problem)
+  std::vector<Family<2>> good_families(const problem::Problem<2> &problem)
   {
     return all(recalibrated(problem.kernel, 2), problem);
   }
 
-  algebra::MatrixCheck check_matrix(const std::vector<Family> &families,
+  algebra::MatrixCheck check_matrix(const std::vector<Family<2>> &families,
                                     const problem::Problem<2> &problem)
   {
-    return algebra::check_matrix(scattered_operator([&](std::size_t i, Family &family)
+    return algebra::check_matrix(scattered_operator([&](std::size_t i, Family<2> &family)
                                                     { family = families[i]; },
                                                     problem, {0, families.size()})
                                      .rows.free);
   }
 
   /// The bond of a node to the one at a distance of (1, 0) h.
-  Bond &right_bond(Family &family)
+  Bond<2> &right_bond(Family<2> &family)
   {
-    for (Bond &bond : family.bonds)
+    for (Bond<2> &bond : family.bonds)
       if (bond.xi.distance(Point<2>(h, 0)) < 1e-9)
         return bond;
     throw std::logic_error("no neighbour to the right");
@@ -106,7 +107,7 @@ TEST(CheckMoments, names_the_one_node_whose_weights_are_wrong)
 {
   const auto problem = make_problem(false);
   auto families = good_families(problem);
-  Bond &bond = right_bond(families[inner]);
+  Bond<2> &bond = right_bond(families[inner]);
   const double change =
       2 * bond.weight * radial_value(problem.kernel, bond) * h * h / problem.kernel.moment({2, 0});
   bond.weight *= 3;
@@ -120,8 +121,8 @@ TEST(CheckMoments, names_the_one_node_whose_weights_are_wrong)
   EXPECT_NEAR(check.mean_ratio - 1, change / 2 / 64, 1e-12);
 
   // errors that all nodes share are typical
-  for (Family &family : families)
-    for (Bond &each : family.bonds)
+  for (Family<2> &family : families)
+    for (Bond<2> &each : family.bonds)
       each.weight *= 1.2;
   check = check_moments(families, problem.kernel);
   EXPECT_GT(check.typical(), .199);
@@ -142,8 +143,8 @@ TEST(CheckMoments, finds_mixed_entries_of_a_tensor_that_have_the_wrong_sign)
 {
   const auto problem = make_problem(true);
   auto families = good_families(problem);
-  for (Family &family : families)
-    for (Bond &bond : family.bonds)
+  for (Family<2> &family : families)
+    for (Bond<2> &bond : family.bonds)
       bond.kernel_point[1] *= -1;
   const MomentCheck check = check_moments(families, problem.kernel);
   EXPECT_NEAR(check.mean_ratio, 1, 1e-12);
@@ -165,7 +166,7 @@ TEST(CheckWeights, partial_areas_add_up_to_the_ball)
 {
   const auto problem = make_problem(false);
   auto families = all(improved_partial_area(problem.kernel), problem);
-  for (Family &family : families)
+  for (Family<2> &family : families)
     for (std::size_t k = 0; k < family.bonds.size(); ++k)
       family.bonds[k].area = problem.cells()->area[family.neighbours[k]];
   const std::vector<double> volumes(64, h * h);
@@ -175,7 +176,7 @@ TEST(CheckWeights, partial_areas_add_up_to_the_ball)
   EXPECT_NEAR(check.largest_ratio, 1, 1e-12);
   EXPECT_GT(check.smallest_ratio, 0);
 
-  Bond &bond = right_bond(families[inner]);
+  Bond<2> &bond = right_bond(families[inner]);
   bond.weight *= -2;
   check = check_weights(families, problem.kernel, volumes);
   EXPECT_EQ(check.n_negative, 1u);
@@ -199,7 +200,7 @@ TEST(CheckSymmetry, finds_an_asymmetric_weight_and_a_bond_without_partner)
     EXPECT_EQ(check.nodes[0] + check.nodes[1], 2 * inner + 1);
     EXPECT_EQ(check.n_unpaired, 0u);
 
-    Family &last = families[inner + 1];
+    Family<2> &last = families[inner + 1];
     const auto left = std::find(last.neighbours.begin(), last.neighbours.end(), inner);
     last.bonds.erase(last.bonds.begin() + (left - last.neighbours.begin()));
     last.neighbours.erase(left);
@@ -218,7 +219,7 @@ TEST(CheckSymmetry, forces_balance_where_weights_are_volumes)
   std::vector<double> volumes;
   for (std::size_t i = 0; i < problem.cells()->size(); ++i)
     volumes.push_back(h * h * (1 + .1 * static_cast<double>(i % 3)));
-  for (Family &family : families)
+  for (Family<2> &family : families)
     for (std::size_t k = 0; k < family.bonds.size(); ++k)
       family.bonds[k].weight = volumes[family.neighbours[k]];
   const SymmetryCheck check = check_symmetry(families, problem.kernel, volumes);
@@ -272,7 +273,7 @@ TEST(CheckMatrix, finds_a_matrix_that_is_not_definite)
       EXPECT_EQ(check.n_positive + check.n_weak, 0u);
     }
 
-    for (Bond &bond : families[inner].bonds) // one row of the wrong sign
+    for (Bond<2> &bond : families[inner].bonds) // one row of the wrong sign
       bond.weight *= -1;
     check = check_matrix(families, problem);
     EXPECT_FALSE(check.is_positive_definite());

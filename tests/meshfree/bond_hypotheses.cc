@@ -14,7 +14,7 @@ using namespace plumbline::meshfree;
 
 namespace
 {
-  using Change = std::function<void(Bond &bond, const Weights &weights, std::size_t node)>;
+  using Change = std::function<void(Bond<2> &bond, const Weights &weights, std::size_t node)>;
 
   /// What is done to all bonds, and the cause to be found.
   struct Planted
@@ -29,14 +29,14 @@ namespace
   {
     Weights weights = weights_of(rule, problem);
     for (std::size_t i = 0; i < weights.families.size(); ++i)
-      for (Bond &bond : weights.families[i].bonds)
+      for (Bond<2> &bond : weights.families[i].bonds)
         plant(bond, weights, i);
     return find_causes(weights.given(), is_recognised ? recognise(weights.given()) : std::nullopt);
   }
 
   Change times(double factor)
   {
-    return [factor](Bond &bond, const Weights &, std::size_t) { bond.weight *= factor; };
+    return [factor](Bond<2> &bond, const Weights &, std::size_t) { bond.weight *= factor; };
   }
 
   std::vector<Planted> all_planted(double m)
@@ -49,10 +49,10 @@ namespace
             {"bond constant of 3D", times(1.25 / m), 1.25 / m},
             {"common factor", times(7), 7},
             {"kernel at midpoints",
-             [](Bond &bond, const Weights &, std::size_t) { bond.kernel_point *= .5; }},
+             [](Bond<2> &bond, const Weights &, std::size_t) { bond.kernel_point *= .5; }},
             {"kernel points reversed",
-             [](Bond &bond, const Weights &, std::size_t) { bond.kernel_point *= -1; }},
-            {"kernel points absolute", [](Bond &bond, const Weights &weights, std::size_t i)
+             [](Bond<2> &bond, const Weights &, std::size_t) { bond.kernel_point *= -1; }},
+            {"kernel points absolute", [](Bond<2> &bond, const Weights &weights, std::size_t i)
              { bond.kernel_point += dealii::Tensor<1, 2>(weights.problem.cells()->nodes[i]); }}};
   }
 } // namespace
@@ -101,7 +101,7 @@ TEST(Causes, a_whole_ball_counts_the_own_volume)
     const double ball = M_PI * problem.horizon() * problem.horizon();
     const auto causes = causes_of(
         "IPA-AC", problem,
-        [&](Bond &bond, const Weights &weights, std::size_t i)
+        [&](Bond<2> &bond, const Weights &weights, std::size_t i)
         { bond.weight /= 1 - weights.volumes[i] / ball; },
         true);
     ASSERT_EQ(causes.size(), 1u);

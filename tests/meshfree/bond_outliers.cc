@@ -89,13 +89,13 @@ namespace
     std::function<void(Weights &, std::size_t i, std::size_t k)> plant;
   };
 
-  void remove(Family &family, std::size_t k)
+  void remove(Family<2> &family, std::size_t k)
   {
     family.bonds.erase(family.bonds.begin() + static_cast<std::ptrdiff_t>(k));
     family.neighbours.erase(family.neighbours.begin() + static_cast<std::ptrdiff_t>(k));
   }
 
-  std::size_t bond_to(const Family &family, std::size_t j)
+  std::size_t bond_to(const Family<2> &family, std::size_t j)
   {
     return static_cast<std::size_t>(
         std::find(family.neighbours.begin(), family.neighbours.end(), j) -
@@ -265,7 +265,7 @@ namespace
   /// All weights to a node times a factor.
   Weights with_factor(Weights weights, std::size_t node, double factor)
   {
-    for (Family &family : weights.families)
+    for (Family<2> &family : weights.families)
       for (std::size_t k = 0; k < family.bonds.size(); ++k)
         family.bonds[k].weight *= family.neighbours[k] == node ? factor : 1;
     return weights;
@@ -334,7 +334,7 @@ TEST(Outliers, all_weights_of_a_node_that_carry_a_factor_are_one)
     for (const double factor : {2., -1.})
     {
       Weights weights = weights_of("IPA-AC", nodes_for(3, perturbation, "linear-decay"));
-      for (Bond &bond : weights.families[27].bonds)
+      for (Bond<2> &bond : weights.families[27].bonds)
         bond.weight *= factor;
       for (const bool is_known : {true, false})
       {

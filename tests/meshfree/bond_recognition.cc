@@ -18,8 +18,8 @@ TEST(Recognition, takes_nine_of_ten_weights)
   {
     Weights weights = sound;
     double n = 0, n_wrong = 0;
-    for (Family &family : weights.families)
-      for (Bond &bond : family.bonds)
+    for (Family<2> &family : weights.families)
+      for (Bond<2> &bond : family.bonds)
         if (++n * wrong >= n_wrong + 1)
         {
           ++n_wrong;
@@ -39,8 +39,8 @@ TEST(Recognition, finds_the_common_factor_by_weights_that_rounding_leaves_alone)
   // at m = 1.6 twelve of twenty cells are barely cut: what rounds them up by 1.5e-5 of a cell
   // changes them by a percent
   Weights weights = weights_of("PA-AC", nodes_for(1.6, 0, "constant"));
-  for (Family &family : weights.families)
-    for (Bond &bond : family.bonds)
+  for (Family<2> &family : weights.families)
+    for (Bond<2> &bond : family.bonds)
       bond.weight += 1.5e-5 * bond.area;
   const auto rule = recognise(weights.given());
   ASSERT_TRUE(rule);
@@ -57,7 +57,7 @@ namespace
   Outlier of_changes(Weights weights, std::size_t first, double by, std::size_t second,
                      double by_less)
   {
-    std::vector<Bond> &bonds = weights.families[node].bonds;
+    std::vector<Bond<2>> &bonds = weights.families[node].bonds;
     bonds[first].weight *= 1 + by;
     bonds[second].weight *= 1 + by_less;
     const auto found = find_moment_outliers(weights.given(), all_pairs(weights.given()));
@@ -67,7 +67,7 @@ namespace
 
   std::size_t bond_at(const Weights &weights, int k1, int k2)
   {
-    const std::vector<Bond> &bonds = weights.families[node].bonds;
+    const std::vector<Bond<2>> &bonds = weights.families[node].bonds;
     for (std::size_t k = 0; k < bonds.size(); ++k)
       if (bonds[k].xi.distance(Point<2>(k1 * node_distance, k2 * node_distance)) < 1e-9)
         return k;

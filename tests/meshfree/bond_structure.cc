@@ -17,7 +17,7 @@ using namespace plumbline::meshfree;
 
 namespace
 {
-  using Change = std::function<void(Bond &bond, const Weights &weights, std::size_t node,
+  using Change = std::function<void(Bond<2> &bond, const Weights &weights, std::size_t node,
                                     std::size_t neighbour)>;
 
   Weights changed(Weights weights, const Change &change)
@@ -30,7 +30,7 @@ namespace
 
   Weights times(const Weights &weights, double factor)
   {
-    return changed(weights, [factor](Bond &bond, const Weights &, std::size_t, std::size_t)
+    return changed(weights, [factor](Bond<2> &bond, const Weights &, std::size_t, std::size_t)
                    { bond.weight *= factor; });
   }
 
@@ -53,8 +53,8 @@ namespace
   {
     for (std::size_t i = 0; i < weights.families.size(); ++i)
     {
-      Family left;
-      const Family &all = weights.families[i];
+      Family<2> left;
+      const Family<2> &all = weights.families[i];
       for (std::size_t k = 0; k < all.bonds.size(); ++k)
         if (!is_left_out(i, all.neighbours[k]))
         {
@@ -110,7 +110,7 @@ TEST(Structure, half_lists_take_the_bonds_that_nodes_of_the_collar_give)
     for (std::size_t k = 0; k < whole.families[i].bonds.size(); ++k)
       if (const std::size_t j = whole.families[i].neighbours[k]; j >= n)
       {
-        Bond back = whole.families[i].bonds[k];
+        Bond<2> back = whole.families[i].bonds[k];
         back.xi *= -1;
         back.kernel_point *= -1;
         circumstances.of_collar.push_back({j, i, back});
@@ -136,10 +136,10 @@ TEST(Structure, a_kernel_in_the_weights_is_named_by_its_profile)
     for (const auto &[text, profile] : profiles)
       for (const double constant : {1., 35.4, -1.})
       {
-        const Weights weights =
-            changed(weights_of("FA", nodes_for(4, perturbation, "linear-decay")),
-                    [&, profile = profile](Bond &bond, const Weights &w, std::size_t, std::size_t)
-                    { bond.weight *= constant * profile(bond.xi.norm() / w.problem.horizon()); });
+        const Weights weights = changed(
+            weights_of("FA", nodes_for(4, perturbation, "linear-decay")),
+            [&, profile = profile](Bond<2> &bond, const Weights &w, std::size_t, std::size_t)
+            { bond.weight *= constant * profile(bond.xi.norm() / w.problem.horizon()); });
         const Explanation found = explained(weights);
         ASSERT_FALSE(found.causes.empty()) << text << ", " << perturbation;
         EXPECT_EQ(found.causes[0].name, "kernel in the weights") << text;
@@ -154,10 +154,10 @@ TEST(Structure, weights_with_the_own_volume_are_named)
   for (const std::string rule : {"FA", "LAMMPS"})
     for (const double factor : {1., 1e6})
     {
-      const Weights weights =
-          times(changed(graded(rule), [](Bond &bond, const Weights &w, std::size_t i, std::size_t j)
-                        { bond.weight *= w.volumes[i] / w.volumes[j]; }),
-                factor);
+      const Weights weights = times(
+          changed(graded(rule), [](Bond<2> &bond, const Weights &w, std::size_t i, std::size_t j)
+                  { bond.weight *= w.volumes[i] / w.volumes[j]; }),
+          factor);
       const Explanation found = explained(weights);
       ASSERT_FALSE(found.causes.empty()) << rule << ", " << factor;
       EXPECT_EQ(found.causes[0].name, "own volume") << rule << ": " << names(found.causes);
@@ -174,7 +174,7 @@ TEST(Structure, a_drift_is_named_with_its_direction)
     {
       const Weights weights =
           changed(weights_of("IPA-AC-R2", nodes_for(3, perturbation, "linear-decay")),
-                  [&](Bond &bond, const Weights &, std::size_t, std::size_t)
+                  [&](Bond<2> &bond, const Weights &, std::size_t, std::size_t)
                   {
                     const double ahead = dealii::Tensor<1, 2>(wind) * dealii::Tensor<1, 2>(bond.xi);
                     bond.weight *= 1 + (ahead > 1e-9 ? .1 : ahead < -1e-9 ? -.1 : 0);
@@ -216,7 +216,7 @@ TEST(Structure, no_cause_is_named_whose_removal_makes_the_moments_worse)
     }
   // weights with a kernel in them that are calibrated as well
   const Weights twice = changed(weights_of("FA", nodes_for(4, 0, "linear-decay")),
-                                [](Bond &bond, const Weights &w, std::size_t, std::size_t)
+                                [](Bond<2> &bond, const Weights &w, std::size_t, std::size_t)
                                 { bond.weight *= 1 - bond.xi.norm() / w.problem.horizon(); });
   const double ratio = check_moments(twice.families, twice.problem.kernel).mean_ratio;
   EXPECT_EQ(names(explained(times(twice, 1 / ratio)).causes), "");

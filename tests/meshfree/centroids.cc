@@ -20,12 +20,12 @@ namespace
 
   constexpr double h = .1, horizon = 2.3 * h;
 
-  Bonds bonds_of(const Kernel<2> &kernel)
+  Bonds<2> bonds_of(const Kernel<2> &kernel)
   {
     return lattice_bonds(improved_partial_area(kernel), kernel, h, Backend::fast);
   }
 
-  std::array<int, 2> steps(const Bond &bond)
+  std::array<int, 2> steps(const Bond<2> &bond)
   {
     return {static_cast<int>(std::lround(bond.xi[0] / h)),
             static_cast<int>(std::lround(bond.xi[1] / h))};
@@ -37,10 +37,10 @@ namespace
   }
 
   /// The bond to the cell (1, 2), which the ball cuts askew: its centroid by fine sampling.
-  const Bond &cut_bond(const Bonds &bonds)
+  const Bond<2> &cut_bond(const Bonds<2> &bonds)
   {
     return *std::find_if(bonds.family.begin(), bonds.family.end(),
-                         [](const Bond &bond) {
+                         [](const Bond<2> &bond) {
                            return steps(bond) == std::array{1, 2};
                          });
   }
@@ -51,7 +51,7 @@ namespace
 
 TEST(Centroids, of_cut_cells_are_those_of_ball_and_cell)
 {
-  const Bond bond = cut_bond(bonds_of({Structure::scalar, {{1, 0}}, horizon, 1}));
+  const Bond<2> bond = cut_bond(bonds_of({Structure::scalar, {{1, 0}}, horizon, 1}));
   constexpr int n = 1000;
   Tensor<1, 2> sum;
   double n_inside = 0;
@@ -73,9 +73,9 @@ TEST(Centroids, are_where_scalar_kernels_and_bond_tensors_are_taken)
   for (const Structure structure : {Structure::scalar, Structure::tensor})
   {
     const Kernel<2> kernel{structure, {{1, 0}, {-1, 1}}, horizon, 1};
-    const Bonds bonds = bonds_of(kernel);
+    const Bonds<2> bonds = bonds_of(kernel);
     const algebra::Stencil stencil = lattice_operator(kernel, bonds);
-    const Bond &bond = cut_bond(bonds);
+    const Bond<2> &bond = cut_bond(bonds);
     const Point<2> &q = bond.kernel_point;
     for (unsigned int a = 0; a < kernel.n_components(); ++a)
       for (unsigned int b = 0; b < kernel.n_components(); ++b)
@@ -91,8 +91,8 @@ TEST(Centroids, are_where_double_wells_in_the_plane_are_taken_as_a_whole)
 {
   const physics::DoubleWell law(2, std::vector<physics::PowerTerm>{{1, 0}, {-1, 1}}, 1.3, 2.1,
                                 horizon);
-  const Bonds bonds = bonds_of(law.linear_kernel());
-  const Bond &bond = cut_bond(bonds);
+  const Bonds<2> bonds = bonds_of(law.linear_kernel());
+  const Bond<2> &bond = cut_bond(bonds);
   const Point<2> &q = bond.kernel_point;
   for (const WellBond &well : well_bonds(law, bonds))
     if (well.k == steps(bond))
@@ -124,10 +124,10 @@ TEST(Centroids, of_state_based_solids_are_where_k_and_the_direction_are_taken_no
   const physics::Lame lame{3, 1};
   const physics::Dilatation dilatation{influence, [&](const Point<2> &) { return lame; }, true,
                                        true};
-  const Bonds bonds = bonds_of(physics::deviatoric_kernel(influence, lame.mu));
+  const Bonds<2> bonds = bonds_of(physics::deviatoric_kernel(influence, lame.mu));
   const algebra::Stencil stencil = state_based_stencil(dilatation, bonds);
   Tensor<2, 2> expected; // at (1, 2)
-  for (const Bond &one : bonds.family)
+  for (const Bond<2> &one : bonds.family)
   {
     const double of_one = one.weight * influence.radial(one.kernel_point.norm());
     if (steps(one) == std::array{1, 2})
@@ -135,7 +135,7 @@ TEST(Centroids, of_state_based_solids_are_where_k_and_the_direction_are_taken_no
       const Tensor<1, 2> e = unit(one.kernel_point);
       expected -= 8 * lame.mu * of_one * outer_product(e, e);
     }
-    for (const Bond &two : bonds.family)
+    for (const Bond<2> &two : bonds.family)
       if (steps(one)[0] + steps(two)[0] == 1 && steps(one)[1] + steps(two)[1] == 2)
         expected -= (lame.lambda - lame.mu) * of_one * two.weight *
                     influence.radial(two.kernel_point.norm()) *
@@ -148,7 +148,7 @@ TEST(Centroids, of_state_based_solids_are_where_k_and_the_direction_are_taken_no
 
 TEST(Centroids, of_the_variational_model_are_where_the_influence_alone_is_taken)
 {
-  const Bonds bonds = bonds_of(influence);
+  const Bonds<2> bonds = bonds_of(influence);
   const VariationalMaterial material{[](const Point<2> &) { return 1.; },
                                      [](const Point<2> &) { return 4.; }};
   const VariationalOperator body(
@@ -157,7 +157,7 @@ TEST(Centroids, of_the_variational_model_are_where_the_influence_alone_is_taken)
   for (const Neighbour &one : body.family())
     if (one.k == std::array{1, 2})
     {
-      const Bond &bond = cut_bond(bonds);
+      const Bond<2> &bond = cut_bond(bonds);
       EXPECT_NEAR(one.weight, bond.weight / (h * h) * influence.radial(bond.kernel_point.norm()),
                   1e-13 * one.weight);
       EXPECT_NEAR((one.d - bond.xi).norm(), 0, 1e-15);
@@ -171,10 +171,10 @@ TEST(Centroids, of_cracks_that_grow_are_where_stiffness_is_taken_not_stretches)
   const BondNetwork net = make_bond_network(growth_plate::plate(12, 12, 3 * growth_plate::h, .35),
                                             improved_partial_area(deviatoric), of_plate,
                                             growth_plate::h, Backend::fast);
-  const Bonds all =
+  const Bonds<2> all =
       lattice_bonds(improved_partial_area(deviatoric), deviatoric, growth_plate::h, Backend::fast);
   std::size_t n_seen = 0;
-  for (const Bond &bond : all.family)
+  for (const Bond<2> &bond : all.family)
     for (const BondNetwork::Bond &one : net.bonds)
       if ((one.xi - bond.xi).norm() < 1e-9 * growth_plate::h)
       {

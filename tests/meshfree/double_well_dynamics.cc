@@ -50,10 +50,11 @@ namespace
     const auto kernel = law.linear_kernel();
     for (const Rule &rule : rules())
       if (rule.name == name)
-        return {well_bonds(law, lattice_bonds(rule.of(kernel), kernel, 1. / n, Backend::fast)),
-                1. / n,
-                {n, n},
-                Exterior::periodic};
+        return {
+            well_bonds(law, lattice_bonds(rule.in_plane(kernel), kernel, 1. / n, Backend::fast)),
+            1. / n,
+            {n, n},
+            Exterior::periodic};
     throw std::logic_error(name);
   }
 

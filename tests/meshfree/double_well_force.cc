@@ -25,12 +25,12 @@ namespace
     return {dim, influence, 1.3, 2.1, horizon};
   }
 
-  Bonds bonds_of(const DoubleWell &law, double h, const std::string &name)
+  Bonds<2> bonds_of(const DoubleWell &law, double h, const std::string &name)
   {
     const auto kernel = law.linear_kernel();
     for (const Rule &rule : rules())
       if (rule.name == name)
-        return lattice_bonds(rule.of(kernel), kernel, h, Backend::fast);
+        return lattice_bonds(rule.in_plane(kernel), kernel, h, Backend::fast);
     throw std::logic_error(name);
   }
 
@@ -54,14 +54,14 @@ namespace
 
   /// PD by its definition, bond by bond with J, r and S, in any kind of number.
   template <typename Number>
-  Number energy(const DoubleWell &law, const Bonds &bonds, std::array<int, 2> n, Exterior exterior,
-                const Vector &omega, const std::vector<Number> &u)
+  Number energy(const DoubleWell &law, const Bonds<2> &bonds, std::array<int, 2> n,
+                Exterior exterior, const Vector &omega, const std::vector<Number> &u)
   {
     Number sum = 0;
     const double eps = law.horizon();
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i)
-        for (const Bond &bond : bonds.family)
+        for (const Bond<2> &bond : bonds.family)
         {
           int k = i + static_cast<int>(std::lround(bond.xi[0] / bonds.h)),
               l = j + static_cast<int>(std::lround(bond.xi[1] / bonds.h));
@@ -87,7 +87,7 @@ TEST(DoubleWellForce, is_the_gradient_of_the_energy)
     for (const Exterior exterior : {Exterior::periodic, Exterior::empty})
     {
       const DoubleWell law = well(.3, decaying);
-      const Bonds bonds = bonds_of(law, h, rule);
+      const Bonds<2> bonds = bonds_of(law, h, rule);
       const std::array<int, 2> n{21, 11}; // two tiles a row, one of them in part
       const std::size_t n_nodes = n[0] * n[1];
       const Vector omega = rough_omega(n_nodes), u = rough_field(2 * n_nodes, .4);

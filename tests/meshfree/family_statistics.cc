@@ -9,9 +9,9 @@ using namespace plumbline::meshfree;
 namespace
 {
   /// Bonds of given weights and areas.
-  std::vector<Bond> bonds(const std::vector<std::pair<double, double>> &weights)
+  std::vector<Bond<2>> bonds(const std::vector<std::pair<double, double>> &weights)
   {
-    std::vector<Bond> result;
+    std::vector<Bond<2>> result;
     for (const auto &[weight, area] : weights)
       result.push_back({Point<2>(1, 0), weight, Point<2>(1, 0), area});
     return result;

@@ -30,7 +30,7 @@ namespace plumbline::meshfree
   struct Weights
   {
     problem::Problem<2> problem;
-    std::vector<Family> families;
+    std::vector<Family<2>> families;
     std::vector<double> volumes;
 
     GivenBonds given() const { return {families, problem.kernel, *problem.cells(), volumes}; }
@@ -40,7 +40,7 @@ namespace plumbline::meshfree
   {
     Weights result{problem, {}, problem.cells()->area};
     result.families = rule_families(rule, {{}, problem.kernel, *problem.cells(), result.volumes});
-    for (Family &family : result.families)
+    for (Family<2> &family : result.families)
       for (std::size_t k = 0; k < family.bonds.size(); ++k)
         family.bonds[k].area = result.volumes[family.neighbours[k]];
     return result;
@@ -49,7 +49,7 @@ namespace plumbline::meshfree
   /// Index of a bond of a free node about as long as 1.4 h, to another free node.
   inline std::size_t some_bond(const Weights &weights, std::size_t node)
   {
-    const Family &family = weights.families[node];
+    const Family<2> &family = weights.families[node];
     for (std::size_t k = 0; k < family.bonds.size(); ++k)
       if (family.neighbours[k] < weights.families.size() &&
           std::abs(family.bonds[k].xi.norm() / node_distance - 1.5) < .4)

@@ -18,26 +18,26 @@ TEST(Families, have_the_smallest_singular_value_of_their_moment_matrix)
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (const unsigned int n_bonds : {30u, 26u, 14u}) // the last one too few for 14 + 1 moments
   {
-    meshfree::Family family;
+    meshfree::Family<2> family;
     for (unsigned int j = 0; j < n_bonds; ++j)
     {
       const dealii::Point<2> xi(horizon * uniform(random), horizon * uniform(random));
       const double area = .01 * (1.5 + uniform(random));
       family.bonds.push_back({xi, area, xi, area});
     }
-    meshfree::MomentConditions conditions;
+    meshfree::MomentConditions<2> conditions;
     conditions.degree = 4;
     conditions.horizon = horizon;
-    conditions.exponents = meshfree::exponents(0, 4);
+    conditions.exponents = meshfree::exponents<2>(0, 4);
     conditions.moments.assign(conditions.exponents.size(), 1);
-    conditions.factor = [](const meshfree::Bond &bond) { return 1 / bond.xi.norm(); };
-    conditions.scale = [](const meshfree::Bond &bond) { return bond.area; };
+    conditions.factor = [](const meshfree::Bond<2> &bond) { return 1 / bond.xi.norm(); };
+    conditions.scale = [](const meshfree::Bond<2> &bond) { return bond.area; };
     Eigen::MatrixXd matrix(conditions.exponents.size(), n_bonds);
     for (Eigen::Index i = 0; i < matrix.rows(); ++i)
     {
       for (unsigned int j = 0; j < n_bonds; ++j)
       {
-        const meshfree::Bond &bond = family.bonds[j];
+        const meshfree::Bond<2> &bond = family.bonds[j];
         matrix(i, j) = std::pow(bond.xi[0] / horizon, conditions.exponents[i][0]) *
                        std::pow(bond.xi[1] / horizon, conditions.exponents[i][1]) / bond.xi.norm() *
                        std::sqrt(bond.area);

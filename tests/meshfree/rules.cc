@@ -29,27 +29,27 @@ namespace
     return Kernel<2>::with_bulk_modulus(physics::kernel_type("bond-tensor").profile, m * h, 1);
   }
 
-  Bonds make(const NeighbourhoodQuadrature &rule, const Kernel<2> &kernel,
-             Backend backend = Backend::fast)
+  Bonds<2> make(const NeighbourhoodQuadrature<2> &rule, const Kernel<2> &kernel,
+                Backend backend = Backend::fast)
   {
     return lattice_bonds(rule, kernel, h, backend);
   }
 
   /// Σ C_ab(point) w ξ^α.
-  double moment(const Kernel<2> &kernel, const Bonds &bonds, unsigned int a, unsigned int b, int p,
-                int q)
+  double moment(const Kernel<2> &kernel, const Bonds<2> &bonds, unsigned int a, unsigned int b,
+                int p, int q)
   {
     double sum = 0;
-    for (const Bond &bond : bonds.family)
+    for (const Bond<2> &bond : bonds.family)
       sum += kernel_value(kernel, bond, a, b) * bond.weight * std::pow(bond.xi[0], p) *
              std::pow(bond.xi[1], q);
     return sum;
   }
 
-  double smallest_ratio(const Bonds &bonds)
+  double smallest_ratio(const Bonds<2> &bonds)
   {
     double smallest = 1e300;
-    for (const Bond &bond : bonds.family)
+    for (const Bond<2> &bond : bonds.family)
       smallest = std::min(smallest, bond.weight / bond.area);
     return smallest;
   }
@@ -61,7 +61,7 @@ TEST(PartialArea, weights_add_up_to_the_ball_without_the_nodes_own_cell)
   {
     double sum = 0;
     const auto kernel = scalar_kernel(m);
-    for (const Bond &bond : make(partial_area(kernel), kernel).family)
+    for (const Bond<2> &bond : make(partial_area(kernel), kernel).family)
       sum += bond.weight;
     EXPECT_NEAR(sum / (h * h), M_PI * m * m - 1, 1e-12 * m * m) << m;
   }
@@ -127,7 +127,7 @@ TEST(ImprovedPartialArea, error_has_its_closed_form)
     one = 1.;
     algebra::solve(*algebra::make_operator(stencil, nodes), inverse_of_one, one, 1e-14, 500);
     double constant = 0;
-    for (const Bond &bond : bonds.family)
+    for (const Bond<2> &bond : bonds.family)
       constant += .5 * kernel_value(problem.kernel, bond, 0, 0) * bond.weight * bond.xi.square();
     EXPECT_NEAR(found, (constant - 1) * inverse_of_one.linfty_norm(), 1e-10) << m;
   }
@@ -166,7 +166,7 @@ TEST(Recalibrated, scalar_degree_2_is_its_closed_form)
     const auto plain = make(improved_partial_area(kernel), kernel);
     const auto bonds = make(recalibrated(kernel, 2), kernel);
     double first = -2, second = 0;
-    for (const Bond &bond : plain.family)
+    for (const Bond<2> &bond : plain.family)
     {
       const double s = kernel_value(kernel, bond, 0, 0);
       const double r2 = bond.xi.square();
@@ -175,7 +175,7 @@ TEST(Recalibrated, scalar_degree_2_is_its_closed_form)
     }
     for (std::size_t i = 0; i < plain.family.size(); ++i)
     {
-      const Bond &bond = plain.family[i];
+      const Bond<2> &bond = plain.family[i];
       const double r2 = bond.xi.square();
       EXPECT_NEAR(bonds.family[i].weight,
                   bond.area * (1 - first / second * kernel_value(kernel, bond, 0, 0) * r2),
@@ -206,7 +206,7 @@ TEST(Recalibrated, tensors_at_the_centroid_meet_their_moments_by_negative_weight
   const auto kernel = tensor_kernel(5.15);
   const auto centroid = make(recalibrated_at_centroid(kernel), kernel),
              node = make(recalibrated(kernel, 2), kernel);
-  for (const Bonds &bonds : {centroid, node})
+  for (const Bonds<2> &bonds : {centroid, node})
     for (const auto &[a, b, p, q] :
          {std::array<int, 4>{0, 0, 2, 0}, {0, 0, 0, 2}, {0, 1, 1, 1}, {1, 1, 2, 0}, {1, 1, 0, 2}})
       EXPECT_NEAR(moment(kernel, bonds, a, b, p, q), kernel.moment({p, q}, a, b), 1e-9);
@@ -276,7 +276,7 @@ TEST(FullArea, counts_nodes_on_the_circle_and_jitters_with_the_ratio)
   // (3, 4, 5): 80 nodes of the disc of radius 5, ties included
   EXPECT_EQ(make(full_area(scalar_kernel(5)), scalar_kernel(5)).family.size(), 80u);
   // as m grows, the moment of the full area rule jumps with every node that enters the ball
-  const auto variation = [](NeighbourhoodQuadrature (*rule)(const Kernel<2> &))
+  const auto variation = [](NeighbourhoodQuadrature<2> (*rule)(const Kernel<2> &))
   {
     double total = 0, last = NAN;
     for (double m = 3; m <= 12; m += .125)
@@ -294,14 +294,14 @@ TEST(FullArea, counts_nodes_on_the_circle_and_jitters_with_the_ratio)
 TEST(Ramps, are_one_inside_and_linear_across_the_horizon)
 {
   const auto kernel = scalar_kernel(3.2, "constant");
-  for (const Bond &bond : make(lammps(kernel), kernel).family)
+  for (const Bond<2> &bond : make(lammps(kernel), kernel).family)
   {
     const double r = bond.xi.norm() / h;
     EXPECT_LE(r, 3.2 + 1e-12);
     EXPECT_NEAR(bond.weight / (h * h), std::min(1., 3.7 - r), 1e-12);
   }
   bool has_outside = false;
-  for (const Bond &bond : make(qwj(kernel), kernel).family)
+  for (const Bond<2> &bond : make(qwj(kernel), kernel).family)
   {
     const double r = bond.xi.norm() / h;
     has_outside = has_outside || r > 3.2;
@@ -315,7 +315,7 @@ TEST(KernelValue, clips_a_negative_profile_beyond_the_horizon_and_says_so)
 {
   const auto kernel = scalar_kernel(2.6);
   const auto constant = scalar_kernel(2.6, "constant");
-  const Bond outside{Point<2>(.03, 0), 1, Point<2>(.03, 0), 1};
+  const Bond<2> outside{Point<2>(.03, 0), 1, Point<2>(.03, 0), 1};
   EXPECT_LT(kernel.radial(.03), 0);
   EXPECT_EQ(kernel_value(kernel, outside, 0, 0), 0);
   EXPECT_EQ(make(partial_area(kernel), kernel).notes.size(), 1u);
@@ -389,7 +389,7 @@ TEST(OptimisationBased, WeightsOverAreasDoNotTendToOne)
   for (const int m : {16, 32})
   {
     double near = 0, n_near = 0, far = 0, n_far = 0;
-    for (const Bond &bond :
+    for (const Bond<2> &bond :
          lattice_bonds(optimisation_based(kernel), kernel, 1. / m, Backend::fast).family)
     {
       const double r = bond.xi.norm(), ratio = bond.weight * m * m;

@@ -47,7 +47,7 @@ namespace
 
   Families make_families(const std::string &name, const problem::Problem<2> &problem)
   {
-    return {rule(name).of(problem.kernel), problem.kernel, *problem.cells(), Backend::fast};
+    return {rule(name).in_plane(problem.kernel), problem.kernel, *problem.cells(), Backend::fast};
   }
 
   /// The largest |Σ C_ab w ξ^α - ∫ C_ab ξ^α| over all families, |α| <= degree, relative to
@@ -56,7 +56,7 @@ namespace
   {
     const Kernel<2> &kernel = families.kernel();
     double worst = 0;
-    Family family;
+    Family<2> family;
     for (std::size_t i = 0; i < families.size(); ++i)
     {
       families.make(i, family);
@@ -66,7 +66,7 @@ namespace
             for (int p = 0; p <= order; ++p)
             {
               double defect = -kernel.moment({p, order - p}, a, b);
-              for (const Bond &bond : family.bonds)
+              for (const Bond<2> &bond : family.bonds)
                 defect += kernel_value(kernel, bond, a, b) * bond.weight * std::pow(bond.xi[0], p) *
                           std::pow(bond.xi[1], order - p);
               worst = std::max(worst, std::abs(defect) / std::pow(kernel.horizon(), order - 2));
@@ -123,17 +123,17 @@ TEST(Families, are_the_lattices_where_nodes_are_not_moved)
       for (const Rule &rule : rules())
       {
         const auto lattice =
-            lattice_bonds(rule.of(problem.kernel), problem.kernel, h, Backend::fast).family;
+            lattice_bonds(rule.in_plane(problem.kernel), problem.kernel, h, Backend::fast).family;
         const auto families = make_families(rule.name, problem);
-        Family family;
+        Family<2> family;
         for (const std::size_t node : {0, 9, 36, 63})
         {
           families.make(node, family);
           EXPECT_EQ(family.bonds.size(), lattice.size()) << rule.name;
-          for (const Bond &bond : family.bonds)
+          for (const Bond<2> &bond : family.bonds)
           {
             const auto twin = std::find_if(lattice.begin(), lattice.end(),
-                                           [&](const Bond &other)
+                                           [&](const Bond<2> &other)
                                            { return bond.xi.distance(other.xi) < 1e-9 * h; });
             ASSERT_NE(twin, lattice.end()) << rule.name;
             EXPECT_NEAR(bond.weight, twin->weight, 1e-12 * h * h) << rule.name << ' ' << m;
@@ -150,7 +150,7 @@ TEST(Families, partial_areas_add_up_to_the_ball_without_the_nodes_own_cell)
   const auto problem = make_problem(.3, false, .125, 2.7);
   const auto &cells = *problem.cells();
   const auto families = make_families("PA-AC", problem);
-  Family family;
+  Family<2> family;
   for (std::size_t i = 0; i < families.size(); ++i)
   {
     const geometry::Ball ball{cells.nodes[i], problem.horizon()};
@@ -158,7 +158,7 @@ TEST(Families, partial_areas_add_up_to_the_ball_without_the_nodes_own_cell)
     for (std::size_t p = cells.first_piece[i]; p < cells.first_piece[i + 1]; ++p)
       area += geometry::intersect(ball, cells.pieces[p]).area;
     families.make(i, family);
-    for (const Bond &bond : family.bonds)
+    for (const Bond<2> &bond : family.bonds)
       area += bond.weight;
     EXPECT_NEAR(area / (M_PI * ball.radius * ball.radius), 1, 1e-12);
   }
@@ -182,7 +182,7 @@ TEST(Families, too_few_neighbours_are_named)
 {
   const auto problem = make_problem(.3, false, .125, 1.3);
   const auto families = make_families("IPA-AC-R4", problem);
-  Family family;
+  Family<2> family;
   try
   {
     for (std::size_t i = 0; i < families.size(); ++i)

@@ -21,7 +21,7 @@ namespace
   }
 
   method::StripState solve(const method::RiceStrip &strip,
-                           meshfree::NeighbourhoodQuadrature (*rule)(const physics::Kernel<2> &))
+                           meshfree::NeighbourhoodQuadrature<2> (*rule)(const physics::Kernel<2> &))
   {
     const auto influence =
         physics::influence_function(physics::kernel_type("1/r").profile, horizon);
@@ -33,7 +33,7 @@ TEST(StandingCrack, has_the_energies_of_an_independent_program)
 {
   struct Known
   {
-    meshfree::NeighbourhoodQuadrature (*rule)(const physics::Kernel<2> &);
+    meshfree::NeighbourhoodQuadrature<2> (*rule)(const physics::Kernel<2> &);
     int m;
     double intact, tip; // intact over that of the local limit, 6
   };
@@ -96,8 +96,8 @@ TEST(StandingCrack, opens_less_the_nearer_to_its_tip)
 TEST(StandingCrack, in_the_field_of_its_K_gets_what_it_gets_by_a_Galerkin_method)
 {
   constexpr double by_DGQ1 = .9702; // limit over m in a square of eight horizons
-  for (const auto rule :
-       {meshfree::partial_area, meshfree::improved_partial_area, meshfree::optimisation_based})
+  for (const auto rule : {meshfree::partial_area<2>, meshfree::improved_partial_area<2>,
+                          meshfree::optimisation_based<2>})
   {
     double before = 1;
     for (const int m : {2, 3, 5})

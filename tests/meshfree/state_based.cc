@@ -38,7 +38,7 @@ namespace
       quadratic({1, 0, 0}, {}), quadratic({0, 1, 0}, {}), quadratic({0, 0, 1}, {}),
       quadratic({}, {1, 0, 0}), quadratic({.3, 2, -1}, {0, 1, 1})};
 
-  NeighbourhoodQuadrature recalibrated_2(const Kernel<2> &kernel)
+  NeighbourhoodQuadrature<2> recalibrated_2(const Kernel<2> &kernel)
   {
     return recalibrated(kernel, 2);
   }
@@ -86,7 +86,7 @@ namespace
 
   /// |L u - b| of a problem's own field on a lattice, relative to the load.
   double stencil_defect(const StateBasedProblem &problem,
-                        NeighbourhoodQuadrature (*rule)(const Kernel<2> &))
+                        NeighbourhoodQuadrature<2> (*rule)(const Kernel<2> &))
   {
     const Square square(.1, .1, 0);
     const StateBasedCase one(problem, square, rule);
@@ -134,7 +134,7 @@ namespace
     const StateBasedCase one(problem, square, full_area);
     const BrokenBonds bonds({{crack}, {}}, square.cells, square.horizon);
     std::vector<std::array<int, 2>> result;
-    Family family, other;
+    Family<2> family, other;
     std::vector<char> is_intact, of_other;
     for (unsigned int i = 0; i < square.cells.n_free; ++i)
       if (square.cells.nodes[i].distance(Point<2>(.5, .5)) < .1)
@@ -191,7 +191,7 @@ TEST(StateBasedStencil, is_symmetric_and_reaches_twice_as_far)
   for (const Rule &rule : rules())
   {
     const auto bonds =
-        lattice_bonds(rule.of(one.deviatoric()), one.deviatoric(), square.h, Backend::fast);
+        lattice_bonds(rule.in_plane(one.deviatoric()), one.deviatoric(), square.h, Backend::fast);
     const auto stencil = state_based_stencil(one.body.dilatation, bonds);
     EXPECT_TRUE(stencil.is_even()) << rule.name;
     EXPECT_LT(stencil.symmetry_defect(), 1e-14) << rule.name;
@@ -207,10 +207,10 @@ TEST(StateBasedOperator, is_the_stencil_where_nodes_are_a_lattice)
     const StateBasedCase sample(quadratics[0], square);
     for (const Rule &rule : rules())
     {
-      const StateBasedCase one(quadratics[0], square, rule.of);
+      const StateBasedCase one(quadratics[0], square, rule.in_plane);
       const auto stencil = state_based_stencil(
-          one.body.dilatation,
-          lattice_bonds(rule.of(one.deviatoric()), one.deviatoric(), square.h, Backend::fast));
+          one.body.dilatation, lattice_bonds(rule.in_plane(one.deviatoric()), one.deviatoric(),
+                                             square.h, Backend::fast));
       const auto rows = one.system().rows;
       const auto cell = [&](std::size_t node, unsigned int axis)
       {
@@ -331,7 +331,7 @@ TEST(StateBasedOperator, shares_are_parts_of_the_whole)
   const Square square(M_PI / 8, M_PI / 2, .5);
   const auto problem = interface_crack_problem(.3);
   const StateBasedCase one(problem, square);
-  const auto make = [&](std::size_t i, Family &family) { one.families.make(i, family); };
+  const auto make = [&](std::size_t i, Family<2> &family) { one.families.make(i, family); };
   const auto whole = state_based_operator(make, one.body, {0, 64}),
              first = state_based_operator(make, one.body, {0, 23}),
              second = state_based_operator(make, one.body, {23, 64});
@@ -411,13 +411,13 @@ TEST(Damage, the_correction_makes_dilatations_of_linear_fields_exact)
   const Kernel<2> influence = physics::influence_function({{1, -1}}, 1);
   const auto family = [](const std::vector<Point<2>> &ends)
   {
-    Family result;
+    Family<2> result;
     for (std::size_t k = 0; k < ends.size(); ++k)
       result.bonds.push_back({ends[k], .1 + .01 * k, ends[k], 1});
     return result;
   };
   // Σ w K ξ·M·(E ξ) = tr E
-  const Family spread =
+  const Family<2> spread =
       family({Point<2>(.5, .1), Point<2>(.3, -.6), Point<2>(-.2, -.4), Point<2>(.1, .9)});
   const std::vector<char> first_three = {1, 1, 1, 0};
   const Tensor<2, 2> M = remainder(influence, spread, first_three).correction;
@@ -433,24 +433,24 @@ TEST(Damage, the_correction_makes_dilatations_of_linear_fields_exact)
   EXPECT_NEAR(identity[1][0], 0, 1e-14);
 
   // on a line: the stretch along it
-  const Family line = family({Point<2>(.3, .4), Point<2>(-.6, -.8)});
+  const Family<2> line = family({Point<2>(.3, .4), Point<2>(-.6, -.8)});
   const Remainder rest = remainder(influence, line, {1, 1});
   double theta = 0;
-  for (const Bond &bond : line.bonds)
+  for (const Bond<2> &bond : line.bonds)
     theta += bond.weight * influence.radial(bond.xi.norm()) *
              (bond.xi * (rest.correction * (2 * bond.xi)));
   EXPECT_NEAR(theta, 2, 1e-14);
   EXPECT_LT(Point<2>(rest.normal).distance(Point<2>(.6, .8)), 1e-14);
 
   // the normal is of the area that is left, whatever the kernel: -Σ w ξ, not along any one bond
-  const Family bent = family({Point<2>(.1, 0), Point<2>(.2, .3), Point<2>(0, .8)});
+  const Family<2> bent = family({Point<2>(.1, 0), Point<2>(.2, .3), Point<2>(0, .8)});
   const Point<2> inward(.10 * .1 + .11 * .2, .11 * .3 + .12 * .8);
   const Point<2> outward = -inward / inward.norm();
   EXPECT_LT(outward.distance(Point<2>(remainder(influence, bent, {1, 1, 1}).normal)), 1e-14);
 
   // no bonds; bonds missing on all sides alike
   EXPECT_EQ(remainder(influence, line, {0, 0}).correction.norm(), 0);
-  Family even = family({Point<2>(.5, .1), Point<2>(-.5, -.1)});
+  Family<2> even = family({Point<2>(.5, .1), Point<2>(-.5, -.1)});
   even.bonds[1].weight = even.bonds[0].weight;
   EXPECT_EQ(remainder(influence, even, {1, 1}).normal.norm(), 0);
 }

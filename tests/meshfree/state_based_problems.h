@@ -140,7 +140,7 @@ namespace plumbline::meshfree
     Families families;
 
     StateBasedCase(const StateBasedProblem &problem, const Square &square,
-                   NeighbourhoodQuadrature (*rule)(const Kernel<2> &) = optimisation_based)
+                   NeighbourhoodQuadrature<2> (*rule)(const Kernel<2> &) = optimisation_based)
         : problem(problem),
           square(square), body{&square.cells,
                                {physics::influence_function({{1, -1}}, square.horizon),
@@ -157,7 +157,7 @@ namespace plumbline::meshfree
 
     System system(bool keeps_dilatation = false) const
     {
-      const auto make = [this](std::size_t i, Family &family) { families.make(i, family); };
+      const auto make = [this](std::size_t i, Family<2> &family) { families.make(i, family); };
       const std::size_t n_free = square.cells.n_free;
       auto made = keeps_dilatation ? state_based_system(make, body)
                                    : state_based_operator(make, body, {0, n_free});

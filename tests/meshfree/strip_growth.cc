@@ -24,7 +24,7 @@ namespace
   struct Strip
   {
     physics::Kernel<2> K;
-    meshfree::NeighbourhoodQuadrature rule;
+    meshfree::NeighbourhoodQuadrature<2> rule;
     int height = 0, length = 0;
     physics::Lame lame{1, 1};
     problem::SurfaceTerms surface_terms = problem::SurfaceTerms::uncorrected;

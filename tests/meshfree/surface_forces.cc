@@ -99,7 +99,7 @@ namespace
     for (const Point<2> &x : net.nodes)
       for (const auto &bond : bonds.family)
         add(x + Tensor<1, 2>(bond.xi), true);
-    const auto families = [&](std::size_t node, meshfree::Family &family)
+    const auto families = [&](std::size_t node, meshfree::Family<2> &family)
     {
       family.bonds = bonds.family;
       family.neighbours.clear();

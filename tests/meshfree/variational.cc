@@ -20,7 +20,7 @@ using geometry::Polygon;
 
 namespace
 {
-  using BondOf = Bond (*)(const Kernel<2> &, const Candidate &);
+  using BondOf = Bond<2> (*)(const Kernel<2> &, const Candidate<2> &);
   const std::vector<BondOf> all_rules = {full_area_bond, partial_area_bond, centroid_bond};
 
   Kernel<2> influence(double horizon)
@@ -28,7 +28,7 @@ namespace
     return {physics::Structure::scalar, {{1, -1}}, horizon, 1};
   }
 
-  Bonds bonds_of(BondOf bond, double horizon, double h)
+  Bonds<2> bonds_of(BondOf bond, double horizon, double h)
   {
     return lattice_bonds({bond}, influence(horizon), h, Backend::fast);
   }
@@ -119,7 +119,7 @@ namespace
   }
 
   /// B u summed from its blocks, eqs. (16) and (23), each with its triple loop.
-  Vector block_form(const VariationalBody &body, const Kernel<2> &kernel, const Bonds &bonds,
+  Vector block_form(const VariationalBody &body, const Kernel<2> &kernel, const Bonds<2> &bonds,
                     const Vector &u, bool has_dilatation)
   {
     const std::size_t n = body.size();
@@ -128,7 +128,7 @@ namespace
     const auto way = [&](std::size_t i, std::size_t j) { return body.node(j) - body.node(i); };
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j)
-        for (const Bond &bond : bonds.family)
+        for (const Bond<2> &bond : bonds.family)
           if ((way(i, j) - bond.xi).norm() < 1e-9)
           {
             w_rho[i][j] = bond.weight / (body.h * body.h) * radial_value(kernel, bond);

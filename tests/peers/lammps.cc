@@ -104,7 +104,7 @@ namespace
   {
     const auto kernel = physics::Kernel<2>::with_bulk_modulus({{1, -1}}, m, 1);
     std::map<Place, double> weights;
-    for (const Bond &bond :
+    for (const Bond<2> &bond :
          meshfree::lattice_bonds(meshfree::lammps(kernel), kernel, 1, geometry::Backend::fast)
              .family)
       weights[in_octant(static_cast<int>(std::lround(bond.xi[0])),

@@ -74,7 +74,7 @@ TEST(OperatorEigenvalues, of_bond_tensors_along_the_axes_is_that_of_second_diffe
   const problem::Level level{1. / n, 1. / n};
   const auto scene = make_scene(true), mesh = make_scene(true, squares);
   const auto kernel = scene::make_problem(scene, 0, level).kernel;
-  const meshfree::Bond bond{{level.h, 0}, level.h * level.h, {level.h, 0}, level.h * level.h};
+  const meshfree::Bond<2> bond{{level.h, 0}, level.h * level.h, {level.h, 0}, level.h * level.h};
   const double c = meshfree::kernel_value(kernel, bond, 0, 0) * bond.weight,
                end = std::cos(M_PI / (n + 1));
   for (const auto *one : {&scene, &mesh})

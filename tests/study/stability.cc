@@ -21,14 +21,14 @@ using namespace plumbline::study;
 namespace
 {
   /// A tensor rule with exact moments of degree 2, n_a n_b ξ^α among them, from bonds as given.
-  meshfree::NeighbourhoodQuadrature tensor_rule(const physics::Kernel<2> &kernel,
-                                                meshfree::Bond (*bond)(const physics::Kernel<2> &,
-                                                                       const meshfree::Candidate &))
+  meshfree::NeighbourhoodQuadrature<2>
+  tensor_rule(const physics::Kernel<2> &kernel,
+              meshfree::Bond<2> (*bond)(const physics::Kernel<2> &, const meshfree::Candidate<2> &))
   {
     // entries C_ab taken at the kernel point q, the field at the node: q_a q_b ξ^α / |q|²
     const std::vector<std::array<int, 4>> which = {
         {0, 0, 2, 0}, {0, 0, 0, 2}, {0, 1, 1, 1}, {1, 1, 2, 0}, {1, 1, 0, 2}};
-    return {bond, [=](meshfree::Family &family)
+    return {bond, [=](meshfree::Family<2> &family)
             {
               // min Σ (w - A)²/A: in (w - A)/√A the solution of least norm
               const auto n = static_cast<Eigen::Index>(family.bonds.size());
@@ -40,7 +40,7 @@ namespace
                 defects[i] = kernel.moment({p, q}, a, b);
                 for (Eigen::Index k = 0; k < n; ++k)
                 {
-                  const meshfree::Bond &one = family.bonds[k];
+                  const meshfree::Bond<2> &one = family.bonds[k];
                   const double g = meshfree::kernel_value(kernel, one, a, b) *
                                    std::pow(one.xi[0], p) * std::pow(one.xi[1], q);
                   defects[i] -= one.weight * g;
@@ -54,7 +54,7 @@ namespace
             }};
   }
 
-  Stability measure_rule(const meshfree::NeighbourhoodQuadrature &rule,
+  Stability measure_rule(const meshfree::NeighbourhoodQuadrature<2> &rule,
                          const physics::Kernel<2> &kernel, double h)
   {
     const auto bonds = meshfree::lattice_bonds(rule, kernel, h, geometry::Backend::fast);

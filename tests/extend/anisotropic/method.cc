@@ -14,12 +14,12 @@ namespace anisotropic
     using namespace plumbline;
 
     /// Row i is -Σ C(kernel_point) (u(x_i + ξ) - u_i) weight.
-    algebra::Stencil make_stencil(const problem::Problem<2> &problem, const meshfree::Bonds &bonds,
-                                  double a)
+    algebra::Stencil make_stencil(const problem::Problem<2> &problem,
+                                  const meshfree::Bonds<2> &bonds, double a)
     {
       const FibreKernel kernel(problem.kernel, a);
       algebra::Stencil stencil(1, static_cast<int>(std::ceil(problem.horizon() / bonds.h)) + 1);
-      for (const meshfree::Bond &bond : bonds.family)
+      for (const meshfree::Bond<2> &bond : bonds.family)
       {
         const double entry = meshfree::radial_value(problem.kernel, bond) *
                              kernel.factor(bond.kernel_point) * bond.weight;
@@ -33,7 +33,7 @@ namespace anisotropic
     class Discretisation : public method::LatticeDiscretisation
     {
     public:
-      Discretisation(const problem::Problem<2> &problem, const meshfree::Bonds &bonds, double a)
+      Discretisation(const problem::Problem<2> &problem, const meshfree::Bonds<2> &bonds, double a)
           : LatticeDiscretisation(problem, method::comparison_nodes(problem, 1),
                                   make_stencil(problem, bonds, a), {1})
       {
@@ -91,7 +91,7 @@ namespace anisotropic
                                                          const base::Communicator &) const override
       {
         const auto bonds =
-            meshfree::lattice_bonds(rule_.of(problem.kernel), problem.kernel,
+            meshfree::lattice_bonds(rule_.in_plane(problem.kernel), problem.kernel,
                                     problem.lattice()->h(), problem.settings.geometry.backend);
         return std::make_unique<Discretisation>(problem, bonds, a_);
       }

@@ -20,7 +20,8 @@ namespace subcells
       return true;
     }
 
-    meshfree::Bond bond(const physics::Kernel<2> &kernel, const meshfree::Candidate &candidate)
+    meshfree::Bond<2> bond(const physics::Kernel<2> &kernel,
+                           const meshfree::Candidate<2> &candidate)
     {
       constexpr int n = 8;
       unsigned int n_all = 0, n_inside = 0;
@@ -47,7 +48,7 @@ namespace subcells
     }
   } // namespace
 
-  meshfree::NeighbourhoodQuadrature rule(const physics::Kernel<2> &)
+  meshfree::NeighbourhoodQuadrature<2> rule(const physics::Kernel<2> &)
   {
     return {bond};
   }
