@@ -8,6 +8,7 @@
 #include "crack.h"
 #include "grow.h"
 #include "list.h"
+#include "moduli.h"
 #include "requirements.h"
 #include "run.h"
 #include "sample.h"
@@ -221,6 +222,25 @@ namespace
         [=, &request] { request.n_threads = options->is_worker ? options->n_threads : 0; });
   }
 
+  void add_moduli(CLI::App &app, Request &request)
+  {
+    const auto options = std::make_shared<ModuliOptions>();
+    auto &command = *app.add_subcommand(
+        "moduli", "Elastic constants of meshfree rules on square or cubic lattices");
+    command.add_option("--kernel", options->kernel,
+                       "bond-tensor (default), 'bond-tensor constant' or 'bond-tensor conical'");
+    command.add_option("--state", options->state, "'plane stress' (default), 'plane strain' or 3D");
+    command
+        .add_option(ratios_option, options->ratios,
+                    "Horizons over mesh size, separated by commas, semicolons or blanks (default: "
+                    "2,3,4,5); may be repeated")
+        ->allow_extra_args(false);
+    command.add_option("--E", options->E, "Young's modulus of the material (default: 1)");
+    command.add_option("--rules", options->rules, "Rules, comma separated (default: all)");
+    command.add_flag("--json", options->json, "Print records instead of the table");
+    set_action(command, request, options, moduli);
+  }
+
   /// What takes one word and prints or writes something about it.
   void add_word(CLI::App &app, Request &request, const std::string &name, const std::string &help,
                 const std::string &word, const std::string &word_help,
@@ -283,6 +303,7 @@ namespace
                  "Stationary crack: tip energy by meshfree and Galerkin methods",
                  "Expected/strip fails, or a strip is too short", strip_row);
     add_sample(app, request);
+    add_moduli(app, request);
     add_words(app, request);
   }
 

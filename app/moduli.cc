@@ -1,0 +1,169 @@
+#include "moduli.h"
+
+#include "arguments.h"
+#include "base/choice.h"
+#include "base/error.h"
+#include "io/results_json.h"
+#include "meshfree/rules/rules.h"
+#include "meshfree/rules/stiffness.h"
+#include "report/view.h"
+#include "scene/values.h"
+
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<physics::ElasticState> =
+      std::array{"plane stress", "plane strain", "3D"};
+} // namespace plumbline::base
+
+namespace plumbline::app
+{
+  namespace
+  {
+    using meshfree::Rule;
+    using physics::ElasticState;
+
+    std::vector<Rule> chosen_rules(const std::string &names)
+    {
+      if (names == scene::all)
+        return meshfree::rules();
+      std::vector<Rule> chosen;
+      std::string known;
+      for (const Rule &rule : meshfree::rules())
+        known += (known.empty() ? "" : ", ") + rule.name;
+      std::istringstream list(names);
+      for (std::string name; std::getline(list, name, ',');)
+      {
+        for (const Rule &rule : meshfree::rules())
+          if (rule.name == name)
+            chosen.push_back(rule);
+        if (chosen.empty() || chosen.back().name != name)
+          throw InputError("--rules: '" + name + "' is not known; choose all or of " + known);
+      }
+      return chosen;
+    }
+
+    ElasticState state_of(const std::string &word)
+    {
+      const auto state = base::from_word<ElasticState>(word);
+      if (!state)
+        throw InputError("--state: '" + word +
+                         "' is not known; choose 'plane stress', 'plane strain' or 3D");
+      return *state;
+    }
+
+    std::vector<double> ratios_of(const std::vector<std::string> &given)
+    {
+      std::vector<double> ratios =
+          given.empty() ? std::vector<double>{2, 3, 4, 5} : to_numbers(ratios_option, given);
+      for (const double m : ratios)
+        if (!(m >= 1) || m > 50)
+          throw InputError(std::string(ratios_option) + ": horizon / h = " + std::to_string(m) +
+                           " is not between 1, where a node has its first neighbours, and 50");
+      return ratios;
+    }
+
+    const physics::RadialProfile &profile_of(const std::string &name)
+    {
+      const physics::KernelType &type = physics::kernel_type(name);
+      if (type.structure != physics::Structure::tensor || type.make != nullptr)
+        throw InputError("--kernel: '" + name +
+                         "' has no elastic constants of its own; choose bond-tensor, 'bond-tensor "
+                         "constant' or 'bond-tensor conical'");
+      return type.profile;
+    }
+
+    template <int dim>
+    meshfree::NeighbourhoodQuadrature<dim> quadrature(const Rule &rule,
+                                                      const physics::Kernel<dim> &kernel)
+    {
+      if constexpr (dim == 2)
+        return rule.in_plane(kernel);
+      else
+        return rule.in_space(kernel);
+    }
+
+    /// On a lattice of mesh size 1.
+    template <int dim>
+    analysis::Record measure(const Rule &rule, const ModuliOptions &options, ElasticState state,
+                             double m)
+    {
+      const auto kernel = physics::Kernel<dim>::with_bulk_modulus(
+          profile_of(options.kernel), m, physics::bulk_modulus_of_bonds(options.E, state));
+      analysis::Record record;
+      record.key.analysis = "moduli";
+      record.key.method = rule.name;
+      record.key.h = 1;
+      record.key.horizon = m;
+      try
+      {
+        const auto bonds =
+            lattice_bonds(quadrature(rule, kernel), kernel, 1., geometry::Backend::fast);
+        const physics::CubicStiffness stiffness = meshfree::stiffness(kernel, bonds);
+        const auto constants = physics::engineering_constants(stiffness, state);
+        record.set("C1111", stiffness.C1111);
+        record.set("C1122", stiffness.C1122);
+        record.set("C1212", stiffness.C1212);
+        record.set("E", constants.E);
+        record.set("nu", constants.nu);
+        record.set("shear along axes", constants.shear_along);
+        record.set("shear across axes", constants.shear_across);
+        record.set("anisotropy", constants.anisotropy);
+        record.set("error of E", constants.E / options.E - 1);
+        record.set("neighbours", static_cast<double>(bonds.family.size()));
+      }
+      catch (const NumericalError &error)
+      {
+        record.failure = error.what();
+      }
+      return record;
+    }
+
+    report::View view_of(const study::StudyResults &results)
+    {
+      report::View view = report::default_view(results);
+      std::vector<report::RecordColumn> columns = {
+          {"rule",
+           [](const analysis::Record &record) { return report::text_cell(record.key.method); }},
+          {"m",
+           [](const analysis::Record &record) { return report::number_cell(record.key.horizon); }},
+          report::count_column("neighbours", "neighbours")};
+      for (const auto name : {"E", "nu", "shear along axes", "shear across axes", "anisotropy",
+                              "C1111", "C1122", "C1212", "error of E"})
+        columns.push_back(report::number_column(name, name));
+      view.parts = {
+          {"moduli", view.title, "",
+           report::table_of(results, columns,
+                            [](const analysis::Record &record) { return record.failure.empty(); })},
+          report::failures(results, "Without weights", "reason")};
+      return view;
+    }
+  } // namespace
+
+  int moduli(const ModuliOptions &options)
+  {
+    if (!(options.E > 0) || !std::isfinite(options.E))
+      throw InputError("--E: Young's modulus is " + std::to_string(options.E) +
+                       "; give a number above 0");
+    const ElasticState state = state_of(options.state);
+    study::StudyResults results;
+    results.analysis = "moduli";
+    results.scene_name = "moduli of " + options.kernel + ", " + options.state;
+    results.purpose = "Elastic constants of meshfree rules on lattices";
+    for (const Rule &rule : chosen_rules(options.rules))
+      for (const double m : ratios_of(options.ratios))
+        results.records.push_back(state == ElasticState::solid
+                                      ? measure<3>(rule, options, state, m)
+                                      : measure<2>(rule, options, state, m));
+    if (options.json)
+      std::cout << io::to_json(results);
+    else
+      std::cout << report::study_text(view_of(results), results);
+    return 0;
+  }
+} // namespace plumbline::app

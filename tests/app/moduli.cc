@@ -1,0 +1,83 @@
+#include "command.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+using namespace plumbline::app;
+using Json = nlohmann::json;
+
+namespace
+{
+  Json records(const std::string &arguments)
+  {
+    const Outcome outcome = run("moduli --json " + arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return Json::parse(outcome.out).at("records");
+  }
+
+  double scalar(const Json &record, const std::string &name)
+  {
+    return record.at("scalars").at(name).at("value");
+  }
+} // namespace
+
+// by hand: whole cells at the nodes in the ball, bonds c ξ⊗ξ/|ξ|³ with c = 9E/(πδ³) in plane stress
+TEST(ModuliCommand, says_what_modulus_a_rule_has)
+{
+  const Json found = records("--m 3.015 --E 200 --rules FA,IPA-AC-R2");
+  ASSERT_EQ(found.size(), 2u);
+  double along = 0, across = 0;
+  for (int i = -3; i <= 3; ++i)
+    for (int j = -3; j <= 3; ++j)
+      if (const double r = std::hypot(i, j); r > 0 && r <= 3.015)
+      {
+        along += .5 * std::pow(i, 4) / (r * r * r);
+        across += .5 * i * i * j * j / (r * r * r);
+      }
+  const double c = 9 * 200 / (M_PI * std::pow(3.015, 3));
+  EXPECT_NEAR(scalar(found[0], "C1111"), c * along, 1e-10);
+  EXPECT_NEAR(scalar(found[0], "C1212"), c * across, 1e-10);
+  EXPECT_NEAR(scalar(found[0], "E"), 209.7, .05);
+  EXPECT_NEAR(scalar(found[0], "nu"), .318, .0005);
+  EXPECT_NEAR(scalar(found[0], "shear along axes"), 74.3, .05);
+  EXPECT_NEAR(scalar(found[0], "shear across axes"), 79.5, .06);
+  EXPECT_NEAR(scalar(found[1], "E"), 200, 1e-10);
+  EXPECT_NEAR(scalar(found[1], "nu"), 1. / 3, 1e-12);
+}
+
+TEST(ModuliCommand, knows_three_dimensions)
+{
+  const Json found = records("--state 3D --m 3 --E 200 --rules FA,OPT");
+  // C1212 and C1111 are those of isotropic bonds times 1 + C(m) - 1 of the rule
+  EXPECT_NEAR(scalar(found[0], "C1212") / 80, 1.218, .0006);
+  EXPECT_NEAR(scalar(found[0], "C1111") / 240, 1.056, .0006);
+  EXPECT_NEAR(scalar(found[0], "neighbours"), 122, 0);
+  EXPECT_NEAR(scalar(found[1], "E"), 200, 1e-9);
+  EXPECT_NEAR(scalar(found[1], "nu"), .25, 1e-12);
+}
+
+TEST(ModuliCommand, says_which_rule_has_no_weights)
+{
+  const Json found = records("--state 3D --m 1.5 --rules OPT,FA");
+  EXPECT_NE(found[0].at("failure").get<std::string>().find("infeasible"), std::string::npos);
+  EXPECT_GT(scalar(found[1], "E"), 1);
+}
+
+TEST(ModuliCommand, refuses_what_it_cannot_take)
+{
+  const auto expect = [](const std::string &arguments, const std::string &message)
+  {
+    const Outcome outcome = run("moduli " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    expect_found(outcome.err, message);
+  };
+  expect("--kernel constant", "has no elastic constants of its own; choose bond-tensor");
+  expect("--kernel nope", "choose one of");
+  expect("--m 0.5", "is not between 1");
+  expect("--m nan", "--m");
+  expect("--rules XY", "choose all or of FA, LAMMPS");
+  expect("--state solid", "choose 'plane stress', 'plane strain' or 3D");
+  expect("--E 0", "give a number above 0");
+}
