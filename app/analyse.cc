@@ -8,7 +8,9 @@
 #include "methods.h"
 #include "output_folder.h"
 #include "report/formats.h"
+#include "report/frames.h"
 
+#include <fstream>
 #include <iostream>
 
 namespace plumbline::app
@@ -45,6 +47,30 @@ namespace plumbline::app
                                            (++k > 1 ? "_" + std::to_string(k) : "") + ".vtu"));
       }
     }
+
+    /// So that no work is lost at the end.
+    void require_writable(const fs::path &file)
+    {
+      const bool is_there = fs::exists(file);
+      if (!std::ofstream(file, std::ios::app))
+        report::write_file(file, ""); // tells why not
+      if (!is_there)
+        fs::remove(file);
+    }
+
+    /// States of a strip for ParaView.
+    study::WriteStrip frame_writer(const fs::path &folder)
+    {
+      return [folder](const std::vector<double> &times, const std::vector<dealii::Point<2>> &nodes,
+                      const study::Vector &u_of_nodes, const study::Vector &damage_of_nodes)
+      {
+        const auto u = [&](std::size_t node, unsigned int component)
+        { return u_of_nodes[component * nodes.size() + node]; };
+        const auto damage = [&](std::size_t node, unsigned int) { return damage_of_nodes[node]; };
+        report::write_frame(folder, "frame", times, nodes,
+                            {{"u", true, u}, {"damage", false, damage}});
+      };
+    }
   } // namespace
 
   AnalysisRow stability_row()
@@ -62,21 +88,29 @@ namespace plumbline::app
     return {study::dispersion_analysis(angles), report::dispersion_view};
   }
 
-  int analyse(const AnalysisRow &row, const AnalyseOptions &options)
+  AnalysisRow crack_row(const study::Checkpoints &checkpoints)
+  {
+    return {study::crack_analysis(checkpoints, frame_writer(checkpoints.folder / "frames")),
+            report::crack_view};
+  }
+
+  int analyse(const MakeRow &make_row, const AnalyseOptions &options)
   {
     if (!(options.budget >= 0))
       throw InputError(
           "--budget is negative; give CPU seconds of one method at one level, or leave "
           "it out");
-    const study::Analysis &analysis = row.analysis;
     const scene::Scene scene = read_alone(options);
+    const fs::path folder = output_folder(options, scene);
+    const study::Checkpoints checkpoints{folder, is_interrupted};
+    const AnalysisRow row = make_row(checkpoints);
+    const study::Analysis &analysis = row.analysis;
     const method::Methods methods =
         analysis.choose_methods(scene, all_methods(), options.n_levels, 1);
-    const fs::path folder = output_folder(options, scene);
     const OutputFolder output(folder, {analysis.name, scene.name, scene.text},
                               base::Communicator::alone());
     watch_interrupts();
-    report::write_file(folder / (analysis.name + ".md"), ""); // can it be written?
+    require_writable(folder / (analysis.name + ".md"));
     io::RecordJournal journal(folder / (analysis.name + ".jsonl"),
                               subject_of(analysis, options, scene));
     if (!journal.earlier().empty() && !options.quiet)
@@ -94,11 +128,15 @@ namespace plumbline::app
     control.on_records = [&](const study::Records &records)
     {
       journal.append(records);
+      std::error_code code;
+      fs::remove(checkpoints.file(), code);
       write_fields(records, scene, options.n_levels, folder / analysis.name);
     };
     write_fields(journal.earlier(), scene, options.n_levels, folder / analysis.name);
     const study::StudyResults results = run_study(analysis, scene, methods, control);
 
+    for (const std::string &warning : results.warnings)
+      std::cerr << "warning: " << warning << '\n';
     const report::View view = row.view(results);
     report::write_study(view, results, folder);
     if (!results.is_complete)

@@ -2,6 +2,7 @@
 
 #include "measures.h"
 #include "report/view.h"
+#include "study/crack_analysis.h"
 #include "study/dispersion.h"
 #include "study/stability.h"
 #include "study/stationary_crack.h"
@@ -21,15 +22,20 @@ namespace plumbline::app
     report::View (*view)(const study::StudyResults &) = report::default_view;
   };
 
+  /// An analysis that keeps its checkpoints, and other files of its own, where it is told.
+  using MakeRow = std::function<AnalysisRow(const study::Checkpoints &)>;
+
   AnalysisRow stability_row();
   AnalysisRow strip_row();
   AnalysisRow dispersion_row(const std::vector<double> &angles);
+  AnalysisRow crack_row(const study::Checkpoints &checkpoints);
 
   /// Run an analysis over the study of a scene; print tables and verdicts; write ANALYSIS.html, .md
   /// and .json, charts to ANALYSIS/, and there the fields of each series' finest level as VTU. A
-  /// command that was interrupted or killed takes over what it had finished, from ANALYSIS.jsonl.
+  /// command that was interrupted or killed takes over what it had finished, from ANALYSIS.jsonl
+  /// and checkpoint.h5.
   /// @return exit code: 0; with check 1 if an expectation does not hold; 130 if it was interrupted
   /// @throws InputError  a scene that cannot be used, a folder that cannot be written
   /// @throws NumericalError  pictures cannot be drawn; all else is written before that
-  int analyse(const AnalysisRow &row, const AnalyseOptions &options);
+  int analyse(const MakeRow &make_row, const AnalyseOptions &options);
 } // namespace plumbline::app

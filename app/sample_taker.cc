@@ -43,30 +43,6 @@ namespace plumbline::app
       return field;
     }
 
-    std::vector<SampleCase> crack_sample(scene::Scene scene, const fs::path &own)
-    {
-      scene.time.n_frames = 0; // of many samples they would fill the disk
-      fs::create_directories(own);
-      const study::CrackResults crack = study::move_crack(scene, all_methods(), 0, own);
-      SampleCase one;
-      one.method = crack.method;
-      one.series = scene.study.series.front().name;
-      one.h = crack.own.h;
-      one.horizon = crack.own.horizon;
-      one.seconds = crack.seconds;
-      one.quantities = {{"advance", crack.motion.advance},
-                        {"speed", crack.motion.speed},
-                        {"threshold", crack.own.energy / crack.own.toughness},
-                        {"energy drift", crack.motion.energy_drift},
-                        {"runs", crack.motion.outcome == scene::CrackOutcome::runs ? 1 : 0}};
-      std::vector<dealii::Point<2>> nodes;
-      for (int j = 0; j < crack.n[1]; ++j)
-        for (int i = 0; i < crack.n[0]; ++i)
-          nodes.push_back(crack.lower + crack.h() * dealii::Point<2>(i, j));
-      one.field = damage_of(nodes, crack.h(), crack.history.moments.back().damage);
-      return {one};
-    }
-
     std::vector<SampleCase> grow_sample(const scene::Scene &scene, const fs::path &own)
     {
       fs::create_directories(own);
@@ -121,11 +97,16 @@ namespace plumbline::app
               { return study::sample_study(analysis, sample, all_methods()); }};
     }
 
-    SampleTaker crack_taker()
+    /// Of an analysis that keeps checkpoints.
+    SampleTaker long_taker(study::Analysis (*analysis)(const study::Checkpoints &))
     {
-      return {[](const scene::Scene &scene, const fs::path &folder, unsigned int n_jobs)
-              { study::check_crack_size(scene, 0, folder, n_jobs); },
-              crack_sample};
+      return {[analysis](const scene::Scene &scene, const fs::path &folder, unsigned int n_jobs)
+              { (void)analysis({folder}).choose_methods(scene, all_methods(), 0, n_jobs); },
+              [analysis](const scene::Scene &sample, const fs::path &own)
+              {
+                fs::create_directories(own);
+                return study::sample_study(analysis({own}), sample, all_methods());
+              }};
     }
 
     SampleTaker growth_taker()
@@ -176,7 +157,8 @@ namespace plumbline::app
     if (is_growth(scene))
       return clean(growth_taker());
     if (scene.crack.is_there())
-      return clean(crack_taker());
+      return clean(
+          long_taker([](const study::Checkpoints &own) { return study::crack_analysis(own); }));
     if (scene.strip.is_there())
       return study_taker(study::strip_analysis());
     return scene.time.is_dynamic() ? motion_taker() : statics_taker();

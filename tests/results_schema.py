@@ -21,6 +21,7 @@ runs = [
     ["stability", "failures/too_few_neighbours.prm", "--levels", "3"],
     ["stability", "dynamics/strained.prm", "--levels", "1", "--methods", "FA"],
     ["dispersion", "waves/diffusion.prm", "--methods", "Q1,FA"],
+    ["crack", "griffith/speed.prm", "--levels", "1"],
     ["strip", "fracture/strip.prm", "--methods", "DGQ0,PA-AC", "--levels", "3"],
 ]
 seen = {"scalars": 0, "curves": 0, "fields": 0}

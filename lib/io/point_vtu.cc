@@ -26,10 +26,12 @@ namespace plumbline::io
         vectors;
     if (n_components == 2)
       vectors.emplace_back(0, 1, "u", component_is_part_of_vector);
+    std::vector<std::string> names(n_components, "u");
+    for (unsigned int c = 0; c < n_components && n_components > 2; ++c)
+      names[c] += std::to_string(c + 1);
     std::filesystem::create_directories(file.parent_path());
     std::ofstream out(file);
-    dealii::DataOutBase::write_vtu(points, std::vector<std::string>(n_components, "u"), vectors,
-                                   dealii::DataOutBase::VtkFlags(), out);
+    dealii::DataOutBase::write_vtu(points, names, vectors, dealii::DataOutBase::VtkFlags(), out);
     if (!out.flush())
       throw InputError("cannot write all of '" + file.string() +
                        "'; free some space, or give another output folder (-o)");

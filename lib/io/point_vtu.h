@@ -6,7 +6,7 @@
 
 namespace plumbline::io
 {
-  /// A field of one or two components at points, as "u".
+  /// A field at points, as "u"; of more than two components each as "u1", "u2" and so on.
   /// @throws InputError  the file cannot be written
   void write_vtu(const analysis::PointField &field, const std::filesystem::path &file);
 } // namespace plumbline::io

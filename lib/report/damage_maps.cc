@@ -108,6 +108,22 @@ namespace plumbline::report
     return out.str();
   }
 
+  std::string damage_script(const analysis::PointField &field, double h,
+                            const std::vector<std::string> &titles, const std::string &file,
+                            const std::string &title)
+  {
+    const MapCells cells = cells_of(field.points, h);
+    std::vector<DamageMap> maps;
+    for (std::size_t c = 0; c < titles.size(); ++c)
+    {
+      std::vector<double> values;
+      for (std::size_t i = c; i < field.values.size(); i += field.n_components)
+        values.push_back(field.values[i]);
+      maps.push_back(map_of(titles[c], field.points, values, cells));
+    }
+    return damage_script(maps, file, title, cells);
+  }
+
   void sharpen(const std::filesystem::path &picture)
   {
     std::ifstream in(picture, std::ios::binary);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <deal.II/base/point.h>
+#include "analysis/record.h"
 
 #include <array>
 #include <filesystem>
@@ -51,6 +51,11 @@ namespace plumbline::report
   /// @pre  at least one map
   std::string damage_script(const std::vector<DamageMap> &maps, const std::string &file,
                             const std::string &title, const MapCells &cells);
+
+  /// The components of a field of the nodes of a lattice, each a map.
+  std::string damage_script(const analysis::PointField &field, double h,
+                            const std::vector<std::string> &titles, const std::string &file,
+                            const std::string &title);
 
   /// Blocks of a picture with sharp edges, see with_sharp_blocks.
   void sharpen(const std::filesystem::path &picture);

@@ -1,5 +1,7 @@
 #include "report/data_charts.h"
 
+#include <algorithm>
+
 namespace plumbline::report
 {
   DataChart named(const std::string &name, const std::string &title, const std::string &caption)
@@ -10,6 +12,42 @@ namespace plumbline::report
     chart.plot.file = name + ".svg";
     chart.plot.title = title;
     return chart;
+  }
+
+  DataChart linear_chart(const std::string &name, const std::string &title,
+                         const std::string &x_label, const std::string &y_label,
+                         const std::string &caption)
+  {
+    DataChart chart = named(name, title, caption);
+    chart.plot.x_label = x_label;
+    chart.plot.y_label = y_label;
+    chart.plot.is_x_log = chart.plot.is_y_log = false;
+    return chart;
+  }
+
+  Line long_line(const std::string &label, unsigned int style, std::vector<Vertex> points)
+  {
+    const auto interval = static_cast<unsigned int>(points.size() / 12 + 1);
+    return {label, style_of(style, false), 1.8, std::move(points), interval};
+  }
+
+  Line dashed_line(const std::string &label, unsigned int style, std::vector<Vertex> points)
+  {
+    Line line = long_line(label, style, std::move(points));
+    line.style = style_of(style, true);
+    line.width = 1;
+    return line;
+  }
+
+  void fit_y(Plot &plot)
+  {
+    constexpr double margin = .06;
+    Range range;
+    for (const Line &line : plot.lines)
+      for (const Vertex &v : line.points)
+        range = {std::min(range.low, v.y), std::max(range.high, v.y)};
+    const double rim = margin * (range.high - range.low);
+    plot.y_range = Range{range.low < 0 ? range.low - rim : 0, range.high + rim};
   }
 
   void write_charts(const std::vector<DataChart> &charts, const std::filesystem::path &folder)

@@ -22,6 +22,21 @@ namespace plumbline::report
   DataChart named(const std::string &name, const std::string &title,
                   const std::string &caption = {});
 
+  /// The same on linear axes.
+  DataChart linear_chart(const std::string &name, const std::string &title,
+                         const std::string &x_label, const std::string &y_label,
+                         const std::string &caption = {});
+
+  /// A line of a meshfree style with few symbols.
+  Line long_line(const std::string &label, unsigned int style, std::vector<Vertex> points);
+
+  /// A thin dashed one.
+  Line dashed_line(const std::string &label, unsigned int style, std::vector<Vertex> points);
+
+  /// The y-axis from 0, or from below it, to the highest point.
+  /// @pre  linear; there are points
+  void fit_y(Plot &plot);
+
   /// Draw them into a folder, in one gnuplot process; charts.gp draws them again.
   /// @throws NumericalError  gnuplot is missing or fails; InputError  the folder cannot be written
   void write_charts(const std::vector<DataChart> &charts, const std::filesystem::path &folder);

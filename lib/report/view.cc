@@ -1,6 +1,7 @@
 #include "report/view.h"
 
 #include "io/results_json.h"
+#include "report/damage_maps.h"
 #include "report/text_table.h"
 
 #include <nlohmann/json.hpp>
@@ -104,6 +105,35 @@ namespace plumbline::report
                                            { return text_cell(record.failure); }}}),
                      [&](const Record &record)
                      { return !record.failure.empty() && (!is_shown || is_shown(record)); })};
+  }
+
+  Table table_of(const analysis::Curve &curve)
+  {
+    Table table;
+    for (const analysis::Column &column : curve)
+      table.columns.emplace_back(column.name +
+                                 (column.unit.empty() ? "" : " [" + column.unit + "]"));
+    for (std::size_t i = 0; i < curve.front().values.size(); ++i)
+    {
+      table.rows.emplace_back();
+      for (const analysis::Column &column : curve)
+        table.rows.back().push_back(number_cell(column.values[i]));
+    }
+    return table;
+  }
+
+  Table quantity_table(const Record &record,
+                       const std::vector<std::pair<std::string, std::string>> &meanings)
+  {
+    Table table;
+    table.columns = {"quantity", "value", "meaning"};
+    for (const auto &[name, meaning] : meanings)
+      if (record.has(name) || record.texts.count(name) > 0)
+        table.rows.push_back(
+            {text_cell(name),
+             record.has(name) ? number_cell(record[name]) : text_cell(record.text(name)),
+             text_cell(meaning)});
+    return table;
   }
 
   Table verdict_table(const StudyResults &results)
@@ -340,6 +370,7 @@ namespace plumbline::report
       Data data = page::begin(results.analysis, results.scene_name, results.purpose, facts);
       data["answer"] = view.answer;
       data["model"] = view.model;
+      data["omitted"] = view.omitted.empty() ? Data() : Data{{"rows", view.omitted}};
       data["verdicts"] = page_verdicts(view);
       data["expectations"] = expectations(results);
       data["warnings"] = results.warnings;
@@ -351,9 +382,10 @@ namespace plumbline::report
         Data charts = page::charts(gallery.charts, folder, results.analysis),
              pictures = Data::array();
         for (const Picture &picture : gallery.pictures)
-          pictures.push_back(page::figure({folder / results.analysis / (picture.name + ".svg"),
-                                           picture.name + "-", picture.title, "", "Picture",
-                                           results.analysis + "/" + picture.name + ".svg", true}));
+          pictures.push_back(
+              page::figure({folder / results.analysis / (picture.name + ".svg"), picture.name + "-",
+                            picture.title, picture.caption, "Picture",
+                            results.analysis + "/" + picture.name + ".svg", true}));
         if (charts.empty() && pictures.empty())
           continue;
         data["galleries"].push_back({{"id", gallery.id},
@@ -371,6 +403,8 @@ namespace plumbline::report
       std::string text = "# " + view.title + ": " + results.scene_name + "\n\n";
       if (!view.answer.empty())
         text += view.answer + "\n\n";
+      for (const std::string &warning : results.warnings)
+        text += "Warning: " + warning + ".\n\n";
       if (!view.verdicts.rows.empty())
         text += to_markdown(view.verdicts);
       if (!view.question.empty())
@@ -378,7 +412,13 @@ namespace plumbline::report
       for (const Part &part : page::with_rows(view.parts))
         text += "\n## " + part.head + "\n\n" + to_markdown(part.table) +
                 (part.words.empty() ? "" : "\n" + part.words + "\n");
-      return view.model.empty() ? text : text + "\n" + view.model + "\n";
+      if (!view.model.empty())
+        text += "\n" + view.model + "\n";
+      if (!view.omitted.empty())
+        text += "\n## What was left out of the model\n\n";
+      for (const std::string &one : view.omitted)
+        text += "- " + one + "\n";
+      return text;
     }
 
     void draw(const View &view, const std::filesystem::path &folder)
@@ -395,11 +435,15 @@ namespace plumbline::report
           pictures.push_back(picture.name + ".svg");
         }
       }
+      for (const DataTable &one : view.tables)
+        write_file(folder / (one.name + ".csv"), to_csv(one.table));
       write_charts(charts, folder);
       if (pictures.empty())
         return;
       write_file(folder / "pictures.gp", script);
       run_gnuplot(folder, "pictures.gp", pictures);
+      for (const std::string &picture : pictures)
+        sharpen(folder / picture);
     }
   } // namespace
 
@@ -410,8 +454,6 @@ namespace plumbline::report
     for (const Part &part : page::with_rows(view.parts))
       text += "\n" + to_text(part.table) +
               (part.words.empty() ? "" : wrapped(part.words, width) + "\n");
-    for (const std::string &warning : results.warnings)
-      text += "\nwarning: " + warning + "\n";
     for (const std::string &what : results.left_out)
       text += "\nleft out by the budget: " + what + "\n";
     for (const std::string &words : {view.model, view.answer})

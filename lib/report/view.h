@@ -43,6 +43,11 @@ namespace plumbline::report
   Table table_of(const StudyResults &results, const std::vector<RecordColumn> &columns,
                  const IsShown &is_shown);
 
+  /// Scalars or texts of one record and what they mean, by their names; those that are absent are
+  /// left out.
+  Table quantity_table(const Record &record,
+                       const std::vector<std::pair<std::string, std::string>> &meanings);
+
   Table verdict_table(const StudyResults &results);
   Table power_table(const StudyResults &results);
 
@@ -64,7 +69,16 @@ namespace plumbline::report
   struct Picture
   {
     std::string name, title, script;
+    std::string caption = {};
   };
+
+  /// A table that is a file NAME.csv.
+  struct DataTable
+  {
+    std::string name;
+    Table table;
+  };
+  Table table_of(const analysis::Curve &curve);
 
   /// Charts or pictures under a heading.
   struct Gallery
@@ -78,16 +92,18 @@ namespace plumbline::report
   /// How the results of an analysis are shown.
   struct View
   {
-    std::string title;         ///< of the page, e.g. "Stability"
-    std::string answer = {};   ///< what the results say, in a sentence or two
-    std::string model = {};    ///< what was solved, and what was left out
-    std::string question = {}; ///< what the verdicts answer
-    std::string words = {};    ///< what the verdicts mean
+    std::string title;                     ///< of the page, e.g. "Stability"
+    std::string answer = {};               ///< what the results say, in a sentence or two
+    std::string model = {};                ///< what was solved, and what was left out
+    std::vector<std::string> omitted = {}; ///< from the model, a phrase each
+    std::string question = {};             ///< what the verdicts answer
+    std::string words = {};                ///< what the verdicts mean
     Table verdicts = {};
     std::vector<std::string> ratings = {}; ///< of the rows of `verdicts`, as classes of the page
     std::vector<std::string> facts = {};   ///< below the page's title
     std::vector<Part> parts = {};
     std::vector<Gallery> galleries = {};
+    std::vector<DataTable> tables = {}; ///< as CSV alone
   };
 
   /// Without anything special: a table and charts of all scalars.
@@ -96,6 +112,7 @@ namespace plumbline::report
   View stability_view(const StudyResults &results);
   View dispersion_view(const StudyResults &results);
   View strip_view(const StudyResults &results);
+  View crack_view(const StudyResults &results);
 
   /// The labels of methods in the order of the records.
   std::vector<MethodName> methods_of(const StudyResults &results, const IsShown &is_shown);

@@ -93,9 +93,16 @@ namespace plumbline::study
       {
         for (const problem::Series &series : scene_.study.series)
           n_all_ += n_levels(series) * methods_.size();
-        for (const problem::Series &series : scene_.study.series)
-          for (unsigned int level = 0; level < n_levels(series) && results_.is_complete; ++level)
-            run_level({scene_, series, level, level + 1 == n_levels(series)}, level);
+        try
+        {
+          for (const problem::Series &series : scene_.study.series)
+            for (unsigned int level = 0; level < n_levels(series); ++level)
+              run_level({scene_, series, level, level + 1 == n_levels(series)}, level);
+        }
+        catch (const Interrupted &)
+        {
+          results_.is_complete = false;
+        }
         for (Records &own : records_)
           std::move(own.begin(), own.end(), std::back_inserter(results_.records));
         if (analysis_.conclude)
@@ -116,10 +123,7 @@ namespace plumbline::study
         for (std::size_t i = 0; i < methods_.size(); ++i, ++n_done_)
         {
           if (control_.should_stop && control_.should_stop())
-          {
-            results_.is_complete = false;
-            return;
-          }
+            throw Interrupted();
           const Method &method = *methods_[i];
           Records own;
           std::copy_if(control_.earlier.begin(), control_.earlier.end(), std::back_inserter(own),

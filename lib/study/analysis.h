@@ -5,6 +5,7 @@
 #include "scene/problem.h"
 #include "study/study_results.h"
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -14,6 +15,21 @@ namespace plumbline::study
 {
   using method::Method;
   using method::Methods;
+
+  /// For analyses that take long at one place: what they go on from after they were killed.
+  struct Checkpoints
+  {
+    std::filesystem::path folder;           ///< where it is kept
+    std::function<bool()> should_stop = {}; ///< asked on the way
+
+    std::filesystem::path file() const { return folder / "checkpoint.h5"; }
+    bool is_to_stop() const { return should_stop && should_stop(); }
+  };
+
+  /// An analysis was asked to stop, and has written its checkpoint.
+  struct Interrupted : std::exception
+  {
+  };
 
   /// A level of a study, where an analysis is made by one method after the other.
   class Place
@@ -72,6 +88,9 @@ namespace plumbline::study
     std::function<void(const scene::Scene &, StudyResults &)> conclude = {};
     /// The names of scalars that samples count, or how those names end; empty: all scalars.
     std::vector<std::string> sampled = {};
+    /// The field that samples count, by its last component; its points stand for h² each. Empty:
+    /// none.
+    std::string sampled_field = {};
     /// Further words that records depend on, besides the scene.
     std::string options = {};
 

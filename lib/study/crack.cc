@@ -39,7 +39,7 @@ namespace plumbline::study
       for (unsigned int i = 0; i < n; ++i)
         n_moments += plan.moment(i) ? 1 : 0;
       if (n == 0 || records.size() != 1 + n_numbers * n + n_moments * (1 + n_nodes))
-        throw InputError("checkpoint '" + plan.checkpoint.string() +
+        throw InputError("checkpoint '" + plan.checkpoints.file().string() +
                          "' does not hold what this run writes; remove it to begin anew");
       auto next = records.begin() + 1;
       for (std::size_t i = 0; i < n; ++i, next += n_numbers)
@@ -100,7 +100,8 @@ namespace plumbline::study
     const std::size_t n_nodes = model.start.size() / 2;
     State state{model.start, Vector(model.start.size()), 0};
     CrackHistory history;
-    const auto saved = analysis::read_checkpoint(plan.checkpoint.string());
+    const std::string file = plan.checkpoints.file().string();
+    const auto saved = analysis::read_checkpoint(file);
     if (saved && saved->subject == plan.subject && saved->state.u.size() == state.u.size())
     {
       history = from_records(saved->records, n_nodes, plan);
@@ -137,9 +138,11 @@ namespace plumbline::study
                                              plan.time(k), state, observer)
                              .n_steps;
       look(k, dissipated);
-      if (k % plan.interval == 0 && k < plan.n_samples)
-        analysis::write_checkpoint(plan.checkpoint.string(),
-                                   {plan.subject, state, to_records(history)});
+      const bool is_to_stop = k < plan.n_samples && plan.checkpoints.is_to_stop();
+      if ((k % plan.interval == 0 && k < plan.n_samples) || is_to_stop)
+        analysis::write_checkpoint(file, {plan.subject, state, to_records(history)});
+      if (is_to_stop)
+        throw Interrupted();
     }
     history.last = std::move(state);
     return history;
@@ -278,15 +281,14 @@ namespace plumbline::study
     return motion;
   }
 
-  std::vector<std::string> CrackResults::warnings() const
+  std::vector<std::string> warnings_of_strain(double strain)
   {
-    std::vector<std::string> list;
-    if (std::abs(strain) > large_strain)
-      list.push_back("the strain of the grips is " + base::to_text(strain, 3) + ", beyond " +
-                     base::to_text(large_strain, 2) +
-                     ": bonds have linear kinematics, which hold for small strains; lower "
-                     "Crack/load, or scale the material so that its critical strain is small");
-    return list;
+    if (std::abs(strain) <= large_strain)
+      return {};
+    return {"the strain of the grips is " + base::to_text(strain, 3) + ", beyond " +
+            base::to_text(large_strain, 2) +
+            ": bonds have linear kinematics, which hold for small strains; lower Crack/load, or "
+            "scale the material so that its critical strain is small"};
   }
 
   double rayleigh_ratio()
@@ -304,12 +306,13 @@ namespace plumbline::study
   void check_room(const CrackPlan &plan, double n_nodes)
   {
     // a point of a frame: its place, u and damage, indices, as compressed text; of a checkpoint: u,
-    // v and the moments, while the last one is still there
-    constexpr double frame_bytes = 50, checkpoint_bytes = 2 * 8 * (4 + n_crack_moments);
-    const std::string folder = plan.checkpoint.parent_path().string();
+    // v and the moments, while the last one is still there; of journal and results, as text
+    constexpr double frame_bytes = 50, checkpoint_bytes = 2 * 8 * (4 + n_crack_moments),
+                     record_bytes = 2 * 20 * (2 + n_crack_moments);
+    const std::string folder = plan.checkpoints.folder.string();
     const double available = base::available_disk(folder);
     const double frames = plan.n_frames == 0 ? 0 : (plan.n_frames + 1.) * frame_bytes * n_nodes,
-                 needed = frames + checkpoint_bytes * n_nodes;
+                 needed = frames + (checkpoint_bytes + record_bytes) * n_nodes;
     if (needed > available)
       throw InputError("Time/frames = " + std::to_string(plan.n_frames) + ": " +
                        std::to_string(plan.n_frames) + " frames and a checkpoint of " +

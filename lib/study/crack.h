@@ -4,9 +4,8 @@
 #include "base/cost.h"
 #include "method/dynamic_fracture_solver.h"
 #include "scene/scene.h"
+#include "study/analysis.h"
 
-#include <array>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -17,18 +16,6 @@ namespace plumbline::study
 {
   using analysis::State;
   using analysis::Vector;
-
-  /// The load at which a long crack in the strip of one level neither grows nor closes.
-  struct CrackThreshold
-  {
-    std::string series;
-    double h = 0, horizon = 0;
-    double toughness = 0; ///< of the lattice, G_c,h [energy/length]
-    double energy = 0;    ///< W H at the threshold; NaN where there is none
-    std::string failure;  ///< why not
-
-    double m() const { return horizon / h; }
-  };
 
   using method::CrackView;
 
@@ -77,9 +64,9 @@ namespace plumbline::study
     std::optional<double> critical_step;
     bool shows_blow_up = false;
     unsigned int n_samples = 6, n_frames = 0;
-    unsigned int interval = 1;        ///< of checkpoints [samples]
-    std::string subject;              ///< of checkpoints: what moves
-    std::filesystem::path checkpoint; ///< its file
+    unsigned int interval = 1; ///< of checkpoints [samples]
+    std::string subject;       ///< of checkpoints: what moves
+    Checkpoints checkpoints;
 
     double time(unsigned int sample) const;
     /// The number of the frame or moment at a sample, of n + 1 or n of them at even distances.
@@ -94,7 +81,7 @@ namespace plumbline::study
   /// Move the strip, from the plan's checkpoint if there is one of the same subject, and write
   /// checkpoints on the way: the result has the same bits wherever it was stopped.
   /// @throws InputError  a step that is refused, a checkpoint that cannot be read or written
-  /// @throws NumericalError  as analysis::integrate
+  /// @throws NumericalError  as analysis::integrate; Interrupted
   CrackHistory run_crack(const CrackModel &model, const CrackPlan &plan,
                          const WriteFrame &write_frame = {});
 
@@ -143,36 +130,7 @@ namespace plumbline::study
   /// x³ - 8x² + (24 - 16k) x - 16 (1 - k) = 0, x = c², k = μ/(λ + 2μ) = 1/3.
   double rayleigh_ratio();
 
-  struct CrackResults
-  {
-    std::string scene_name, purpose, method;
-    std::vector<CrackThreshold> thresholds;
-    scene::CrackSection crack;
-    scene::CrackOutcome expected = scene::CrackOutcome::unknown;
-    CrackThreshold own;                      ///< of the level that moves
-    double toughness = 0;                    ///< of the law, G_c
-    double transverse = 0, longitudinal = 0; ///< speeds of its long waves
-    CrackPlan plan;
-    double damping = 0;
-    std::array<int, 2> n{};
-    double strain = 0; ///< of the grips
-    dealii::Point<2> lower;
-    dealii::Point<2> origin; ///< that places count from, see scene::DomainSection
-    double notch_tip = 0;
-    CrackHistory history;
-    CrackMotion motion;
-    double asymmetry = 0;      ///< of the last state
-    std::uint64_t n_bonds = 0; ///< of one force evaluation
-    double seconds = 0;        ///< CPU time of the motion from where it was taken up
-
-    double h() const { return own.h; }
-    double rayleigh_speed() const { return rayleigh_ratio() * transverse; }
-    std::vector<std::string> warnings() const;
-    bool is_as_expected() const
-    {
-      return expected == scene::CrackOutcome::unknown || expected == motion.outcome;
-    }
-  };
+  std::vector<std::string> warnings_of_strain(double strain);
 
   /// Check that there is room for the frames of a scene and its checkpoint.
   /// @throws InputError  with the bytes that are needed and those that are free

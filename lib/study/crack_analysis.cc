@@ -7,7 +7,7 @@
 #include "base/number_text.h"
 #include "study/growth_analysis.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -17,37 +17,22 @@ namespace plumbline::study
 
   namespace
   {
-    /// The first n_levels of each series, coarse to fine; 0: all.
-    void for_each_level(const scene::Scene &scene, unsigned int n_levels,
-                        const std::function<void(const problem::Series &, const problem::Level &,
-                                                 bool is_finest)> &visit)
-    {
-      for (const auto &series : scene.study.series)
-      {
-        const std::size_t n_all = series.levels.size(),
-                          n = n_levels == 0 ? n_all : std::min<std::size_t>(n_levels, n_all);
-        for (std::size_t level = 0; level < n; ++level)
-          visit(series, series.levels[level], level + 1 == n);
-      }
-    }
-
     dealii::Tensor<1, 2> sides(const scene::Scene &scene)
     {
       const geometry::Box &strip = scene.domain.boxes.include.front();
       return strip.upper - strip.lower;
     }
 
-    CrackThreshold find_threshold(const scene::Scene &scene, const Method &method,
-                                  const problem::Series &series, const problem::Level &level)
+    method::StripThreshold find_threshold(const scene::Scene &scene, const Method &method,
+                                          const problem::Level &level)
     {
-      const method::StripThreshold found = method.dynamic_fracture_solver()->strip_threshold(
+      return method.dynamic_fracture_solver()->strip_threshold(
           scene::make_double_well(scene, level.horizon), level.h,
           static_cast<int>(std::lround(sides(scene)[1] / level.h)), scene.geometry.backend);
-      return {series.name, level.h, level.horizon, found.toughness, found.energy, found.failure};
     }
 
     /// All but what needs the strip.
-    CrackPlan make_plan(const scene::Scene &scene, const std::filesystem::path &folder)
+    CrackPlan make_plan(const scene::Scene &scene, const Checkpoints &checkpoints, bool has_frames)
     {
       CrackPlan plan;
       plan.final_time = scene.time.final_time;
@@ -55,12 +40,13 @@ namespace plumbline::study
       plan.scheme = scene.time.schemes.front();
       plan.shows_blow_up = scene.time.shows_blow_up;
       plan.n_samples = scene.crack.n_samples;
-      plan.n_frames = scene.time.n_frames;
       plan.interval = scene.crack.interval;
       plan.subject = "plumbline crack\n" + scene.text;
-      plan.checkpoint = folder / "checkpoint.h5";
-      if (plan.n_frames > plan.n_samples)
-        throw InputError("Time/frames = " + std::to_string(plan.n_frames) +
+      plan.checkpoints = checkpoints;
+      if (has_frames)
+        plan.n_frames = scene.time.n_frames;
+      if (scene.time.n_frames > plan.n_samples)
+        throw InputError("Time/frames = " + std::to_string(scene.time.n_frames) +
                          " is more than Crack/samples = " + std::to_string(plan.n_samples) +
                          ", of which frames are some; raise that, or write fewer frames");
       return plan;
@@ -71,8 +57,9 @@ namespace plumbline::study
                     unsigned int n_jobs)
     {
       // in vectors of a number a node: u, v, a and fields to which margins are added (11), a view
-      // (4), the moments and their copy in a checkpoint
-      constexpr double bytes = 8 * (15 + 2 * n_crack_moments + 4);
+      // (4), the moments and their copy in a checkpoint; then the record's field, its copy and both
+      // as JSON, with some 20 bytes a number as text
+      constexpr double bytes = 8 * (15 + 2 * n_crack_moments + 4) + 60 * (2 + n_crack_moments);
       const double n_nodes =
           sides(scene)[0] / level.h * (sides(scene)[1] + 2 * level.horizon) / level.h;
       base::require_memory(bytes * n_nodes, "a strip of " + base::to_text(n_nodes, 3) + " nodes",
@@ -157,6 +144,15 @@ namespace plumbline::study
                          "blow-up = true");
     }
 
+    std::vector<dealii::Point<2>> nodes_of(const NotchedStrip &strip, const dealii::Point<2> &lower)
+    {
+      std::vector<dealii::Point<2>> nodes;
+      for (int j = 0; j < strip.n()[1]; ++j)
+        for (int i = 0; i < strip.n()[0]; ++i)
+          nodes.push_back(lower + strip.h() * dealii::Point<2>(i, j));
+      return nodes;
+    }
+
     WriteFrame frame_writer(const CrackPlan &plan, const NotchedStrip &strip,
                             const dealii::Point<2> &lower, const WriteStrip &write)
     {
@@ -168,82 +164,163 @@ namespace plumbline::study
         for (unsigned int k = 0; k <= plan.n_samples && times.size() <= index; ++k)
           if (plan.frame(k))
             times.push_back(plan.time(k));
-        std::vector<dealii::Point<2>> nodes;
-        for (int j = 0; j < strip.n()[1]; ++j)
-          for (int i = 0; i < strip.n()[0]; ++i)
-            nodes.push_back(lower + strip.h() * dealii::Point<2>(i, j));
-        write(times, nodes, state.u, view.damage);
+        write(times, nodes_of(strip, lower), state.u, view.damage);
       };
     }
 
-    /// The motion of the strip.
-    void move(const scene::Scene &scene, const NotchedStrip &strip, const WriteStrip &write,
-              CrackResults &results)
+    void add_samples(const std::vector<CrackSample> &samples, double origin, Record &record)
     {
-      results.n = strip.n();
-      results.origin = scene.domain.origin;
-      results.lower = middle(scene) + dealii::Point<2>(strip.x(0), strip.y(0));
-      results.notch_tip = middle(scene)[0] + strip.notch_tip();
-      results.n_bonds = strip.n_bonds();
-      const CrackModel model = make_model(scene, strip, results.strain);
+      analysis::Curve curve = {{"t", "time", {}},   {"tip", "length", {}},  {"kinetic", "", {}},
+                               {"bonds", "", {}},   {"soft bonds", "", {}}, {"dissipated", "", {}},
+                               {"branches", "", {}}};
+      for (const CrackSample &s : samples)
+      {
+        const std::array<double, 7> row = {s.t,    origin + s.tip, s.kinetic,   s.bonds,
+                                           s.soft, s.dissipated,   s.n_branches};
+        for (std::size_t i = 0; i < row.size(); ++i)
+          curve[i].values.push_back(row[i]);
+      }
+      record.curves["samples"] = std::move(curve);
+    }
+
+    void add_moments(const std::vector<CrackMoment> &moments, std::vector<dealii::Point<2>> nodes,
+                     Record &record)
+    {
+      analysis::PointField field{static_cast<unsigned int>(moments.size()), std::move(nodes), {}};
+      for (std::size_t i = 0; i < field.points.size(); ++i)
+        for (const CrackMoment &moment : moments)
+          field.values.push_back(moment.damage[i]);
+      record.fields["damage"] = std::move(field);
+      analysis::Curve curve = {{"t", "time", {}}};
+      for (const CrackMoment &moment : moments)
+        curve[0].values.push_back(moment.t);
+      record.curves["moments"] = std::move(curve);
+    }
+
+    void add_motion(const CrackMotion &motion, double lattice_toughness, double rayleigh_speed,
+                    Record &record)
+    {
+      record.texts["outcome"] = base::word(motion.outcome);
+      record.texts["reason"] = motion.reason;
+      record.set("advance", motion.advance, "length");
+      record.set("speed", motion.speed, "length/time");
+      record.set("speed / c_R", motion.speed / rayleigh_speed);
+      record.set("fastest / c_R", motion.fastest / rayleigh_speed);
+      record.set("c_R", rayleigh_speed, "length/time");
+      record.set("soft energy / G_c,h", motion.soft_per_length / lattice_toughness);
+      record.set("energy drift", motion.energy_drift);
+      record.set("runs", motion.outcome == scene::CrackOutcome::runs ? 1 : 0);
+    }
+
+    /// The motion of the strip.
+    void move(const scene::Scene &scene, const Method &method, const method::StripThreshold &own,
+              CrackPlan plan, const WriteStrip &write, Record &record)
+    {
+      const problem::Level level{record.key.h, record.key.horizon};
+      const auto strip = make_strip(scene, method, level);
+      const double strain = strip->strain(scene.crack.load * own.energy);
+      plan_steps(scene, make_motion(scene, *strip), plan);
+      const dealii::Point<2> lower = middle(scene) + dealii::Point<2>(strip->x(0), strip->y(0));
+      const CrackModel model = make_model(scene, *strip, strain);
       const base::CpuTimer timer;
-      results.history =
-          run_crack(model, results.plan, frame_writer(results.plan, strip, results.lower, write));
-      results.seconds = timer.seconds();
-      results.asymmetry = strip.asymmetry(results.history.last.u);
-      results.motion =
-          describe_crack(results.history.samples,
-                         {results.notch_tip, scene.domain.boxes.include.front().upper[0], strip.h(),
-                          results.own.horizon, sides(scene)[1], results.transverse});
+      const CrackHistory history = run_crack(model, plan, frame_writer(plan, *strip, lower, write));
+      record.cost.solve_seconds = timer.seconds();
+      record.cost.n_unknowns = strip->size();
+      record.cost.n_bonds = strip->n_bonds();
+
+      const auto speeds =
+          scene::make_double_well(scene, level.horizon).wave_speeds(scene.time.density);
+      const double notch_tip = middle(scene)[0] + strip->notch_tip();
+      const dealii::Point<2> &origin = scene.domain.origin;
+      add_motion(describe_crack(history.samples,
+                                {notch_tip, scene.domain.boxes.include.front().upper[0], strip->h(),
+                                 level.horizon, sides(scene)[1], speeds.transverse}),
+                 own.toughness, rayleigh_ratio() * speeds.transverse, record);
+      add_samples(history.samples, origin[0], record);
+      add_moments(history.moments, nodes_of(*strip, origin + lower), record);
+      record.texts["scheme"] = plan.scheme;
+      record.set("notch tip", origin[0] + notch_tip, "length");
+      record.set("c_T", speeds.transverse, "length/time");
+      record.set("load", scene.crack.load);
+      record.set("threshold", own.energy / own.toughness);
+      record.set("strained W H / G_c,h", scene.crack.load * own.energy / own.toughness);
+      record.set("strain", strain);
+      record.set("asymmetry", strip->asymmetry(history.last.u));
+      record.set("time step", plan.step, "time");
+      if (plan.critical_step)
+        record.set("critical step", *plan.critical_step, "time");
+      record.set("steps", static_cast<double>(history.n_steps));
+      record.set("nodes", static_cast<double>(strip->n()[0]) * strip->n()[1]);
+      record.set("resumed at", history.resumed_at, "time");
+      record.notes = warnings_of_strain(strain);
+    }
+
+    Methods choose_method(const scene::Scene &scene, const Methods &available,
+                          unsigned int n_levels, unsigned int n_jobs, const CrackPlan &plan)
+    {
+      for (const problem::Series &series : scene.study.series)
+        for (std::size_t i = 0; i < series.levels.size() && (n_levels == 0 || i < n_levels); ++i)
+          check_size(scene, series.levels[i], plan, n_jobs);
+      return {fracture_method(scene.methods.names.front(), available)};
+    }
+
+    Record analyse(const Place &place, const Method &method, const CrackPlan &plan,
+                   const WriteStrip &write)
+    {
+      const scene::Scene &scene = place.scene();
+      Record record = place.record("crack", method);
+      const method::StripThreshold threshold = find_threshold(scene, method, place.level());
+      const double law = scene::make_double_well(scene, record.key.horizon).toughness();
+      record.set("G_c", law, "energy/length");
+      record.set("G_c,h / G_c", threshold.toughness / law);
+      if (threshold.failure.empty())
+        record.set("W H / G_c,h", threshold.energy / threshold.toughness);
+      else
+        record.texts["no threshold"] = threshold.failure;
+      if (!place.is_finest() || place.series().name != scene.study.series.front().name)
+        return record;
+      if (threshold.failure.empty())
+        move(scene, method, threshold, plan, write, record);
+      else
+        record.failure = threshold.failure;
+      return record;
+    }
+
+    void conclude(const scene::Scene &scene, StudyResults &results)
+    {
+      std::string found = "no motion";
+      for (const Record &record : results.records)
+      {
+        results.warnings.insert(results.warnings.end(), record.notes.begin(), record.notes.end());
+        if (!record.text("outcome").empty())
+          found = record.text("outcome");
+      }
+      const scene::CrackOutcome expected = scene.expected.crack;
+      if (results.is_complete && expected != scene::CrackOutcome::unknown)
+        results.expectations.push_back(
+            {"Expected/crack", base::word(expected), found, found == base::word(expected)});
     }
   } // namespace
 
-  void check_crack_size(const scene::Scene &scene, unsigned int n_levels,
-                        const std::filesystem::path &folder, unsigned int n_jobs)
+  Analysis crack_analysis(const Checkpoints &checkpoints, const WriteStrip &write)
   {
-    const CrackPlan plan = make_plan(scene, folder);
-    for_each_level(scene, n_levels,
-                   [&](const problem::Series &, const problem::Level &level, bool)
-                   { check_size(scene, level, plan, n_jobs); });
-  }
-
-  CrackResults move_crack(const scene::Scene &scene, const Methods &available,
-                          unsigned int n_levels, const std::filesystem::path &folder,
-                          const WriteStrip &write, const std::function<void()> &before_it_moves)
-  {
-    CrackResults results;
-    results.scene_name = scene.name;
-    results.purpose = scene.purpose;
-    const auto method = fracture_method(scene.methods.names.front(), available);
-    results.method = method->name();
-    results.crack = scene.crack;
-    results.expected = scene.expected.crack;
-    results.damping = scene.time.damping;
-    results.plan = make_plan(scene, folder);
-    bool is_first = true;
-    for_each_level(scene, n_levels,
-                   [&](const problem::Series &series, const problem::Level &level, bool is_finest)
-                   {
-                     results.thresholds.push_back(find_threshold(scene, *method, series, level));
-                     if (is_first && is_finest)
-                     {
-                       results.own = results.thresholds.back();
-                       is_first = false;
-                     }
-                   });
-    if (!results.own.failure.empty())
-      throw NumericalError("horizon " + base::to_text(results.own.horizon, 4) + ": " +
-                           results.own.failure);
-    const physics::DoubleWell law = scene::make_double_well(scene, results.own.horizon);
-    results.toughness = law.toughness();
-    results.transverse = law.wave_speeds(scene.time.density).transverse;
-    results.longitudinal = law.wave_speeds(scene.time.density).longitudinal;
-    const auto strip = make_strip(scene, *method, {results.own.h, results.own.horizon});
-    results.strain = strip->strain(scene.crack.load * results.own.energy);
-    plan_steps(scene, make_motion(scene, *strip), results.plan);
-    if (before_it_moves)
-      before_it_moves();
-    move(scene, *strip, write, results);
-    return results;
+    const auto plan_of = [=](const scene::Scene &scene)
+    { return make_plan(scene, checkpoints, static_cast<bool>(write)); };
+    Analysis analysis{"crack", "Dynamic fracture"};
+    analysis.choose_methods = [=](const scene::Scene &scene, const Methods &available,
+                                  unsigned int n_levels, unsigned int n_jobs)
+    {
+      if (!scene.crack.is_there())
+        throw InputError("scene '" + scene.name +
+                         "': Crack/notch = 0, so there is no crack to follow; give its length, or "
+                         "use 'plumbline run'");
+      return choose_method(scene, available, n_levels, n_jobs, plan_of(scene));
+    };
+    analysis.analyse = [=](const Place &place, const Method &method) -> Records
+    { return {study::analyse(place, method, plan_of(place.scene()), write)}; };
+    analysis.conclude = conclude;
+    analysis.sampled = {"advance", "speed", "threshold", "energy drift", "runs"};
+    analysis.sampled_field = "damage";
+    return analysis;
   }
 } // namespace plumbline::study

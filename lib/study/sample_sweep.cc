@@ -29,6 +29,20 @@ namespace plumbline::study
       }
       return field;
     }
+
+    /// @param area  that each point stands for
+    SampleField last_component(const analysis::PointField &field, double area)
+    {
+      SampleField last;
+      for (std::size_t i = 0; i < field.points.size(); ++i)
+      {
+        last.x.push_back(field.points[i][0]);
+        last.y.push_back(field.points[i][1]);
+        last.values.push_back(field.values[(i + 1) * field.n_components - 1]);
+      }
+      last.area.assign(field.points.size(), area);
+      return last;
+    }
   } // namespace
 
   std::vector<SampleCase> sweep_sample(const scene::Scene &scene, const Methods &methods,
@@ -122,8 +136,12 @@ namespace plumbline::study
       for (const auto &[name, scalar] : record.scalars)
         if (analysis.is_sampled(name))
           one.quantities[name] = scalar.value;
-      if (!one.quantities.empty())
-        cases.push_back(std::move(one));
+      if (one.quantities.empty())
+        continue;
+      if (const auto field = record.fields.find(analysis.sampled_field);
+          field != record.fields.end())
+        one.field = last_component(field->second, key.h * key.h);
+      cases.push_back(std::move(one));
     }
     return cases;
   }

@@ -53,9 +53,10 @@ namespace
     result.n_frames = 4;
     result.interval = 3;
     result.subject = "four numbers";
-    result.checkpoint = fs::path(testing::TempDir()) /
-                        ("plumbline_" + std::to_string(getpid()) + "_" + name + ".h5");
-    fs::remove(result.checkpoint);
+    result.checkpoints.folder =
+        fs::path(testing::TempDir()) / ("plumbline_" + std::to_string(getpid()) + "_" + name);
+    fs::create_directories(result.checkpoints.folder);
+    fs::remove(result.checkpoints.file());
     return result;
   }
 
@@ -127,21 +128,33 @@ TEST(Crack, goes_on_from_a_checkpoint_to_the_same_bits_wherever_it_was_killed)
     const CrackHistory resumed = run_crack(model(), stopped);
     EXPECT_EQ(resumed.resumed_at > 0, n > 3) << n; // the first checkpoint is behind sample 3
     EXPECT_EQ(all_numbers(resumed), whole) << n;
-    fs::remove(stopped.checkpoint);
+    fs::remove_all(stopped.checkpoints.folder);
   }
+}
+
+TEST(Crack, stops_when_it_is_asked_to_and_goes_on_to_the_same_bits)
+{
+  const std::vector<double> whole = all_numbers(run_crack(model(), plan("whole")));
+  CrackPlan own = plan("stopped");
+  own.checkpoints.should_stop = [n = 0]() mutable { return ++n == 4; };
+  EXPECT_THROW(run_crack(model(), own), Interrupted);
+  const CrackHistory resumed = run_crack(model(), own);
+  EXPECT_EQ(resumed.resumed_at, own.time(4)); // no multiple of the interval
+  EXPECT_EQ(all_numbers(resumed), whole);
+  fs::remove_all(own.checkpoints.folder);
 }
 
 TEST(Crack, takes_its_own_checkpoint_alone)
 {
   CrackPlan other = plan("subject");
   EXPECT_THROW(run_crack(killed_at(10), other), Killed);
-  ASSERT_TRUE(fs::exists(other.checkpoint));
+  ASSERT_TRUE(fs::exists(other.checkpoints.file()));
   other.subject = "four other numbers";
   EXPECT_EQ(run_crack(model(), other).resumed_at, 0);
-  analysis::write_checkpoint(other.checkpoint.string(),
+  analysis::write_checkpoint(other.checkpoints.file().string(),
                              {other.subject, {{1, 2, 3, 4}, {1, 2, 3, 4}, 1}, {3, 4}});
   EXPECT_THROW(run_crack(model(), other), InputError);
-  fs::remove(other.checkpoint);
+  fs::remove_all(other.checkpoints.folder);
 }
 
 TEST(Crack, frames_and_moments_are_at_even_distances_and_both_ends)
@@ -162,7 +175,7 @@ TEST(Crack, frames_and_moments_are_at_even_distances_and_both_ends)
   ASSERT_EQ(history.moments.size(), n_crack_moments);
   EXPECT_EQ(history.moments.back().t, own.final_time);
   EXPECT_EQ(history.samples.size(), own.n_samples + 1);
-  fs::remove(own.checkpoint);
+  fs::remove_all(own.checkpoints.folder);
 }
 
 TEST(Crack, what_is_dissipated_is_missing_from_the_rest)
@@ -172,7 +185,7 @@ TEST(Crack, what_is_dissipated_is_missing_from_the_rest)
   const auto drift = [](const CrackPlan &own)
   {
     const auto samples = run_crack(model(), own).samples;
-    fs::remove(own.checkpoint);
+    fs::remove(own.checkpoints.file());
     EXPECT_GT(samples.back().dissipated, .1 * samples.front().bonds);
     return std::abs(samples.back().total() - samples.front().total());
   };
@@ -249,12 +262,10 @@ TEST(Crack, is_followed_long_enough_or_the_outcome_is_not_told)
 
 TEST(Crack, warns_of_large_strains)
 {
-  CrackResults results;
-  results.strain = .09;
-  EXPECT_TRUE(results.warnings().empty());
-  results.strain = .11;
-  ASSERT_EQ(results.warnings().size(), 1u);
-  EXPECT_NE(results.warnings()[0].find("strain of the grips is 0.11"), std::string::npos);
+  EXPECT_TRUE(warnings_of_strain(.09).empty());
+  const auto warnings = warnings_of_strain(-.11);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("strain of the grips is -0.11"), std::string::npos);
 }
 
 TEST(Crack, rayleigh_waves_are_a_little_slower_than_shear_waves)

@@ -1,0 +1,196 @@
+#include "report/damage_maps.h"
+#include "report/view.h"
+#include "study/crack.h"
+
+#include <algorithm>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    const char *const thresholds_words =
+        "Far from its tip a crack turns the intact strip into two halves. It neither grows nor "
+        "closes where that sets free the lattice's toughness G_c,h, all bonds across a line at "
+        "their limit; found from one column in equilibrium, intact and separated. W H, the uniform "
+        "strain's energy times the height between the grips, is close to it, and tends to it with "
+        "the horizon.";
+
+    Table numbers(const Record &record)
+    {
+      return quantity_table(
+          record,
+          {{"advance", "of the tip, from the notch to the end of the time [length]"},
+           {"speed / c_R", "the line fitted to the tip where it has gone 1/5 to 4/5 of its way"},
+           {"fastest / c_R", "over any tenth of the time"},
+           {"c_R", "Rayleigh waves, which no crack overtakes [length/time]"},
+           {"c_T", "shear waves [length/time]"},
+           {"strained W H / G_c,h", "energy of the strained strip over the lattice's toughness"},
+           {"strain", "of the grips, u_y = strain y"},
+           {"G_c", "of the law [energy/length]"},
+           {"G_c,h / G_c", "of the lattice, over that"},
+           {"soft energy / G_c,h", "rise of the energy in soft bonds for a length of advance"},
+           {"energy drift",
+            "largest change of kinetic + bonds + dissipated, relative to the start"},
+           {"asymmetry", "largest difference of u from its mirror image, at the end"},
+           {"time step", record.text("scheme")},
+           {"critical step", "beyond which errors grow without bound"},
+           {"steps", "of the motion"},
+           {"nodes", "the grips' too"},
+           {"resumed at", "time of the checkpoint that the motion went on from; 0: none"}});
+    }
+
+    Part thresholds(const StudyResults &results)
+    {
+      return {"thresholds", "Thresholds", thresholds_words,
+              table_of(results,
+                       {{"series", [](const Record &r) { return text_cell(r.key.series); }},
+                        {"horizon", [](const Record &r) { return number_cell(r.key.horizon); }},
+                        {"h", [](const Record &r) { return number_cell(r.key.h); }},
+                        number_column("G_c,h / G_c", "G_c,h / G_c"),
+                        number_column("W H / G_c,h", "W H / G_c,h"),
+                        text_column("no threshold, because", "no threshold")},
+                       [](const Record &r) { return r.has("G_c"); })};
+    }
+
+    /// To follow "the crack" or "it".
+    std::string outcome_of(const Record &record)
+    {
+      const std::string &outcome = record.text("outcome");
+      return outcome == base::word(scene::CrackOutcome::too_short)
+                 ? "was simulated for too short a time to classify"
+                 : outcome;
+    }
+
+    std::string verdict(const Record &record)
+    {
+      const std::string &outcome = record.text("outcome");
+      std::string text =
+          "At " + rounded(record["load"]) + " of its threshold the crack " + outcome_of(record);
+      const std::string horizons = rounded(record["advance"] / record.key.horizon) + " horizons";
+      if (outcome == base::word(scene::CrackOutcome::too_short))
+        text += ": its tip advanced by " + horizons;
+      else if (outcome == base::word(scene::CrackOutcome::arrests))
+        text += " after " + rounded(record["advance"]) + ", " + horizons + ", of its notch's tip";
+      else
+        text += " at " + rounded(record["speed / c_R"]) +
+                " of the speed of Rayleigh waves, at most " + rounded(record["fastest / c_R"]);
+      text += "; the picture is " + (record["asymmetry"] == 0
+                                         ? std::string("symmetric to the last bit")
+                                         : "asymmetric by " + rounded(record["asymmetry"]));
+      if (!record.text("reason").empty())
+        text += ". Reason: " + record.text("reason");
+      return text + ".";
+    }
+
+    DataChart tip_chart(const Record &record, const analysis::Curve &samples)
+    {
+      DataChart chart = linear_chart("tip", "Where the crack ends", "t [time]", "x [length]");
+      chart.data = table_of(analysis::Curve{samples[0], samples[1]});
+      const std::vector<double> &t = samples[0].values, &x = samples[1].values;
+      std::vector<Vertex> tip;
+      for (std::size_t i = 0; i < t.size(); ++i)
+        tip.push_back({t[i], x[i]});
+      double right = x.front();
+      for (const dealii::Point<2> &node : record.fields.at("damage").points)
+        right = std::max(right, node[0] + record.key.h);
+      const double from = record["notch tip"],
+                   end = std::min(t.back(), (right - from) / record["c_R"]),
+                   reached = from + record["c_R"] * end,
+                   highest = std::max(reached, *std::max_element(x.begin(), x.end())),
+                   lowest = std::min(from, *std::min_element(x.begin(), x.end())),
+                   margin = .05 * (highest - lowest);
+      chart.plot.y_range = Range{lowest - margin, highest + margin};
+      chart.plot.lines = {long_line("crack tip", 0, std::move(tip)),
+                          dashed_line("Rayleigh wave", 1, {{0, from}, {end, reached}})};
+      return chart;
+    }
+
+    DataChart speed_chart(const Record &record, const analysis::Curve &samples)
+    {
+      DataChart chart = linear_chart("speed", "How fast it runs", "t [time]",
+                                     "speed over Rayleigh waves'", "Over a twentieth of the time.");
+      const std::vector<double> &t = samples[0].values, &x = samples[1].values;
+      const std::size_t window = std::max<std::size_t>(1, (t.size() - 1) / 20);
+      std::vector<Vertex> speed;
+      chart.data.columns = {"t [time]", "speed over Rayleigh waves'"};
+      for (std::size_t i = window; i < t.size(); ++i)
+      {
+        speed.push_back({.5 * (t[i] + t[i - window]),
+                         (x[i] - x[i - window]) / (t[i] - t[i - window]) / record["c_R"]});
+        chart.data.rows.push_back({number_cell(speed.back().x), number_cell(speed.back().y)});
+      }
+      chart.plot.lines = {long_line("crack tip", 0, std::move(speed)),
+                          dashed_line("Rayleigh waves", 1, {{0, 1}, {t.back(), 1}})};
+      fit_y(chart.plot);
+      return chart;
+    }
+
+    DataChart energy_chart(const analysis::Curve &samples)
+    {
+      DataChart chart = linear_chart(
+          "energies", "Energies", "t [time]", "energy",
+          "Grips that stand still do no work: the sum stays as it is but for the error "
+          "of the time steps.");
+      chart.data = table_of(samples);
+      const auto line = [&](const std::string &label, unsigned int style, const auto &value)
+      {
+        std::vector<Vertex> points;
+        for (std::size_t i = 0; i < samples[0].values.size(); ++i)
+          points.push_back({samples[0].values[i], value(i)});
+        chart.plot.lines.push_back(long_line(label, style, std::move(points)));
+      };
+      const auto at = [&](std::size_t column)
+      { return [&samples, column](std::size_t i) { return samples[column].values[i]; }; };
+      constexpr std::size_t kinetic = 2, bonds = 3, soft = 4, dissipated = 5;
+      line("sum", 0,
+           [&](std::size_t i) { return at(kinetic)(i) + at(bonds)(i) + at(dissipated)(i); });
+      line("bonds", 1, at(bonds));
+      line("soft ones of them", 2, at(soft));
+      line("kinetic", 3, at(kinetic));
+      if (samples[dissipated].values.back() > 0)
+        line("dissipated", 4, at(dissipated));
+      fit_y(chart.plot);
+      return chart;
+    }
+
+    Picture moments(const Record &record)
+    {
+      std::vector<std::string> titles;
+      for (const double t : record.curves.at("moments")[0].values)
+        titles.push_back("t = " + rounded(t));
+      const char *const title = "Where bonds are soft";
+      return {"moments", title,
+              damage_script(record.fields.at("damage"), record.key.h, titles, "moments.svg", title),
+              "The part of each node's bonds that is soft or cut, on the body at rest, at six "
+              "times; above and below it the grips. As VTU with displacements: frames "
+              "(Time/frames)."};
+    }
+  } // namespace
+
+  View crack_view(const StudyResults &results)
+  {
+    View view{"Dynamic fracture"};
+    view.parts = {thresholds(results),
+                  failures(results, "Levels without a result", "no result, because")};
+    view.omitted = study::left_out_of_cracks();
+    const auto moved = std::find_if(results.records.begin(), results.records.end(),
+                                    [](const Record &record) { return record.has("advance"); });
+    if (moved == results.records.end())
+      return view;
+    const Record &record = *moved;
+    view.answer = verdict(record);
+    view.facts = {record.key.method + ", m = " + rounded(record.key.m()),
+                  "load " + rounded(record["load"]) + " of the threshold",
+                  "it " + outcome_of(record)};
+    view.parts.insert(view.parts.begin(), {"numbers", "Numbers", "", numbers(record)});
+    const analysis::Curve &samples = record.curves.at("samples");
+    view.galleries = {
+        {"picture",
+         "What happens",
+         "",
+         {tip_chart(record, samples), speed_chart(record, samples), energy_chart(samples)},
+         {moments(record)}}};
+    view.tables = {{"samples", table_of(samples)}};
+    return view;
+  }
+} // namespace plumbline::report
