@@ -94,6 +94,11 @@ namespace plumbline::app
             report::crack_view};
   }
 
+  AnalysisRow growth_row(const study::Checkpoints &checkpoints)
+  {
+    return {study::growth_analysis(checkpoints), report::growth_view};
+  }
+
   int analyse(const MakeRow &make_row, const AnalyseOptions &options)
   {
     if (!(options.budget >= 0))

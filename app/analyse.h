@@ -4,6 +4,7 @@
 #include "report/view.h"
 #include "study/crack_analysis.h"
 #include "study/dispersion.h"
+#include "study/growth_analysis.h"
 #include "study/stability.h"
 #include "study/stationary_crack.h"
 
@@ -29,6 +30,7 @@ namespace plumbline::app
   AnalysisRow strip_row();
   AnalysisRow dispersion_row(const std::vector<double> &angles);
   AnalysisRow crack_row(const study::Checkpoints &checkpoints);
+  AnalysisRow growth_row(const study::Checkpoints &checkpoints);
 
   /// Run an analysis over the study of a scene; print tables and verdicts; write ANALYSIS.html, .md
   /// and .json, charts to ANALYSIS/, and there the fields of each series' finest level as VTU. A

@@ -5,7 +5,6 @@
 #include "base/communicator.h"
 #include "base/error.h"
 #include "check.h"
-#include "grow.h"
 #include "list.h"
 #include "moduli.h"
 #include "requirements.h"
@@ -190,18 +189,6 @@ namespace
         ->allow_extra_args(false);
   }
 
-  /// Those that are told to check what the scene expects, and nothing else.
-  template <class Options>
-  void add_checked(CLI::App &app, Request &request, const std::string &name,
-                   const std::string &help, const std::string &check,
-                   const std::function<int(const Options &)> &action)
-  {
-    const auto options = std::make_shared<Options>();
-    auto &command = add_measuring(app, name, help, *options, request);
-    command.add_flag("--check", options->check, "Exit with 1 if " + check);
-    set_action(command, request, options, action);
-  }
-
   void add_sample(CLI::App &app, Request &request)
   {
     const auto options = std::make_shared<SampleOptions>();
@@ -294,9 +281,9 @@ namespace
     add_analysis(app, request, "crack",
                  "Dynamic fracture of a notched strip: tip, energies, contour plots",
                  "Expected/crack fails", crack_row);
-    add_checked<GrowOptions>(app, request, "grow",
-                             "Quasi-static fracture, bond by bond: load, energies, contour plots",
-                             "Expected/growth fails", grow);
+    add_analysis(app, request, "grow",
+                 "Quasi-static fracture, bond by bond: load, energies, contour plots",
+                 "Expected/growth or growth ends fails, or the balance of energy", growth_row);
     add_analysis(
         app, request, "strip", "Stationary crack: tip energy by meshfree and Galerkin methods",
         "Expected/strip fails, or a strip is too short", [](const auto &) { return strip_row(); });

@@ -1,7 +1,6 @@
 #include "sample_taker.h"
 
 #include "base/error.h"
-#include "base/number_text.h"
 #include "methods.h"
 #include "study/crack_analysis.h"
 #include "study/dispersion.h"
@@ -11,9 +10,6 @@
 #include "study/stability.h"
 #include "study/stationary_crack.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace plumbline::app
 {
   namespace fs = std::filesystem;
@@ -22,45 +18,6 @@ namespace plumbline::app
 
   namespace
   {
-    void add_if_finite(SampleCase &one, const std::string &name, double value)
-    {
-      if (std::isfinite(value))
-        one.quantities[name] = value;
-    }
-
-    /// Of nodes that stand for h² each.
-    template <class Nodes>
-    study::SampleField damage_of(const Nodes &nodes, double h, std::vector<double> damage)
-    {
-      study::SampleField field;
-      for (const auto &node : nodes)
-      {
-        field.x.push_back(node[0]);
-        field.y.push_back(node[1]);
-        field.area.push_back(h * h);
-      }
-      field.values = std::move(damage);
-      return field;
-    }
-
-    std::vector<SampleCase> grow_sample(const scene::Scene &scene, const fs::path &own)
-    {
-      fs::create_directories(own);
-      const study::GrowthResults growth =
-          study::grow_body(scene, all_methods(), own / "checkpoint.h5");
-      SampleCase one;
-      one.method = growth.method;
-      one.problem = base::word(growth.rules.breaking);
-      one.series = scene.study.series.front().name;
-      one.h = growth.h;
-      one.horizon = growth.horizon;
-      one.seconds = growth.seconds;
-      for (const char *const name : scene::growth_quantities)
-        add_if_finite(one, name, growth.quantity(name));
-      one.field = damage_of(growth.nodes, growth.h, growth.moments.back().damage);
-      return {one};
-    }
-
     SampleTaker statics_taker()
     {
       return {[](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
@@ -109,13 +66,6 @@ namespace plumbline::app
               }};
     }
 
-    SampleTaker growth_taker()
-    {
-      return {[](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
-              { study::check_growth_size(scene, n_jobs); },
-              grow_sample};
-    }
-
     /// Without its files when it is there. What it goes on from may be of no use to it: it then
     /// begins anew, as a sample does whose record is not whole, for what fails is not tried again,
     /// whatever becomes of its checkpoint.
@@ -155,7 +105,7 @@ namespace plumbline::app
     if (scene.sampling.analysis == SampledAnalysis::dispersion)
       return study_taker(study::dispersion_analysis(study::usual_angles));
     if (is_growth(scene))
-      return clean(growth_taker());
+      return clean(long_taker(study::growth_analysis));
     if (scene.crack.is_there())
       return clean(
           long_taker([](const study::Checkpoints &own) { return study::crack_analysis(own); }));

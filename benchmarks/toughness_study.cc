@@ -76,8 +76,10 @@ namespace plumbline::toughness
 
     std::optional<double> number_from(const Json &json, const std::string &name)
     {
-      const Json &number = json.at(name);
-      return number.is_null() ? std::nullopt : std::optional<double>(number.get<double>());
+      const Json &scalars = json.at("records").at(0).at("scalars");
+      return scalars.contains(name)
+                 ? std::optional<double>(scalars.at(name).at("value").get<double>())
+                 : std::nullopt;
     }
 
     Crack crack_from(const Json &json, const scene::Scene &scene, const fs::path &folder)
@@ -85,8 +87,8 @@ namespace plumbline::toughness
       Crack crack;
       crack.fraction = scene.random.fraction;
       crack.realisation = scene.random.realisation;
-      crack.by_bonds = number_from(json, "K_by_bonds");
-      crack.by_energy = number_from(json, "K_by_energy");
+      crack.by_bonds = number_from(json, "K by bonds");
+      crack.by_energy = number_from(json, "K by energy");
       crack.picture = folder / "grow/microstructure.svg";
       return crack;
     }

@@ -22,6 +22,7 @@ runs = [
     ["stability", "dynamics/strained.prm", "--levels", "1", "--methods", "FA"],
     ["dispersion", "waves/diffusion.prm", "--methods", "Q1,FA"],
     ["crack", "griffith/speed.prm", "--levels", "1"],
+    ["grow", "fracture/plate.prm", "--set", "Fracture/least reaction=0.9"],
     ["strip", "fracture/strip.prm", "--methods", "DGQ0,PA-AC", "--levels", "3"],
 ]
 seen = {"scalars": 0, "curves": 0, "fields": 0}

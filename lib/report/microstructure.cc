@@ -5,6 +5,7 @@
 #include "report/small_multiples.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <sstream>
 
@@ -12,7 +13,8 @@ namespace plumbline::report
 {
   namespace
   {
-    using study::GrowthResults;
+    using analysis::Curve;
+    using analysis::Record;
 
     using Sides = std::vector<std::array<dealii::Point<2>, 2>>;
 
@@ -22,13 +24,24 @@ namespace plumbline::report
       Sides sides;
     };
 
-    std::vector<Overlay> overlays_of(const GrowthResults &results)
+    /// @param first  column of the first coordinate of four
+    std::array<dealii::Point<2>, 2> side_of(const Curve &curve, std::size_t first, std::size_t row)
     {
-      Overlay crack{"crack", "the crack", "#D55E00", {}},
+      const auto at = [&](std::size_t column) { return curve[first + column].values[row]; };
+      return {{{at(0), at(1)}, {at(2), at(3)}}};
+    }
+
+    std::vector<Overlay> overlays_of(const Record &record)
+    {
+      Overlay cut{"notch", "the notch", "#000000", {}}, crack{"crack", "the crack", "#D55E00", {}},
           apart{"apart", "separated elsewhere", "#0072B2", {}};
-      for (const study::CrackSide &side : results.path.sides)
-        (side.is_joined ? crack : apart).sides.push_back(side.ends);
-      return {{"notch", "the notch", "#000000", results.path.notch}, crack, apart};
+      const Curve &notch = record.curves.at("notch"), &sides = record.curves.at("sides");
+      for (std::size_t i = 0; i < notch.front().values.size(); ++i)
+        cut.sides.push_back(side_of(notch, 0, i));
+      const std::vector<double> &is_joined = sides.back().values;
+      for (std::size_t i = 0; i < is_joined.size(); ++i)
+        (is_joined[i] > 0 ? crack : apart).sides.push_back(side_of(sides, 1, i));
+      return {cut, crack, apart};
     }
 
     double mean(const std::vector<double> &values)
@@ -37,28 +50,26 @@ namespace plumbline::report
     }
   } // namespace
 
-  bool has_microstructure(const GrowthResults &results)
+  bool has_microstructure(const Record &record)
   {
-    const auto [least, largest] =
-        std::minmax_element(results.toughness.begin(), results.toughness.end());
-    return least != results.toughness.end() && *least < *largest;
+    return record.fields.count("G") > 0;
   }
 
-  std::string microstructure_script(const GrowthResults &results)
+  std::string microstructure_script(const Record &record)
   {
     constexpr int most_columns = 600; // a pixel each
-    const MapCells cells = cells_of(results.nodes, results.h);
+    const analysis::PointField &field = record.fields.at("G");
+    const MapCells cells = cells_of(field.points, record.key.h);
     const int size = block_size(cells, most_columns);
-    const DamageMap map = map_of("G", results.nodes, results.toughness, cells);
-    const auto [least, largest] =
-        std::minmax_element(results.toughness.begin(), results.toughness.end());
+    const DamageMap map = map_of("G", field.points, field.values, cells);
+    const auto [least, largest] = std::minmax_element(field.values.begin(), field.values.end());
     const SmallMultiples panels(
         1, 1, cells.lower,
         {cells.lower[0] + cells.h * cells.n[0], cells.lower[1] + cells.h * cells.n[1]});
     std::ostringstream data, plot;
     data << "\nreset\n$G << EOD\n" << rows_of(map, cells, size, mean) << "EOD\n";
     plot << "plot " << image_of("$G", cells, size);
-    for (const Overlay &overlay : overlays_of(results))
+    for (const Overlay &overlay : overlays_of(record))
     {
       if (overlay.sides.empty())
         continue;
@@ -70,7 +81,7 @@ namespace plumbline::report
       plot << ", $" << overlay.name << " with lines lw 2 lc rgb '" << overlay.colour << "' title '"
            << overlay.label << "'";
     }
-    const study::GrowthMoment &end = results.moments.back();
+    const Curve &moments = record.curves.at("moments");
     return data.str() +
            panels.begin("microstructure.svg", "The crack in its microstructure",
                         "G [force/length]") +
@@ -78,8 +89,8 @@ namespace plumbline::report
            exact(*largest) +
            "]\nset key at screen .98, screen .97 right top horizontal Left reverse noenhanced font "
            "',12' samplen 2 width -2\n" +
-           panels.panel(0, "load " + rounded(end.load) + ", " + std::to_string(end.n_events) +
-                               " events") +
+           panels.panel(0, "load " + rounded(moments[1].values.back()) + ", " +
+                               rounded(moments[0].values.back()) + " events") +
            "set ylabel offset 1.5,0\n" + plot.str() + "\n" + SmallMultiples::next() +
            SmallMultiples::end();
   }

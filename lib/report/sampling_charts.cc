@@ -279,7 +279,8 @@ namespace plumbline::report
     }
     add_histograms(results, charts);
     if (results.spectrum && results.spectrum->variance_kept() > 0)
-      charts.push_back(spectrum_chart(*results.spectrum));
+      charts.push_back(spectrum_chart(results.spectrum->share, results.spectrum->kept,
+                                      words_of(*results.spectrum)));
     return charts;
   }
 } // namespace plumbline::report

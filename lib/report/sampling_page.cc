@@ -1,9 +1,9 @@
 #include "report/sampling_page.h"
 
 #include "report/page_parts.h"
-#include "report/seeds.h"
 #include "report/text_table.h"
 #include "study/sampling_balance.h"
+#include "study/seeds.h"
 
 #include <nlohmann/json.hpp>
 
@@ -48,7 +48,7 @@ namespace plumbline::report
               std::to_string(r.n_samples) + " samples in all sets";
       if (r.spectrum)
         text += ". " + words_of(*r.spectrum);
-      if (const std::string seeds = seed_words(r.random, r.n_samples); !seeds.empty())
+      if (const std::string seeds = study::seed_words(r.random, r.n_samples); !seeds.empty())
         text += ". " + seeds;
       if (r.sampling.is_axis())
         text +=

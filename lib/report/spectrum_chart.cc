@@ -2,26 +2,26 @@
 
 namespace plumbline::report
 {
-  DataChart spectrum_chart(const uq::Spectrum &spectrum)
+  DataChart spectrum_chart(const std::vector<double> &share, const std::vector<double> &kept,
+                           const std::string &words)
   {
-    DataChart chart = named("spectrum", "Variance that modes hold",
-                            "Eigenvalues over the variance of the whole field, and their sums: " +
-                                words_of(spectrum) + ".");
+    DataChart chart =
+        named("spectrum", "Variance that modes hold",
+              "Eigenvalues over the variance of the whole field, and their sums: " + words + ".");
     chart.plot.x_label = "mode";
     chart.plot.y_label = "share of the variance";
     chart.plot.is_x_log = false;
     chart.data.columns = {"mode", "share", "kept"};
     Line each{"of each mode", style_of(0, false), 1.8, {}, 1},
         sum{"of all up to it", style_of(1, false), 1.8, {}, 1};
-    for (std::size_t k = 0; k < spectrum.share.size(); ++k)
+    for (std::size_t k = 0; k < share.size(); ++k)
     {
       const auto mode = static_cast<double>(k + 1);
-      if (spectrum.share[k] > 0)
-        each.points.push_back({mode, spectrum.share[k]});
-      if (spectrum.kept[k] > 0)
-        sum.points.push_back({mode, spectrum.kept[k]});
-      chart.data.rows.push_back(
-          {count_cell(k + 1), error_cell(spectrum.share[k]), error_cell(spectrum.kept[k])});
+      if (share[k] > 0)
+        each.points.push_back({mode, share[k]});
+      if (kept[k] > 0)
+        sum.points.push_back({mode, kept[k]});
+      chart.data.rows.push_back({count_cell(k + 1), error_cell(share[k]), error_cell(kept[k])});
     }
     chart.plot.lines = {sum, each};
     return chart;

@@ -370,6 +370,7 @@ namespace plumbline::report
       Data data = page::begin(results.analysis, results.scene_name, results.purpose, facts);
       data["answer"] = view.answer;
       data["model"] = view.model;
+      data["scene_text"] = results.scene_text;
       data["omitted"] = view.omitted.empty() ? Data() : Data{{"rows", view.omitted}};
       data["verdicts"] = page_verdicts(view);
       data["expectations"] = expectations(results);
@@ -418,7 +419,7 @@ namespace plumbline::report
         text += "\n## What was left out of the model\n\n";
       for (const std::string &one : view.omitted)
         text += "- " + one + "\n";
-      return text;
+      return text + "\n## The scene as read\n\n```\n" + results.scene_text + "```\n";
     }
 
     void draw(const View &view, const std::filesystem::path &folder)

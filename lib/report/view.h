@@ -113,6 +113,7 @@ namespace plumbline::report
   View dispersion_view(const StudyResults &results);
   View strip_view(const StudyResults &results);
   View crack_view(const StudyResults &results);
+  View growth_view(const StudyResults &results);
 
   /// The labels of methods in the order of the records.
   std::vector<MethodName> methods_of(const StudyResults &results, const IsShown &is_shown);

@@ -30,6 +30,20 @@ namespace plumbline::study
     return record;
   }
 
+  analysis::Curve curve_of(const std::vector<std::string> &names)
+  {
+    analysis::Curve curve;
+    for (const std::string &name : names)
+      curve.push_back({name, "", {}});
+    return curve;
+  }
+
+  void add_row(analysis::Curve &curve, const std::vector<double> &row)
+  {
+    for (std::size_t i = 0; i < curve.size(); ++i)
+      curve[i].values.push_back(row[i]);
+  }
+
   std::vector<const Record *> finest_records(const StudyResults &results)
   {
     std::vector<const Record *> finest;

@@ -69,6 +69,12 @@ namespace plumbline::study
     mutable std::map<std::string, std::shared_ptr<const void>> shared_;
   };
 
+  /// Columns without units and values.
+  analysis::Curve curve_of(const std::vector<std::string> &names);
+
+  /// Append a number to each column.
+  void add_row(analysis::Curve &curve, const std::vector<double> &row);
+
   /// An analysis: all that the one loop (run_study) and the one command need to know of it.
   struct Analysis
   {

@@ -7,7 +7,6 @@
 #include "base/number_text.h"
 #include "study/growth_analysis.h"
 
-#include <array>
 #include <cmath>
 #include <memory>
 
@@ -170,16 +169,13 @@ namespace plumbline::study
 
     void add_samples(const std::vector<CrackSample> &samples, double origin, Record &record)
     {
-      analysis::Curve curve = {{"t", "time", {}},   {"tip", "length", {}},  {"kinetic", "", {}},
-                               {"bonds", "", {}},   {"soft bonds", "", {}}, {"dissipated", "", {}},
-                               {"branches", "", {}}};
+      analysis::Curve curve =
+          curve_of({"t", "tip", "kinetic", "bonds", "soft bonds", "dissipated", "branches"});
+      curve[0].unit = "time";
+      curve[1].unit = "length";
       for (const CrackSample &s : samples)
-      {
-        const std::array<double, 7> row = {s.t,    origin + s.tip, s.kinetic,   s.bonds,
-                                           s.soft, s.dissipated,   s.n_branches};
-        for (std::size_t i = 0; i < row.size(); ++i)
-          curve[i].values.push_back(row[i]);
-      }
+        add_row(curve,
+                {s.t, origin + s.tip, s.kinetic, s.bonds, s.soft, s.dissipated, s.n_branches});
       record.curves["samples"] = std::move(curve);
     }
 

@@ -12,11 +12,11 @@ namespace plumbline::study
 
   namespace
   {
-    using Place = std::array<long, 2>; ///< in half mesh sizes from the first node
+    using LatticePlace = std::array<long, 2>; ///< in half mesh sizes from the first node
 
     constexpr double nearest = 1.01; // mesh sizes, of next neighbours
 
-    Place place_of(const GrowthModel &model, const Point<2> &x)
+    LatticePlace place_of(const GrowthModel &model, const Point<2> &x)
     {
       const auto step = [&](unsigned int d)
       { return std::lround(2 * (x[d] - model.nodes.front()[d]) / model.h); };
@@ -36,7 +36,7 @@ namespace plumbline::study
       const double difference = x.distance(model.notch_tip) - y.distance(model.notch_tip);
       if (std::abs(difference) > rounding * model.h)
         return difference > 0;
-      const Place a = place_of(model, x), b = place_of(model, y);
+      const LatticePlace a = place_of(model, x), b = place_of(model, y);
       return std::make_pair(a[1], a[0]) > std::make_pair(b[1], b[0]);
     }
 
@@ -100,7 +100,7 @@ namespace plumbline::study
         const unsigned int along = axis(ends);
         for (const Point<2> &end : ends)
         {
-          Place place = place_of(*model_, end);
+          LatticePlace place = place_of(*model_, end);
           if (places_[0].count(place) > 0 || places_[1].count(place) > 0)
             return true;
           for (const long to : {-step, 2 * step})
@@ -114,7 +114,7 @@ namespace plumbline::study
       }
 
       const GrowthModel *model_;
-      std::array<std::set<Place>, 2> places_; ///< of sides along x and along y
+      std::array<std::set<LatticePlace>, 2> places_; ///< of sides along x and along y
     };
   } // namespace
 
@@ -142,7 +142,7 @@ namespace plumbline::study
     }
     std::set<long> columns;
     for (const CrackSide &side : path.sides)
-      if (const Place a = place_of(model, side.ends[0]), b = place_of(model, side.ends[1]);
+      if (const LatticePlace a = place_of(model, side.ends[0]), b = place_of(model, side.ends[1]);
           a[0] != b[0])
         columns.insert(a[0] + b[0]);
     path.width = static_cast<double>(columns.size()) * model.h;
@@ -154,10 +154,10 @@ namespace plumbline::study
   std::size_t n_unpaired(const GrowthModel &model, const std::vector<std::size_t> &broken,
                          double middle)
   {
-    using Key = std::array<Place, 2>;
+    using BondEnds = std::array<LatticePlace, 2>;
     const auto key = [&](std::size_t bond, bool is_mirrored)
     {
-      Key ends{};
+      BondEnds ends{};
       for (unsigned int i = 0; i < 2; ++i)
       {
         Point<2> x = model.nodes[model.bonds[bond][i]];
@@ -168,7 +168,7 @@ namespace plumbline::study
       std::sort(ends.begin(), ends.end());
       return ends;
     };
-    std::set<Key> all;
+    std::set<BondEnds> all;
     for (const std::size_t bond : broken)
       all.insert(key(bond, false));
     return static_cast<std::size_t>(std::count_if(broken.begin(), broken.end(),

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -43,7 +42,7 @@ namespace plumbline::study
       const auto require = [&](bool is_good)
       {
         if (!is_good)
-          throw InputError("checkpoint '" + plan.checkpoint.string() +
+          throw InputError("checkpoint '" + plan.checkpoints.file().string() +
                            "' does not hold what this run writes; remove it to begin anew");
       };
       for (std::size_t at = 0; at < records.size();)
@@ -71,15 +70,19 @@ namespace plumbline::study
   Growth run_growth(const GrowthModel &model, const GrowthPlan &plan)
   {
     std::vector<Event> earlier;
-    const auto saved = analysis::read_checkpoint(plan.checkpoint.string());
+    const std::string file = plan.checkpoints.file().string();
+    const auto saved = analysis::read_checkpoint(file);
     if (saved && saved->subject == plan.subject)
       earlier = from_records(saved->records, plan, model.body->n_bonds());
     const auto save = [&](const Growth &growth)
     {
-      if (growth.events.size() % plan.rules.interval == 0)
+      const bool is_to_stop =
+          growth.end == problem::GrowthEnd::unknown && plan.checkpoints.is_to_stop();
+      if (growth.events.size() % plan.rules.interval == 0 || is_to_stop)
         analysis::write_checkpoint(
-            plan.checkpoint.string(),
-            {plan.subject, {{}, {}, growth.events.back().load}, to_records(growth.events)});
+            file, {plan.subject, {{}, {}, growth.events.back().load}, to_records(growth.events)});
+      if (is_to_stop)
+        throw Interrupted();
       return true;
     };
     return analysis::grow(*model.body, plan.rules, std::move(earlier), save);
@@ -100,118 +103,6 @@ namespace plumbline::study
         moments.push_back({i + 1, events[i].load, model.damage(broken)});
     }
     return moments;
-  }
-
-  std::size_t GrowthResults::n_broken() const
-  {
-    std::size_t n = 0;
-    for (const Event &event : growth.events)
-      n += event.bonds.size();
-    return n;
-  }
-
-  double GrowthResults::advance() const
-  {
-    return path.tips.empty() ? 0 : path.tips.back().distance(notch_tip);
-  }
-
-  std::size_t GrowthResults::peak() const
-  {
-    const auto &events = growth.events;
-    return static_cast<std::size_t>(std::max_element(events.begin(), events.end(),
-                                                     [](const Event &a, const Event &b) {
-                                                       return a.reaction_before < b.reaction_before;
-                                                     }) -
-                                    events.begin());
-  }
-
-  double GrowthResults::largest_imbalance() const
-  {
-    double largest = 0;
-    for (const Event &event : growth.events)
-      largest = std::max(largest, event.imbalance());
-    return largest;
-  }
-
-  double GrowthResults::largest_residual() const
-  {
-    double largest = 0;
-    for (const Event &event : growth.events)
-      largest = std::max(largest, event.residual);
-    return largest;
-  }
-
-  double GrowthResults::toughness_by_bonds() const
-  {
-    double sum = 0;
-    for (const BrokenPart &part : parts)
-      sum += part.toughness * part.length;
-    return path.width > 0 ? sum / path.width : std::numeric_limits<double>::quiet_NaN();
-  }
-
-  double GrowthResults::toughness_by_energy() const
-  {
-    return path.width > 0
-               ? (growth.events.back().in_bonds + growth.events.back().released) / path.width
-               : std::numeric_limits<double>::quiet_NaN();
-  }
-
-  std::vector<double> GrowthResults::phases() const
-  {
-    constexpr std::size_t most = 2;
-    std::set<double> found;
-    for (const double one : toughness)
-      if (found.insert(one); found.size() > most)
-        return {};
-    return {found.begin(), found.end()};
-  }
-
-  double GrowthResults::length(double of_toughness) const
-  {
-    const auto part =
-        std::find_if(parts.begin(), parts.end(),
-                     [=](const BrokenPart &one) { return one.toughness == of_toughness; });
-    return part == parts.end() ? 0 : part->length;
-  }
-
-  double GrowthResults::quantity(const std::string &name) const
-  {
-    using Results = GrowthResults;
-    static const auto unknown = std::numeric_limits<double>::quiet_NaN();
-    static const std::map<std::string, double (*)(const Results &)> of = {
-        {"broken bonds", [](const Results &r) { return static_cast<double>(r.n_broken()); }},
-        {"events", [](const Results &r) { return static_cast<double>(r.growth.events.size()); }},
-        {"peak load", [](const Results &r)
-         { return r.growth.events.empty() ? 0 : r.growth.events[r.peak()].load; }},
-        {"peak reaction", [](const Results &r)
-         { return r.growth.events.empty() ? 0 : r.growth.events[r.peak()].reaction_before; }},
-        {"advance", [](const Results &r) { return r.advance(); }},
-        {"G by bonds", [](const Results &r) { return r.toughness_by_bonds(); }},
-        {"K by bonds",
-         [](const Results &r) { return std::sqrt(r.toughness_by_bonds() * r.plane_modulus); }},
-        {"G by energy", [](const Results &r) { return r.toughness_by_energy(); }},
-        {"K by energy",
-         [](const Results &r) { return std::sqrt(r.toughness_by_energy() * r.plane_modulus); }},
-        {"L1",
-         [](const Results &r)
-         {
-           const std::vector<double> G = r.phases();
-           return G.empty() ? unknown : r.length(G.front());
-         }},
-        {"L2",
-         [](const Results &r)
-         {
-           const std::vector<double> G = r.phases();
-           return G.empty() ? unknown : G.size() == 1 ? 0 : r.length(G.back());
-         }},
-        {"Li", [](const Results &r)
-         {
-           const std::vector<double> G = r.phases();
-           return G.empty()       ? unknown
-                  : G.size() == 1 ? 0
-                                  : r.length(.5 * (G.front() + G.back())); // as of broken_parts
-         }}};
-    return of.at(name)(*this);
   }
 
   double bonds_across(const GrowthModel &model)
@@ -241,28 +132,194 @@ namespace plumbline::study
     return parts;
   }
 
-  std::vector<std::string> growth_faults(const GrowthResults &results,
-                                         const scene::ExpectedSection &expected)
+  namespace
   {
-    std::vector<std::string> faults;
-    for (const auto &[name, value] : expected.growth)
-      if (const double found = results.quantity(name);
-          !(std::abs(found - value) <= expected.error_tolerance * std::abs(value)))
-        faults.push_back("Expected/growth = '" + name + ": " + base::to_text(value, 6) +
-                         "', but it is " + base::to_text(found, 6));
-    if (expected.growth_end != problem::GrowthEnd::unknown &&
-        expected.growth_end != results.growth.end)
-      faults.push_back("Expected/growth ends = " + base::word(expected.growth_end) +
-                       ", but it ends " + base::word(results.growth.end));
-    if (const double found = results.largest_imbalance();
-        !results.rules.is_corrected() && !(found <= worst_imbalance))
-      faults.push_back("work differs from stored, bond and released energy by " +
-                       base::to_text(found, 3) + " of it, more than " +
-                       base::to_text(worst_imbalance, 3));
-    return faults;
+    /// G of the body's phases, the weaker one first: two, or one where G is the same everywhere;
+    /// none where it has more values than that.
+    std::vector<double> find_phases(const std::vector<double> &toughness)
+    {
+      constexpr std::size_t most = 2;
+      std::set<double> found;
+      for (const double one : toughness)
+        if (found.insert(one); found.size() > most)
+          return {};
+      return {found.begin(), found.end()};
+    }
+
+    double toughness_by_energy(const GrowthFindings &found)
+    {
+      return (found.growth.events.back().in_bonds + found.growth.events.back().released) /
+             found.path.width;
+    }
+
+    void set_toughness(const GrowthFindings &found, Record &record)
+    {
+      double sum = 0;
+      for (const BrokenPart &part : found.parts)
+        sum += part.toughness * part.length;
+      const double by_bonds = sum / found.path.width, by_energy = toughness_by_energy(found);
+      record.set("G by bonds", by_bonds, "force/length");
+      record.set("G by energy", by_energy, "force/length");
+      record.set("K by bonds", std::sqrt(by_bonds * found.plane_modulus));
+      record.set("K by energy", std::sqrt(by_energy * found.plane_modulus));
+    }
+
+    void set_lengths(const GrowthFindings &found, Record &record)
+    {
+      const std::vector<double> G = find_phases(found.toughness);
+      record.curves["phases"] = {{"G", "force/length", G}};
+      if (G.empty())
+        return;
+      const auto length = [&](double of_toughness)
+      {
+        const auto part =
+            std::find_if(found.parts.begin(), found.parts.end(),
+                         [=](const BrokenPart &one) { return one.toughness == of_toughness; });
+        return part == found.parts.end() ? 0 : part->length;
+      };
+      record.set("L1", length(G.front()), "length");
+      record.set("L2", G.size() == 1 ? 0 : length(G.back()), "length");
+      record.set("Li",
+                 G.size() == 1 ? 0 : length(.5 * (G.front() + G.back())), // as of broken_parts
+                 "length");
+    }
+
+    void set_events(const std::vector<Event> &events, Record &record)
+    {
+      // the first of those with the largest reaction before them
+      const auto peak = std::max_element(events.begin(), events.end(),
+                                         [](const Event &a, const Event &b)
+                                         { return a.reaction_before < b.reaction_before; });
+      std::size_t n_broken = 0;
+      double imbalance = 0, residual = 0;
+      for (const Event &event : events)
+      {
+        n_broken += event.bonds.size();
+        imbalance = std::max(imbalance, event.imbalance());
+        residual = std::max(residual, event.residual);
+      }
+      record.set("broken bonds", static_cast<double>(n_broken));
+      record.set("events", static_cast<double>(events.size()));
+      record.set("peak load", events.empty() ? 0 : peak->load);
+      record.set("peak reaction", events.empty() ? 0 : peak->reaction_before, "force");
+      record.set("imbalance", imbalance);
+      record.set("residual", residual);
+    }
+
+    void add_events(const GrowthFindings &found, Record &record)
+    {
+      analysis::Curve events = curve_of(
+          {"event", "critical load", "load", "bonds", "reaction before", "reaction", "work",
+           "stored", "in bonds", "released", "residual", "factored", "tip x", "tip y", "way"});
+      analysis::Curve broken = curve_of({"event", "bond"});
+      for (std::size_t i = 0; i < found.growth.events.size(); ++i)
+      {
+        const Event &e = found.growth.events[i];
+        const dealii::Point<2> &tip = found.path.tips[i];
+        add_row(events,
+                {static_cast<double>(i), e.critical, e.load, static_cast<double>(e.bonds.size()),
+                 e.reaction_before, e.reaction, e.work, e.stored, e.in_bonds, e.released,
+                 e.residual, e.is_factored ? 1. : 0., found.origin[0] + tip[0],
+                 found.origin[1] + tip[1], tip.distance(found.notch_tip)});
+        for (const std::size_t bond : e.bonds)
+          add_row(broken, {static_cast<double>(i), static_cast<double>(bond)});
+      }
+      record.curves["events"] = std::move(events);
+      record.curves["broken"] = std::move(broken);
+    }
+
+    void add_path(const GrowthFindings &found, Record &record)
+    {
+      const dealii::Point<2> &origin = found.origin;
+      analysis::Curve sides = curve_of({"event", "x0", "y0", "x1", "y1", "joined"});
+      analysis::Curve notch = curve_of({"x0", "y0", "x1", "y1"});
+      for (const CrackSide &side : found.path.sides)
+        add_row(sides, {static_cast<double>(side.event), origin[0] + side.ends[0][0],
+                        origin[1] + side.ends[0][1], origin[0] + side.ends[1][0],
+                        origin[1] + side.ends[1][1], side.is_joined ? 1. : 0.});
+      for (const auto &[from, to] : found.path.notch)
+        add_row(notch,
+                {origin[0] + from[0], origin[1] + from[1], origin[0] + to[0], origin[1] + to[1]});
+      record.curves["sides"] = std::move(sides);
+      record.curves["notch"] = std::move(notch);
+    }
+
+    void add_fields(const GrowthFindings &found, Record &record)
+    {
+      analysis::PointField damage{static_cast<unsigned int>(found.moments.size()), found.nodes, {}};
+      for (dealii::Point<2> &node : damage.points)
+        node += found.origin;
+      const auto [least, largest] =
+          std::minmax_element(found.toughness.begin(), found.toughness.end());
+      if (least != largest && *least < *largest)
+        record.fields["G"] = {1, damage.points, found.toughness};
+      for (std::size_t i = 0; i < found.nodes.size(); ++i)
+        for (const GrowthMoment &moment : found.moments)
+          damage.values.push_back(moment.damage[i]);
+      record.fields["damage"] = std::move(damage);
+      analysis::Curve moments = curve_of({"events", "load"});
+      for (const GrowthMoment &moment : found.moments)
+        add_row(moments, {static_cast<double>(moment.n_events), moment.load});
+      record.curves["moments"] = std::move(moments);
+      analysis::Curve parts = curve_of({"G", "bonds", "length"});
+      for (const BrokenPart &part : found.parts)
+        add_row(parts, {part.toughness, static_cast<double>(part.n_bonds), part.length});
+      record.curves["parts"] = std::move(parts);
+    }
+  } // namespace
+
+  Record growth_record(Record record, const GrowthFindings &found)
+  {
+    const Growth &growth = found.growth;
+    const CrackPath &path = found.path;
+    set_events(growth.events, record);
+    record.set("advance", path.tips.empty() ? 0 : path.tips.back().distance(found.notch_tip),
+               "length");
+    if (path.width > 0)
+      set_toughness(found, record);
+    set_lengths(found, record);
+    record.set("plane modulus", found.plane_modulus, "force/length^2");
+    record.set("width", path.width, "length");
+    record.set("apart", static_cast<double>(path.n_elsewhere));
+    record.set("reaction left", growth.reaction_left());
+    record.set("last load", growth.last_load);
+    record.set("first stiffness", growth.first_stiffness, "force");
+    record.set("resumed", static_cast<double>(growth.n_resumed));
+    record.set("unpaired", static_cast<double>(found.n_unpaired));
+    record.texts["end"] = base::word(growth.end);
+    record.texts["connected"] = growth.is_separated ? "no" : "yes";
+    add_events(found, record);
+    add_path(found, record);
+    add_fields(found, record);
+    return record;
   }
 
-  std::vector<std::string> left_out_of_growth(const problem::FractureSettings &rules)
+  bool is_corrected(const Record &record)
+  {
+    const std::string &terms = record.text("surface terms");
+    return !terms.empty() && terms != base::word(problem::SurfaceTerms::uncorrected);
+  }
+
+  std::vector<Expectation> check_crack_growth(const Record &record,
+                                              const scene::ExpectedSection &expected)
+  {
+    if (!record.failure.empty())
+      return {{record.key.label(), "a result", record.failure, false}};
+    std::vector<Expectation> all;
+    for (const auto &[name, value] : expected.growth)
+      all.push_back({name, base::to_text(value, 6),
+                     record.has(name) ? base::to_text(record[name], 6) : "unknown",
+                     std::abs(record[name] - value) <= expected.error_tolerance * std::abs(value)});
+    if (expected.growth_end != problem::GrowthEnd::unknown)
+      all.push_back({"end", base::word(expected.growth_end), record.text("end"),
+                     base::word(expected.growth_end) == record.text("end")});
+    if (!is_corrected(record) && !(record["imbalance"] <= worst_imbalance))
+      all.push_back({"energy balance", "imbalance <= " + base::to_text(worst_imbalance, 3),
+                     base::to_text(record["imbalance"], 3), false});
+    return all;
+  }
+
+  std::vector<std::string> left_out_of_growth(bool is_corrected)
   {
     std::vector<std::string> result = {
         "equilibrium throughout: no inertia, no rate, no heat; what is released where growth is "
@@ -274,7 +331,7 @@ namespace plumbline::study
         "fewer neighbours there are (Study/m)",
         "nothing of contact, friction or large rotations; Fracture/stretch = finite takes the "
         "finite stretch of small displacements"};
-    result.push_back(rules.is_corrected()
+    result.push_back(is_corrected
                          ? "the balance of energy: no energy has the forces of surface terms"
                          : "free surfaces and faces of cracks end families: no correction of the "
                            "dilatation, no terms that make them free of traction (Fracture/surface "

@@ -10,6 +10,7 @@
 #include "scene/origin.h"
 #include "scene/problem.h"
 #include "study/sampling.h"
+#include "study/seeds.h"
 #include "study/strip_growth.h"
 #include "study/unseen_features.h"
 
@@ -258,76 +259,157 @@ namespace plumbline::study
     return size;
   }
 
-  GrowthSize check_growth_size(const scene::Scene &scene, unsigned int n_jobs)
+  namespace
   {
-    const GrowthSize size = expected_size(scene, n_jobs);
-    const bool is_factor = size.solver == problem::GrowthSolver::factor;
-    const bool may_iterate = is_factor && scene.fracture.can_iterate();
-    base::require_memory(
-        is_factor ? size.factor_bytes : size.multigrid_bytes,
-        "Study/h = " + base::to_text(scene.study.series.front().levels.front().h, 4) +
-            " gives a body of " + base::to_text(size.n_nodes, 3) + " nodes",
-        may_iterate ? "choose a larger h, or Fracture/solver = multigrid, which takes " +
-                          base::bytes_to_text(size.multigrid_bytes)
-                    : "choose a larger h",
-        n_jobs);
-    return size;
-  }
+    /// Memory for the growth of a scene: nothing is made before it is there.
+    void check_growth_size(const scene::Scene &scene, unsigned int n_jobs)
+    {
+      const GrowthSize size = expected_size(scene, n_jobs);
+      const bool is_factor = size.solver == problem::GrowthSolver::factor;
+      const bool may_iterate = is_factor && scene.fracture.can_iterate();
+      base::require_memory(
+          is_factor ? size.factor_bytes : size.multigrid_bytes,
+          "Study/h = " + base::to_text(scene.study.series.front().levels.front().h, 4) +
+              " gives a body of " + base::to_text(size.n_nodes, 3) + " nodes",
+          may_iterate ? "choose a larger h, or Fracture/solver = multigrid, which takes " +
+                            base::bytes_to_text(size.multigrid_bytes)
+                      : "choose a larger h",
+          n_jobs);
+    }
 
-  GrowthResults grow_body(const scene::Scene &scene, const Methods &available,
-                          const std::filesystem::path &checkpoint,
-                          const std::function<void()> &before_it_grows)
+    /// The solid, as it was solved and why.
+    void describe(const scene::Scene &scene, const GrowthModel &model, problem::GrowthSolver solver,
+                  Record &record)
+    {
+      const problem::FractureSettings &rules = scene.fracture;
+      record.key.problem = base::word(rules.breaking);
+      record.texts["model"] = model_words(scene, !model.has_dilatation);
+      record.texts["breaking"] = base::word(rules.breaking);
+      record.texts["stretch"] = base::word(rules.stretch);
+      record.texts["criterion"] = base::word(rules.criterion);
+      record.texts["surface terms"] = base::word(rules.surface_terms);
+      record.texts["toughness of bonds"] = base::word(rules.of_bonds);
+      record.texts["solver"] = base::word(solver);
+      record.set("min reaction", rules.least_reaction);
+      record.set("max load", rules.largest_load);
+      record.set("interfaces", static_cast<double>(rules.interfaces.size()));
+      record.cost.n_unknowns = model.body->n_unknowns();
+      record.cost.n_bonds = model.body->n_bonds();
+      record.set("unknowns", static_cast<double>(model.body->n_unknowns()));
+      record.set("bonds", static_cast<double>(model.body->n_bonds()));
+    }
+
+    void describe_field(const scene::RandomSection &random, Record &record)
+    {
+      record.texts["seeds"] = seed_words(random);
+      if (random.field != scene::FieldKind::none)
+        record.set("field seed", static_cast<double>(random.seed));
+      if (random.is_drawn_whole())
+        record.set("field realisation", random.realisation);
+      if (const auto spectrum = field_spectrum(random))
+      {
+        record.set("variance kept", spectrum->variance_kept());
+        record.texts["field"] = words_of(*spectrum);
+        analysis::Curve &curve = record.curves["spectrum"] = curve_of({"mode", "share", "kept"});
+        for (std::size_t k = 0; k < spectrum->share.size(); ++k)
+          add_row(curve, {static_cast<double>(k + 1), spectrum->share[k], spectrum->kept[k]});
+      }
+    }
+
+    void set_work(const method::QuasistaticFractureModel::Work &work, Record &record)
+    {
+      record.cost.n_iterations = work.n_iterations;
+      record.set("factorisations", static_cast<double>(work.n_factorisations));
+      record.set("factor seconds", work.factor_seconds, "time");
+      record.set("updates", static_cast<double>(work.n_updates));
+      record.set("update seconds", work.update_seconds, "time");
+      record.set("largest rank", static_cast<double>(work.largest_rank));
+      if (work.n_iterations == 0)
+        return;
+      record.set("iterations", static_cast<double>(work.n_iterations));
+      record.set("most iterations", static_cast<double>(work.most_iterations));
+    }
+
+    GrowthFindings find_out(const scene::Scene &scene, const GrowthModel &model,
+                            analysis::Growth growth)
+    {
+      std::vector<std::size_t> broken;
+      for (const analysis::Event &event : growth.events)
+        broken.insert(broken.end(), event.bonds.begin(), event.bonds.end());
+      GrowthFindings found;
+      found.path = find_path(model, growth.events);
+      found.moments = growth_moments(model, growth.events);
+      found.parts = broken_parts(model, broken);
+      found.nodes = model.nodes;
+      found.toughness = model.toughness;
+      found.notch_tip = model.notch_tip;
+      found.origin = scene.domain.origin;
+      found.plane_modulus = mean_plane_modulus(scene, model.nodes);
+      found.n_unpaired = n_unpaired(model, broken, middle(scene));
+      found.growth = std::move(growth);
+      return found;
+    }
+
+    Record analyse(const Place &place, const Method &method, const Checkpoints &checkpoints)
+    {
+      const scene::Scene &scene = place.scene();
+      const problem::Level &level = place.level();
+      const problem::GrowthSolver solver = expected_size(scene).solver;
+      const auto influence = physics::influence_function(scene.kernel.profile, level.horizon);
+      Record record = place.record("grow", method);
+      double trapping = 1;
+      if (scene.fracture.criterion == problem::Criterion::calibrated)
+      {
+        trapping = find_trapping(scene, method, influence, level.h);
+        record.set("G_peak / G", trapping);
+      }
+      GrowthModel model = make_body(scene, method, influence, trapping, solver);
+      model.toughness = toughness_of_nodes(scene, model.nodes, level.horizon);
+      describe(scene, model, solver, record);
+      describe_field(scene.random, record);
+      record.set("G_h / G", method.fracture_solver()->lattice_toughness(influence, level.h,
+                                                                        scene.geometry.backend));
+      record.notes = find_unseen(scene, model, level.horizon);
+      for (const geometry::TipOnBonds &tip :
+           geometry::tips_on_bonds(scene.domain.cracks, model.nodes, level.horizon))
+        record.notes.push_back(tip.text(scene.domain.origin));
+      const base::CpuTimer timer;
+      analysis::Growth growth =
+          run_growth(model, {scene.fracture, "plumbline grow\n" + scene.text, checkpoints});
+      record.cost.solve_seconds = timer.seconds();
+      set_work(model.body->work(), record);
+      return growth_record(std::move(record), find_out(scene, model, std::move(growth)));
+    }
+
+    void conclude(const scene::Scene &scene, StudyResults &results)
+    {
+      for (const Record &record : results.records)
+      {
+        results.warnings.insert(results.warnings.end(), record.notes.begin(), record.notes.end());
+        for (Expectation &one : check_crack_growth(record, scene.expected))
+          results.expectations.push_back(std::move(one));
+      }
+    }
+  } // namespace
+
+  Analysis growth_analysis(const Checkpoints &checkpoints)
   {
-    const problem::Level &level = scene.study.series.front().levels.front();
-    const problem::GrowthSolver solver = check_growth_size(scene).solver;
-    const auto influence = physics::influence_function(scene.kernel.profile, level.horizon);
-    const auto method = fracture_method(scene.methods.names.front(), available);
-    const double trapping = scene.fracture.criterion == problem::Criterion::calibrated
-                                ? find_trapping(scene, *method, influence, level.h)
-                                : 1;
-    GrowthModel model = make_body(scene, *method, influence, trapping, solver);
-    if (before_it_grows)
-      before_it_grows();
-    model.toughness = toughness_of_nodes(scene, model.nodes, level.horizon);
-    std::vector<std::string> warnings = find_unseen(scene, model, level.horizon);
-    const base::CpuTimer timer;
-    GrowthResults results;
-    results.growth =
-        run_growth(model, {scene.fracture, "plumbline grow\n" + scene.text, checkpoint});
-    results.seconds = timer.seconds();
-    results.scene_name = scene.name;
-    results.purpose = scene.purpose;
-    results.scene_text = scene.text;
-    results.random = scene.random;
-    results.method = method->name();
-    results.model = model_words(scene, !model.has_dilatation);
-    results.rules = scene.fracture;
-    results.rules.solver = solver;
-    results.h = level.h;
-    results.horizon = level.horizon;
-    results.lattice_toughness =
-        method->fracture_solver()->lattice_toughness(influence, level.h, scene.geometry.backend);
-    results.trapping = trapping;
-    results.nodes = model.nodes;
-    results.notch_tip = model.notch_tip;
-    results.origin = scene.domain.origin;
-    results.n_bonds = model.body->n_bonds();
-    results.n_unknowns = model.body->n_unknowns();
-    results.work = model.body->work();
-    results.path = find_path(model, results.growth.events);
-    results.moments = growth_moments(model, results.growth.events);
-    std::vector<std::size_t> broken;
-    for (const analysis::Event &event : results.growth.events)
-      broken.insert(broken.end(), event.bonds.begin(), event.bonds.end());
-    results.n_unpaired = n_unpaired(model, broken, middle(scene));
-    results.plane_modulus = mean_plane_modulus(scene, model.nodes);
-    results.parts = broken_parts(model, broken);
-    results.warnings = std::move(warnings);
-    results.toughness = model.toughness;
-    results.spectrum = field_spectrum(scene.random);
-    for (const geometry::TipOnBonds &tip :
-         geometry::tips_on_bonds(scene.domain.cracks, results.nodes, results.horizon))
-      results.warnings.push_back(tip.text(results.origin));
-    return results;
+    Analysis analysis{"grow", "Quasi-static fracture"};
+    analysis.choose_methods = [](const scene::Scene &scene, const Methods &available, unsigned int,
+                                 unsigned int n_jobs) -> Methods
+    {
+      if (!scene.fracture.is_there())
+        throw InputError("scene '" + scene.name +
+                         "': Fracture/toughness is empty, so that nothing breaks; give it, or use "
+                         "'plumbline run' ('plumbline crack' where Crack/notch is given)");
+      check_growth_size(scene, n_jobs);
+      return {fracture_method(scene.methods.names.front(), available)};
+    };
+    analysis.analyse = [=](const Place &place, const Method &method) -> Records
+    { return {study::analyse(place, method, checkpoints)}; };
+    analysis.conclude = conclude;
+    analysis.sampled.assign(scene::growth_quantities.begin(), scene::growth_quantities.end());
+    analysis.sampled_field = "damage";
+    return analysis;
   }
 } // namespace plumbline::study

@@ -1,19 +1,13 @@
 #pragma once
 
-#include "method/method.h"
-#include "scene/scene.h"
+#include "study/analysis.h"
 #include "study/growth.h"
 
-#include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 
 namespace plumbline::study
 {
-  using method::Method;
-  using method::Methods;
-
   /// The method of this name, whose bodies have bonds that can break.
   /// @throws InputError  there is none; the message names those that there are
   std::shared_ptr<const Method> fracture_method(const std::string &name, const Methods &available);
@@ -33,16 +27,7 @@ namespace plumbline::study
   /// automatic solver is chosen
   GrowthSize expected_size(const scene::Scene &scene, unsigned int n_jobs = 1);
 
-  /// Memory for the growth of a scene: nothing is made before it is there.
-  /// @throws InputError  it is not, naming Study/h
-  GrowthSize check_growth_size(const scene::Scene &scene, unsigned int n_jobs = 1);
-
-  /// The growth of a scene at its one level, from the checkpoint if there is one and no file that
-  /// the scene names is newer.
-  /// @param before_it_grows  called once the body stands
-  /// @throws InputError  a scene that cannot be used, a checkpoint of another scene
-  /// @throws NumericalError  the equations cannot be solved
-  GrowthResults grow_body(const scene::Scene &scene, const Methods &available,
-                          const std::filesystem::path &checkpoint,
-                          const std::function<void()> &before_it_grows = {});
+  /// Quasi-static fracture of a scene (section Fracture) at its one level; of records see
+  /// growth_record. Besides, scalars and texts say what was solved, and how.
+  Analysis growth_analysis(const Checkpoints &checkpoints);
 } // namespace plumbline::study

@@ -92,7 +92,8 @@ namespace
         "residual|round_off|imbalance|/tied|/cost/|asymmetry|drift|round-off|version|machine|"
         "omissions|savings|(trends|maps|fields)/.*values/|date|/estimates?/|singular_value|/"
         "expectations|n_updates|"
-        "n_factorisations|largest_rank|noise|/rates/|worst/node|advice/[0-9]+/choices/[0-9]+/"
+        "factorisations|largest.rank|/updates|/iterations|most "
+        "iterations|noise|/rates/|worst/node|advice/[0-9]+/choices/[0-9]+/"
         "(h|method|error)");
     return std::regex_search(key, noise);
   }

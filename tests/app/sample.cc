@@ -338,7 +338,8 @@ TEST(SampleCommand, charts_the_variance_that_modes_hold)
   expect_found(one.out, "20 modes hold");
   expect_found(read(folder / "grow.html"), "Variance that modes hold");
   expect_found(read(folder / "grow.html"), "40 realisations of the field: Random/seed = 1");
-  EXPECT_EQ(Json::parse(read(folder / "grow.json"))["field_seed"], 1);
+  EXPECT_EQ(Json::parse(read(folder / "grow.json"))["records"][0]["scalars"]["field seed"]["value"],
+            1);
   fs::remove_all(folder);
   const Outcome statics =
       run("run " + std::string(PLUMBLINE_SCENES) +

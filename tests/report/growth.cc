@@ -1,12 +1,12 @@
 // The page, numbers and pictures of `plumbline grow`.
 
+#include "study/growth.h"
 #include "report/formats.h"
-#include "report/growth_page.h"
-#include "scene/scene_file.h"
+#include "report/view.h"
+#include "study/seeds.h"
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -16,17 +16,9 @@ namespace plumbline::report
   {
     /// 8 x 4 nodes, the upper half tougher; a crack of two sides behind a notch of three, and a
     /// side apart from both.
-    study::GrowthResults grown()
+    study::GrowthFindings found()
     {
-      study::GrowthResults r;
-      r.scene_name = "two_phases";
-      r.scene_text = "# Two phases\nsubsection Random\n  set field = ellipses # <b>\nend\n";
-      r.random.field = scene::FieldKind::ellipses;
-      r.random.seed = 7;
-      r.random.realisation = 3;
-      r.method = "OPT";
-      r.h = 1;
-      r.horizon = 3;
+      study::GrowthFindings r;
       for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 8; ++i)
         {
@@ -61,6 +53,31 @@ namespace plumbline::report
       return r;
     }
 
+    study::StudyResults grown(const study::GrowthFindings &findings = found())
+    {
+      study::StudyResults results;
+      results.analysis = "grow";
+      results.scene_name = "two_phases";
+      results.scene_text = "# Two phases\nsubsection Random\n  set field = ellipses # <b>\nend\n";
+      Record record;
+      record.key.method = "OPT";
+      record.key.h = 1;
+      record.key.horizon = 3;
+      record.texts["seeds"] = "The field is drawn whole: Random/seed = 7, Random/realisation = 3";
+      results.records = {growth_record(record, findings)};
+      return results;
+    }
+
+    void write(const study::StudyResults &results, const fixture::Folder &folder)
+    {
+      write_study(growth_view(results), results, folder.path());
+    }
+
+    std::string text_of(const study::StudyResults &results)
+    {
+      return study_text(growth_view(results), results);
+    }
+
     std::string in_one_line(std::string text)
     {
       std::replace(text.begin(), text.end(), '\n', ' ');
@@ -71,8 +88,8 @@ namespace plumbline::report
   TEST(GrowthReport, DrawsTheCrackOverTheMicrostructure)
   {
     const fixture::Folder folder;
-    write_growth(grown(), {}, folder.path());
-    const std::string script = fixture::read(folder.path() / "grow/microstructure.gp");
+    write(grown(), folder);
+    const std::string script = fixture::read(folder.path() / "grow/pictures.gp");
     // G of the nodes, the lowest row first
     const std::string low = "2 2 2 2 2 2 2 2\n", high = "8 8 8 8 8 8 8 8\n";
     EXPECT_NE(script.find("$G << EOD\n" + low + low + high + high + "EOD\n"), std::string::npos)
@@ -98,10 +115,10 @@ namespace plumbline::report
   TEST(GrowthReport, DrawsNoMicrostructureThatIsNotThere)
   {
     const fixture::Folder folder;
-    study::GrowthResults results = grown();
-    results.toughness.assign(results.nodes.size(), 2);
-    write_growth(results, {}, folder.path());
-    EXPECT_FALSE(std::filesystem::exists(folder.path() / "grow/microstructure.gp"));
+    study::GrowthFindings findings = found();
+    findings.toughness.assign(findings.nodes.size(), 2);
+    write(grown(findings), folder);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "grow/microstructure.svg"));
     const std::string page = fixture::read(folder.path() / "grow.html");
     EXPECT_EQ(page.find("microstructure"), std::string::npos);
     EXPECT_EQ(fixture::count(page, "<image"), 2u);
@@ -110,12 +127,8 @@ namespace plumbline::report
   TEST(GrowthReport, TellsTheSceneAndItsSeeds)
   {
     const fixture::Folder folder;
-    const study::GrowthResults results = grown();
-    write_growth(results, {}, folder.path());
-    const auto json = nlohmann::json::parse(fixture::read(folder.path() / "grow.json"));
-    EXPECT_EQ(json["scene_text"], results.scene_text);
-    EXPECT_EQ(json["field_seed"], 7);
-    EXPECT_EQ(json["field_realisation"], 3);
+    const study::StudyResults results = grown();
+    write(results, folder);
     const std::string seeds = "Random/seed = 7, Random/realisation = 3",
                       page = fixture::read(folder.path() / "grow.html"),
                       markdown = fixture::read(folder.path() / "grow.md");
@@ -123,42 +136,44 @@ namespace plumbline::report
     EXPECT_NE(markdown.find(results.scene_text), std::string::npos);
     for (const std::string &text : {page, markdown})
       EXPECT_NE(text.find(seeds), std::string::npos) << text;
-    EXPECT_NE(in_one_line(growth_text(results)).find(seeds), std::string::npos);
+    EXPECT_NE(in_one_line(text_of(results)).find(seeds), std::string::npos);
   }
 
   TEST(GrowthReport, TellsNoSeedsThatDrawNothing)
   {
-    study::GrowthResults results = grown();
-    results.random.n_modes = 2; // of drawn ellipses
-    auto json = nlohmann::json::parse(growth_json(results));
-    EXPECT_EQ(json["field_seed"], 7);
-    EXPECT_TRUE(json["field_realisation"].is_null());
-    EXPECT_NE(in_one_line(growth_text(results)).find("Random/seed = 7"), std::string::npos);
-    EXPECT_EQ(growth_text(results).find("Random/realisation"), std::string::npos);
-    results.random.field = scene::FieldKind::matern;
-    EXPECT_EQ(growth_text(results).find("Random/seed"), std::string::npos);
-    results.random = {};
-    json = nlohmann::json::parse(growth_json(results));
-    EXPECT_TRUE(json["field_seed"].is_null());
-    EXPECT_EQ(growth_text(results).find("Random/seed"), std::string::npos);
+    scene::RandomSection random;
+    EXPECT_EQ(study::seed_words(random), "");
+    random.field = scene::FieldKind::ellipses;
+    random.seed = 7;
+    random.realisation = 3;
+    EXPECT_NE(study::seed_words(random).find("Random/seed = 7, Random/realisation = 3"),
+              std::string::npos);
+    random.n_modes = 2; // of drawn ellipses
+    EXPECT_NE(study::seed_words(random).find("Random/seed = 7"), std::string::npos);
+    EXPECT_EQ(study::seed_words(random).find("Random/realisation"), std::string::npos);
+    random.field = scene::FieldKind::matern;
+    EXPECT_EQ(study::seed_words(random), "");
+    study::StudyResults results = grown();
+    results.records[0].texts.erase("seeds");
+    EXPECT_EQ(text_of(results).find("Random/seed"), std::string::npos);
   }
 
   TEST(GrowthReport, TellsConnectionAndReactionWhicheverEndedIt)
   {
-    study::GrowthResults results = grown(); // parted, with a reaction of .25, which was 2
-    auto json = nlohmann::json::parse(growth_json(results));
-    EXPECT_EQ(json["is_connected"], false);
-    EXPECT_EQ(json["reaction_left"], .125);
+    study::GrowthFindings findings = found(); // parted, with a reaction of .25, which was 2
+    study::StudyResults results = grown(findings);
+    EXPECT_EQ(results.records[0].text("connected"), "no");
+    EXPECT_EQ(results.records[0]["reaction left"], .125);
     const std::string no = "no bonds join the grips, and 0.125 of the largest reaction is left",
                       yes = "bonds still join the grips, and 0.125 of the largest reaction is left";
-    EXPECT_NE(in_one_line(growth_text(results)).find(no), std::string::npos);
-    results.growth.end = problem::GrowthEnd::unloaded;
-    results.growth.is_separated = false;
-    json = nlohmann::json::parse(growth_json(results));
-    EXPECT_EQ(json["is_connected"], true);
-    EXPECT_NE(in_one_line(growth_text(results)).find(yes), std::string::npos);
+    EXPECT_NE(in_one_line(text_of(results)).find(no), std::string::npos);
+    findings.growth.end = problem::GrowthEnd::unloaded;
+    findings.growth.is_separated = false;
+    results = grown(findings);
+    EXPECT_EQ(results.records[0].text("connected"), "yes");
+    EXPECT_NE(in_one_line(text_of(results)).find(yes), std::string::npos);
     const fixture::Folder folder;
-    write_growth(results, {}, folder.path());
+    write(results, folder);
     for (const char *const file : {"grow.html", "grow.md"})
     {
       const std::string text = fixture::read(folder.path() / file);
@@ -167,24 +182,11 @@ namespace plumbline::report
     }
   }
 
-  TEST(GrowthReport, DescribesEveryKeyInSchemaMd)
-  {
-    std::string schema = fixture::read(PLUMBLINE_SCHEMA);
-    schema.erase(0, schema.find("## grow.json"));
-    schema.erase(schema.find("\n## "));
-    const auto json = nlohmann::json::parse(growth_json(grown()));
-    EXPECT_GT(json.size(), 40u);
-    for (const auto &[key, value] : json.items())
-      EXPECT_NE(schema.find("`" + key + (key == "events" ? "[]`" : "`")), std::string::npos) << key;
-    for (const auto &[key, value] : json["events"][0].items())
-      EXPECT_NE(schema.find("`" + key + "`"), std::string::npos) << key;
-  }
-
   TEST(GrowthReport, DrawsDamageAtEveryMoment)
   {
     const fixture::Folder folder;
-    write_growth(grown(), {}, folder.path());
-    const std::string script = fixture::read(folder.path() / "grow/moments.gp");
+    write(grown(), folder);
+    const std::string script = fixture::read(folder.path() / "grow/pictures.gp");
     const std::string whole = "0 0 0 0 0 0 0 0\n",
                       damaged = "0.25 0.25 0.25 0.25 0.25 0.25 0.25 0.25\n";
     EXPECT_NE(script.find("$m0 << EOD\n" + whole), std::string::npos) << script;

@@ -1,6 +1,6 @@
-#include "report/seeds.h"
+#include "study/seeds.h"
 
-namespace plumbline::report
+namespace plumbline::study
 {
   std::string seed_words(const scene::RandomSection &random, std::size_t n_samples)
   {
@@ -14,4 +14,4 @@ namespace plumbline::report
              " realisations of the field: " + seed;
     return "";
   }
-} // namespace plumbline::report
+} // namespace plumbline::study
