@@ -102,6 +102,16 @@ namespace plumbline::app
       return table;
     }
 
+    Table elastic_table(const Findings &found)
+    {
+      Table table;
+      table.columns = {"constant", "least", "median", "largest"};
+      for (const ElasticRange &one : found.elastic)
+        table.rows.push_back({report::text_cell(one.name), report::number_cell(one.least),
+                              report::number_cell(one.median), report::number_cell(one.largest)});
+      return table;
+    }
+
     Table solution_table(const Findings &found)
     {
       Table table;
@@ -157,6 +167,9 @@ namespace plumbline::app
                   {"moments", "Moments",
                    "How far sums over the bonds are from the exact moments, relative.",
                    moment_table(found)},
+                  {"elastic", "Elastic constants",
+                   "Of the nodes' second moments, in the unit of the scene's material.",
+                   elastic_table(found)},
                   {"solution", "Solutions", "Errors of the scene's solution by these weights.",
                    solution_table(found)}};
     for (std::size_t i = 0; i < found.cells->n_free; ++i)

@@ -43,6 +43,16 @@ namespace plumbline::app
           << " (to " << MomentCheck::tolerance << ")\n";
     }
 
+    void tell_elastic(std::ostream &out, const Findings &found)
+    {
+      if (found.elastic.empty())
+        return;
+      out << "elastic   constant          least       median      largest\n";
+      for (const ElasticRange &one : found.elastic)
+        out << "          " << std::left << std::setw(18) << one.name << std::setw(12) << one.least
+            << std::setw(12) << one.median << one.largest << '\n';
+    }
+
     void tell_operator(std::ostream &out, const Findings &found)
     {
       const auto id = [&](std::size_t node) { return found.ids[node]; };
@@ -86,6 +96,7 @@ namespace plumbline::app
     out << std::setprecision(4);
     tell_nodes(out, found, options);
     tell_moments(out, found);
+    tell_elastic(out, found);
     tell_operator(out, found);
     for (const CaseCheck &one : found.cases)
       tell_solution(out, one);
@@ -131,6 +142,9 @@ namespace plumbline::app
       json["exact_degree"] = found.moments.exact_degree;
       json["second_moment"] = {{"mean_ratio", found.moments.mean_ratio},
                                {"worst", to_json(found.moments.second, found)}};
+      for (const ElasticRange &one : found.elastic)
+        json["elastic"][one.name] = {
+            {"least", one.least}, {"median", one.median}, {"largest", one.largest}};
     }
 
     /// What the weights are, and what may be wrong with them.

@@ -104,7 +104,7 @@ namespace plumbline::app
       {
         const auto bonds =
             lattice_bonds(quadrature(rule, kernel), kernel, 1., geometry::Backend::fast);
-        const physics::CubicStiffness stiffness = meshfree::stiffness(kernel, bonds);
+        const physics::CubicStiffness stiffness = meshfree::stiffness(kernel, bonds.family);
         const auto constants = physics::engineering_constants(stiffness, state);
         record.set("C1111", stiffness.C1111);
         record.set("C1122", stiffness.C1122);

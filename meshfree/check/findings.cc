@@ -130,6 +130,7 @@ namespace plumbline::meshfree
     find_volumes(found, problem, uncut_areas, spacing);
     const std::vector<Family<2>> &families = found.given.families;
     found.moments = check_moments(families, problem.kernel);
+    found.elastic = elastic_ranges(families, problem.kernel);
     found.weights = check_weights(families, problem.kernel, found.mended_volumes);
     found.symmetry = check_symmetry(families, problem.kernel, found.mended_volumes);
     find_causes(found, problem, meant);

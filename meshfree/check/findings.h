@@ -5,6 +5,7 @@
 #include "meshfree/check/bond_file.h"
 #include "meshfree/check/bond_hypotheses.h"
 #include "meshfree/check/bond_outliers.h"
+#include "meshfree/check/elastic_check.h"
 #include "meshfree/check/volume_check.h"
 #include "problem/problem.h"
 
@@ -29,6 +30,7 @@ namespace plumbline::meshfree
     double volume_defect = 0; ///< of the free nodes' volumes against their cells' area, relative
     Precision precision;      ///< of the data
     MomentCheck moments;
+    std::vector<ElasticRange> elastic; ///< empty for scalar kernels
     WeightCheck weights;
     SymmetryCheck symmetry;
     algebra::MatrixCheck matrix;

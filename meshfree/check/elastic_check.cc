@@ -1,0 +1,44 @@
+#include "meshfree/check/elastic_check.h"
+
+#include "meshfree/rules/stiffness.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace plumbline::meshfree
+{
+  std::vector<ElasticRange> elastic_ranges(const std::vector<Family<2>> &families,
+                                           const Kernel<2> &kernel)
+  {
+    using physics::CubicStiffness;
+    using physics::ElasticState;
+    if (kernel.n_components() == 1 || families.empty())
+      return {};
+    std::vector<CubicStiffness> all;
+    for (const Family<2> &family : families)
+      all.push_back(stiffness(kernel, family.bonds));
+    std::vector<ElasticRange> ranges;
+    const auto add =
+        [&](const std::string &name, const std::function<double(const CubicStiffness &)> &constant)
+    {
+      std::vector<double> values;
+      for (const CubicStiffness &one : all)
+        values.push_back(constant(one));
+      std::sort(values.begin(), values.end());
+      ranges.push_back({name, values.front(), values[values.size() / 2], values.back()});
+    };
+    add("C1111", [](const CubicStiffness &one) { return one.C1111; });
+    add("C1122", [](const CubicStiffness &one) { return one.C1122; });
+    add("C1212", [](const CubicStiffness &one) { return one.C1212; });
+    for (const auto &[state, name] : {std::pair{ElasticState::plane_stress, "plane stress"},
+                                      std::pair{ElasticState::plane_strain, "plane strain"}})
+    {
+      const ElasticState of = state;
+      add(std::string("E, ") + name,
+          [of](const CubicStiffness &one) { return engineering_constants(one, of).E; });
+      add(std::string("nu, ") + name,
+          [of](const CubicStiffness &one) { return engineering_constants(one, of).nu; });
+    }
+    return ranges;
+  }
+} // namespace plumbline::meshfree

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "meshfree/rules/quadrature_rule.h"
+
+#include <string>
+#include <vector>
+
+namespace plumbline::meshfree
+{
+  /// An elastic constant over all families.
+  struct ElasticRange
+  {
+    std::string name; ///< e.g. "C1111", or "E, plane stress"
+    double least = 0, median = 0, largest = 0;
+  };
+
+  /// The stiffness of the weights, see `stiffness`, and Young's modulus and Poisson's ratio that
+  /// follow in plane stress and plane strain, in the unit of the kernel. Empty for scalar kernels.
+  std::vector<ElasticRange> elastic_ranges(const std::vector<Family<2>> &families,
+                                           const Kernel<2> &kernel);
+} // namespace plumbline::meshfree
