@@ -1,5 +1,5 @@
-// What IPA-AC takes at the centroid of ball ∩ cell and what at the node, model by model: as README
-// states it.
+// What IPA-AC takes at the centroid of ball ∩ cell and what at the node, model by model: as
+// docs/theory/rules.md states it.
 
 #include "growth_plate.h"
 #include "meshfree/body/operator.h"

@@ -1,0 +1,23 @@
+"""Runs commands that the documentation shows."""
+import os
+import shlex
+import subprocess
+
+TIMEOUT = 100  # seconds, of one command
+
+
+class CommandFailed(Exception):
+    pass
+
+
+def run(words, folder, program, exit_code=0):
+    """Output of a command, standard error first, as it is written first."""
+    words = [str(program) if word == "plumbline" and i == 0 else word for i, word in enumerate(words)]
+    environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8",
+                   "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    done = subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, timeout=TIMEOUT,
+                          check=False)
+    if done.returncode != exit_code:
+        raise CommandFailed(f"exit code {done.returncode} in place of {exit_code}: {shlex.join(words)}\n"
+                            f"{done.stdout[-2000:]}{done.stderr[-2000:]}")
+    return done.stdout if exit_code == 0 else done.stderr + done.stdout
