@@ -123,7 +123,7 @@ def main():
     source = folder / "source" / "reference"  # generated from the program
     keys = set(re.findall(r"^### (.+)$", (source / "keys.md").read_text(encoding="utf-8"), re.M))
     options = set(re.findall(r"--[a-z-]+", (source / "commands.md").read_text(encoding="utf-8")))
-    pages = sorted((ROOT / "docs").glob("**/*.md"))
+    pages = sorted((ROOT / "docs").glob("**/*.md")) + [ROOT / "README.md"]
     faults = [*broken_addresses(folder / "html"), *missing_capabilities(program, folder / "html")]
     for path in pages:
         faults += unknown_names(path, keys, options)
