@@ -52,7 +52,8 @@ def prepare(program, folder):
         path.write_text(text, encoding="utf-8")
     python = ROOT / "python" / "README.md"
     if python.exists():  # the package describes itself
-        (source / "reference" / "python.md").write_text(python.read_text(encoding="utf-8"), encoding="utf-8")
+        text = reference.without_links(python.read_text(encoding="utf-8"))
+        (source / "reference" / "python.md").write_text(text, encoding="utf-8")
     return source, work
 
 

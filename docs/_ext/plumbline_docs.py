@@ -47,8 +47,9 @@ class SceneLexer(RegexLexer):
 
 
 def fold(line, mark=""):
-    """A long line in parts that fit into the page; commands break before an option."""
-    if len(line) <= WIDTH:
+    """A long line in parts that fit into the page, but for rows of tables; commands break before an option."""
+    is_row = not mark and "  " in line.strip() and len(re.split(r" {2,}", line)[-1]) < WIDTH // 2
+    if len(line) <= WIDTH or is_row:
         return [line]
     places = [match.start() for match in re.finditer(r" (?=--)" if mark else r" (?=\S)", line)]
     indent = "    " if mark else " " * (len(re.match(r"\s*(\S+ {2,})?", line).group()) % 40)
@@ -60,13 +61,15 @@ def fold(line, mark=""):
 
 def paragraphs(lines):
     """Prose that the program has broken at 120 characters, in one line again."""
-    result, is_full = [], False
+    result, last = [], ""
     for line in lines:
-        if is_full and re.match(r"\S", line):
-            result[-1] += " " + line
+        indent = " {2}" if result and result[-1].startswith("- ") else ""
+        first = re.match(indent + r"(\S+)", line)
+        if first and "  " not in last.strip() and len(last) <= 120 < len(last) + 1 + len(first.group(1)):
+            result[-1] += " " + line.strip()
         else:
             result.append(line)
-        is_full = 100 < len(line) <= 120 and "  " not in line
+        last = line
     return result
 
 
@@ -115,7 +118,7 @@ class Command(Base):
         folder, program = self.place()
         command = self.arguments[0]
         output = run(shlex.split(command), folder, program, self.options.get("exit", 0)).rstrip("\n")
-        shown = output.split("\n")
+        shown = paragraphs(output.split("\n"))
         if "lines" in self.options:
             shown = [line for line in shown if re.search(self.options["lines"], line)]
             if not shown:
@@ -128,7 +131,7 @@ class Command(Base):
             shown = ["..."] + shown[-tail:]
         if "silent" in self.options:
             shown = []
-        lines = fold("$ " + command, " \\") + [part for line in paragraphs(shown) for part in fold(line)]
+        lines = fold("$ " + command, " \\") + [part for line in shown for part in fold(line)]
         return self.block("\n".join(lines), "console")
 
 

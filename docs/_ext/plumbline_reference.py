@@ -30,7 +30,7 @@ class Program:
         found = []
         for block in blocks:
             lines = block.split("\n")
-            if not lines[0].startswith(section + "/"):
+            if lines[0] != section and not lines[0].startswith(section + "/"):
                 continue
             texts = [line.strip() for line in lines[1:]]
             marked = {word: " ".join(text[len(word) + 2:] for text in texts if text.startswith(word + ": "))
@@ -74,7 +74,7 @@ def keys_page(program):
     parts = ["# Keys of scenes", "",
              "Generated from `plumbline describe`. A scene gives only the keys whose default does not fit; "
              "`plumbline template scalar` prints a scene with all of them."]
-    sections = program.sections()
+    sections = ["Purpose"] + program.sections()  # a key of its own
     with ThreadPoolExecutor(2) as pool:
         keys = list(pool.map(program.keys, sections))
     for section, some in zip(sections, keys):

@@ -14,6 +14,7 @@ sys.path.insert(0, str(ROOT / "docs" / "_ext"))
 sys.dont_write_bytecode = True
 
 from plumbline_reference import Program  # noqa: E402
+from plumbline_scene import read_scene  # noqa: E402
 
 # blocks that are shown without being run: how to install and build, and what takes hours
 SHELL = re.compile(r"^(\./bootstrap (\w+)|cmake --build |alias plumbline=)")
@@ -124,7 +125,10 @@ def main():
     keys = set(re.findall(r"^### (.+)$", (source / "keys.md").read_text(encoding="utf-8"), re.M))
     options = set(re.findall(r"--[a-z-]+", (source / "commands.md").read_text(encoding="utf-8")))
     pages = sorted((ROOT / "docs").glob("**/*.md")) + [ROOT / "README.md"]
-    faults = [*broken_addresses(folder / "html"), *missing_capabilities(program, folder / "html")]
+    template = folder / "work" / "template.prm"
+    template.write_text(program("template", "scalar"), encoding="utf-8")
+    faults = [f"reference/keys.md has no {key}" for key in sorted(set(read_scene(template)["values"]) - keys)]
+    faults += [*broken_addresses(folder / "html"), *missing_capabilities(program, folder / "html")]
     for path in pages:
         faults += unknown_names(path, keys, options)
         if path.name != "README.md":  # tests/docs/readme.py runs its blocks
