@@ -51,7 +51,7 @@ def fold(line, mark=""):
     is_row = not mark and "  " in line.strip() and len(re.split(r" {2,}", line)[-1]) < WIDTH // 2
     if len(line) <= WIDTH or is_row:
         return [line]
-    places = [match.start() for match in re.finditer(r" (?=--)" if mark else r" (?=\S)", line)]
+    places = [match.start() for match in re.finditer(r" (?=--)" if mark else r" (?=[^\s%])", line)]
     indent = "    " if mark else " " * (len(re.match(r"\s*(\S+ {2,})?", line).group()) % 40)
     place = max((place for place in places if len(indent) < place <= WIDTH - len(mark)), default=None)
     if place is None:

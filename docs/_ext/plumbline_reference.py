@@ -54,7 +54,7 @@ def commands_page(program):
     return "\n".join(parts) + "\n"
 
 
-def wrap(text, width=100):
+def wrap(text, width=88):
     """Long lines of help, broken with their indent."""
     result = []
     for line in text.split("\n"):

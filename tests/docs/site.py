@@ -4,6 +4,7 @@
 site.py PROGRAM FOLDER
 """
 import html.parser
+import math
 import pathlib
 import re
 import subprocess
@@ -106,6 +107,29 @@ def unknown_names(path, keys, options):
                 yield f"{path.name}: {option} is no option of any command"
 
 
+def numbers(text):
+    """Decimals as they are written, without those in names of files, references and equations."""
+    return re.findall(r"(?<![\w.(])-?(?:\d*\.\d+(?:e-?\d+)?|\d+e-\d+)(?![\w.]*\w)", text)
+
+
+def rounds_to(value, shown):
+    digits = len(re.sub(r"e.*", "", shown).lstrip("-0.").replace(".", "")) or 1
+    return abs(value - float(shown)) <= .5000001 * 10 ** (math.floor(math.log10(abs(float(shown)))) - digits + 1)
+
+
+def unasserted_numbers(path):
+    """After '% asserted by FILE...' each decimal of the next block is in these files, or is the rate of numbers there."""
+    for files, block in re.findall(r"^% asserted by (.*)\n\n((?:.+\n)+)", path.read_text(encoding="utf-8"), re.M):
+        values = []
+        for file in files.split():
+            text = (ROOT / file).read_text(encoding="utf-8")
+            found = [abs(float(number)) for number in re.findall(r"(?<![\w.])\d*\.?\d+(?:e-?\d+)?", text)]
+            values += found + [math.log2(a / b) for a, b in zip(found, found[1:]) if a > 0 and b > 0]
+        for shown in numbers(re.sub(r"`[^`]*`|\$[^$]*\$", "", block)):
+            if not any(rounds_to(value, shown) for value in values):
+                yield f"{path.name}: {shown} is not in {files}"
+
+
 def missing_capabilities(program, folder):
     """The tables of what methods, models and analyses can do are the program's, cell by cell."""
     rows = [row for row in Page(folder / "reference" / "methods.html").rows if row]
@@ -130,7 +154,7 @@ def main():
     faults = [f"reference/keys.md has no {key}" for key in sorted(set(read_scene(template)["values"]) - keys)]
     faults += [*broken_addresses(folder / "html"), *missing_capabilities(program, folder / "html")]
     for path in pages:
-        faults += unknown_names(path, keys, options)
+        faults += [*unknown_names(path, keys, options), *unasserted_numbers(path)]
         if path.name != "README.md":  # tests/docs/readme.py runs its blocks
             faults += unchecked_blocks(path)
     print("\n".join(faults) or f"{len(pages)} pages are right")
