@@ -17,10 +17,12 @@ RESULTS = [
     ("run", "ipa_ac/gaussian", "--levels 4", "*convergence*wave*.svg",
      "Convergence at a fixed ratio m: which methods stall?"),
     ("dispersion", "waves/diffusion", "", "*phase*waves-at-0*.svg", "Phase speeds of all methods along an axis"),
-    ("grow", "fracture/plate", "--set Study/h=0.05", "*moments*.svg", "A crack that grows bond by bond: damage at six stages"),
+    ("grow", "fracture/plate", "--set Study/h=0.05", "*moments*.svg",
+     "A crack that grows bond by bond: damage at six stages"),
     ("crack", "griffith/branching", "--set Study/h=0.01 --check", "*moments*.svg",
      "A crack that branches at four times the threshold"),
-    ("strip", "fracture/strip", "--levels 2 --methods DGQ1,PA-AC,IPA-AC", "*tip-energy*.svg", "Energy of the crack tip by three methods"),
+    ("strip", "fracture/strip", "--levels 2 --methods DGQ1,PA-AC,IPA-AC", "*tip-energy*.svg",
+     "Energy of the crack tip by three methods"),
     ("sample", "random/smooth", "--levels 1", "*mean-samples*.svg", "Error of the mean over the number of samples"),
     ("run", "dynamics/schemes", "", "*orders*.svg", "Orders of time-stepping schemes"),
 ]
@@ -115,14 +117,13 @@ def sketch(values, folder):
     is_strip = "Crack/notch" in values
     layer = 0 if boundary in ("free", "periodic") else horizon
 
+    holes = boxes(values.get("Domain/holes", ""))
     cells = []
     if mesh.endswith(".geo"):
         cells = physical_surfaces(folder / mesh, h, horizon)
         corners = [point for _, cell in cells for point in cell]
     else:
         corners = [(p[0] + s * layer, p[1] + s * layer) for box in domain for p, s in zip(box, (-1, 1))]
-    for crack in boxes(values.get("Domain/cracks", "")):
-        corners += crack
     lower = tuple(min(p[i] for p in corners) for i in (0, 1))
     upper = tuple(max(p[i] for p in corners) for i in (0, 1))
     drawing = Drawing(lower, upper)
@@ -141,7 +142,7 @@ def sketch(values, folder):
                 drawing.box((a[0], a[1] - layer), (b[0], b[1] + layer), f'fill="{COLOURS["grips"]}"')
         for a, b in domain:
             drawing.box(a, b, f'fill="{COLOURS["omega"]}"')
-        for a, b in boxes(values.get("Domain/holes", "")):
+        for a, b in holes:
             drawing.box(a, b, f'fill="{COLOURS["collar"] if layer else "#ffffff"}"')
     for a, b in (boxes(values["Domain/fixed"]) if values.get("Domain/fixed", "none") != "none" else []):
         drawing.box(a, b, f'fill="{COLOURS["grips"]}" fill-opacity="0.8"')
@@ -152,6 +153,7 @@ def sketch(values, folder):
         shift = 0 if values.get("Methods/nodes") == "vertices" else 0.5
         nodes = [(p[0] + (i + shift) * h, p[1] + (j + shift) * h) for p, q in domain
                  for i in range(round((q[0] - p[0]) / h)) for j in range(max(1, round((q[1] - p[1]) / h)))]
+        nodes = [p for p in nodes if not any(a[0] < p[0] < b[0] and a[1] < p[1] < b[1] for a, b in holes)]
         drawing.dots(nodes, 'stroke="#34495e" stroke-width="1.6"')
     centre = [a[i] + (math.floor(n[i] / 2) + 0.5) * h if n[i] > 0 else (a[i] + b[i]) / 2 for i in (0, 1)]
     drawing.circle(centre, horizon, f'fill="{COLOURS["ball"]}" fill-opacity="0.18" stroke="{COLOURS["ball"]}"')
