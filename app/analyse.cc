@@ -10,8 +10,10 @@
 #include "report/formats.h"
 #include "report/frames.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 namespace plumbline::app
 {
@@ -99,20 +101,50 @@ namespace plumbline::app
     return {study::growth_analysis(checkpoints), report::growth_view};
   }
 
+  namespace
+  {
+    int exit_code(const AnalysisRow &row, const AnalyseOptions &options,
+                  const study::StudyResults &results)
+    {
+      bool has_failed = false, all_hold = true;
+      for (const study::Record &record : results.records)
+        if (row.is_failure_fatal && !record.failure.empty())
+        {
+          has_failed = true;
+          const study::Key &key = record.key;
+          std::cerr << "no result: " << key.label() << ", " << key.series << ", h = " << key.h
+                    << ": " << record.failure << '\n';
+        }
+      for (const study::Expectation &one : results.expectations)
+        if (options.check && !one.holds)
+        {
+          all_hold = false;
+          std::cerr << "not as expected: " << one.subject << ": found " << one.found << '\n';
+        }
+      return has_failed ? 3 : all_hold ? 0 : 1;
+    }
+  } // namespace
+
   int analyse(const MakeRow &make_row, const AnalyseOptions &options)
+  {
+    return analyse(make_row, options, read_alone(options));
+  }
+
+  int analyse(const MakeRow &make_row, const AnalyseOptions &options, const scene::Scene &scene)
   {
     if (!(options.budget >= 0))
       throw InputError(
           "--budget is negative; give CPU seconds of one method at one level, or leave "
           "it out");
-    const scene::Scene scene = read_alone(options);
     const fs::path folder = output_folder(options, scene);
     const study::Checkpoints checkpoints{folder, is_interrupted};
     const AnalysisRow row = make_row(checkpoints);
     const study::Analysis &analysis = row.analysis;
     const method::Methods methods =
         analysis.choose_methods(scene, all_methods(), options.n_levels, 1);
-    const OutputFolder output(folder, {analysis.name, scene.name, scene.text},
+    if (analysis.check)
+      analysis.check(scene, methods, options.n_levels);
+    const OutputFolder output(folder, {row.command, scene.name, scene.text},
                               base::Communicator::alone());
     watch_interrupts();
     require_writable(folder / (analysis.name + ".md"));
@@ -127,9 +159,9 @@ namespace plumbline::app
     control.budget = options.budget;
     control.should_stop = is_interrupted;
     control.earlier = journal.earlier();
-    ProgressLine progress(!options.quiet);
+    std::optional<ProgressLine> progress(!options.quiet);
     control.on_progress = [&](const std::string &what, double fraction)
-    { progress.show(what, fraction); };
+    { progress->show(what, fraction); };
     control.on_records = [&](const study::Records &records)
     {
       journal.append(records);
@@ -138,10 +170,12 @@ namespace plumbline::app
       write_fields(records, scene, options.n_levels, folder / analysis.name);
     };
     write_fields(journal.earlier(), scene, options.n_levels, folder / analysis.name);
-    const study::StudyResults results = run_study(analysis, scene, methods, control);
-
+    study::StudyResults results = run_study(analysis, scene, methods, control);
+    progress.reset();
+    results.provenance = provenance();
     for (const std::string &warning : results.warnings)
       std::cerr << "warning: " << warning << '\n';
+
     const report::View view = row.view(results);
     report::write_study(view, results, folder);
     if (!results.is_complete)
@@ -152,13 +186,6 @@ namespace plumbline::app
     else if (!options.quiet)
       std::cout << report::study_text(view, results)
                 << "\nwritten: " << (folder / (analysis.name + ".html")).string() << '\n';
-    bool all_hold = true;
-    for (const study::Expectation &one : results.expectations)
-      if (options.check && !one.holds)
-      {
-        all_hold = false;
-        std::cerr << "not as expected: " << one.subject << ": found " << one.found << '\n';
-      }
-    return all_hold ? 0 : 1;
+    return exit_code(row, options, results);
   }
 } // namespace plumbline::app

@@ -253,8 +253,8 @@ namespace plumbline::app
     const scene::Scene scene = read_scene(options);
     if (scene.time.is_dynamic())
     {
-      check_analysis(scene, scene::Analysis::motion);
-      return run_motions(options, scene);
+      check_analysis(scene, scene::Analysis::transient);
+      return run_transient(options, scene);
     }
     const method::Methods available = all_methods();
     const method::Methods methods = study::choose_methods(scene, available);

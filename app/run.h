@@ -1,21 +1,12 @@
 #pragma once
 
-#include "scene/scene.h"
-
-#include <string>
-#include <vector>
+#include "analyse.h"
 
 namespace plumbline::app
 {
-  struct RunOptions
+  struct RunOptions : AnalyseOptions
   {
-    std::string scene_file, output; ///< output empty: results/NAME of the scene
-    std::vector<scene::Override> overrides;
-    std::string methods; ///< comma separated, instead of the scene's
-    std::string model;   ///< smallest or full, instead of the scene's
-    unsigned int n_levels = 0;
-    double budget = 0; ///< of a single solve [CPU s]; 0: any
-    bool check = false, quiet = false, json = false;
+    std::string model; ///< smallest or full, instead of the scene's
   };
 
   /// Run a scene, write its report, print the verdicts.

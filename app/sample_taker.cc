@@ -9,6 +9,7 @@
 #include "study/sample_sweep.h"
 #include "study/stability.h"
 #include "study/stationary_crack.h"
+#include "study/transient.h"
 
 namespace plumbline::app
 {
@@ -35,21 +36,15 @@ namespace plumbline::app
               }};
     }
 
-    SampleTaker motion_taker()
-    {
-      return {[](const scene::Scene &scene, const fs::path &, unsigned int)
-              { study::check_motions(scene, study::choose_methods(scene, all_methods()), 0); },
-              [](const scene::Scene &sample, const fs::path &)
-              {
-                return study::move_sample(sample, study::choose_methods(sample, all_methods()),
-                                          all_methods());
-              }};
-    }
-
     SampleTaker study_taker(const study::Analysis &analysis)
     {
       return {[analysis](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
-              { (void)analysis.choose_methods(scene, all_methods(), 0, n_jobs); },
+              {
+                const method::Methods methods =
+                    analysis.choose_methods(scene, all_methods(), 0, n_jobs);
+                if (analysis.check)
+                  analysis.check(scene, methods, 0);
+              },
               [analysis](const scene::Scene &sample, const fs::path &)
               { return study::sample_study(analysis, sample, all_methods()); }};
     }
@@ -111,6 +106,8 @@ namespace plumbline::app
           long_taker([](const study::Checkpoints &own) { return study::crack_analysis(own); }));
     if (scene.strip.is_there())
       return study_taker(study::strip_analysis());
-    return scene.time.is_dynamic() ? motion_taker() : statics_taker();
+    return scene.time.is_dynamic()
+               ? study_taker(study::transient_analysis(all_methods(), {true, {}}))
+               : statics_taker();
   }
 } // namespace plumbline::app

@@ -211,7 +211,7 @@ namespace plumbline::analysis
       if (is_split ? !flow.is_still_finite() : !is_finite(state))
       {
         std::ostringstream message;
-        message << "the motion is not finite any more after " << k << " steps, at t = " << state.t
+        message << "the solution is not finite any more after " << k << " steps, at t = " << state.t
                 << "; the scheme " << scheme.name << " is unstable with Δt = " << step;
         throw NumericalError(message.str());
       }

@@ -46,6 +46,7 @@ namespace plumbline::study
     a("purpose", results.purpose);
     a("scene_text", results.scene_text);
     a("variable", results.variable);
+    a("provenance", results.provenance);
     a("facts", results.facts);
     a("is_complete", results.is_complete);
     a("records", results.records);

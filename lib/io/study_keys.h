@@ -27,6 +27,7 @@ namespace plumbline::study
     a("family", trend.family);
     a("problem", trend.problem);
     a("series", trend.series);
+    a("variant", trend.variant);
     a("error", trend.error);
     a("parameter", trend.axis);
     a("x", trend.x);

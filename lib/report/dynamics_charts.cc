@@ -1,15 +1,13 @@
-#include "report/dynamics_charts.h"
+#include "report/dynamics_view.h"
 
-#include "report/dynamics_tables.h"
+#include "study/transient.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace plumbline::report
 {
-  using study::DynamicResults;
-  using study::MotionRun;
-  using study::MotionTrend;
+  using study::Trend;
 
   namespace
   {
@@ -33,64 +31,81 @@ namespace plumbline::report
       unsigned int n_reference_ = 0, n_meshfree_ = 0;
     };
 
-    bool has_several(const std::vector<MotionRun> &runs, std::string MotionRun::*member)
+    template <class Name>
+    bool has_several(const StudyResults &results, const Name &name)
     {
-      return std::any_of(runs.begin(), runs.end(),
-                         [&](const MotionRun &run) { return run.*member != runs[0].*member; });
+      return std::any_of(results.records.begin(), results.records.end(),
+                         [&](const Record &record)
+                         { return name(record) != name(results.records.front()); });
     }
 
-    /// Method, and what else tells motions apart.
-    std::string label(const DynamicResults &results, const std::string &method,
-                      const std::string &problem, const std::string &series,
-                      const std::string &scheme)
+    std::string step(const Record &record)
     {
-      std::string text = method;
-      if (has_several(results.runs, &MotionRun::scheme))
-        text += ", " + scheme;
-      if (has_several(results.runs, &MotionRun::series))
-        text += ", " + series;
-      if (has_several(results.runs, &MotionRun::problem))
-        text += ", " + problem;
+      return record.text("step");
+    }
+
+    std::string scheme(const Record &record)
+    {
+      return record.text("scheme");
+    }
+
+    /// Method, and what else tells runs apart.
+    /// @param key  of a record, or a trend
+    template <class Key>
+    std::string label(const StudyResults &results, const Key &key, const std::string &scheme_name)
+    {
+      std::string text = key.method;
+      if (has_several(results, scheme))
+        text += ", " + scheme_name;
+      if (has_several(results, [](const Record &record) { return record.key.series; }))
+        text += ", " + key.series;
+      if (has_several(results, [](const Record &record) { return record.key.problem; }))
+        text += ", " + key.problem;
       return text;
     }
 
-    std::string label(const DynamicResults &results, const MotionRun &run)
+    std::string label(const StudyResults &results, const Record &record)
     {
-      return label(results, run.method, run.problem, run.series, run.scheme);
+      return label(results, record.key, scheme(record));
     }
 
-    std::string error_words(const DynamicResults &results)
+    std::string decisive(const StudyResults &results)
     {
-      return "error at the end, " + results.decisive_error;
+      const auto found = results.facts.find(study::decisive_error);
+      return found == results.facts.end() ? "" : found->second;
     }
 
-    DataChart trends_chart(const DynamicResults &results, const std::vector<MotionTrend> &trends,
-                           const std::string &error, DataChart chart)
+    std::string error_words(const StudyResults &results)
+    {
+      return "error at the final time, " + decisive(results);
+    }
+
+    DataChart trends_chart(const StudyResults &results, const std::string &error, DataChart chart)
     {
       chart.data.columns = {"method", "case", "series", "scheme", "x", "error"};
       chart.plot.shows_round_off = true;
       double size = 0;
-      for (const MotionTrend &t : trends)
+      for (const Trend &t : results.trends)
         size = std::max(size, t.error == error ? t.size : 0);
       chart.plot.noise = round_off * (size > 0 ? size : 1);
       Lines lines;
-      for (const MotionTrend &t : trends)
+      for (const Trend &t : results.trends)
       {
         if (t.error != error)
           continue;
-        Line &line = lines.of(label(results, t.method, t.problem, t.series, t.scheme),
-                              t.family != study::MethodFamily::meshfree);
+        Line &line =
+            lines.of(label(results, t, t.variant), t.family != study::MethodFamily::meshfree);
         for (std::size_t i = 0; i < t.x.size(); ++i)
         {
           chart.data.rows.push_back({text_cell(t.method), text_cell(t.problem), text_cell(t.series),
-                                     text_cell(t.scheme), number_cell(t.x[i]),
+                                     text_cell(t.variant), number_cell(t.x[i]),
                                      error_cell(t.values[i])});
           if (t.values[i] > 0)
             line.points.push_back({t.x[i], t.values[i]});
         }
       }
       std::vector<double> x;
-      for (const MotionTrend &t : trends)
+      for (const Trend &t : results.trends)
         if (t.error == error && t.axis == study::Axis::variable)
           x.insert(x.end(), t.x.begin(), t.x.end());
       chart.plot.is_x_log = is_logarithmic(study::Axis::variable, x);
@@ -99,7 +114,7 @@ namespace plumbline::report
       return chart;
     }
 
-    DataChart cost_chart(const DynamicResults &results)
+    DataChart cost_chart(const StudyResults &results)
     {
       DataChart chart = named("cost", "What accuracy costs",
                               "All runs, over h and time step: each line is one method, scheme "
@@ -109,21 +124,19 @@ namespace plumbline::report
       chart.plot.frontier_label = "best pairs";
       chart.data.columns = {"method", "case", "series", "scheme", "h", "dt", "seconds", "error"};
       Lines lines;
-      for (const MotionRun &run : results.runs)
-        if (const double error = decisive_error(results, run);
-            error > 0 && run.cost.seconds() > 0 && run.failure.empty())
+      for (const Record &run : results.records)
+        if (const double error = decisive_error(results, run); error > 0 && run.cost.seconds() > 0)
         {
           const std::string name =
-              label(results, run) +
-              (has_several(results.runs, &MotionRun::steps) ? ", " + run.steps : "");
-          lines.of(name, run.family != study::MethodFamily::meshfree)
+              label(results, run) + (has_several(results, step) ? ", " + step(run) : "");
+          lines.of(name, run.key.family != study::MethodFamily::meshfree)
               .points.push_back({run.cost.seconds(), error});
-          chart.data.rows.push_back({text_cell(run.method), text_cell(run.problem),
-                                     text_cell(run.series), text_cell(run.scheme),
-                                     number_cell(run.h), number_cell(run.step),
+          chart.data.rows.push_back({text_cell(run.key.method), text_cell(run.key.problem),
+                                     text_cell(run.key.series), text_cell(scheme(run)),
+                                     number_cell(run.key.h), number_cell(run["time step"]),
                                      number_cell(run.cost.seconds()), error_cell(error)});
         }
-      for (const MotionRun *run : best_runs(results))
+      for (const Record *run : best_records(results))
         chart.plot.frontier.push_back({run->cost.seconds(), decisive_error(results, *run)});
       chart.plot.lines = lines.take();
       return chart;
@@ -131,21 +144,22 @@ namespace plumbline::report
 
     /// The runs that moved, at the finest level of each series, with the shortest step of each
     /// scheme.
-    std::vector<const MotionRun *> finest(const DynamicResults &results, bool all_steps)
+    std::vector<const Record *> finest(const StudyResults &results, bool all_steps)
     {
-      std::vector<const MotionRun *> runs;
-      for (const MotionRun &run : results.runs)
+      std::vector<const Record *> runs;
+      for (const Record &run : results.records)
       {
-        if (run.energies.empty())
+        if (run.curves.count("energy") == 0)
           continue;
-        const auto same =
-            std::find_if(runs.begin(), runs.end(),
-                         [&](const MotionRun *other)
-                         {
-                           return other->method == run.method && other->series == run.series &&
-                                  other->problem == run.problem && other->scheme == run.scheme &&
-                                  (!all_steps || other->steps == run.steps);
-                         });
+        const auto same = std::find_if(runs.begin(), runs.end(),
+                                       [&](const Record *other)
+                                       {
+                                         return other->key.method == run.key.method &&
+                                                other->key.series == run.key.series &&
+                                                other->key.problem == run.key.problem &&
+                                                scheme(*other) == scheme(run) &&
+                                                (!all_steps || step(*other) == step(run));
+                                       });
         if (same == runs.end())
           runs.push_back(&run);
         else
@@ -165,19 +179,22 @@ namespace plumbline::report
             std::max<unsigned int>(1, static_cast<unsigned int>(line.points.size()) / 8);
     }
 
-    DataChart energies_chart(const MotionRun &run)
+    DataChart energies_chart(const Record &run)
     {
+      using E = analysis::Energies;
+      const std::vector<E> energies = study::energies_of(run);
       constexpr double wild = 1e3; // growth beyond which a linear axis shows one spike
-      const double most = largest_shown * std::max(run.energies.front().stored(), 1.);
-      DataChart chart = named(
-          "energies", "Energies: " + run.method + ", " + run.scheme + ", h = " + rounded(run.h),
-          "Of one run, " + run.steps + "; the others are in dynamics.json.");
+      const double most = largest_shown * std::max(energies.front().stored(), 1.);
+      DataChart chart =
+          named("energies",
+                "Energies: " + run.key.method + ", " + scheme(run) + ", h = " + rounded(run.key.h),
+                "Of one run, " + step(run) + "; the others are in dynamics.json.");
       chart.plot.is_x_log = false;
       chart.plot.x_label = "time";
       chart.plot.y_label = "energy";
       chart.data.columns = {"t", "kinetic", "bond", "stored", "work", "dissipated"};
       double low = 0, high = 0;
-      for (const analysis::Energies &now : run.energies)
+      for (const E &now : energies)
       {
         for (const double e : {now.kinetic, now.bond, now.stored(), now.work, now.dissipated})
           if (std::abs(e) < most)
@@ -189,26 +206,25 @@ namespace plumbline::report
                                    number_cell(now.bond), number_cell(now.stored()),
                                    number_cell(now.work), number_cell(now.dissipated)});
       }
-      const double begin = std::max(run.energies.front().stored(), 1e-300);
-      chart.plot.is_y_log = high > wild * begin && run.energies.front().stored() > 0;
+      const double begin = std::max(energies.front().stored(), 1e-300);
+      chart.plot.is_y_log = high > wild * begin && energies.front().stored() > 0;
       const double margin = high > low ? .06 * (high - low) : 1;
       chart.plot.y_range = Range{low - (low < 0 ? margin : 0), high + margin};
       Lines lines;
       const auto add = [&](const std::string &name, const auto &value)
       {
         Line &line = lines.of(name, false);
-        for (const analysis::Energies &now : run.energies)
+        for (const E &now : energies)
           if (const double e = value(now);
               std::abs(e) < most && (!chart.plot.is_y_log || e > 1e-12 * begin))
             line.points.push_back({now.t, e});
       };
-      using E = analysis::Energies;
       add("stored", [](const E &e) { return e.stored(); });
       add("kinetic", [](const E &e) { return e.kinetic; });
       add("bonds", [](const E &e) { return e.bond; });
       const auto any = [&](double E::*member)
       {
-        return std::any_of(run.energies.begin(), run.energies.end(),
+        return std::any_of(energies.begin(), energies.end(),
                            [&](const E &e) { return std::abs(e.*member) > 1e-14 * high; });
       };
       if (any(&E::work))
@@ -221,44 +237,67 @@ namespace plumbline::report
     }
 
     /// Over time on a logarithmic axis, of all runs at the finest level.
-    template <typename Value>
-    DataChart history_chart(const DynamicResults &results, DataChart chart, bool all_steps,
-                            const Value &value)
+    /// @param values  of a run: points of the chart
+    template <typename Values>
+    DataChart history_chart(const StudyResults &results, DataChart chart, bool all_steps,
+                            const Values &values)
     {
       constexpr double floor = 1e-16; // of the largest: below it a logarithm says nothing
       chart.plot.is_x_log = false;
       chart.plot.x_label = "time";
       chart.data.columns = {"method", "series", "scheme", "step", "t", "value"};
       Lines lines;
-      for (const MotionRun *run : finest(results, all_steps))
-        for (std::size_t i = 0; i < run->energies.size(); ++i)
+      for (const Record *run : finest(results, all_steps))
+        for (const Vertex &point : values(*run))
         {
-          const double t = run->energies[i].t, y = value(*run, i);
-          if (!(std::abs(y) < largest_shown)) // it has blown up, which is seen by then
+          if (!(std::abs(point.y) < largest_shown)) // it has blown up, which is seen by then
             continue;
-          chart.data.rows.push_back({text_cell(run->method), text_cell(run->series),
-                                     text_cell(run->scheme), text_cell(run->steps), number_cell(t),
-                                     error_cell(y)});
-          const bool has_steps = all_steps && has_several(results.runs, &MotionRun::steps);
-          if (y > floor)
+          chart.data.rows.push_back({text_cell(run->key.method), text_cell(run->key.series),
+                                     text_cell(scheme(*run)), text_cell(step(*run)),
+                                     number_cell(point.x), error_cell(point.y)});
+          if (point.y > floor)
             lines
-                .of(label(results, *run) + (has_steps ? ", " + run->steps : ""),
-                    run->family != study::MethodFamily::meshfree)
-                .points.push_back({t, y});
+                .of(label(results, *run) +
+                        (all_steps && has_several(results, step) ? ", " + step(*run) : ""),
+                    run->key.family != study::MethodFamily::meshfree)
+                .points.push_back(point);
         }
       chart.plot.lines = lines.take();
       spread_symbols(chart.plot.lines);
       return chart;
     }
 
-    double imbalance(const MotionRun &run, std::size_t i)
+    std::vector<Vertex> imbalances(const Record &run)
     {
-      const analysis::Energies &first = run.energies.front(), &now = run.energies[i];
+      const std::vector<analysis::Energies> energies = study::energies_of(run);
       double size = 0;
-      for (const analysis::Energies &e : run.energies)
+      for (const analysis::Energies &e : energies)
         if (std::isfinite(e.stored()))
           size = std::max({size, e.stored(), std::abs(e.work), e.dissipated});
-      return std::abs(now.stored() + now.dissipated - now.work - first.stored()) / size;
+      std::vector<Vertex> points;
+      for (const analysis::Energies &now : energies)
+        points.push_back(
+            {now.t, std::abs(now.stored() + now.dissipated - now.work - energies.front().stored()) /
+                        size});
+      return points;
+    }
+
+    std::vector<Vertex> growth(const Record &run)
+    {
+      const std::vector<analysis::Energies> energies = study::energies_of(run);
+      std::vector<Vertex> points;
+      for (const analysis::Energies &now : energies)
+        points.push_back({now.t, now.stored() / energies.front().stored()});
+      return points;
+    }
+
+    std::vector<Vertex> errors_over_time(const Record &run)
+    {
+      std::vector<Vertex> points;
+      if (const auto found = run.curves.find("error"); found != run.curves.end())
+        for (std::size_t i = 0; i < found->second[0].values.size(); ++i)
+          points.push_back({found->second[0].values[i], found->second[1].values[i]});
+      return points;
     }
 
     bool has_points(const DataChart &chart, std::size_t least)
@@ -270,7 +309,7 @@ namespace plumbline::report
     }
   } // namespace
 
-  std::vector<DataChart> motion_charts(const DynamicResults &results)
+  std::vector<DataChart> dynamics_charts(const StudyResults &results)
   {
     std::vector<DataChart> charts;
     const auto add = [&](const DataChart &chart, std::size_t least)
@@ -278,12 +317,12 @@ namespace plumbline::report
       if (has_points(chart, least))
         charts.push_back(chart);
     };
-    if (results.runs.empty())
+    if (results.records.empty())
       return charts;
     DataChart errors = named("errors", "Errors of displacements at the end",
                              "With the shortest step of each scheme."),
               orders = named("orders", "Errors in time at the finest level",
-                             "Against the same lattice's motion exact in time."),
+                             "Against the solution of the same equations that is exact in time."),
               balance = named("balance", "Balance of energy",
                               "What stored and dissipated less supplied energy differ from the "
                               "start by, over the largest of them, at the finest level with the "
@@ -300,26 +339,20 @@ namespace plumbline::report
     orders.plot.y_label = "error in time, nodal L2";
     balance.plot.y_label = "imbalance over the largest energy";
     stored.plot.y_label = "stored energy over that at the start";
-    history.plot.y_label = results.decisive_error;
-    add(trends_chart(results, results.trends, results.decisive_error, errors), 2);
+    history.plot.y_label = decisive(results);
+    add(trends_chart(results, decisive(results), errors), 2);
     add(cost_chart(results), 2);
-    add(trends_chart(results, results.orders, "nodal L2 | time", orders), 2);
+    add(trends_chart(results, study::time_error, orders), 2);
     const auto shown = finest(results, false);
     const auto stable = std::find_if(shown.begin(), shown.end(),
-                                     [](const MotionRun *run)
-                                     { return !analysis::scheme(run->scheme).is_explicit_euler; });
+                                     [](const Record *run)
+                                     { return !analysis::scheme(scheme(*run)).is_explicit_euler; });
     if (!shown.empty())
       add(energies_chart(stable == shown.end() ? *shown.front() : **stable), 2);
-    if (results.shows_blow_up)
-      add(history_chart(results, stored, true,
-                        [](const MotionRun &run, std::size_t i)
-                        { return run.energies[i].stored() / run.energies.front().stored(); }),
-          2);
-    add(history_chart(results, balance, false, imbalance), 2);
-    add(history_chart(results, history, false,
-                      [](const MotionRun &run, std::size_t i)
-                      { return i < run.history.size() ? run.history[i] : 0; }),
-        2);
+    if (results.facts.count("blow-up") > 0)
+      add(history_chart(results, stored, true, growth), 2);
+    add(history_chart(results, balance, false, imbalances), 2);
+    add(history_chart(results, history, false, errors_over_time), 2);
     return charts;
   }
 } // namespace plumbline::report

@@ -83,6 +83,7 @@ namespace plumbline::report
   {
     std::string id, head, words;
     Table table;
+    bool is_detail = false; ///< not for the terminal
   };
 
   std::string to_csv(const Table &table);      ///< unrounded, heads in the first line

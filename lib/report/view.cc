@@ -376,6 +376,10 @@ namespace plumbline::report
       data["expectations"] = expectations(results);
       data["warnings"] = results.warnings;
       data["left_out"] = results.left_out;
+      data["provenance"] = Data::array();
+      for (const auto &[what, value] : results.provenance)
+        data["provenance"].push_back(what + ": " + value);
+      data["scene_text"] = results.scene_text;
       data["parts"] = page::parts(page::with_rows(view.parts));
       data["galleries"] = Data::array();
       for (const Gallery &gallery : view.galleries)
@@ -453,13 +457,26 @@ namespace plumbline::report
     constexpr std::size_t width = 120;
     std::string text = results.scene_name + "\n";
     for (const Part &part : page::with_rows(view.parts))
-      text += "\n" + to_text(part.table) +
-              (part.words.empty() ? "" : wrapped(part.words, width) + "\n");
+      if (!part.is_detail)
+        text += "\n" + part.head + "\n" + to_text(part.table) +
+                (part.words.empty() ? "" : wrapped(part.words, width) + "\n");
     for (const std::string &what : results.left_out)
       text += "\nleft out by the budget: " + what + "\n";
     for (const std::string &words : {view.model, view.answer})
       text += words.empty() ? "" : "\n" + wrapped(words, width) + "\n";
-    return view.verdicts.rows.empty() ? text : text + "\n" + to_text(view.verdicts);
+    if (!view.verdicts.rows.empty())
+      text += "\n" + to_text(view.verdicts);
+    std::size_t n_hold = 0;
+    for (const study::Expectation &one : results.expectations)
+      if (one.holds)
+        ++n_hold;
+      else
+        text += "\nnot as expected: " + one.subject + ": expected " + one.expected + ", found " +
+                one.found + "\n";
+    if (!results.expectations.empty())
+      text += "\nexpectations: " + std::to_string(n_hold) + " of " +
+              std::to_string(results.expectations.size()) + " hold\n";
+    return text;
   }
 
   void write_study(const View &view, const StudyResults &results,
@@ -467,6 +484,8 @@ namespace plumbline::report
   {
     write_file(folder / (results.analysis + ".json"), io::to_json(results));
     write_file(folder / (results.analysis + ".md"), markdown(view, results));
+    for (const Part &part : page::with_rows(view.parts))
+      write_file(folder / results.analysis / (part.id + "_table.csv"), to_csv(part.table));
     write_with_pictures(
         folder / (results.analysis + ".html"), [&] { draw(view, folder / results.analysis); },
         [&] { return page_of(view, results, folder); });

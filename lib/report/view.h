@@ -114,6 +114,7 @@ namespace plumbline::report
   View strip_view(const StudyResults &results);
   View crack_view(const StudyResults &results);
   View growth_view(const StudyResults &results);
+  View dynamics_view(const StudyResults &results);
 
   /// The labels of methods in the order of the records.
   std::vector<MethodName> methods_of(const StudyResults &results, const IsShown &is_shown);
@@ -121,10 +122,10 @@ namespace plumbline::report
   /// Those of a series, in the order of the records.
   std::vector<std::string> series_of(const StudyResults &results);
 
-  /// What the terminal shows: tables, then the verdicts.
+  /// What the terminal shows: tables but for details, verdicts, expectations.
   std::string study_text(const View &view, const StudyResults &results);
 
-  /// Write ANALYSIS.json, .md and .html, and ANALYSIS/ with charts, their data and pictures.
+  /// Write ANALYSIS.json, .md and .html, and ANALYSIS/ with tables, charts and pictures.
   /// @throws InputError  the folder cannot be written
   /// @throws NumericalError  pictures cannot be drawn; all else is written before that
   void write_study(const View &view, const StudyResults &results,

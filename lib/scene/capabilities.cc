@@ -109,7 +109,7 @@ namespace plumbline::scene
     static const std::vector<Capable> all = {
         {base::word(Analysis::statics),
          all_but(moving | of_double_wells | Capabilities{C::floating})},
-        {base::word(Analysis::motion), all_but({C::notch})},
+        {base::word(Analysis::transient), all_but({C::notch})},
         {base::word(Analysis::crack),
          of_double_wells | Capabilities{C::lattice, C::notch, C::dynamic, C::nonlocal}},
         {base::word(Analysis::growth),

@@ -12,7 +12,7 @@ namespace plumbline::scene
   enum class Analysis
   {
     statics,
-    motion,
+    transient,
     crack,  ///< dynamic fracture
     growth, ///< quasi-static fracture
     strip,  ///< stationary crack
@@ -42,6 +42,7 @@ namespace plumbline::scene
 namespace plumbline::base
 {
   template <>
-  inline constexpr auto words<scene::Analysis> = std::array{
-      "statics", "motion", "crack", "growth", "strip", "stability", "dispersion", "check"};
+  inline constexpr auto words<scene::Analysis> =
+      std::array{"statics", "transient analysis", "crack",      "growth",
+                 "strip",   "stability",          "dispersion", "check"};
 } // namespace plumbline::base

@@ -157,7 +157,7 @@ namespace plumbline::scene
             torus + " is for transient analyses; give Time/final time, or a Galerkin method");
     if (!time.is_dynamic())
       return;
-    check_analysis(scene, Analysis::motion);
+    check_analysis(scene, Analysis::transient);
     require(!scene.solver.is_mixed,
             "Time/final time = " + short_number(time.final_time) +
                 " needs Solver/dilatation = condensed: a dilatation unknown has no mass");

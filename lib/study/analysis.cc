@@ -10,9 +10,9 @@
 namespace plumbline::study
 {
   Place::Place(const scene::Scene &scene, const problem::Series &series, unsigned int level,
-               bool is_finest)
+               bool is_finest, Common &common)
       : scene_(at_level(scene, series.levels[level])), series_(series), level_(level),
-        is_finest_(is_finest)
+        is_finest_(is_finest), common_(common)
   {
   }
 
@@ -101,22 +101,17 @@ namespace plumbline::study
         results_.purpose = scene.purpose;
         results_.scene_text = scene.text;
         results_.variable = scene.study.variable;
+        common_.make_part = [this](const Record &begun, const Common::Fill &fill)
+        { make_part(begun, fill); };
       }
 
       StudyResults run()
       {
         for (const problem::Series &series : scene_.study.series)
           n_all_ += n_levels(series) * methods_.size();
-        try
-        {
-          for (const problem::Series &series : scene_.study.series)
-            for (unsigned int level = 0; level < n_levels(series); ++level)
-              run_level({scene_, series, level, level + 1 == n_levels(series)}, level);
-        }
-        catch (const Interrupted &)
-        {
-          results_.is_complete = false;
-        }
+        for (const problem::Series &series : scene_.study.series)
+          for (unsigned int level = 0; level < n_levels(series) && results_.is_complete; ++level)
+            run_level({scene_, series, level, level + 1 == n_levels(series), common_}, level);
         for (Records &own : records_)
           std::move(own.begin(), own.end(), std::back_inserter(results_.records));
         if (analysis_.conclude)
@@ -134,20 +129,19 @@ namespace plumbline::study
 
       void run_level(const Place &place, unsigned int level)
       {
-        for (std::size_t i = 0; i < methods_.size(); ++i, ++n_done_)
+        for (std::size_t i = 0; i < methods_.size() && results_.is_complete; ++i, ++n_done_)
         {
           if (control_.should_stop && control_.should_stop())
-            throw Interrupted();
+          {
+            results_.is_complete = false;
+            return;
+          }
           const Method &method = *methods_[i];
           Records own;
           std::copy_if(control_.earlier.begin(), control_.earlier.end(), std::back_inserter(own),
                        [&](const Record &record) { return is_of(record, place, method); });
-          if (own.empty() && is_affordable(records_[i], place, level, method))
-          {
+          if (own.empty() ? is_affordable(records_[i], place, level, method) : analysis_.has_parts)
             own = analyse(place, method);
-            if (control_.on_records)
-              control_.on_records(own);
-          }
           std::move(own.begin(), own.end(), std::back_inserter(records_[i]));
         }
       }
@@ -165,14 +159,47 @@ namespace plumbline::study
         return false;
       }
 
-      Records analyse(const Place &place, const Method &method)
+      void show_progress(const Key &key) const
       {
         if (control_.on_progress)
-          control_.on_progress(analysis_.name + ", " + place.series().name + ", h = " +
-                                   base::to_text(place.level().h, 4) + ": " + method.name(),
+          control_.on_progress(analysis_.name + ", " + key.series +
+                                   ", h = " + base::to_text(key.h, 4) + ": " + key.label(),
                                static_cast<double>(n_done_) / static_cast<double>(n_all_));
+      }
+
+      void make_part(const Record &begun, const Common::Fill &fill)
+      {
+        const auto known = std::find_if(control_.earlier.begin(), control_.earlier.end(),
+                                        [&](const Record &one) { return one.key == begun.key; });
+        if (known != control_.earlier.end())
+        {
+          parts_.push_back(*known);
+          return;
+        }
+        if (control_.should_stop && control_.should_stop())
+          throw Interrupted();
+        show_progress(begun.key);
+        Record record = begun;
+        try
+        {
+          fill(record);
+        }
+        catch (const NumericalError &error)
+        {
+          record.failure = error.what();
+        }
+        parts_.push_back(record);
+        if (control_.on_records)
+          control_.on_records({record});
+      }
+
+      Records analyse(const Place &place, const Method &method)
+      {
         const base::CpuTimer timer;
         Records records;
+        parts_.clear();
+        if (!analysis_.has_parts)
+          show_progress(place.record(analysis_.name, method).key);
         try
         {
           records = analysis_.analyse(place, method);
@@ -182,11 +209,19 @@ namespace plumbline::study
           records = {place.record(analysis_.name, method)};
           records.front().failure = error.what();
         }
+        catch (const Interrupted &)
+        {
+          results_.is_complete = false;
+        }
         double known = 0;
         for (const Record &record : records)
           known += record.cost.seconds();
-        if (known == 0) // else the analysis has timed its parts
+        if (known == 0 && !records.empty()) // else the analysis has timed its parts
           records.front().cost.solve_seconds = timer.seconds();
+        if (control_.on_records && !records.empty())
+          control_.on_records(records);
+        records.insert(records.begin(), std::make_move_iterator(parts_.begin()),
+                       std::make_move_iterator(parts_.end()));
         return records;
       }
 
@@ -196,6 +231,8 @@ namespace plumbline::study
       const RunControl &control_;
       std::vector<Records> records_; ///< of each method
       StudyResults results_;
+      Common common_;
+      Records parts_; ///< of the present method and place
       std::size_t n_done_ = 0, n_all_ = 0;
     };
   } // namespace

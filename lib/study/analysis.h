@@ -31,13 +31,22 @@ namespace plumbline::study
   {
   };
 
+  /// What the places of a study have in common.
+  struct Common
+  {
+    using Fill = std::function<void(Record &)>;
+
+    std::function<void(const Record &begun, const Fill &fill)> make_part = {};
+    std::map<std::string, std::shared_ptr<void>> kept = {};
+  };
+
   /// A level of a study, where an analysis is made by one method after the other.
   class Place
   {
   public:
-    /// @param scene  of the study; outlives it
+    /// @param scene, common  of the study; outlive it
     Place(const scene::Scene &scene, const problem::Series &series, unsigned int level,
-          bool is_finest);
+          bool is_finest, Common &common);
 
     const scene::Scene &scene() const { return scene_; } ///< with the values of this level
     const problem::Series &series() const { return series_; }
@@ -58,6 +67,26 @@ namespace plumbline::study
       return *static_cast<const T *>(slot.get());
     }
 
+    /// What methods and places share, and may change; made by its default constructor when it is
+    /// first asked for, and there until the study ends.
+    template <class T>
+    T &kept(const std::string &name) const
+    {
+      auto &slot = common_.kept[name];
+      if (!slot)
+        slot = std::make_shared<T>();
+      return *static_cast<T *>(slot.get());
+    }
+
+    /// One of several records of a method, which takes long: it is saved as soon as it is there,
+    /// an interrupt is heeded before it, and that of an earlier study is taken over.
+    /// @param begun  its key
+    /// @param fill   not called where it is known; NumericalError becomes its failure
+    void part(const Record &begun, const Common::Fill &fill) const
+    {
+      common_.make_part(begun, fill);
+    }
+
     /// Without a case and without values.
     Record record(const std::string &analysis, const Method &method) const;
 
@@ -66,6 +95,7 @@ namespace plumbline::study
     const problem::Series &series_;
     unsigned int level_;
     bool is_finest_;
+    Common &common_;
     mutable std::map<std::string, std::shared_ptr<const void>> shared_;
   };
 
@@ -87,12 +117,17 @@ namespace plumbline::study
     std::function<Methods(const scene::Scene &, const Methods &available, unsigned int n_levels,
                           unsigned int n_jobs)>
         choose_methods = {};
+    /// What else is refused before the first record, where that takes a moment; samples are not
+    /// asked one by one. Empty: nothing.
+    std::function<void(const scene::Scene &, const Methods &, unsigned int n_levels)> check = {};
     /// What one method finds at one level: a record, or several that differ in case or variant.
     /// NumericalError becomes the failure of a record.
     std::function<Records(const Place &, const Method &)> analyse = {};
+    bool has_parts = false; ///< `analyse` makes its records by Place::part
     /// Trends, powers, verdicts and expectations of its own; empty: none.
     std::function<void(const scene::Scene &, StudyResults &)> conclude = {};
-    /// The names of scalars that samples count, or how those names end; empty: all scalars.
+    /// The names of scalars, and of a field, that samples count, or how those names end; empty: all
+    /// scalars.
     std::vector<std::string> sampled = {};
     /// The field that samples count, by its last component; its points stand for h² each. Empty:
     /// none.
@@ -108,7 +143,7 @@ namespace plumbline::study
     unsigned int n_levels = 0; ///< the first so many of each series; 0: all
     double budget = 0;         ///< leave out what is expected to take longer [CPU s]; 0: nothing
     std::function<void(const std::string &what, double fraction)> on_progress = {};
-    std::function<bool()> should_stop = {}; ///< asked before each method at each level
+    std::function<bool()> should_stop = {}; ///< asked before each method at each level, and part
     std::function<void(const Records &)> on_records = {}; ///< that were made just now
     Records earlier = {};                                 ///< that need not be made again
   };

@@ -3,11 +3,10 @@
 #include "base/control_points.h"
 #include "base/cost.h"
 #include "base/error.h"
-#include "method/discretisation.h"
+#include "method/equation_of_motion.h"
 #include "physics/expression.h"
 #include "scene/problem.h"
 #include "study/comparison.h"
-#include "study/dynamics.h"
 
 #include <algorithm>
 #include <utility>
@@ -149,14 +148,5 @@ namespace plumbline::study
                    : data.exact && !is_steady ? data.exact->derivative().at(0)
                                               : Vector(equation.size());
     return data;
-  }
-
-  void describe_method(MotionRun &run, const method::Discretisation &discretisation,
-                       const method::EquationOfMotion &equation)
-  {
-    run.facts = equation.facts();
-    run.is_symmetric = equation.is_symmetric();
-    if (run.family == method::MethodFamily::meshfree)
-      run.limit = discretisation.diagnostics().limit;
   }
 } // namespace plumbline::study

@@ -66,11 +66,4 @@ namespace plumbline::study
   /// @throws InputError  as TimeSeries::resolve; an initial state that is not finite
   MotionData motion_data(const scene::Scene &scene, const method::EquationOfMotion &equation,
                          ProblemsInTime &problems);
-
-  struct MotionRun;
-
-  /// What a method says of itself: facts, symmetry and, of rules, what their weights prove of the
-  /// limit. Diagnostics of Galerkin methods, which sample geometry and entries, are not asked for.
-  void describe_method(MotionRun &run, const method::Discretisation &discretisation,
-                       const method::EquationOfMotion &equation);
 } // namespace plumbline::study

@@ -1,11 +1,23 @@
 #pragma once
 
+#include "method/method.h"
 #include "scene/scene.h"
-#include "study/dynamics.h"
 #include "study/motion_data.h"
 
 namespace plumbline::study
 {
+  using method::Method;
+  using method::MethodFamily;
+
+  /// What a Galerkin solution may be wrong by at the final time, of u, L2 over its nodes.
+  struct MotionEstimate
+  {
+    double space = 0;      ///< from h/2, 2 h and degree p + 1
+    double quadrature = 0; ///< change to finer quadrature of forces; 0: they are exact
+    double time = 0;       ///< from the same equation, exact in time
+    double sum() const { return space + quadrature + time; }
+  };
+
   /// Whether a scene wants the errors of a method's motions estimated (Reference/estimate): of
   /// Galerkin methods, where neither a reference nor a solution is known or all are asked for.
   bool wants_estimate(const scene::Scene &scene, const Method &method);

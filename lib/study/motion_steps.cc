@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "method/discretisation.h"
-#include "study/dynamics.h"
 #include "study/motion_data.h"
+#include "study/transient.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +14,10 @@ namespace plumbline::study
   using analysis::Scheme;
   using analysis::Transient;
 
-  std::string StepRule::text() const
+  std::string StepRule::text(int n_digits) const
   {
-    return is_fraction ? base::to_text(value, 4) + " of critical"
-                       : "dt = " + base::to_text(value, 4);
+    const std::string number = base::to_text(value, n_digits);
+    return is_fraction ? number + " of critical" : "dt = " + number;
   }
 
   std::vector<StepRule> step_rules(const scene::TimeSection &time)
@@ -55,7 +55,8 @@ namespace plumbline::study
       const auto equation = discretisation->motion(scene.time.is_lumped);
       if (!equation)
         throw InputError("Time/final time = " + base::to_text(scene.time.final_time, 4) + ": " +
-                         method.name() + " has no motion here; leave it out, or write 0");
+                         method.name() +
+                         " has no transient analysis here; leave it out, or write 0");
       const Transient transient(*equation, analysis::TimeSeries(equation->drive(problem)),
                                 scene.time.density, scene.time.damping);
       for (const std::string &name : scene.time.schemes)
@@ -82,7 +83,7 @@ namespace plumbline::study
     }
   } // namespace
 
-  void check_motions(const scene::Scene &scene, const Methods &methods, unsigned int n_levels)
+  void check_transient(const scene::Scene &scene, const Methods &methods, unsigned int n_levels)
   {
     for (const std::string &name : scene.time.schemes)
       try

@@ -11,7 +11,7 @@ namespace plumbline::study
     double value = 0;
     bool is_fraction = false;
 
-    std::string text() const;
+    std::string text(int n_digits = 4) const;
   };
 
   std::vector<StepRule> step_rules(const scene::TimeSection &time);

@@ -87,6 +87,7 @@ namespace plumbline::study
     /// Where errors are differences to the own finest level: its place on the axis; else 0.
     double finest = 0;
     Leaning leaning = Leaning::none;
+    std::string variant = {}; ///< of the method, e.g. a scheme in time
   };
 
   /// How far a Galerkin solution of one level may be wrong: bounds in practice, see

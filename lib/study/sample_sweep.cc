@@ -3,9 +3,6 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "study/comparison.h"
-#include "study/motion_steps.h"
-
-#include <cmath>
 
 namespace plumbline::study
 {
@@ -43,6 +40,20 @@ namespace plumbline::study
       last.area.assign(field.points.size(), area);
       return last;
     }
+
+    SampleField field_of(const analysis::PointField &of)
+    {
+      SampleField field;
+      field.n_components = of.n_components;
+      field.values = of.values;
+      field.area = of.areas;
+      for (const Point<2> &point : of.points)
+      {
+        field.x.push_back(point[0]);
+        field.y.push_back(point[1]);
+      }
+      return field;
+    }
   } // namespace
 
   std::vector<SampleCase> sweep_sample(const scene::Scene &scene, const Methods &methods,
@@ -75,51 +86,6 @@ namespace plumbline::study
     return cases;
   }
 
-  std::vector<SampleCase> move_sample(const scene::Scene &scene, const Methods &methods,
-                                      const Methods &available)
-  {
-    std::vector<SampleCase> cases;
-    MotionControl control;
-    control.available = available;
-    control.on_end = [&](const MotionRun &run, const Frame &end, double area)
-    {
-      SampleCase one;
-      one.method = run.method;
-      one.problem = run.problem;
-      one.series = run.series;
-      if (scene.time.schemes.size() > 1)
-        one.series += ", " + run.scheme;
-      if (step_rules(scene.time).size() > 1)
-        one.series += ", " + run.steps;
-      one.level = run.level;
-      one.h = run.h;
-      one.horizon = run.horizon;
-      one.seconds = run.cost.setup_seconds + run.cost.solve_seconds;
-      one.quantities = run.errors;
-      const analysis::Energies &energies = run.energies.back();
-      one.quantities["kinetic energy"] = energies.kinetic;
-      one.quantities["bond energy"] = energies.bond;
-      if (std::isfinite(run.critical_step))
-        one.quantities["critical step"] = run.critical_step;
-      const std::vector<Point<2>> &nodes = end.equation.nodes();
-      one.field.n_components = end.equation.n_components();
-      one.field.values = end.equation.nodal(end.state.u);
-      for (const Point<2> &node : nodes)
-      {
-        one.field.x.push_back(node[0]);
-        one.field.y.push_back(node[1]);
-      }
-      one.field.area.assign(nodes.size(), area / static_cast<double>(nodes.size()));
-      cases.push_back(std::move(one));
-    };
-    const DynamicResults results = run_motions(scene, methods, control);
-    for (const MotionRun &run : results.runs)
-      if (!run.failure.empty())
-        throw NumericalError(run.method + ", " + run.problem + ", " + run.series + ", " +
-                             run.scheme + ": " + run.failure);
-    return cases;
-  }
-
   std::vector<SampleCase> sample_study(const Analysis &analysis, const scene::Scene &scene,
                                        const Methods &available)
   {
@@ -138,6 +104,9 @@ namespace plumbline::study
           one.quantities[name] = scalar.value;
       if (one.quantities.empty())
         continue;
+      for (const auto &[name, field] : record.fields)
+        if (!analysis.sampled.empty() && analysis.is_sampled(name))
+          one.field = field_of(field);
       if (const auto field = record.fields.find(analysis.sampled_field);
           field != record.fields.end())
         one.field = last_component(field->second, key.h * key.h);

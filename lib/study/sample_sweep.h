@@ -2,7 +2,6 @@
 
 #include "scene/scene.h"
 #include "study/analysis.h"
-#include "study/dynamics.h"
 #include "study/sampling.h"
 #include "study/sweep.h"
 
@@ -14,13 +13,8 @@ namespace plumbline::study
   std::vector<SampleCase> sweep_sample(const scene::Scene &scene, const Methods &methods,
                                        const Methods &available);
 
-  /// The records of an analysis by the scalars that samples count.
+  /// The records of an analysis by the scalars and the field that samples count.
   /// @throws NumericalError  a record has a failure
   std::vector<SampleCase> sample_study(const Analysis &analysis, const scene::Scene &scene,
                                        const Methods &available);
-
-  /// The same of a scene that moves: energies and errors at the final time, and u there, nodes all
-  /// standing for as much of Ω. Several schemes and steps are series of their own.
-  std::vector<SampleCase> move_sample(const scene::Scene &scene, const Methods &methods,
-                                      const Methods &available);
 } // namespace plumbline::study

@@ -50,10 +50,11 @@ namespace plumbline::study
   {
     std::string analysis; ///< e.g. "stability"
     std::string scene_name, purpose;
-    std::string scene_text;                   ///< the scene as read, all keys
-    std::string variable;                     ///< that varies in its regime, else empty
-    std::map<std::string, std::string> facts; ///< of the study as a whole, by name
-    Records records;                          ///< method by method, coarse to fine in each series
+    std::string scene_text;                        ///< the scene as read, all keys
+    std::string variable;                          ///< that varies in its regime, else empty
+    std::map<std::string, std::string> provenance; ///< version, libraries, machine
+    std::map<std::string, std::string> facts;      ///< of the study as a whole, by name
+    Records records; ///< method by method, coarse to fine in each series
     std::vector<Trend> trends;
     std::vector<Power> powers;
     std::vector<Limit> limits;

@@ -82,45 +82,46 @@ namespace plumbline::study
     }
   } // namespace
 
-  TorusSolution solve_torus(const scene::Scene &scene, const MotionControl &control,
-                            const std::string &problem, double horizon, ProblemsInTime &problems)
+  TorusSolution solve_torus(const scene::Scene &scene, const Methods &available, double horizon,
+                            ProblemsInTime &problems)
   {
     constexpr double tolerance = 1e-8;
     constexpr double of_data = 1e-6; // of the largest value: loads are seen by the motion's average
     double missed = 0;
     const base::CpuTimer timer;
-    Torus coarse, fine;
-    TorusEstimate estimate{problem, horizon};
+    Torus coarse;
+    TorusSolution solution;
+    Torus &fine = solution.torus;
     using Sizes = std::vector<unsigned int>;
     for (const unsigned int n :
          scene.domain.dimension == 1 ? Sizes{32, 48, 72, 108, 162} : Sizes{16, 24, 36, 54})
     {
       coarse = std::move(fine);
-      fine.equation = make_torus(scene, control.available, horizon, n);
+      fine.equation = make_torus(scene, available, horizon, n);
       const MotionData data = motion_data(scene, *fine.equation, problems);
       const Transient transient(*fine.equation, data.drive, scene.time.density, scene.time.damping);
       fine.state = move_exactly(scene, transient, data.start);
-      estimate.n_points = n;
+      solution.n_points = n;
       if (!coarse.equation)
         continue;
       const std::vector<double> exact = fine.at(coarse.equation->nodes(), fine.state.u);
       const unsigned int n_components = fine.equation->n_components();
-      estimate.estimate = norm_of(difference(coarse.equation->nodal(coarse.state.u), exact),
-                                  n_components, 1, false);
+      solution.change = norm_of(difference(coarse.equation->nodal(coarse.state.u), exact),
+                                n_components, 1, false);
       // both may have missed the same feature
       missed = unresolved_part(*fine.equation, scene, data, problems);
-      if (estimate.estimate <= tolerance * extent_of(exact, n_components) && missed <= of_data)
+      if (solution.change <= tolerance * extent_of(exact, n_components) && missed <= of_data)
         break;
     }
     if (missed > of_data)
       throw InputError(
-          "Reference/method = torus: " + std::to_string(estimate.n_points) +
+          "Reference/method = torus: " + std::to_string(solution.n_points) +
           " points per side do not resolve the load or the initial data (relative error " +
           base::to_text(missed, 2) +
           "); use smoother fields, or set Reference/method = none and the target exact "
           "(Study/decisive error); without Problem/solution the errors of Galerkin methods are "
           "then estimated");
-    estimate.seconds = timer.seconds();
-    return {fine, estimate};
+    solution.seconds = timer.seconds();
+    return solution;
   }
 } // namespace plumbline::study

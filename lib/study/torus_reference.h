@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/scene.h"
-#include "study/dynamics.h"
+#include "study/analysis.h"
 #include "study/motion_data.h"
 
 namespace plumbline::study
@@ -21,11 +21,14 @@ namespace plumbline::study
   struct TorusSolution
   {
     Torus torus;
-    TorusEstimate estimate;
+    unsigned int n_points = 0; ///< a side
+    double change = 0;         ///< from 2/3 of the points, of u, L2
+    double seconds = 0;        ///< CPU
   };
 
   /// Move it with more and more points, until u changes by less than 1e-8 of how far it varies, far
   /// below the errors of lattices; 54 a side at most.
-  TorusSolution solve_torus(const scene::Scene &scene, const MotionControl &control,
-                            const std::string &problem, double horizon, ProblemsInTime &problems);
+  /// @param available  among which there is one that solves it
+  TorusSolution solve_torus(const scene::Scene &scene, const Methods &available, double horizon,
+                            ProblemsInTime &problems);
 } // namespace plumbline::study

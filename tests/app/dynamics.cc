@@ -12,7 +12,7 @@ namespace
 
   const std::string schemes = std::string(PLUMBLINE_SCENES) + "/dynamics/schemes.prm";
 
-  void expect_no_motion(const std::string &settings, const std::string &message)
+  void expect_no_run(const std::string &settings, const std::string &message)
   {
     expect_refused("run " + schemes + " " + settings, message);
   }
@@ -28,7 +28,7 @@ namespace
 
 TEST(DynamicsCommand, writes_a_page_its_numbers_and_frames)
 {
-  const fs::path folder = temporary("motion");
+  const fs::path folder = temporary("transient");
   const Outcome outcome =
       run("run " + schemes + " " + quick + set("Time/frames", "3") + " -o " + folder.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -42,27 +42,29 @@ TEST(DynamicsCommand, writes_a_page_its_numbers_and_frames)
   EXPECT_FALSE(fs::exists(folder / "dynamics.jsonl"));
 
   const auto json = nlohmann::json::parse(read(folder / "dynamics.json"));
-  ASSERT_EQ(json["runs"].size(), 4u);
-  const auto &first = json["runs"][0], &implicit = json["runs"][3];
-  EXPECT_EQ(first["n_steps"], 20);
-  EXPECT_EQ(first["n_forces"], 21);
-  EXPECT_GT(implicit["n_newton"], 0);
-  const double toughness = first["facts"]["toughness of the lattice"];
+  ASSERT_EQ(json["records"].size(), 4u);
+  const auto &first = json["records"][0], &implicit = json["records"][3];
+  EXPECT_EQ(first["key"]["variant"], "velocity Verlet, dt = 0.05");
+  const auto scalar = [](const nlohmann::json &record, const std::string &name)
+  { return record["scalars"][name]["value"].get<double>(); };
+  EXPECT_EQ(scalar(first, "time steps"), 20);
+  EXPECT_EQ(scalar(first, "force evaluations"), 21);
+  EXPECT_GT(scalar(implicit, "Newton iterations"), 0);
+  const double toughness = scalar(first, "toughness of the lattice");
   EXPECT_NEAR(toughness, 4 / M_PI / 3, .1 * 4 / M_PI / 3); // of J = 1 at m = 4: .9375 of it
   // energies: Verlet keeps them but for a swing, implicit Euler loses them
-  const auto stored = [](const nlohmann::json &motion, std::size_t i)
-  {
-    return motion["history"]["kinetic"][i].get<double>() +
-           motion["history"]["bond"][i].get<double>();
-  };
-  const std::size_t last = first["history"]["t"].size() - 1;
-  EXPECT_EQ(first["history"]["t"][last], 1);
-  const auto &second = json["runs"][1];
+  const auto column = [](const nlohmann::json &record, std::size_t j) -> const nlohmann::json &
+  { return record["curves"]["energy"][j]["values"]; }; // time, kinetic, bonds, ...
+  const auto stored = [&](const nlohmann::json &record, std::size_t i)
+  { return column(record, 1)[i].get<double>() + column(record, 2)[i].get<double>(); };
+  const std::size_t last = column(first, 0).size() - 1;
+  EXPECT_EQ(column(first, 0)[last], 1);
+  const auto &second = json["records"][1];
   const double swing = stored(first, last) - stored(first, 0),
-               finer = stored(second, second["history"]["t"].size() - 1) - stored(second, 0);
+               finer = stored(second, column(second, 0).size() - 1) - stored(second, 0);
   EXPECT_LT(std::abs(swing), 1e-2 * stored(first, 0));
   EXPECT_NEAR(swing / finer, 4, .4); // second order
-  EXPECT_LT(stored(implicit, implicit["history"]["t"].size() - 1), .95 * stored(first, 0));
+  EXPECT_LT(stored(implicit, column(implicit, 0).size() - 1), .95 * stored(first, 0));
 
   const std::string list = read(folder / "frames/pa-ac-u-delta-0.2.pvd");
   expect_found(list, "timestep=\"0.5\"");
@@ -73,7 +75,7 @@ TEST(DynamicsCommand, writes_a_page_its_numbers_and_frames)
 TEST(DynamicsCommand, interrupted_keeps_what_is_finished)
 {
   // the first level takes a moment, the last one a minute
-  const fs::path folder = temporary("motion");
+  const fs::path folder = temporary("transient");
   const std::string settings = set("Time/final time", "4000") + set("Time/steps", "0.02") +
                                set("Expected/orders", "") + set("Time/schemes", "velocity Verlet") +
                                set("Study/h", "0.2, 0.1, 0.05, 0.025");
@@ -83,8 +85,8 @@ TEST(DynamicsCommand, interrupted_keeps_what_is_finished)
   EXPECT_EQ(exit_code, 130);
   const auto json = nlohmann::json::parse(read(folder / "dynamics.json"));
   EXPECT_FALSE(json["is_complete"]);
-  EXPECT_GE(json["runs"].size(), 1u);
-  EXPECT_LT(json["runs"].size(), 4u);
+  EXPECT_GE(json["records"].size(), 1u);
+  EXPECT_LT(json["records"].size(), 4u);
   expect_found(read(folder / "dynamics.html"), "interrupted: what was finished");
 }
 
@@ -95,13 +97,11 @@ namespace
   {
     auto json = nlohmann::json::parse(read(folder / "dynamics.json"));
     json.erase("provenance");
-    for (auto &run : json["runs"])
+    for (auto &record : json["records"])
     {
-      run.erase("setup_seconds");
-      run.erase("solve_seconds");
+      record.erase("cost");
+      record["scalars"].erase("reference seconds");
     }
-    for (auto &torus : json["references"])
-      torus.erase("seconds");
     return json;
   }
 } // namespace
@@ -115,21 +115,21 @@ TEST(DynamicsCommand, goes_on_after_a_kill_to_the_same_bits)
                               set("Expected/bounds", "") + "-o ";
   ASSERT_EQ(run(command + whole.string()).exit_code, 0);
   const std::string journal = (killed / "dynamics.jsonl").string();
-  // as soon as two motions are there
+  // as soon as two records are there
   const int status = std::system((std::string(PLUMBLINE_COMMAND) + " " + command + killed.string() +
                                   " >/dev/null 2>&1 & pid=$!; for i in $(seq 3000); do [ $(grep -c "
-                                  "energy_imbalance " +
+                                  "'energy imbalance' " +
                                   journal +
                                   " 2>/dev/null || echo 0) -ge 2 ] && break; sleep 0.02; "
                                   "done; kill -9 $pid; wait $pid")
                                      .c_str());
   ASSERT_EQ(WEXITSTATUS(status), 137) << "it had ended";
   std::ofstream(journal, std::ios::app)
-      << "{\"method\": \"FA\", \"cut of"; // as a kill may leave it
+      << "{\"key\": {\"method\": \"FA\", \"cut of"; // as a kill may leave it
   ASSERT_FALSE(fs::exists(killed / "dynamics.json"));
   const Outcome resumed = run(command + killed.string());
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
-  expect_found(resumed.err, " motions are in '");
+  expect_found(resumed.err, " records are in '");
   EXPECT_EQ(untimed(killed), untimed(whole));
   EXPECT_FALSE(fs::exists(journal));
 
@@ -140,23 +140,23 @@ TEST(DynamicsCommand, goes_on_after_a_kill_to_the_same_bits)
   EXPECT_EQ(untimed(killed), untimed(whole));
 }
 
-TEST(DynamicsCommand, refuses_what_cannot_move)
+TEST(DynamicsCommand, refuses_what_cannot_be_solved)
 {
-  expect_no_motion(set("Time/steps", "0"), "Time/steps = 0 must be positive");
-  expect_no_motion(set("Time/density", "-1"), "Time/density = -1 must be positive");
-  expect_no_motion(set("Material/beta", "0"), "Material/beta = 0 must be positive");
-  expect_no_motion(set("Time/initial displacement", "log(x-2), 0"), "must be a finite number");
-  expect_no_motion(set("Time/show blow-up", "false"), "the scheme is unstable at any step");
-  expect_no_motion(set("Time/frames", "100000") + set("Study/h", "0.001"), "GB are free");
-  expect_no_motion("--methods DGQ1", "no fixed quadrature resolves");
-  expect_no_motion("--methods LOCAL", "Domain/mesh = lattice");
-  expect_no_motion(set("Time/schemes", "leapfrog"), "choose one of: explicit Euler");
-  expect_no_motion(set("Time/final time", "0"), "needs Problem/solution");
+  expect_no_run(set("Time/steps", "0"), "Time/steps = 0 must be positive");
+  expect_no_run(set("Time/density", "-1"), "Time/density = -1 must be positive");
+  expect_no_run(set("Material/beta", "0"), "Material/beta = 0 must be positive");
+  expect_no_run(set("Time/initial displacement", "log(x-2), 0"), "must be a finite number");
+  expect_no_run(set("Time/show blow-up", "false"), "the scheme is unstable at any step");
+  expect_no_run(set("Time/frames", "100000") + set("Study/h", "0.001"), "GB are free");
+  expect_no_run("--methods DGQ1", "no fixed quadrature resolves");
+  expect_no_run("--methods LOCAL", "Domain/mesh = lattice");
+  expect_no_run(set("Time/schemes", "leapfrog"), "choose one of: explicit Euler");
+  expect_no_run(set("Time/final time", "0"), "needs Problem/solution");
 }
 
 TEST(DynamicsCommand, warns_of_critical_steps_of_operators_that_are_not_symmetric)
 {
-  const fs::path folder = temporary("motion");
+  const fs::path folder = temporary("transient");
   const Outcome outcome = run(
       "run " + std::string(PLUMBLINE_SCENES) + "/dynamics/scattered_wells.prm --levels 1 " +
       "--quiet --methods IPA-AC-R2 " + set("Time/final time", "0.05") + "-o " + folder.string());
@@ -165,7 +165,7 @@ TEST(DynamicsCommand, warns_of_critical_steps_of_operators_that_are_not_symmetri
   expect_found(read(folder / "dynamics.html"), "that of the symmetric part");
   const auto json = nlohmann::json::parse(read(folder / "dynamics.json"));
   EXPECT_EQ(json["warnings"].size(), 1u);
-  EXPECT_EQ(json["runs"][0]["is_symmetric"], false);
+  EXPECT_EQ(json["records"][0]["scalars"]["symmetric"]["value"], 0);
 }
 
 // Of 17 Chebyshev points in time none lies in the first pulse, nor of 33 in the second.
@@ -174,8 +174,8 @@ TEST(DynamicsCommand, refuses_a_pulse_of_load_wherever_it_lies_in_time)
   for (const std::string pulse :
        {"(t > 0.1 ? (t < 0.145 ? 100 : 0) : 0)", "(t > 0.81 ? (t < 0.83 ? 100 : 0) : 0)",
         "100*exp(-((t-0.25)/0.005)^2)"})
-    expect_no_motion(set("Problem/load", pulse + "*sin(2*pi*x), 0") + set("Problem/solution", "") +
-                         set("Study/decisive error", "nodal L2 | reference") +
-                         set("Reference/method", "torus") + set("Expected/orders", ""),
-                     "65 Chebyshev points up to Time/final time do not resolve it");
+    expect_no_run(set("Problem/load", pulse + "*sin(2*pi*x), 0") + set("Problem/solution", "") +
+                      set("Study/decisive error", "nodal L2 | reference") +
+                      set("Reference/method", "torus") + set("Expected/orders", ""),
+                  "65 Chebyshev points up to Time/final time do not resolve it");
 }

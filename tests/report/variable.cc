@@ -1,8 +1,6 @@
 // What tables, charts and pages show of a study over a variable of the scene.
 
 #include "report/charts.h"
-#include "report/dynamics_page.h"
-#include "report/dynamics_tables.h"
 #include "report/json.h"
 #include "report/page.h"
 #include "report/tables.h"
@@ -120,7 +118,7 @@ namespace plumbline::report
     EXPECT_EQ(read.trends[0].x[0], -.5); // no length
   }
 
-  TEST(ReportOverAVariable, HasItInMeasuresAndMotions)
+  TEST(ReportOverAVariable, HasItInMeasuresAndTransientAnalyses)
   {
     study::StudyResults stability;
     stability.variable = "q";
@@ -148,15 +146,22 @@ namespace plumbline::report
     stability.variable.clear();
     EXPECT_NE(heads(measures())[3], "q");
 
-    study::DynamicResults motions;
-    motions.variable = "q";
-    motions.runs.resize(2);
-    motions.runs[1].value = .5;
-    const Heads with = heads(motions_table(motions));
+    study::StudyResults transient;
+    transient.variable = "q";
+    transient.records.resize(2);
+    transient.records[1].key.value = .5;
+    const auto runs = [&]
+    {
+      for (const Part &part : dynamics_view(transient).parts)
+        if (part.id == "runs")
+          return heads(part.table);
+      return Heads();
+    };
+    const Heads with = runs();
     EXPECT_NE(std::find(with.begin(), with.end(), "q"), with.end());
-    motions.variable.clear();
-    motions.runs[1].value = 0;
-    const Heads without = heads(motions_table(motions));
+    transient.variable.clear();
+    transient.records[1].key.value = 0;
+    const Heads without = runs();
     EXPECT_EQ(without.size() + 1, with.size());
   }
 } // namespace plumbline::report

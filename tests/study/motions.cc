@@ -1,6 +1,6 @@
 // Scenes that move, run by both sides: rates in time and space, energies, and what is refused.
 
-#include "study/dynamics.h"
+#include "study/transient.h"
 
 #include "base/error.h"
 #include "meshfree/method.h"
@@ -44,28 +44,54 @@ namespace
     return scene_of("double-well", {{"Study/h", "0.1, 0.05, 0.025"}}, settings);
   }
 
-  DynamicResults run(const scene::Scene &scene)
+  Methods available()
   {
-    method::Methods all = meshfree::methods();
+    Methods all = meshfree::methods();
     for (const auto &method : reference::methods())
       all.push_back(method);
-    const method::Methods methods = choose_methods(scene, all);
-    check_motions(scene, methods, 0);
-    MotionControl control;
-    control.available = all;
-    DynamicResults results = run_motions(scene, methods, control);
-    conclude(scene, results);
-    for (const MotionRun &motion : results.runs)
-      EXPECT_EQ(motion.failure, "") << motion.method;
+    return all;
+  }
+
+  StudyResults run(const scene::Scene &scene)
+  {
+    const Analysis analysis = transient_analysis(available());
+    const Methods methods = analysis.choose_methods(scene, available(), 0, 1);
+    analysis.check(scene, methods, 0);
+    const StudyResults results = run_study(analysis, scene, methods);
+    for (const Record &record : results.records)
+      EXPECT_EQ(record.failure, "") << record.key.label();
     return results;
   }
 
+  std::vector<Trend> over_levels(const StudyResults &results)
+  {
+    std::vector<Trend> trends;
+    for (const Trend &trend : results.trends)
+      if (trend.axis != Axis::time_step)
+        trends.push_back(trend);
+    return trends;
+  }
+
+  std::vector<Trend> over_steps(const StudyResults &results)
+  {
+    std::vector<Trend> trends;
+    for (const Trend &trend : results.trends)
+      if (trend.axis == Axis::time_step)
+        trends.push_back(trend);
+    return trends;
+  }
+
+  std::string proven(const StudyResults &results)
+  {
+    return results.facts.at("proven order of rules");
+  }
+
   /// Errors of u at the levels, coarse to fine.
-  std::vector<double> errors(const DynamicResults &results, const std::string &method,
+  std::vector<double> errors(const StudyResults &results, const std::string &method,
                              const std::string &prefix = "")
   {
-    for (const MotionTrend &trend : results.trends)
-      if (trend.method == method && trend.error == prefix + results.decisive_error)
+    for (const Trend &trend : results.trends)
+      if (trend.method == method && trend.error == prefix + results.facts.at(decisive_error))
         return trend.values;
     throw InputError("no such trend: " + method);
   }
@@ -90,12 +116,12 @@ TEST(Motions, manufactured_fields_that_methods_hold_are_exact_to_round_off)
     Settings with_mass = settings;
     with_mass.push_back({"Time/mass", is_lumped ? "lumped" : "consistent"});
     const auto results = run(wave("scalar", "(1 + x)*(2 - y)*sin(2*t) + x - y", with_mass));
-    ASSERT_EQ(results.runs.size(), 5u);
-    for (const MotionRun &motion : results.runs)
-      if (!is_lumped || motion.family == MethodFamily::meshfree)
+    ASSERT_EQ(results.records.size(), 5u);
+    for (const Record &motion : results.records)
+      if (!is_lumped || motion.key.family == MethodFamily::meshfree)
       {
-        EXPECT_LT(motion.errors.at("nodal L2 | exact"), 1e-9) << motion.method;
-        EXPECT_LT(motion.errors.at("velocity nodal L2 | exact"), 1e-8) << motion.method;
+        EXPECT_LT(motion["nodal L2 | exact"], 1e-9) << motion.key.method;
+        EXPECT_LT(motion["velocity nodal L2 | exact"], 1e-8) << motion.key.method;
       }
   }
 }
@@ -120,7 +146,7 @@ TEST(Motions, that_hide_wrong_moments_are_right_for_this_field_only)
                                 {{"Methods/names", "FA, IPA-AC-R2, Q1"},
                                  {"Study/h", "0.25, 0.2, 0.125, 0.1"},
                                  {"Time/schemes", "Runge-Kutta"}}));
-  for (const MotionTrend &trend : results.trends)
+  for (const Trend &trend : over_levels(results))
     EXPECT_EQ(trend.verdict, trend.method == "FA" ? "AC for this field only" : "AC")
         << trend.method << ": " << trend.reason;
 }
@@ -132,8 +158,9 @@ TEST(Motions, of_solids_agree_on_both_sides)
            {{"Methods/names", "IPA-AC-R2, Q1"}, {"Time/density", "2"}, {"Time/damping", "0.5"}}));
   EXPECT_GT(last_rate(errors(results, "IPA-AC-R2")), 1.7);
   EXPECT_GT(last_rate(errors(results, "Q1")), 1.7);
-  for (const MotionRun &motion : results.runs)
-    EXPECT_LT(motion.imbalance, .02) << motion.method; // trapezoidal work over the steps
+  for (const Record &motion : results.records)
+    EXPECT_LT(motion["energy imbalance"], .02)
+        << motion.key.method; // trapezoidal work over the steps
 }
 
 TEST(Motions, schemes_show_their_orders_in_time)
@@ -152,11 +179,12 @@ TEST(Motions, schemes_show_their_orders_in_time)
                                   {"Time/schemes", names},
                                   {"Time/show blow-up", "true"},
                                   {"Time/steps", "0.025, 0.0125, 0.00625, 0.003125"}}));
-  ASSERT_EQ(results.orders.size(), expected.size());
+  const std::vector<Trend> orders = over_steps(results);
+  ASSERT_EQ(orders.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i)
   {
-    EXPECT_EQ(results.orders[i].scheme, expected[i].first);
-    EXPECT_NEAR(results.orders[i].rate, expected[i].second, .15) << expected[i].first;
+    EXPECT_EQ(orders[i].variant, expected[i].first);
+    EXPECT_NEAR(orders[i].rate, expected[i].second, .15) << expected[i].first;
   }
 }
 
@@ -175,9 +203,10 @@ TEST(Motions, of_double_wells_by_galerkin_show_the_orders_of_implicit_schemes)
                    {"Time/mass", mass},
                    {"Time/schemes", "trapezoidal, implicit Euler"},
                    {"Time/steps", "0.1, 0.05, 0.025"}}));
-    ASSERT_EQ(results.orders.size(), 2u);
-    EXPECT_NEAR(results.orders[0].rate, 2, .15) << mass;
-    EXPECT_NEAR(results.orders[1].rate, 1, .15) << mass;
+    const std::vector<Trend> orders = over_steps(results);
+    ASSERT_EQ(orders.size(), 2u);
+    EXPECT_NEAR(orders[0].rate, 2, .15) << mass;
+    EXPECT_NEAR(orders[1].rate, 1, .15) << mass;
   }
 }
 
@@ -186,13 +215,14 @@ TEST(Motions, of_double_wells_tend_to_the_torus_without_a_mesh)
   const auto results = run(torus({{"Time/initial displacement", "0.2*sin(2*pi*x), 0"},
                                   {"Time/schemes", "Blanes-Moan"},
                                   {"Methods/names", "FA, IPA-AC-R2"}}));
-  ASSERT_EQ(results.references.size(), 1u);
-  EXPECT_LT(results.references[0].estimate, 1e-8);
+  for (const Record &record : results.records) // it is the same for all
+    EXPECT_EQ(record["reference change"], results.records[0]["reference change"]);
+  EXPECT_LT(results.records[0]["reference change"], 1e-8);
   const auto of_rule = errors(results, "IPA-AC-R2");
   EXPECT_NEAR(last_rate(of_rule), 2, .3);
   EXPECT_LT(of_rule.back(), .5 * errors(results, "FA").back());
-  for (const MotionRun &motion : results.runs)
-    EXPECT_LT(motion.imbalance, 1e-3) << motion.method; // symplectic
+  for (const Record &motion : results.records)
+    EXPECT_LT(motion["energy imbalance"], 1e-3) << motion.key.method; // symplectic
 }
 
 TEST(Motions, on_a_line_show_each_rule_at_its_own_rate)
@@ -218,11 +248,11 @@ TEST(Motions, on_a_line_show_each_rule_at_its_own_rate)
     EXPECT_NEAR((u.at(0) + v.at(0)) / first_and_last[0], 1, .005) << method;
     EXPECT_NEAR((u.at(4) + v.at(4)) / first_and_last[1], 1, .005) << method;
   }
-  EXPECT_LT(rules.references.at(0).estimate + rules.runs.at(0).imbalance, 1e-8);
+  EXPECT_LT(rules.records.at(0)["reference change"] + rules.records[0]["energy imbalance"], 1e-8);
   const auto galerkin = on_line("Q1, Q2", "0.0125, 0.00625");
   EXPECT_NEAR(last_rate(errors(galerkin, "Q1")), 2, .2);
   EXPECT_GT(last_rate(errors(galerkin, "Q2")), 2.7);
-  EXPECT_EQ(galerkin.trends.at(0).proven + rules.trends.at(0).proven, "γ <= 1"); // of rules alone
+  EXPECT_EQ(proven(rules), "γ <= 1");
 }
 
 TEST(Motions, on_the_torus_without_a_mesh_are_known_to_eight_digits)
@@ -236,8 +266,8 @@ TEST(Motions, on_the_torus_without_a_mesh_are_known_to_eight_digits)
                    {"Study/h", "0.05"},
                    {"Study/horizon", "0.1"},
                    {"Methods/names", "FA"}}));
-    EXPECT_LT(results.references.at(0).estimate, 1e-8 * 2 * amplitude) << amplitude;
-    EXPECT_LT(results.references[0].n_points, 162u); // the last one is not it by chance
+    EXPECT_LT(results.records.at(0)["reference change"], 1e-8 * 2 * amplitude) << amplitude;
+    EXPECT_LT(results.records[0]["reference points"], 162); // the last one is not it by chance
   }
 }
 
@@ -248,17 +278,18 @@ TEST(Motions, of_galerkin_know_their_own_errors)
                                   {"Reference/estimate", "every"},
                                   {"Time/final time", "0.05"},
                                   {"Time/steps", "0.025"}}));
-  for (const MotionRun &motion : results.runs)
+  for (const Record &motion : results.records)
   {
-    ASSERT_EQ(motion.estimate.has_value(), motion.family == MethodFamily::reference)
-        << motion.method;
-    if (!motion.estimate)
+    ASSERT_EQ(motion.has("estimated error"), motion.key.family == MethodFamily::reference)
+        << motion.key.method;
+    if (!motion.has("estimated error"))
       continue;
-    const double error = motion.errors.at("nodal L2 | reference");
-    EXPECT_GT(motion.estimate->sum(), error) << motion.method << ' ' << motion.h;
-    EXPECT_LT(motion.estimate->sum(), 5 * error) << motion.method << ' ' << motion.h;
-    EXPECT_LT(motion.estimate->quadrature, .1 * motion.estimate->space) << motion.method;
-    EXPECT_GT(motion.estimate->quadrature, 0) << motion.method;
+    const double error = motion["nodal L2 | reference"];
+    EXPECT_GT(motion["estimated error"], error) << motion.key.method << ' ' << motion.key.h;
+    EXPECT_LT(motion["estimated error"], 5 * error) << motion.key.method << ' ' << motion.key.h;
+    EXPECT_LT(motion["estimated error by quadrature"], .1 * motion["estimated error in space"])
+        << motion.key.method;
+    EXPECT_GT(motion["estimated error by quadrature"], 0) << motion.key.method;
   }
   // linear motions, whose forces are exact
   const Settings settings = {{"Methods/names", "Q1, Q2, Q3, DGQ1"},
@@ -268,17 +299,17 @@ TEST(Motions, of_galerkin_know_their_own_errors)
                              {"Time/steps", "0.01"},
                              {"Reference/estimate", "every"}};
   const auto linear = run(wave("scalar", "sin(2*x + y - 3*t)", settings));
-  ASSERT_EQ(linear.runs.size(), 4u);
-  for (const MotionRun &motion : linear.runs)
+  ASSERT_EQ(linear.records.size(), 4u);
+  for (const Record &motion : linear.records)
   {
-    ASSERT_EQ(motion.estimate.has_value(), motion.method != "DGQ1") << motion.method;
-    if (!motion.estimate)
+    ASSERT_EQ(motion.has("estimated error"), motion.key.method != "DGQ1") << motion.key.method;
+    if (!motion.has("estimated error"))
       continue;
-    const double error = motion.errors.at("nodal L2 | exact");
-    EXPECT_GT(motion.estimate->sum(), error) << motion.method;
-    EXPECT_LT(motion.estimate->sum(), 2 * error) << motion.method;
-    EXPECT_EQ(motion.estimate->quadrature, 0);
-    EXPECT_GT(motion.estimate->time, 1e-5); // Δt² is what is left of Q3's error
+    const double error = motion["nodal L2 | exact"];
+    EXPECT_GT(motion["estimated error"], error) << motion.key.method;
+    EXPECT_LT(motion["estimated error"], 2 * error) << motion.key.method;
+    EXPECT_EQ(motion["estimated error by quadrature"], 0);
+    EXPECT_GT(motion["estimated error in time"], 1e-5); // Δt² is what is left of Q3's error
   }
 }
 
@@ -301,8 +332,9 @@ TEST(Motions, of_galerkin_are_estimated_where_nothing_else_is_known)
   {
     Settings settings = nothing_known;
     settings.push_back({"Reference/estimate", estimate});
-    for (const MotionRun &motion : run(scene_of("tensor", {}, settings)).runs)
-      EXPECT_EQ(motion.estimate.has_value(), estimate == "automatic" && motion.method == "Q1");
+    for (const Record &motion : run(scene_of("tensor", {}, settings)).records)
+      EXPECT_EQ(motion.has("estimated error"),
+                estimate == "automatic" && motion.key.method == "Q1");
   }
 }
 
@@ -324,9 +356,8 @@ TEST(Motions, of_double_wells_are_driven_by_a_manufactured_force_on_both_sides)
     ASSERT_EQ(of_method.size(), 2u) << method;
     EXPECT_NEAR(std::log(of_method[0] / of_method[1]) / std::log(1.5), 2, .5) << method;
   }
-  for (const MotionRun &motion : results.runs) // the torus itself is driven to the exact solution
-    EXPECT_NEAR(motion.errors.at("nodal L2 | reference"), motion.errors.at("nodal L2 | exact"),
-                1e-10);
+  for (const Record &motion : results.records) // the torus itself is driven to the exact solution
+    EXPECT_NEAR(motion["nodal L2 | reference"], motion["nodal L2 | exact"], 1e-10);
 }
 
 TEST(Motions, vary_the_horizon_at_a_fixed_mesh_and_both_at_once)
@@ -347,10 +378,11 @@ TEST(Motions, vary_the_horizon_at_a_fixed_mesh_and_both_at_once)
   ASSERT_EQ(one_point.size(), 4u);
   EXPECT_GT(one_point.back(), 5 * one_point.front());
   EXPECT_LT(recalibrated.back(), .3 * one_point.back());
-  for (const MotionTrend &trend : over_horizons.trends)
-    EXPECT_EQ(std::pair(trend.axis, trend.proven), std::pair(Axis::horizon, std::string("none")));
+  for (const Trend &trend : over_levels(over_horizons))
+    EXPECT_EQ(trend.axis, Axis::horizon);
+  EXPECT_EQ(proven(over_horizons), "none");
   horizons.push_back({"Study/horizon", "0.4, 0.2"}); // no rate without four
-  for (const MotionTrend &trend : run(torus(horizons)).trends)
+  for (const Trend &trend : over_levels(run(torus(horizons))))
     EXPECT_EQ(trend.verdict, "undecided");
   const auto both = errors(run(torus(pairs)), "IPA-AC-R2");
   EXPECT_LT(both.back(), .3 * both.front());
@@ -368,8 +400,8 @@ TEST(Motions, of_double_wells_take_data_in_a_collar)
   const auto of_rule = errors(results, "IPA-AC-R2");
   EXPECT_NEAR(last_rate(of_rule), 2, .4);
   EXPECT_LT(of_rule.back(), 1e-3);
-  for (const MotionRun &motion : results.runs) // the collar's work is in the balance
-    EXPECT_LT(motion.imbalance, 1e-3);
+  for (const Record &motion : results.records) // the collar's work is in the balance
+    EXPECT_LT(motion["energy imbalance"], 1e-3);
 }
 
 TEST(Motions, that_are_taken_over_stand_for_their_own_step)
@@ -381,24 +413,45 @@ TEST(Motions, that_are_taken_over_stand_for_their_own_step)
                            {"Time/initial displacement", "x"},
                            {"Time/steps", "0.0200004, 0.02"}});
   const Methods methods = choose_methods(scene, meshfree::methods());
-  const auto whole = run_motions(scene, methods, {});
-  ASSERT_EQ(whole.runs.size(), 4u);
-  ASSERT_EQ(whole.runs[0].steps, whole.runs[1].steps);
+  const Analysis analysis = transient_analysis({});
+  const StudyResults whole = run_study(analysis, scene, methods);
+  ASSERT_EQ(whole.records.size(), 4u);
+  ASSERT_EQ(whole.records[0].text("step"), whole.records[1].text("step"));
   for (std::size_t n_done = 0; n_done <= 4; ++n_done)
   {
-    DynamicResults earlier = whole;
-    earlier.runs.resize(n_done);
-    for (MotionRun &motion : earlier.runs)
+    RunControl control;
+    control.earlier = whole.records;
+    control.earlier.resize(n_done);
+    for (Record &motion : control.earlier)
       motion.cost.solve_seconds = 77; // known again
-    const auto resumed = run_motions(scene, methods, {}, earlier);
-    ASSERT_EQ(resumed.runs.size(), 4u);
+    std::size_t n_made = 0;
+    control.on_records = [&](const Records &records) { n_made += records.size(); };
+    const StudyResults resumed = run_study(analysis, scene, methods, control);
+    EXPECT_EQ(n_made, 4 - n_done);
+    ASSERT_EQ(resumed.records.size(), 4u);
     for (std::size_t i = 0; i < 4; ++i)
     {
-      EXPECT_EQ(resumed.runs[i].step, whole.runs[i].step);
-      EXPECT_EQ(resumed.runs[i].errors, whole.runs[i].errors);
-      EXPECT_EQ(resumed.runs[i].cost.solve_seconds == 77, i < n_done);
+      EXPECT_EQ(resumed.records[i]["time step"], whole.records[i]["time step"]);
+      EXPECT_EQ(resumed.records[i]["nodal L2 | exact"], whole.records[i]["nodal L2 | exact"]);
+      EXPECT_EQ(resumed.records[i].cost.solve_seconds == 77, i < n_done);
     }
   }
+}
+
+TEST(Motions, are_interrupted_between_steps)
+{
+  const auto scene = wave(
+      "scalar", "sin(2*x + y)",
+      {{"Methods/names", "FA, IPA-AC"}, {"Study/h", "0.2, 0.1"}, {"Time/steps", "0.02, 0.01"}});
+  unsigned int n_made = 0;
+  RunControl control;
+  control.on_records = [&](const Records &records) { n_made += records.size(); };
+  control.should_stop = [&] { return n_made == 3; };
+  const StudyResults results =
+      run_study(transient_analysis({}), scene, choose_methods(scene, meshfree::methods()), control);
+  EXPECT_FALSE(results.is_complete);
+  ASSERT_EQ(results.records.size(), 3u);
+  EXPECT_EQ(results.records[2].key.label(), "IPA-AC dt = 0.02");
 }
 
 TEST(Motions, refuse_steps_beyond_the_critical_one_with_its_number)
@@ -435,7 +488,7 @@ TEST(Motions, steps_are_held_against_the_finest_level_and_each_value_of_a_variab
     const auto scene = torus(settings);
     try
     {
-      check_motions(scene, choose_methods(scene, meshfree::methods()), 0);
+      check_transient(scene, choose_methods(scene, meshfree::methods()), 0);
       return "accepted";
     }
     catch (const InputError &error)
@@ -463,7 +516,7 @@ TEST(Motions, steps_are_held_against_the_finest_level_and_each_value_of_a_variab
 
 TEST(Motions, of_a_sample_are_told_apart_by_scheme_and_step)
 {
-  const auto series = [](const std::string &schemes, const std::string &steps)
+  const auto methods = [](const std::string &schemes, const std::string &steps)
   {
     const auto scene = wave("scalar", "sin(2*x + y)",
                             {{"Methods/names", "FA"},
@@ -471,19 +524,26 @@ TEST(Motions, of_a_sample_are_told_apart_by_scheme_and_step)
                              {"Time/schemes", schemes},
                              {"Time/steps", steps}});
     std::vector<std::string> names;
-    for (const SampleCase &one : move_sample(scene, choose_methods(scene, meshfree::methods()), {}))
-      names.push_back(one.series);
+    for (const SampleCase &one :
+         sample_study(transient_analysis({}, {true, {}}), scene, meshfree::methods()))
+    {
+      names.push_back(one.method);
+      EXPECT_EQ(one.field.values.size(), one.field.x.size());
+      EXPECT_GT(one.field.values.size(), 0u);
+      for (const std::string quantity : {"nodal L2 | exact", "bond energy", "kinetic energy"})
+        EXPECT_EQ(one.quantities.count(quantity), 1u) << quantity;
+      EXPECT_EQ(one.quantities.count("time steps"), 0u);
+    }
     return names;
   };
-  const std::vector<std::string> one = series("velocity Verlet", "0.02");
-  ASSERT_EQ(one.size(), 1u);
-  const std::vector<std::string> all = series("velocity Verlet, trapezoidal", "0.02, 0.01");
-  EXPECT_EQ(all, (std::vector<std::string>{one[0] + ", velocity Verlet, dt = 0.02",
-                                           one[0] + ", velocity Verlet, dt = 0.01",
-                                           one[0] + ", trapezoidal, dt = 0.02",
-                                           one[0] + ", trapezoidal, dt = 0.01"}));
-  EXPECT_EQ(series("trapezoidal", "0.02, 0.01"),
-            (std::vector<std::string>{one[0] + ", dt = 0.02", one[0] + ", dt = 0.01"}));
+  const std::vector<std::string> one = methods("velocity Verlet", "0.02");
+  EXPECT_EQ(one, std::vector<std::string>{"FA"});
+  const std::vector<std::string> all = methods("velocity Verlet, trapezoidal", "0.02, 0.01");
+  EXPECT_EQ(all, (std::vector<std::string>{
+                     "FA velocity Verlet, dt = 0.02", "FA velocity Verlet, dt = 0.01",
+                     "FA trapezoidal, dt = 0.02", "FA trapezoidal, dt = 0.01"}));
+  EXPECT_EQ(methods("trapezoidal", "0.02, 0.01"),
+            (std::vector<std::string>{"FA dt = 0.02", "FA dt = 0.01"}));
 }
 
 TEST(Motions, over_a_variable_are_those_of_scenes_at_its_values)
@@ -507,18 +567,23 @@ TEST(Motions, over_a_variable_are_those_of_scenes_at_its_values)
       over.end(),
       {{"Study/regime", "variable"}, {"Study/variable", "a"}, {"Study/values", "0.01, 0.02"}});
   const auto results = run(torus(over));
-  ASSERT_EQ(results.runs.size(), 2 * 2u);
-  EXPECT_EQ(results.references.size(), 2u);
-  for (const MotionRun &motion : results.runs)
+  ASSERT_EQ(results.records.size(), 2 * 2u);
+  EXPECT_NE(results.records[0]["reference change"], results.records[1]["reference change"]);
+  for (const Record &motion : results.records)
   {
     Settings at = axis;
-    at.push_back({"Random/values", motion.value == .01 ? "0.01" : "0.02"});
-    for (const MotionRun &other : run(torus(at)).runs)
-      if (other.method == motion.method)
-        EXPECT_EQ(std::pair(motion.errors, motion.step), std::pair(other.errors, other.step))
-            << motion.method << ", a = " << motion.value;
+    at.push_back({"Random/values", motion.key.value == .01 ? "0.01" : "0.02"});
+    for (const Record &other : run(torus(at)).records)
+      if (other.key.method == motion.key.method)
+      {
+        for (const std::string name :
+             {"nodal L2 | exact", "nodal L2 | reference", "velocity nodal L2 | exact",
+              "velocity nodal L2 | reference", "time step"})
+          EXPECT_EQ(motion[name], other[name])
+              << motion.key.method << ", a = " << motion.key.value << ", " << name;
+      }
   }
-  for (const MotionTrend &trend : results.trends)
+  for (const Trend &trend : over_levels(results))
     EXPECT_EQ(std::pair(trend.axis, trend.verdict.substr(0, 8)),
               std::pair(Axis::variable, std::string("at most ")));
 }

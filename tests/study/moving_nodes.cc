@@ -4,9 +4,9 @@
 #include "meshfree/method.h"
 #include "method/discretisation.h"
 #include "reference/method.h"
-#include "study/dynamics.h"
 #include "study/motion_data.h"
 #include "study/preflight.h"
+#include "study/transient.h"
 
 #include "base/error.h"
 
@@ -42,14 +42,13 @@ namespace
     return choose_methods(scene, all);
   }
 
-  DynamicResults run(const scene::Scene &scene)
+  StudyResults run(const scene::Scene &scene)
   {
     const Methods methods = methods_of(scene);
-    check_motions(scene, methods, 0);
-    DynamicResults results = run_motions(scene, methods, {});
-    conclude(scene, results);
-    for (const MotionRun &motion : results.runs)
-      EXPECT_EQ(motion.failure, "") << motion.method;
+    check_transient(scene, methods, 0);
+    const StudyResults results = run_study(transient_analysis({}), scene, methods);
+    for (const Record &record : results.records)
+      EXPECT_EQ(record.failure, "") << record.key.label();
     return results;
   }
 
@@ -83,20 +82,20 @@ namespace
     return places;
   }
 
-  std::vector<double> errors(const DynamicResults &results, const std::string &method)
+  std::vector<double> errors(const StudyResults &results, const std::string &method)
   {
-    for (const MotionTrend &trend : results.trends)
-      if (trend.method == method && trend.error == results.decisive_error)
+    for (const Trend &trend : results.trends)
+      if (trend.method == method && trend.error == results.facts.at(decisive_error))
         return trend.values;
     throw InputError("no such trend: " + method);
   }
 
-  double last_error(const DynamicResults &results, const std::string &method)
+  double last_error(const StudyResults &results, const std::string &method)
   {
     return errors(results, method).back();
   }
 
-  double last_rate(const DynamicResults &results, const std::string &method)
+  double last_rate(const StudyResults &results, const std::string &method)
   {
     const auto of_method = errors(results, method);
     return std::log2(of_method[of_method.size() - 2] / of_method.back());
@@ -189,9 +188,9 @@ TEST(MovingNodes, of_double_wells_converge_where_moments_are_exact)
   EXPECT_NEAR(last_rate(results, "IPA-AC-R2"), 2, .4);
   EXPECT_LT(last_error(results, "IPA-AC-R2"), .3 * last_error(results, "FA"));
   // weights of FA are the same from both ends: its books balance, to the rule of work over steps
-  const MotionRun &finest = results.runs[results.runs.size() - 2];
-  EXPECT_EQ(finest.method, "FA");
-  EXPECT_LT(finest.imbalance, 1e-3);
+  const Record &finest = results.records[2]; // of three levels
+  EXPECT_EQ(finest.key.method, "FA");
+  EXPECT_LT(finest["energy imbalance"], 1e-3);
 }
 
 TEST(MovingNodes, with_two_weights_to_a_bond_are_warned_of)
@@ -200,9 +199,9 @@ TEST(MovingNodes, with_two_weights_to_a_bond_are_warned_of)
                           {"Study/h", "0.2"},
                           {"Time/final time", "0.1"}};
   const auto wells = run(scene_of("double-well", moved_wells("FA, IPA-AC-R2", quick)));
-  ASSERT_EQ(wells.runs.size(), 2u);
-  EXPECT_EQ(wells.runs[0].is_symmetric, wells.runs[0].method == "FA");
-  EXPECT_EQ(wells.runs[1].is_symmetric, wells.runs[1].method == "FA");
+  ASSERT_EQ(wells.records.size(), 2u);
+  EXPECT_EQ(wells.records[0]["symmetric"] == 1, wells.records[0].key.method == "FA");
+  EXPECT_EQ(wells.records[1]["symmetric"] == 1, wells.records[1].key.method == "FA");
   ASSERT_EQ(wells.warnings.size(), 1u);
   EXPECT_EQ(wells.warnings[0].find("IPA-AC-R2: the operator is not symmetric"), 0u);
   // linear ones as well; once for a method, whatever its levels
@@ -280,9 +279,9 @@ TEST(MovingNodes, hold_manufactured_fields_that_their_rule_maps_exactly)
                                          {"Time/density", "1.7"},
                                          {"Time/damping", "0.6"},
                                          {"Time/schemes", "Runge-Kutta"}}));
-  ASSERT_EQ(results.runs.size(), 1u);
-  EXPECT_LT(results.runs[0].errors.at("nodal L2 | exact"), 1e-9);
-  EXPECT_LT(results.runs[0].errors.at("velocity nodal L2 | exact"), 1e-8);
+  ASSERT_EQ(results.records.size(), 1u);
+  EXPECT_LT(results.records[0]["nodal L2 | exact"], 1e-9);
+  EXPECT_LT(results.records[0]["velocity nodal L2 | exact"], 1e-8);
 }
 
 TEST(MovingNodes, converge_as_in_statics)
@@ -330,10 +329,10 @@ TEST(MovingNodes, of_galerkin_know_that_rough_motions_converge_slowly)
     for (unsigned int c = 0; c < 2; ++c)
       sum += std::pow(u[c] - at.at(place)[c], 2);
   const double error = std::sqrt(sum / static_cast<double>(coarse.size()));
-  const MotionRun motion = run(rough("0.1")).runs.at(0);
-  ASSERT_TRUE(motion.estimate.has_value());
-  EXPECT_GT(motion.estimate->sum(), error);
-  EXPECT_LT(motion.estimate->sum(), 10 * error);
+  const Record motion = run(rough("0.1")).records.at(0);
+  ASSERT_TRUE(motion.has("estimated error"));
+  EXPECT_GT(motion["estimated error"], error);
+  EXPECT_LT(motion["estimated error"], 10 * error);
 }
 
 TEST(MovingNodes, keep_energy_where_their_operator_is_symmetric)
@@ -350,23 +349,25 @@ TEST(MovingNodes, keep_energy_where_their_operator_is_symmetric)
                                 {"Reference/method", "none"},
                                 {"Study/h", "0.1"},
                                 {"Study/m", "2.5"}};
-  const auto swing = [](const MotionRun &motion, double from, double to)
+  const auto swing = [](const Record &motion, double from, double to)
   {
     const auto stored = [](const analysis::Energies &e) { return e.kinetic + e.bond; };
     double largest = 0;
-    for (const analysis::Energies &now : motion.energies)
+    const std::vector<analysis::Energies> energies = energies_of(motion);
+    for (const analysis::Energies &now : energies)
       if (now.t >= from && now.t <= to)
-        largest = std::max(largest, std::abs(stored(now) / stored(motion.energies[0]) - 1));
+        largest = std::max(largest, std::abs(stored(now) / stored(energies[0]) - 1));
     return largest;
   };
   Settings settings = free_motion;
   settings.push_back({"Methods/names", "FA"});
   const auto results = run(scene_of("tensor", settings));
-  ASSERT_EQ(results.runs.size(), 2u);
-  const double coarse = swing(results.runs[0], 0, 20), fine = swing(results.runs[1], 0, 20);
+  ASSERT_EQ(results.records.size(), 2u);
+  const double coarse = swing(results.records[0], 0, 20), fine = swing(results.records[1], 0, 20);
   EXPECT_LT(coarse, .05);
   EXPECT_NEAR(coarse / fine, 4, 1); // second order
-  EXPECT_LT(swing(results.runs[1], 10, 20), 1.2 * swing(results.runs[1], 0, 10) + 1e-6); // no drift
+  EXPECT_LT(swing(results.records[1], 10, 20),
+            1.2 * swing(results.records[1], 0, 10) + 1e-6); // no drift
 
   // two weights a bond: no tangent that is symmetric
   settings.back().value = "PA-AC";
@@ -402,12 +403,12 @@ TEST(MovingNodes, of_a_body_that_floats_go_on_as_they_begin)
                                                     {"Study/m", "2"},
                                                     {"Time/initial velocity", "0.25, -0.5"},
                                                     {"Time/density", "3"}}));
-  ASSERT_EQ(results.runs.size(), 2u);
-  for (const MotionRun &motion : results.runs)
+  ASSERT_EQ(results.records.size(), 2u);
+  for (const Record &motion : results.records)
   {
-    EXPECT_LT(motion.size, 1e-12) << motion.method; // u is the same everywhere
-    EXPECT_NEAR(motion.energies.back().kinetic, .5 * 3 * (.25 * .25 + .5 * .5), 1e-9)
-        << motion.method;
-    EXPECT_LT(motion.energies.back().bond, 1e-12) << motion.method;
+    EXPECT_LT(motion["extent of u"], 1e-12) << motion.key.method; // u is the same everywhere
+    EXPECT_NEAR(motion["kinetic energy"], .5 * 3 * (.25 * .25 + .5 * .5), 1e-9)
+        << motion.key.method;
+    EXPECT_LT(motion["bond energy"], 1e-12) << motion.key.method;
   }
 }

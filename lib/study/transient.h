@@ -1,0 +1,53 @@
+#pragma once
+
+#include "analysis/transient.h"
+#include "study/analysis.h"
+
+// Scenes with a time (Time/final time > 0): what is run, how far it is off, and at which rates.
+namespace plumbline::study
+{
+  /// A state to show.
+  struct Frame
+  {
+    double t = 0;
+    const method::EquationOfMotion &equation;
+    const analysis::State &state;
+  };
+
+  struct TransientOptions
+  {
+    bool keeps_end = false; ///< u at the final time: the field "displacement" of each record
+    std::function<void(const Record &, const Frame &)> on_frame = {}; ///< where Time/frames asks
+  };
+
+  /// All schemes and time steps of a scene by each method: a record each, whose variant says which
+  /// where there are several. Scalars are errors at the final time by "norm | target" of u, by
+  /// "velocity norm | target" of its rate, and "nodal L2 | time" against the same equation solved
+  /// exactly in time, at the finest level; and what lib/report/schema.md lists. The curve "energy"
+  /// is over time, and so is "error", the decisive one, where a solution is known.
+  /// @param available  among which there is one that solves on a torus without a mesh, where that
+  /// is the reference; empty: no reference is made
+  Analysis transient_analysis(const Methods &available, const TransientOptions &options = {});
+
+  /// What can be refused before anything is solved: schemes that are not known or that a method
+  /// cannot do, steps beyond the critical one at the finest levels.
+  /// @throws InputError  naming the key, and the critical step
+  void check_transient(const scene::Scene &scene, const Methods &methods, unsigned int n_levels);
+
+  inline const std::string time_error = "nodal L2 | time";
+
+  /// Names of facts: what verdicts rest on; the beginning of those about what was left out.
+  constexpr const char *const decisive_error = "decisive error";
+  inline const std::string left_out_of_model = "left out: ";
+
+  /// Of a record over time, the start first.
+  std::vector<analysis::Energies> energies_of(const Record &record);
+
+  /// What weights prove of the limit, of rules.
+  LimitProof limit_of(const Record &record);
+
+  /// Trends over levels of the decisive error and the velocity's, with the shortest step of each
+  /// scheme, their variant; and over time steps at the finest level. Facts of the model,
+  /// expectations, warnings.
+  void conclude_transient(const scene::Scene &scene, StudyResults &results);
+} // namespace plumbline::study
