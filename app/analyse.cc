@@ -108,7 +108,7 @@ namespace plumbline::app
     {
       bool has_failed = false, all_hold = true;
       for (const study::Record &record : results.records)
-        if (row.is_failure_fatal && !record.failure.empty())
+        if (!row.analysis.are_failures_findings && !record.failure.empty())
         {
           has_failed = true;
           const study::Key &key = record.key;
@@ -144,9 +144,9 @@ namespace plumbline::app
         analysis.choose_methods(scene, all_methods(), options.n_levels, 1);
     if (analysis.check)
       analysis.check(scene, methods, options.n_levels);
+    watch_interrupts();
     const OutputFolder output(folder, {row.command, scene.name, scene.text},
                               base::Communicator::alone());
-    watch_interrupts();
     require_writable(folder / (analysis.name + ".md"));
     io::RecordJournal journal(folder / (analysis.name + ".jsonl"),
                               subject_of(analysis, options, scene));

@@ -22,7 +22,6 @@ namespace plumbline::app
     study::Analysis analysis;
     report::View (*view)(const study::StudyResults &) = report::default_view;
     std::string command = analysis.name; ///< whose files they are
-    bool is_failure_fatal = false;       ///< a record that failed ends the command with 3
   };
 
   /// An analysis that keeps its checkpoints, and other files of its own, where it is told.
@@ -38,10 +37,11 @@ namespace plumbline::app
   /// and .json, charts to ANALYSIS/, and there the fields of each series' finest level as VTU. A
   /// command that was interrupted or killed takes over what it had finished, from ANALYSIS.jsonl
   /// and checkpoint.h5.
-  /// @return exit code: 0; with check 1 if an expectation does not hold; 3 if a record failed and
-  ///         that is fatal; 130 if it was interrupted
+  /// @return exit code: 0; with check 1 if an expectation does not hold; 3 if a record failed
+  ///         where that is no finding; 130 if it was interrupted
   /// @throws InputError  a scene that cannot be used, a folder that cannot be written
-  /// @throws NumericalError  pictures cannot be drawn; all else is written before that
+  /// @throws NumericalError  a failure that is no finding, or pictures cannot be drawn; all else is
+  /// written before that
   int analyse(const MakeRow &make_row, const AnalyseOptions &options);
 
   /// The same of a scene that is read already.

@@ -78,7 +78,7 @@ namespace plumbline::app
     };
     AnalysisRow row{study::transient_analysis(all_methods(), transient), report::dynamics_view,
                     "run"};
-    row.is_failure_fatal = !scene.time.shows_blow_up;
+    row.analysis.are_failures_findings = scene.time.shows_blow_up;
     return analyse([&](const study::Checkpoints &) { return row; }, options, scene);
   }
 } // namespace plumbline::app

@@ -126,6 +126,7 @@ namespace plumbline::study
     bool has_parts = false; ///< `analyse` makes its records by Place::part
     /// Trends, powers, verdicts and expectations of its own; empty: none.
     std::function<void(const scene::Scene &, StudyResults &)> conclude = {};
+    bool are_failures_findings = true; ///< of methods; else numerical failures (exit code 3)
     /// The names of scalars, and of a field, that samples count, or how those names end; empty: all
     /// scalars.
     std::vector<std::string> sampled = {};

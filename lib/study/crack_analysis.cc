@@ -317,6 +317,7 @@ namespace plumbline::study
     analysis.conclude = conclude;
     analysis.sampled = {"advance", "speed", "threshold", "energy drift", "runs"};
     analysis.sampled_field = "damage";
+    analysis.are_failures_findings = false;
     return analysis;
   }
 } // namespace plumbline::study

@@ -410,6 +410,7 @@ namespace plumbline::study
     analysis.conclude = conclude;
     analysis.sampled.assign(scene::growth_quantities.begin(), scene::growth_quantities.end());
     analysis.sampled_field = "damage";
+    analysis.are_failures_findings = false;
     return analysis;
   }
 } // namespace plumbline::study

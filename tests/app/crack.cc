@@ -69,6 +69,21 @@ TEST(CrackCommand, says_when_a_crack_does_not_do_what_is_expected)
   fs::remove_all(folder);
 }
 
+TEST(CrackCommand, fails_with_3_when_the_motion_does)
+{
+  const fs::path folder = temporary("crack");
+  const Outcome outcome = run("crack " + scene("speed") +
+                              " --levels 1 --quiet --set Time/steps=0.2 --set 'Time/show "
+                              "blow-up=true' --set 'Time/schemes=explicit Euler' --set "
+                              "Time/damping=1e6 --set 'Time/final time=40' -o " +
+                              folder.string());
+  EXPECT_EQ(outcome.exit_code, 3);
+  expect_found(outcome.err, "the motion is not finite any more");
+  EXPECT_NE(records(folder)[0]["failure"], "");
+  EXPECT_FALSE(fs::exists(folder / "crack.jsonl"));
+  fs::remove_all(folder);
+}
+
 TEST(CrackCommand, goes_on_after_it_was_killed_to_the_same_bits)
 {
   const fs::path whole = temporary("whole"), killed = temporary("killed");

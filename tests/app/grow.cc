@@ -302,6 +302,22 @@ TEST(GrowCommand, goes_on_after_it_was_killed_to_the_same_bits)
   fs::remove_all(killed);
 }
 
+TEST(GrowCommand, goes_on_after_it_was_interrupted_between_checkpoints)
+{
+  const fs::path whole = temporary("whole"), stopped = temporary("stopped");
+  const std::string command =
+      "grow " + plate() + " --quiet --set 'Fracture/checkpoint interval=100000' -o ";
+  ASSERT_EQ(run(command + whole.string()).exit_code, 0);
+  ASSERT_EQ(interrupt_at(command + stopped.string(), stopped / ".plumbline"), 130);
+  EXPECT_TRUE(fs::exists(stopped / "checkpoint.h5"));
+  EXPECT_FALSE(results(stopped)["is_complete"]);
+  ASSERT_EQ(run(command + stopped.string()).exit_code, 0);
+  EXPECT_GT(scalar(record(stopped), "resumed"), 0);
+  EXPECT_TRUE(record(stopped)["curves"] == record(whole)["curves"]);
+  fs::remove_all(whole);
+  fs::remove_all(stopped);
+}
+
 TEST(GrowCommand, begins_anew_when_a_picture_has_changed)
 {
   const fs::path killed = temporary("killed");

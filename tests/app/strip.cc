@@ -39,7 +39,7 @@ TEST(StripCommand, interrupted_keeps_what_is_finished)
   const fs::path folder = temporary("strip");
   EXPECT_EQ(interrupt_at("strip " + std::string(PLUMBLINE_SCENES) +
                              "/fracture/strip_growth_narrow.prm --quiet -o " + folder.string(),
-                         folder / "strip.md"),
+                         folder / ".plumbline"),
             130);
   const auto json = nlohmann::json::parse(read(folder / "strip.json"));
   EXPECT_FALSE(json["is_complete"]);
