@@ -4,9 +4,9 @@
 #include "base/communicator.h"
 #include "base/error.h"
 #include "dynamics.h"
+#include "io/record_journal.h"
 #include "methods.h"
 #include "output_folder.h"
-#include "report/journal.h"
 #include "report/report.h"
 #include "run_parts.h"
 #include "scene/capabilities.h"
@@ -41,14 +41,14 @@ namespace plumbline::app
     }
 
     /// What an interrupted run of the same scene left in the folder.
-    study::Results earlier_results(const fs::path &folder, const scene::Scene &scene)
+    study::StudyResults earlier_results(const fs::path &folder, const scene::Scene &scene)
     {
-      const fs::path file = report::results_file(folder);
+      const fs::path file = io::results_file(folder);
       if (!fs::exists(file))
         return {};
       try
       {
-        const study::Results earlier = report::read_results(folder);
+        const study::StudyResults earlier = io::results_in(folder);
         if (!earlier.is_complete && earlier.scene_text == scene.text)
           return earlier;
       }
@@ -59,9 +59,9 @@ namespace plumbline::app
       return {};
     }
 
-    std::string file_name(const study::Run &run)
+    std::string file_name(const study::Record &run)
     {
-      std::string name = run.problem + "_" + run.series + "_" + run.method;
+      std::string name = run.key.problem + "_" + run.key.series + "_" + run.key.method;
       std::replace_if(
           name.begin(), name.end(),
           [](unsigned char c) { return std::isalnum(c) == 0 && c != '.'; }, '_');
@@ -77,7 +77,7 @@ namespace plumbline::app
       return names.empty() ? "" : "; a tie with " + names;
     }
 
-    void print_summary(const study::Results &results, const fs::path &folder)
+    void print_summary(const study::StudyResults &results, const fs::path &folder)
     {
       std::cout << results.scene_name << ": " << results.purpose << "\n\n"
                 << results.decisive_error << " (compared with " << study::target_words(results)
@@ -124,9 +124,10 @@ namespace plumbline::app
     }
 
     /// A failure that the scene expects ("method: failed") is no error of the run.
-    bool is_expected_failure(const study::Results &results, const study::Run &run)
+    bool is_expected_failure(const study::StudyResults &results, const study::Record &run)
     {
-      const std::string subject = run.method + ", " + run.problem + ", " + run.series + ": verdict";
+      const std::string subject =
+          run.key.method + ", " + run.key.problem + ", " + run.key.series + ": verdict";
       return std::any_of(results.expectations.begin(), results.expectations.end(),
                          [&](const study::Expectation &e) {
                            return e.subject == subject &&
@@ -134,11 +135,11 @@ namespace plumbline::app
                          });
     }
 
-    int exit_code(const study::Results &results, bool check)
+    int exit_code(const study::StudyResults &results, bool check)
     {
       if (!results.is_complete)
         return 130;
-      for (const study::Run &run : results.runs)
+      for (const study::Record &run : results.records)
         if (!run.failure.empty() && !is_expected_failure(results, run))
           return 3;
       const bool holds = std::all_of(results.expectations.begin(), results.expectations.end(),
@@ -162,13 +163,13 @@ namespace plumbline::app
     }
 
     /// What the sweep goes on from: what is in the folder, with where the numbers come from.
-    study::Results begin_results(const fs::path &folder, const scene::Scene &scene,
-                                 const method::Methods &methods,
-                                 const base::Communicator &communicator)
+    study::StudyResults begin_results(const fs::path &folder, const scene::Scene &scene,
+                                      const method::Methods &methods,
+                                      const base::Communicator &communicator)
     {
-      study::Results results = earlier_results(folder, scene);
+      study::StudyResults results = earlier_results(folder, scene);
       // all have read before the first one writes, and go on from the same
-      const auto n_found = static_cast<double>(results.runs.size());
+      const auto n_found = static_cast<double>(results.records.size());
       if (communicator.largest(n_found) != -communicator.largest(-n_found))
         results = {};
       results.provenance = provenance();
@@ -181,12 +182,12 @@ namespace plumbline::app
     }
 
     /// @param earlier  as begin_results() gives them
-    void tell_beginning(const study::Results &earlier, const fs::path &folder,
+    void tell_beginning(const study::StudyResults &earlier, const fs::path &folder,
                         const base::Communicator &communicator, bool is_quiet)
     {
-      if (!earlier.runs.empty() && !is_quiet)
-        std::cerr << "continuing: " << earlier.runs.size() << " solves are in '" << folder.string()
-                  << "' already\n";
+      if (!earlier.records.empty() && !is_quiet)
+        std::cerr << "continuing: " << earlier.records.size() << " solves are in '"
+                  << folder.string() << "' already\n";
       if (communicator.rank() == 0 && earlier.provenance.count("work of ranks") > 0)
         std::cerr << "note: each of the " << communicator.n_ranks()
                   << " ranks repeats all of the work, since lattices are not shared among them; "
@@ -196,7 +197,7 @@ namespace plumbline::app
     /// @param journal, progress  outlive it
     study::SweepControl control_of(const RunOptions &options, const scene::Scene &scene,
                                    const fs::path &folder, const base::Communicator &communicator,
-                                   report::Journal &journal, ProgressLine &progress)
+                                   io::RecordJournal &journal, ProgressLine &progress)
     {
       study::SweepControl control;
       control.n_levels = options.n_levels;
@@ -213,12 +214,12 @@ namespace plumbline::app
                 action();
             });
       };
-      control.on_result = [write, &journal](const study::Results &results)
+      control.on_result = [write, &journal](const study::StudyResults &results)
       { write([&] { journal.append(results); }); };
       control.should_stop = [communicator] { return communicator.any(is_interrupted()); };
       if (scene.output.fields)
         control.on_finest =
-            [write, folder](const analysis::Solution &solution, const study::Run &run)
+            [write, folder](const analysis::Solution &solution, const study::Record &run)
         {
           write(
               [&]
@@ -231,7 +232,8 @@ namespace plumbline::app
     }
 
     /// What is wanted on standard output; what went wrong on standard error.
-    void tell_end(const RunOptions &options, const study::Results &results, const fs::path &folder)
+    void tell_end(const RunOptions &options, const study::StudyResults &results,
+                  const fs::path &folder)
     {
       if (options.json)
         std::cout << std::ifstream(folder / "results.json").rdbuf();
@@ -239,10 +241,10 @@ namespace plumbline::app
         print_summary(results, folder);
       if (!results.is_complete)
         say_interrupted(folder);
-      for (const study::Run &run : results.runs)
+      for (const study::Record &run : results.records)
         if (!run.failure.empty())
-          std::cerr << "no solution: " << run.method << ", " << run.problem << ", " << run.series
-                    << ", h = " << run.h << ": " << run.failure << '\n';
+          std::cerr << "no solution: " << run.key.method << ", " << run.key.problem << ", "
+                    << run.key.series << ", h = " << run.key.h << ": " << run.failure << '\n';
     }
   } // namespace
 
@@ -267,12 +269,12 @@ namespace plumbline::app
     const fs::path folder =
         options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
     const OutputFolder output(folder, {"run", scene.name, scene.text}, communicator);
-    const study::Results earlier = begin_results(folder, scene, methods, communicator);
+    const study::StudyResults earlier = begin_results(folder, scene, methods, communicator);
     tell_beginning(earlier, folder, communicator, is_quiet);
 
     watch_interrupts();
-    report::Journal journal(folder);
-    study::Results results;
+    io::RecordJournal journal(folder / "results.jsonl", scene.text);
+    study::StudyResults results;
     {
       ProgressLine progress(!is_quiet);
       results = study::run_sweep(
@@ -294,7 +296,7 @@ namespace plumbline::app
 
   int rebuild_report(const std::string &folder)
   {
-    const study::Results results = report::read_results(folder);
+    const study::StudyResults results = io::results_in(folder);
     const OutputFolder output(folder, {"run", results.scene_name, results.scene_text},
                               base::Communicator::alone());
     report::write_report(results, folder);

@@ -39,9 +39,9 @@ namespace plumbline::atlas
 
     bool has_errors(const Entry &entry)
     {
-      const auto &runs = entry.results.runs;
+      const auto &runs = entry.results.records;
       return std::any_of(runs.begin(), runs.end(),
-                         [&](const study::Run &run)
+                         [&](const study::Record &run)
                          { return std::isfinite(relative_error(entry.results, run)); });
     }
 
@@ -109,17 +109,17 @@ namespace plumbline::atlas
 
     Data choice(const Question &question, double target)
     {
-      const study::Run *run = cheapest(question, target);
+      const study::Record *run = cheapest(question, target);
       if (run == nullptr)
         return {{"is_absent", true}};
-      const bool is_sure = outcome_of(question, run->method) == study::Outcome::converges;
+      const bool is_sure = outcome_of(question, run->key.method) == study::Outcome::converges;
       return {{"is_absent", false},
               {"look", is_sure ? "converges" : "undecided"},
               {"error", report::rounded_error(relative_error(*question.results, *run))},
-              {"series", run->series},
-              {"method", run->method},
+              {"series", run->key.series},
+              {"method", run->key.method},
               {"seconds", report::rounded_seconds(run->cost.seconds())},
-              {"h", report::rounded(run->h)}};
+              {"h", report::rounded(run->key.h)}};
     }
 
     /// HTML: the cheapest at each target, then who is on the front, stalls, fails.
@@ -200,46 +200,49 @@ namespace plumbline::atlas
         if (entry.group == scene)
           columns.push_back(&entry);
       Data heads = Data::array(), rows = Data::array();
-      std::vector<const study::Run *> runs; // of all choices, each method and level once
+      std::vector<const study::Record *> runs; // of all choices, each method and level once
       for (const Entry *column : columns)
       {
         heads.push_back(column->name);
-        for (const study::Run &run : column->results.runs)
+        for (const study::Record &run : column->results.records)
           if (std::none_of(runs.begin(), runs.end(),
-                           [&](const study::Run *other)
-                           { return other->method == run.method && other->h == run.h; }))
+                           [&](const study::Record *other) {
+                             return other->key.method == run.key.method &&
+                                    other->key.h == run.key.h;
+                           }))
             runs.push_back(&run);
       }
-      for (const study::Run *row_run : runs)
+      for (const study::Record *row_run : runs)
       {
-        std::vector<const study::Run *> found;
+        std::vector<const study::Record *> found;
         double least = 0;
         for (const Entry *column : columns)
         {
-          const auto &all = column->results.runs;
+          const auto &all = column->results.records;
           const auto run = std::find_if(all.begin(), all.end(),
-                                        [&](const study::Run &one) {
-                                          return one.method == row_run->method &&
-                                                 one.h == row_run->h && one.failure.empty();
+                                        [&](const study::Record &one)
+                                        {
+                                          return one.key.method == row_run->key.method &&
+                                                 one.key.h == row_run->key.h && one.failure.empty();
                                         });
           found.push_back(run == all.end() ? nullptr : &*run);
           if (found.back() != nullptr && (least == 0 || run->cost.seconds() < least))
             least = run->cost.seconds();
         }
         Data cells = Data::array();
-        for (const study::Run *one : found)
+        for (const study::Record *one : found)
           if (one == nullptr)
             cells.push_back({{"is_absent", true}});
           else
             cells.push_back(
                 {{"is_absent", false},
                  {"look", one->cost.seconds() <= 1.1 * least ? "converges" : ""},
-                 {"backend", one->diagnostics.operator_backend},
+                 {"backend", one->text("operator")},
                  {"seconds", report::rounded_seconds(one->cost.seconds())},
                  {"megabytes", report::rounded(static_cast<double>(one->cost.peak_bytes) / 1e6)},
                  {"n_iterations", one->cost.n_iterations}});
-        rows.push_back({{"method", row_run->method},
-                        {"h", report::rounded(row_run->h)},
+        rows.push_back({{"method", row_run->key.method},
+                        {"h", report::rounded(row_run->key.h)},
                         {"n_unknowns", row_run->cost.n_unknowns},
                         {"cells", std::move(cells)}});
       }
@@ -269,10 +272,11 @@ namespace plumbline::atlas
             for (const double target : targets)
             {
               const Question question{&entry.results, one.problem, one.series};
-              if (const study::Run *run = cheapest(question, target))
+              if (const study::Record *run = cheapest(question, target))
                 table.rows.push_back({report::text_cell(entry.group + "/" + entry.name),
                                       report::text_cell(one.title()), report::number_cell(target),
-                                      report::text_cell(run->method), report::number_cell(run->h),
+                                      report::text_cell(run->key.method),
+                                      report::number_cell(run->key.h),
                                       report::number_cell(relative_error(entry.results, *run)),
                                       report::number_cell(run->cost.seconds()),
                                       report::count_cell(run->cost.peak_bytes),
@@ -288,7 +292,7 @@ namespace plumbline::atlas
       std::map<std::string, std::string> machine;
       for (const Entry &entry : entries)
       {
-        n_runs += entry.results.runs.size();
+        n_runs += entry.results.records.size();
         for (const char *key : {"processor", "version"})
           if (entry.results.provenance.count(key) > 0)
             machine.try_emplace(key, entry.results.provenance.at(key));

@@ -1,8 +1,9 @@
 #include "atlas_survey.h"
 
-#include "report/journal.h"
+#include "io/record_journal.h"
 #include "report/plot.h"
 #include "study/cheapest.h"
+#include "study/solution_record.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +26,8 @@ namespace plumbline::atlas
                     fs::relative(folder, atlas),
                     {},
                     ""};
-        if (fs::exists(report::results_file(folder)))
-          entry.results = report::read_results(folder);
+        if (fs::exists(io::results_file(folder)))
+          entry.results = io::results_in(folder);
         else
         {
           std::ifstream in(folder / "messages");
@@ -42,17 +43,17 @@ namespace plumbline::atlas
     return entries;
   }
 
-  double relative_error(const study::Results &results, const study::Run &run)
+  double relative_error(const study::StudyResults &results, const study::Record &run)
   {
-    return report::decisive_error(results, run) / run.size;
+    return report::decisive_error(results, run) / study::size_of(run);
   }
 
-  std::vector<const study::Run *> runs_of(const Question &question)
+  std::vector<const study::Record *> runs_of(const Question &question)
   {
-    std::vector<const study::Run *> runs;
-    for (const study::Run &run : question.results->runs)
-      if (run.family != study::MethodFamily::local && run.problem == question.problem &&
-          (question.series.empty() || run.series == question.series))
+    std::vector<const study::Record *> runs;
+    for (const study::Record &run : question.results->records)
+      if (run.key.family != study::MethodFamily::local && run.key.problem == question.problem &&
+          (question.series.empty() || run.key.series == question.series))
         runs.push_back(&run);
     return runs;
   }
@@ -76,20 +77,20 @@ namespace plumbline::atlas
   std::vector<std::string> with_outcome(const Question &question, study::Outcome outcome)
   {
     std::vector<std::string> names;
-    for (const study::Run *run : runs_of(question))
-      if (std::count(names.begin(), names.end(), run->method) == 0 &&
-          outcome_of(question, run->method) == outcome)
-        names.push_back(run->method);
+    for (const study::Record *run : runs_of(question))
+      if (std::count(names.begin(), names.end(), run->key.method) == 0 &&
+          outcome_of(question, run->key.method) == outcome)
+        names.push_back(run->key.method);
     return names;
   }
 
-  const study::Run *cheapest(const Question &question, double target)
+  const study::Record *cheapest(const Question &question, double target)
   {
     for (const auto wanted : {study::Outcome::converges, study::Outcome::undecided})
     {
-      std::vector<const study::Run *> runs;
-      for (const study::Run *run : runs_of(question))
-        if (outcome_of(question, run->method) == wanted &&
+      std::vector<const study::Record *> runs;
+      for (const study::Record *run : runs_of(question))
+        if (outcome_of(question, run->key.method) == wanted &&
             relative_error(*question.results, *run) <= target)
           runs.push_back(run);
       if (!runs.empty())
@@ -98,23 +99,23 @@ namespace plumbline::atlas
     return nullptr;
   }
 
-  std::vector<const study::Run *> front(const Question &question)
+  std::vector<const study::Record *> front(const Question &question)
   {
     constexpr double clearly_cheaper = .9; // CPU times repeat to some 5 %
     constexpr double least_accuracy = .1;
     struct Point
     {
-      const study::Run *run;
+      const study::Record *run;
       double seconds, error;
     };
     std::vector<Point> points;
-    for (const study::Run *run : runs_of(question))
+    for (const study::Record *run : runs_of(question))
       if (const double error = relative_error(*question.results, *run);
           error <= least_accuracy && run->cost.seconds() > 0)
         points.push_back({run, run->cost.seconds(), std::max(error, report::round_off)});
     std::sort(points.begin(), points.end(),
               [](const Point &a, const Point &b) { return a.seconds < b.seconds; });
-    std::vector<const study::Run *> result;
+    std::vector<const study::Record *> result;
     for (const Point &point : points)
       if (std::none_of(points.begin(), points.end(),
                        [&](const Point &other) {
@@ -128,9 +129,9 @@ namespace plumbline::atlas
   std::vector<std::string> methods_on_front(const Question &question)
   {
     std::vector<std::string> names;
-    for (const study::Run *run : front(question))
-      if (std::count(names.begin(), names.end(), run->method) == 0)
-        names.push_back(run->method);
+    for (const study::Record *run : front(question))
+      if (std::count(names.begin(), names.end(), run->key.method) == 0)
+        names.push_back(run->key.method);
     return names;
   }
 
@@ -156,8 +157,8 @@ namespace plumbline::atlas
         ++(is_stalling(question, method) ? tallies[method].n_front_stalling
                                          : tallies[method].n_front);
       for (const double target : targets)
-        if (const study::Run *run = cheapest(question, target))
-          ++tallies[run->method].n_cheapest[target];
+        if (const study::Record *run = cheapest(question, target))
+          ++tallies[run->key.method].n_cheapest[target];
     }
     return tallies;
   }

@@ -20,7 +20,7 @@ namespace plumbline::atlas
   {
     std::string group, name; ///< folder and file of the scene
     fs::path folder;         ///< of the results, relative to the atlas
-    study::Results results;
+    study::StudyResults results;
     std::string refusal; ///< empty, or what the command said
   };
 
@@ -28,19 +28,19 @@ namespace plumbline::atlas
   std::vector<Entry> read_entries(const fs::path &atlas, const std::string &below);
 
   /// The decisive error over the largest |u|; NaN if there is none.
-  double relative_error(const study::Results &results, const study::Run &run);
+  double relative_error(const study::StudyResults &results, const study::Record &run);
 
   /// One problem of a scene, its series pooled, or one of them.
   struct Question
   {
-    const study::Results *results;
+    const study::StudyResults *results;
     std::string problem;
     std::string series; ///< empty: all
     std::string title() const { return series.empty() ? problem : problem + ", " + series; }
   };
 
   /// Of nonlocal methods: the local limit's finite elements answer another question.
-  std::vector<const study::Run *> runs_of(const Question &question);
+  std::vector<const study::Record *> runs_of(const Question &question);
 
   /// The worst of a method's verdicts over the question's series.
   study::Outcome outcome_of(const Question &question, const std::string &method);
@@ -50,12 +50,12 @@ namespace plumbline::atlas
 
   /// The cheapest run that is accurate enough, of methods that converge, or else of those of which
   /// it is not known; nullptr: none.
-  const study::Run *cheapest(const Question &question, double target);
+  const study::Record *cheapest(const Question &question, double target);
 
   /// The Pareto front of relative error against CPU time, cheap to dear: runs that no other run
   /// equals in accuracy for nine tenths of the time or less, from a tenth down to round-off.
   /// Stalling methods are on it too: at low accuracy they may be the cheapest.
-  std::vector<const study::Run *> front(const Question &question);
+  std::vector<const study::Record *> front(const Question &question);
 
   /// Each method of the front once, cheap to dear.
   std::vector<std::string> methods_on_front(const Question &question);

@@ -23,6 +23,33 @@ using Json = nlohmann::json;
 
 namespace
 {
+  /// Of a run up to schema 6, or of a record since.
+  std::map<std::string, Json> errors_of(const Json &entry)
+  {
+    std::map<std::string, Json> errors;
+    if (entry.contains("errors"))
+      for (const auto &[name, value] : entry.at("errors").items())
+        errors[name] = value;
+    if (entry.contains("scalars"))
+      for (const auto &[name, scalar] : entry.at("scalars").items())
+        if (name.find(" | ") != std::string::npos)
+          errors[name] = scalar.at("value");
+    return errors;
+  }
+
+  double round_off_of(const Json &entry)
+  {
+    if (!entry.contains("scalars"))
+      return entry.value("round_off", 0.);
+    const Json &scalars = entry.at("scalars");
+    return scalars.contains("round-off") ? scalars.at("round-off").at("value").get<double>() : 0;
+  }
+
+  const Json &records_of(const Json &results)
+  {
+    return results.at(results.contains("records") ? "records" : "runs");
+  }
+
   std::string text(const Json &entry, const char *key)
   {
     return entry.contains(key) ? entry.at(key).dump() : "";
@@ -33,8 +60,11 @@ namespace
   {
     std::map<std::string, Json> result;
     for (const Json &entry : list)
-      result[text(entry, "method") + " " + text(entry, "problem") + " " + text(entry, "series") +
-             " " + text(entry, "level") + " " + text(entry, "error")] = entry;
+    {
+      const Json &key = entry.contains("key") ? entry.at("key") : entry;
+      result[text(key, "method") + " " + text(key, "problem") + " " + text(key, "series") + " " +
+             text(key, "level") + " " + text(entry, "error")] = entry;
+    }
     return result;
   }
 
@@ -50,19 +80,8 @@ namespace
         std::printf("%s: verdicts rest on %s\n", scene.c_str(), before.c_str());
       else
         say(scene, "verdicts rested on " + before + " and rest on " + after + " now");
-      for (const char *list : {"runs", "trends"})
-      {
-        const auto after = by_name(now.at(list));
-        for (const auto &[name, before] : by_name(old.at(list)))
-        {
-          const std::string place = scene + ": " + name;
-          const auto found = after.find(name);
-          if (found == after.end())
-            say(place, "is missing");
-          else
-            compare_entry(before, found->second, place);
-        }
-      }
+      compare_lists(records_of(old), records_of(now), scene);
+      compare_lists(old.at("trends"), now.at("trends"), scene);
     }
 
     bool conclude() const
@@ -80,12 +99,26 @@ namespace
     }
 
   private:
+    void compare_lists(const Json &old, const Json &now, const std::string &scene)
+    {
+      const auto after = by_name(now);
+      for (const auto &[name, before] : by_name(old))
+      {
+        const std::string place = scene + ": " + name;
+        const auto found = after.find(name);
+        if (found == after.end())
+          say(place, "is missing");
+        else
+          compare_entry(before, found->second, place);
+      }
+    }
+
     void compare_entry(const Json &before, const Json &after, const std::string &place)
     {
-      const double noise = before.value("round_off", 0.);
-      if (before.contains("errors"))
-        for (const auto &[norm, value] : before.at("errors").items())
-          compare_numbers(value, after.at("errors").value(norm, Json()), noise, place + " " + norm);
+      const double noise = round_off_of(before);
+      auto errors = errors_of(after);
+      for (const auto &[norm, value] : errors_of(before))
+        compare_numbers(value, errors[norm], noise, place + " " + norm);
       if (before.contains("rates"))
       {
         const Json &rates = before.at("rates"), &values = before.at("values");

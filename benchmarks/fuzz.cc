@@ -9,8 +9,8 @@
 #include "fuzz_inputs.h"
 #include "geometry/gmsh_script.h"
 #include "geometry/mesh_input.h"
+#include "io/results_json.h"
 #include "meshfree/check/bond_file.h"
-#include "report/json.h"
 #include "scene/mesh.h"
 
 #include <deal.II/base/multithread_info.h>
@@ -118,7 +118,7 @@ namespace
       (void)base::read_number_grid(file());
       break;
     case Reader::results:
-      (void)report::read_json(file());
+      (void)io::read_results(file());
       break;
     case Reader::script:
       geometry::check_script(file());

@@ -1,7 +1,7 @@
 #include "fuzz_inputs.h"
 
 #include "geometry/gmsh_process.h"
-#include "report/json.h"
+#include "io/results_json.h"
 #include "scene/scene_file.h"
 
 #include <nlohmann/json.hpp>
@@ -65,9 +65,9 @@ namespace plumbline::benchmarks
         "$Elements\n3 4 1 4\n1 1 1 1\n1 1 2\n2 1 2 2\n2 1 2 5\n3 1 5 4\n2 2 3 1\n4 2 3 6 5\n"
         "$EndElements\n$Comments\nseen by none\n$EndComments\n";
 
-    study::Results small_results()
+    study::StudyResults small_results()
     {
-      study::Results results;
+      study::StudyResults results;
       results.scene_name = "small";
       results.regime = scene::Regime::delta;
       results.decisive_error = "nodal Linf | exact";
@@ -81,17 +81,17 @@ namespace plumbline::benchmarks
         trend.axis = study::Axis::mesh_size;
         for (unsigned int level = 0; level < 3; ++level)
         {
-          study::Run run;
-          run.method = method;
-          run.family =
+          study::Record run;
+          run.key.method = method;
+          run.key.family =
               method == "FA" ? study::MethodFamily::meshfree : study::MethodFamily::reference;
-          run.level = level;
-          run.h = .1 / (1U << level);
-          run.horizon = 3 * run.h;
-          run.errors = {{results.decisive_error, run.h * run.h}};
-          results.runs.push_back(run);
-          trend.x.push_back(run.h);
-          trend.values.push_back(run.h * run.h);
+          run.key.level = level;
+          run.key.h = .1 / (1U << level);
+          run.key.horizon = 3 * run.key.h;
+          run.set(results.decisive_error, run.key.h * run.key.h);
+          results.records.push_back(run);
+          trend.x.push_back(run.key.h);
+          trend.values.push_back(run.key.h * run.key.h);
           if (level > 0)
             trend.rates.push_back(2);
         }
@@ -232,7 +232,7 @@ namespace plumbline::benchmarks
                                                     "P1",
                                                     "schema",
                                                     "maps",
-                                                    "runs",
+                                                    "records",
                                                     "h"};
 
     void replace_token(std::string &text, Random &random, bool is_number, const std::string &by)
@@ -385,12 +385,8 @@ namespace plumbline::benchmarks
       add(Reader::mesh, old_mesh);
       add(Reader::mesh, new_mesh);
     }
-    const fs::path file = fs::temp_directory_path() / "plumbline_fuzz_results.json";
-    report::write_json(small_results(), file);
-    add(Reader::results, read(file));
-    report::write_json(study::Results(), file);
-    add(Reader::results, read(file));
-    fs::remove(file);
+    add(Reader::results, io::to_json(small_results()));
+    add(Reader::results, io::to_json(study::StudyResults()));
     for (unsigned int r = 0; r < n_readers; ++r)
       if (corpus[r].empty())
         throw std::runtime_error("no sound input for the reader of a " +

@@ -19,7 +19,7 @@ namespace plumbline::report
     {
       const MethodName *method;
       const Case *one;
-      const study::Run *run;
+      const study::Record *run;
       double x, y;
       bool is_drawn() const { return std::isfinite(x) && std::isfinite(y); }
     };
@@ -33,13 +33,13 @@ namespace plumbline::report
     }
 
     /// Variables may stand on a linear axis.
-    double place_on(study::Axis axis, const study::Run &run)
+    double place_on(study::Axis axis, const study::Record &run)
     {
-      const double x = coordinate(axis, run);
+      const double x = coordinate(axis, run.key);
       return axis == study::Axis::variable ? x : positive(x);
     }
 
-    Vertex coordinates(const study::Results &results, const study::Run &run, ChartKind kind,
+    Vertex coordinates(const study::StudyResults &results, const study::Record &run, ChartKind kind,
                        study::Axis axis)
     {
       const double error = positive(decisive_error(results, run));
@@ -108,7 +108,7 @@ namespace plumbline::report
              kind == ChartKind::pairs;
     }
 
-    std::string x_label(const study::Results &results, ChartKind kind, study::Axis axis)
+    std::string x_label(const study::StudyResults &results, ChartKind kind, study::Axis axis)
     {
       switch (kind)
       {
@@ -136,7 +136,7 @@ namespace plumbline::report
       return found;
     }
 
-    std::vector<Point> points_of(const study::Results &results,
+    std::vector<Point> points_of(const study::StudyResults &results,
                                  const std::vector<MethodName> &methods,
                                  const std::vector<const Case *> &chosen, ChartKind kind)
     {
@@ -145,7 +145,7 @@ namespace plumbline::report
         for (const Case *one : chosen)
         {
           const study::Axis axis = axis_of(results, *one);
-          for (const study::Run *run : runs_of(results, method.name, *one))
+          for (const study::Record *run : runs_of(results, method.name, *one))
           {
             const Vertex v = coordinates(results, *run, kind, axis);
             points.push_back({&method, one, run, v.x, v.y});
@@ -161,7 +161,7 @@ namespace plumbline::report
     }
 
     /// The legend says which methods stall, and in how many series if not in all of the picture.
-    std::string legend(const study::Results &results, const MethodName &method,
+    std::string legend(const study::StudyResults &results, const MethodName &method,
                        const std::vector<const Case *> &chosen)
     {
       std::string verdict;
@@ -184,7 +184,7 @@ namespace plumbline::report
     }
 
     /// Errors of the chosen cases below this are round-off.
-    double noise_of(const study::Results &results, const std::vector<MethodName> &methods,
+    double noise_of(const study::StudyResults &results, const std::vector<MethodName> &methods,
                     const std::vector<const Case *> &chosen)
     {
       double size = 0;
@@ -213,7 +213,7 @@ namespace plumbline::report
       return best;
     }
 
-    Plot plot_of(const study::Results &results, const std::vector<MethodName> &methods,
+    Plot plot_of(const study::StudyResults &results, const std::vector<MethodName> &methods,
                  const std::vector<const Case *> &chosen, const Chart &chart,
                  const std::vector<Point> &points)
     {
@@ -266,7 +266,7 @@ namespace plumbline::report
       return plot;
     }
 
-    Table data_of(const study::Results &results, const Chart &chart,
+    Table data_of(const study::StudyResults &results, const Chart &chart,
                   const std::vector<Point> &points, study::Axis axis)
     {
       const bool is_iterations = chart.kind == ChartKind::iterations;
@@ -279,7 +279,7 @@ namespace plumbline::report
                        is_iterations ? "iterations" : "error"};
       for (const Point &point : points)
         table.rows.push_back({text_cell(point.method->name), text_cell(point.one->problem),
-                              text_cell(point.one->series), count_cell(point.run->level),
+                              text_cell(point.one->series), count_cell(point.run->key.level),
                               number_cell(point.x), number_cell(point.y)});
       return table;
     }
@@ -303,7 +303,7 @@ namespace plumbline::report
     return style_of(0, false);
   }
 
-  std::vector<Chart> list_charts(const study::Results &results)
+  std::vector<Chart> list_charts(const study::StudyResults &results)
   {
     const std::vector<Case> all = cases(results);
     const std::vector<MethodName> names = methods(results);
@@ -347,7 +347,8 @@ namespace plumbline::report
     return charts;
   }
 
-  std::vector<Chart> write_charts(const study::Results &results, const std::filesystem::path &dir)
+  std::vector<Chart> write_charts(const study::StudyResults &results,
+                                  const std::filesystem::path &dir)
   {
     const std::filesystem::path folder = dir / "charts";
     const std::vector<Case> all = cases(results);

@@ -32,7 +32,7 @@ namespace plumbline::report
 
   /// The charts that these results have points for. The first is the overall work-precision
   /// chart: of the telling problem, with each method's points that no other series of it beats.
-  std::vector<Chart> list_charts(const study::Results &results);
+  std::vector<Chart> list_charts(const study::StudyResults &results);
 
   /// The same style for a method in every chart.
   Style style_of(const std::vector<MethodName> &methods, const std::string &name);
@@ -42,5 +42,6 @@ namespace plumbline::report
   /// its value is an empty field in the CSV. Errors below round-off stand in a strip (see Strip) of
   /// the picture, and as they are in the CSV.
   /// @throws NumericalError  gnuplot is missing or fails; InputError  dir cannot be written
-  std::vector<Chart> write_charts(const study::Results &results, const std::filesystem::path &dir);
+  std::vector<Chart> write_charts(const study::StudyResults &results,
+                                  const std::filesystem::path &dir);
 } // namespace plumbline::report

@@ -1,4 +1,5 @@
 #include "report/dynamics_view.h"
+#include "report/selection.h"
 
 #include "study/transient.h"
 
@@ -71,8 +72,7 @@ namespace plumbline::report
 
     std::string decisive(const StudyResults &results)
     {
-      const auto found = results.facts.find(study::decisive_error);
-      return found == results.facts.end() ? "" : found->second;
+      return results.decisive_error;
     }
 
     std::string error_words(const StudyResults &results)

@@ -1,5 +1,6 @@
 #include "report/dynamics_view.h"
 
+#include "report/selection.h"
 #include "report/text_table.h"
 #include "study/reference_estimate.h"
 #include "study/transient.h"
@@ -12,12 +13,6 @@
 namespace plumbline::report
 {
   using study::Trend;
-
-  double decisive_error(const StudyResults &results, const Record &record)
-  {
-    const auto found = results.facts.find(study::decisive_error);
-    return record[found == results.facts.end() ? "" : found->second];
-  }
 
   namespace
   {
@@ -187,12 +182,7 @@ namespace plumbline::report
     Part runs(const StudyResults &results)
     {
       const auto velocity = [&results](const Record &record)
-      {
-        const auto decisive = results.facts.find(study::decisive_error);
-        return error_column("",
-                            decisive == results.facts.end() ? "" : "velocity " + decisive->second)
-            .cell(record);
-      };
+      { return error_column("", "velocity " + results.decisive_error).cell(record); };
       return {
           "runs", "All runs",
           "critical: the longest stable step of the scheme, 2/√λ of the largest eigenvalue at rest "
@@ -280,8 +270,8 @@ namespace plumbline::report
                                                   "moment defect",
                                                   "mean moment defect",
                                                   "spread of moments",
-                                                  "moment defect from the ball",
-                                                  "weight defect from areas",
+                                                  "ball defect",
+                                                  "area defect",
                                                   "estimated error",
                                                   "estimated error in space",
                                                   "estimated error by quadrature",

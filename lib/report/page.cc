@@ -22,7 +22,7 @@ namespace plumbline::report
   {
     namespace
     {
-      std::string regime_words(const study::Results &results)
+      std::string regime_words(const study::StudyResults &results)
       {
         const scene::Regime regime = results.regime;
         if (study::is_against(results.decisive_error, scene::Target::finest))
@@ -104,7 +104,7 @@ namespace plumbline::report
       }
 
       /// A row for each method, rules first; columns: problems, and below each its series.
-      Data verdict_matrix(const study::Results &results)
+      Data verdict_matrix(const study::StudyResults &results)
       {
         const std::vector<Case> columns = by_problem(cases(results));
         if (columns.empty())
@@ -135,14 +135,14 @@ namespace plumbline::report
       }
 
       /// The header's numbers.
-      void add_facts(const study::Results &results, Data &data)
+      void add_facts(const study::StudyResults &results, Data &data)
       {
         std::array<unsigned int, 5> n{};
         for (const study::Trend &trend : results.trends)
           if (trend.error == results.decisive_error)
             ++n[static_cast<std::size_t>(trend.outcome)];
         data["n_methods"] = methods(results).size();
-        data["n_runs"] = results.runs.size();
+        data["n_runs"] = results.records.size();
         data["n_converge"] = n[0];
         data["n_stall"] = n[1];
         data["n_undecided"] = n[2];
@@ -150,7 +150,7 @@ namespace plumbline::report
         data["n_field_only"] = n[4] == 0 ? Data() : Data(n[4]);
       }
 
-      Data error_tables(const study::Results &results)
+      Data error_tables(const study::StudyResults &results)
       {
         Data tables = Data::array();
         for (const Case &one : cases(results))
@@ -165,7 +165,7 @@ namespace plumbline::report
         return tables;
       }
 
-      Data provenance(const study::Results &results)
+      Data provenance(const study::StudyResults &results)
       {
         Table origin;
         origin.columns = {"what", "value"};
@@ -174,7 +174,7 @@ namespace plumbline::report
         return table(origin);
       }
 
-      Data data_of(const study::Results &results, const std::filesystem::path &dir)
+      Data data_of(const study::StudyResults &results, const std::filesystem::path &dir)
       {
         Data data = begin("report", results.scene_name, results.purpose, {});
         add_facts(results, data);
@@ -186,7 +186,7 @@ namespace plumbline::report
         data["target"] = study::target_words(results);
         data["advice"] = advice(results);
         data["matrix"] = verdict_matrix(results);
-        data["fits"] = table(verdict_table(results));
+        data["fits"] = table(trend_table(results));
         data["other_errors"] = table(other_errors_table(results));
         data["left_out"] = results.left_out;
         data["n_left_out"] = results.left_out.empty() ? Data() : Data(results.left_out.size());
@@ -206,7 +206,7 @@ namespace plumbline::report
     } // namespace
   }   // namespace page
 
-  void write_page(const study::Results &results, const std::filesystem::path &dir)
+  void write_page(const study::StudyResults &results, const std::filesystem::path &dir)
   {
     write_file(dir / "report.html", fill("report", page::data_of(results, dir)));
   }

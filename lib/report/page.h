@@ -1,6 +1,6 @@
 #pragma once
 
-#include "study/results.h"
+#include "study/study_results.h"
 
 #include <filesystem>
 
@@ -9,5 +9,5 @@ namespace plumbline::report
   /// Write dir/report.html: one file that needs no other, no network and no script. Pictures are
   /// taken from dir/charts (see write_charts); one that is not there is named with its data.
   /// @throws InputError  dir cannot be written
-  void write_page(const study::Results &results, const std::filesystem::path &dir);
+  void write_page(const study::StudyResults &results, const std::filesystem::path &dir);
 } // namespace plumbline::report

@@ -57,7 +57,7 @@ namespace plumbline::report::page
       return list;
     }
 
-    Data card(const study::Results &results, const study::Advice &advice,
+    Data card(const study::StudyResults &results, const study::Advice &advice,
               const std::vector<MethodName> &methods)
     {
       const Case place{advice.problem, advice.series, ""};
@@ -84,7 +84,8 @@ namespace plumbline::report::page
       std::size_t n_levels = study::levels_for_verdict; ///< the fewest of an undecided trend
     };
 
-    std::vector<Tally> tally(const study::Results &results, const std::vector<MethodName> &methods)
+    std::vector<Tally> tally(const study::StudyResults &results,
+                             const std::vector<MethodName> &methods)
     {
       std::vector<Tally> tallies;
       for (const MethodName &method : methods)
@@ -110,14 +111,14 @@ namespace plumbline::report::page
     }
 
     /// The answer where nothing is refined: whose largest error is least.
-    std::string ranking(const study::Results &results, const std::vector<MethodName> &methods)
+    std::string ranking(const study::StudyResults &results, const std::vector<MethodName> &methods)
     {
       std::vector<std::pair<double, std::string>> largest;
       for (const MethodName &method : methods)
       {
         double error = -1;
-        for (const study::Run &run : results.runs)
-          if (run.method == method.name)
+        for (const study::Record &run : results.records)
+          if (run.key.method == method.name)
             error = std::max(error, decisive_error(results, run)); // NaN loses
         if (error >= 0)
           largest.emplace_back(error, method.name);
@@ -132,7 +133,8 @@ namespace plumbline::report::page
 
     /// The answer for a reader of nothing else: each method in the worst class that it belongs to.
     /// @param is_own  held against own finest levels: whether there is a limit, not which
-    Data summary(const study::Results &results, const std::vector<MethodName> &methods, bool is_own)
+    Data summary(const study::StudyResults &results, const std::vector<MethodName> &methods,
+                 bool is_own)
     {
       std::string good, bad, mixed, blind, failed, open;
       std::map<std::size_t, std::string> too_few; // by the number of levels there are
@@ -180,7 +182,7 @@ namespace plumbline::report::page
     }
   } // namespace
 
-  Data advice(const study::Results &results)
+  Data advice(const study::StudyResults &results)
   {
     if (results.advice.empty())
       return {};

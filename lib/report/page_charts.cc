@@ -1,5 +1,6 @@
 #include "report/page_parts.h"
 #include "report/report_parts.h"
+#include "study/solution_record.h"
 
 #include <nlohmann/json.hpp>
 
@@ -27,13 +28,13 @@ namespace plumbline::report::page
         {ChartKind::pairs, "pairs", true},          {ChartKind::iterations, "iterations", true}};
 
     /// What is in no method's work: meshes, and cells of nodes, of the dearest level.
-    std::string geometry_words(const study::Results &results)
+    std::string geometry_words(const study::StudyResults &results)
     {
       double of_mesh = 0, of_nodes = 0;
-      for (const study::Run &run : results.runs)
+      for (const study::Record &run : results.records)
       {
-        double &most = run.family == study::MethodFamily::meshfree ? of_nodes : of_mesh;
-        most = std::max(most, run.geometry_seconds);
+        double &most = run.key.family == study::MethodFamily::meshfree ? of_nodes : of_mesh;
+        most = std::max(most, study::geometry_seconds(run));
       }
       std::string text;
       if (of_mesh > 0)
@@ -46,7 +47,7 @@ namespace plumbline::report::page
     }
   } // namespace
 
-  Data chart_groups(const study::Results &results, const std::filesystem::path &dir)
+  Data chart_groups(const study::StudyResults &results, const std::filesystem::path &dir)
   {
     const std::vector<Chart> all = list_charts(results);
     const std::string main_problem = telling_problem(results);

@@ -25,7 +25,7 @@ namespace plumbline::report::page
     }
   } // namespace
 
-  Data reference(const study::Results &results)
+  Data reference(const study::StudyResults &results)
   {
     const bool has_reference = !results.references.empty();
     const auto &explained = has_reference ? results.references : results.estimates;
@@ -45,21 +45,21 @@ namespace plumbline::report::page
             {"doubtful", with_fold(doubtful)}};
   }
 
-  Data model(const study::Results &results)
+  Data model(const study::StudyResults &results)
   {
     std::uint64_t n_checks = 0;
     std::size_t n_runs = 0;
     double worst = 0;
-    const auto count = [&](const auto &checked)
+    const auto count = [&](std::size_t n, double difference)
     {
-      n_checks += checked.n_geometry_checks;
-      n_runs += checked.n_geometry_checks > 0 ? 1 : 0;
-      worst = std::max(worst, checked.geometry_difference);
+      n_checks += n;
+      n_runs += n > 0 ? 1 : 0;
+      worst = std::max(worst, difference);
     };
-    for (const study::Run &run : results.runs)
-      count(run.diagnostics);
+    for (const study::Record &run : results.records)
+      count(run.count("geometry checks"), run["geometry difference"]);
     for (const study::ErrorEstimate &reference : results.references)
-      count(reference);
+      count(reference.n_geometry_checks, reference.geometry_difference);
     Table omissions;
     omissions.columns = {"left out", "because", "saves"};
     for (const study::Omission &omission : results.omissions)
@@ -72,7 +72,7 @@ namespace plumbline::report::page
             {"worst", rounded(worst)}};
   }
 
-  Data expectations(const study::Results &results)
+  Data expectations(const study::StudyResults &results)
   {
     if (results.expectations.empty())
       return {};

@@ -1,16 +1,16 @@
 #include "report/report.h"
 
 #include "base/error.h"
+#include "io/results_json.h"
 #include "report/charts.h"
-#include "report/json.h"
 #include "report/page.h"
 #include "report/tables.h"
 
 namespace plumbline::report
 {
-  void write_report(const study::Results &results, const std::filesystem::path &dir)
+  void write_report(const study::StudyResults &results, const std::filesystem::path &dir)
   {
-    write_json(results, dir / "results.json");
+    write_file(dir / "results.json", io::to_json(results));
     write_tables(results, dir);
     try
     {

@@ -10,18 +10,18 @@ namespace plumbline::report::page
 {
   /// Which method to take: one sentence over all cases, then a card for each problem and series;
   /// null where nothing can be advised.
-  Data advice(const study::Results &results);
+  Data advice(const study::StudyResults &results);
 
   /// All charts, the overall and the first convergence chart large.
-  Data chart_groups(const study::Results &results, const std::filesystem::path &dir);
+  Data chart_groups(const study::StudyResults &results, const std::filesystem::path &dir);
 
   /// The reference's own estimates, and the differences that are too small for them.
-  Data reference(const study::Results &results);
+  Data reference(const study::StudyResults &results);
 
   /// What was modelled, and what was left out; the check of the geometry.
-  Data model(const study::Results &results);
+  Data model(const study::StudyResults &results);
 
   /// How many of the scene's expectations hold; those that do not are shown, the others folded.
   /// Null where there are none.
-  Data expectations(const study::Results &results);
+  Data expectations(const study::StudyResults &results);
 } // namespace plumbline::report::page

@@ -2,6 +2,7 @@
 
 #include "report/formats.h"
 #include "report/plot.h"
+#include "study/solution_record.h"
 #include "study/trend.h"
 
 #include <algorithm>
@@ -37,27 +38,27 @@ namespace plumbline::report
     }
   } // namespace
 
-  std::vector<Case> cases(const study::Results &results)
+  std::vector<Case> cases(const study::StudyResults &results)
   {
     std::vector<Case> found;
-    for (const study::Run &run : results.runs)
-      add_case(found, run.problem, run.series);
+    for (const study::Record &run : results.records)
+      add_case(found, run.key.problem, run.key.series);
     for (const study::Trend &trend : results.trends)
       add_case(found, trend.problem, trend.series);
     return found;
   }
 
-  std::vector<MethodName> methods(const study::Results &results)
+  std::vector<MethodName> methods(const study::StudyResults &results)
   {
     std::vector<MethodName> found;
-    for (const study::Run &run : results.runs)
-      add_method(found, run.method, run.family);
+    for (const study::Record &run : results.records)
+      add_method(found, run.key.method, run.key.family);
     for (const study::Trend &trend : results.trends)
       add_method(found, trend.method, trend.family);
     return found;
   }
 
-  const study::Trend *decisive_trend(const study::Results &results, const std::string &method,
+  const study::Trend *decisive_trend(const study::StudyResults &results, const std::string &method,
                                      const Case &one)
   {
     for (const study::Trend &trend : results.trends)
@@ -67,39 +68,40 @@ namespace plumbline::report
     return nullptr;
   }
 
-  std::vector<const study::Run *> runs_of(const study::Results &results, const std::string &method,
-                                          const Case &one)
+  std::vector<const study::Record *> runs_of(const study::StudyResults &results,
+                                             const std::string &method, const Case &one)
   {
-    std::vector<const study::Run *> found;
-    for (const study::Run &run : results.runs)
-      if (run.method == method && run.problem == one.problem && run.series == one.series)
+    std::vector<const study::Record *> found;
+    for (const study::Record &run : results.records)
+      if (run.key.method == method && run.key.problem == one.problem &&
+          run.key.series == one.series)
         found.push_back(&run);
     std::stable_sort(found.begin(), found.end(),
-                     [](const study::Run *a, const study::Run *b) { return a->level < b->level; });
+                     [](const study::Record *a, const study::Record *b)
+                     { return a->key.level < b->key.level; });
     return found;
   }
 
-  double decisive_error(const study::Results &results, const study::Run &run)
+  double decisive_error(const study::StudyResults &results, const study::Record &run)
   {
-    const auto error = run.errors.find(results.decisive_error);
-    return run.failure.empty() && error != run.errors.end() ? error->second : not_a_number;
+    return run.failure.empty() ? run[results.decisive_error] : not_a_number;
   }
 
-  std::string telling_problem(const study::Results &results)
+  std::string telling_problem(const study::StudyResults &results)
   {
-    const auto noise = [&](const study::Run &run)
+    const auto noise = [&](const study::Record &run)
     {
-      return round_off * study::norm_of_one(results.decisive_error, run.area) *
-             (run.size > 0 ? run.size : 1);
+      return round_off * study::norm_of_one(results.decisive_error, study::area_of(run)) *
+             (study::size_of(run) > 0 ? study::size_of(run) : 1);
     };
     std::string best;
     std::size_t most = 0;
     for (const Case &one : cases(results))
     {
       const auto n = static_cast<std::size_t>(std::count_if(
-          results.runs.begin(), results.runs.end(),
-          [&](const study::Run &run)
-          { return run.problem == one.problem && decisive_error(results, run) > noise(run); }));
+          results.records.begin(), results.records.end(),
+          [&](const study::Record &run)
+          { return run.key.problem == one.problem && decisive_error(results, run) > noise(run); }));
       if (best.empty() || n > most)
       {
         best = one.problem;
@@ -117,7 +119,7 @@ namespace plumbline::report
     return not_a_number;
   }
 
-  study::Axis axis_of(const study::Results &results, const Case &one)
+  study::Axis axis_of(const study::StudyResults &results, const Case &one)
   {
     for (const study::Trend &trend : results.trends)
       if (trend.problem == one.problem && trend.series == one.series)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "study/results.h"
+#include "study/study_results.h"
 
 #include <string>
 #include <vector>
@@ -23,23 +23,23 @@ namespace plumbline::report
   };
 
   /// In the order in which they were run.
-  std::vector<Case> cases(const study::Results &results);
-  std::vector<MethodName> methods(const study::Results &results);
+  std::vector<Case> cases(const study::StudyResults &results);
+  std::vector<MethodName> methods(const study::StudyResults &results);
 
   /// The trend of the error that verdicts rest on; nullptr if there is none.
-  const study::Trend *decisive_trend(const study::Results &results, const std::string &method,
+  const study::Trend *decisive_trend(const study::StudyResults &results, const std::string &method,
                                      const Case &one);
 
   /// The problem with the most errors above round-off, the first of several: a problem that most
   /// methods solve exactly tells little about work and rates. Empty without a run.
-  std::string telling_problem(const study::Results &results);
+  std::string telling_problem(const study::StudyResults &results);
 
   /// The runs of one method on one case, coarse to fine.
-  std::vector<const study::Run *> runs_of(const study::Results &results, const std::string &method,
-                                          const Case &one);
+  std::vector<const study::Record *> runs_of(const study::StudyResults &results,
+                                             const std::string &method, const Case &one);
 
   /// The decisive error of a run; NaN if the run has none.
-  double decisive_error(const study::Results &results, const study::Run &run);
+  double decisive_error(const study::StudyResults &results, const study::Record &run);
 
   /// A length agrees with another if it does to this fraction: both are printed from the same
   /// scene.
@@ -50,7 +50,7 @@ namespace plumbline::report
   double rate_at(const study::Trend &trend, double x);
 
   /// What varies over the levels, as the trends say.
-  study::Axis axis_of(const study::Results &results, const Case &one);
+  study::Axis axis_of(const study::StudyResults &results, const Case &one);
 
   /// "nodal Linf | exact" in words: "nodal L∞ against exact".
   std::string error_words(const std::string &error);

@@ -1,5 +1,7 @@
 #include "report/tables.h"
 
+#include "study/solution_record.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,21 +16,21 @@ namespace plumbline::report
     {
       unsigned int number;
       double h, horizon, value;
-      bool holds(const study::Run &run) const
+      bool holds(const study::Record &run) const
       {
-        return run.level == number && std::abs(run.h - h) <= same_length * h &&
-               std::abs(run.horizon - horizon) <= same_length * horizon;
+        return run.key.level == number && std::abs(run.key.h - h) <= same_length * h &&
+               std::abs(run.key.horizon - horizon) <= same_length * horizon;
       }
     };
 
-    std::vector<Level> levels_of(const study::Results &results, const Case &one)
+    std::vector<Level> levels_of(const study::StudyResults &results, const Case &one)
     {
       std::vector<Level> levels;
-      for (const study::Run &run : results.runs)
-        if (run.problem == one.problem && run.series == one.series &&
+      for (const study::Record &run : results.records)
+        if (run.key.problem == one.problem && run.key.series == one.series &&
             std::none_of(levels.begin(), levels.end(),
                          [&](const Level &level) { return level.holds(run); }))
-          levels.push_back({run.level, run.h, run.horizon, run.value});
+          levels.push_back({run.key.level, run.key.h, run.key.horizon, run.key.value});
       std::stable_sort(levels.begin(), levels.end(),
                        [](const Level &a, const Level &b) {
                          return std::make_tuple(a.number, -a.h) < std::make_tuple(b.number, -b.h);
@@ -78,7 +80,7 @@ namespace plumbline::report
     }
   } // namespace
 
-  Table error_table(const study::Results &results, const Case &one)
+  Table error_table(const study::StudyResults &results, const Case &one)
   {
     Table table;
     table.caption = one.title() + ": error, " + error_words(results.decisive_error);
@@ -107,12 +109,12 @@ namespace plumbline::report
       for (const MethodName *method : shown)
       {
         Cell error = empty_cell(), rate = empty_cell();
-        for (const study::Run *run : runs_of(results, method->name, one))
+        for (const study::Record *run : runs_of(results, method->name, one))
           if (level.holds(*run))
           {
             error = error_cell(decisive_error(results, *run));
             if (const study::Trend *trend = decisive_trend(results, method->name, one))
-              rate = rate_cell(rate_at(*trend, coordinate(axis, *run)));
+              rate = rate_cell(rate_at(*trend, coordinate(axis, run->key)));
           }
         row.push_back(error);
         if (has_rates)
@@ -123,7 +125,7 @@ namespace plumbline::report
     return table;
   }
 
-  Table verdict_table(const study::Results &results)
+  Table trend_table(const study::StudyResults &results)
   {
     Table table;
     table.caption = "Verdicts on the error " + error_words(results.decisive_error) +
@@ -145,26 +147,26 @@ namespace plumbline::report
     return table;
   }
 
-  Table cost_table(const study::Results &results)
+  Table cost_table(const study::StudyResults &results)
   {
     Table table;
     table.caption = "Cost of each run; CPU seconds are summed over threads";
     table.columns = {"method",      "problem", "series",         "h",
                      "unknowns",    "bonds",   "geometry CPU s", "setup CPU s",
                      "solve CPU s", "peak MB", "iterations"};
-    for (const study::Run &run : results.runs)
+    for (const study::Record &run : results.records)
       if (run.failure.empty())
-        table.rows.push_back({text_cell(run.method), text_cell(run.problem), text_cell(run.series),
-                              number_cell(run.h), count_cell(run.cost.n_unknowns),
-                              count_cell(run.cost.n_bonds), number_cell(run.geometry_seconds),
-                              number_cell(run.cost.setup_seconds),
-                              number_cell(run.cost.solve_seconds),
-                              number_cell(1e-6 * static_cast<double>(run.cost.peak_bytes)),
-                              count_cell(run.cost.n_iterations)});
+        table.rows.push_back(
+            {text_cell(run.key.method), text_cell(run.key.problem), text_cell(run.key.series),
+             number_cell(run.key.h), count_cell(run.cost.n_unknowns), count_cell(run.cost.n_bonds),
+             number_cell(study::geometry_seconds(run)), number_cell(run.cost.setup_seconds),
+             number_cell(run.cost.solve_seconds),
+             number_cell(1e-6 * static_cast<double>(run.cost.peak_bytes)),
+             count_cell(run.cost.n_iterations)});
     return table;
   }
 
-  Table other_errors_table(const study::Results &results)
+  Table other_errors_table(const study::StudyResults &results)
   {
     Table table;
     table.columns = {"method", "problem", "series", "error", "finest value", "rate", "verdict"};
@@ -210,25 +212,26 @@ namespace plumbline::report
     return table;
   }
 
-  Table doubtful_differences(const study::Results &results)
+  Table doubtful_differences(const study::StudyResults &results)
   {
     Table table;
     table.columns = {"method",     "problem", "series",   "level",
                      "difference", "value",   "estimate", "value / estimate"};
     for (const study::ErrorEstimate &estimate : results.references)
-      for (const study::Run &run : results.runs)
-        if (run.problem == estimate.problem && run.series == estimate.series &&
-            run.level == estimate.level && run.method != estimate.method && run.failure.empty())
-          for (const auto &[error, value] : run.errors)
+      for (const study::Record &run : results.records)
+        if (run.key.problem == estimate.problem && run.key.series == estimate.series &&
+            run.key.level == estimate.level && run.key.method != estimate.method &&
+            run.failure.empty())
+          for (const auto &[error, value] : study::errors_of(run))
             if (is_against_reference(error) && value < trusted_ratio * estimate.estimate)
               table.rows.push_back(
-                  {text_cell(run.method), text_cell(run.problem), text_cell(run.series),
-                   count_cell(run.level), text_cell(error_words(error)), error_cell(value),
+                  {text_cell(run.key.method), text_cell(run.key.problem), text_cell(run.key.series),
+                   count_cell(run.key.level), text_cell(error_words(error)), error_cell(value),
                    error_cell(estimate.estimate), number_cell(value / estimate.estimate)});
     return table;
   }
 
-  Table diagnostics_table(const study::Results &results)
+  Table diagnostics_table(const study::StudyResults &results)
   {
     Table table;
     table.columns = {"method",           "family",         "neighbours", "smallest weight ratio",
@@ -236,24 +239,24 @@ namespace plumbline::report
     for (const MethodName &method : methods(results))
     {
       double fewest = std::numeric_limits<double>::max(), most = 0, ratio = fewest, residual = 0;
-      unsigned int n_negative = 0;
+      std::size_t n_negative = 0;
       std::vector<std::string> backends, notes;
       const auto add = [](std::vector<std::string> &list, const std::string &text)
       {
         if (!text.empty() && std::find(list.begin(), list.end(), text) == list.end())
           list.push_back(text);
       };
-      for (const study::Run &run : results.runs)
-        if (run.method == method.name && run.failure.empty())
+      for (const study::Record &run : results.records)
+        if (run.key.method == method.name && run.failure.empty())
         {
-          const study::Diagnostics &d = run.diagnostics;
-          fewest = std::min<double>(fewest, d.n_neighbours);
-          most = std::max<double>(most, d.n_neighbours);
-          ratio = std::min(ratio, d.smallest_weight_ratio);
-          residual = std::max(residual, d.relative_residual);
-          n_negative = std::max(n_negative, d.n_negative_weights);
-          add(backends, d.operator_backend);
-          for (const std::string &note : d.notes)
+          const double n_neighbours = run.has("neighbours") ? run["neighbours"] : 0;
+          fewest = std::min(fewest, n_neighbours);
+          most = std::max(most, n_neighbours);
+          ratio = std::min(ratio, run.has("smallest weight") ? run["smallest weight"] : 1);
+          residual = std::max(residual, run["relative residual"]);
+          n_negative = std::max(n_negative, run.count("negative weights"));
+          add(backends, run.text("operator"));
+          for (const std::string &note : run.notes)
             add(notes, note);
         }
       if (fewest > most)
@@ -277,21 +280,22 @@ namespace plumbline::report
     return table;
   }
 
-  Table tip_force_table(const study::Results &results)
+  Table tip_force_table(const study::StudyResults &results)
   {
     Table table;
     table.columns = {"method", "case",  "series",    "h [length]",        "horizon [length]",
                      "tip x",  "tip y", "F [force]", "F / sqrt(horizon)", "sum of norms"};
-    for (const study::Run &run : results.runs)
-      for (const method::TipForce &one : run.diagnostics.tip_forces)
-        table.rows.push_back({text_cell(run.method), text_cell(run.problem), text_cell(run.series),
-                              number_cell(run.h), number_cell(run.horizon), number_cell(one.tip[0]),
+    for (const study::Record &run : results.records)
+      for (const method::TipForce &one : study::tip_forces_of(run))
+        table.rows.push_back({text_cell(run.key.method), text_cell(run.key.problem),
+                              text_cell(run.key.series), number_cell(run.key.h),
+                              number_cell(run.key.horizon), number_cell(one.tip[0]),
                               number_cell(one.tip[1]), error_cell(one.norm),
                               error_cell(one.over_root), error_cell(one.sum_of_norms)});
     return table;
   }
 
-  Table saving_table(const study::Results &results)
+  Table saving_table(const study::StudyResults &results)
   {
     Table table;
     table.caption = "What the smallest model saved";
@@ -307,33 +311,33 @@ namespace plumbline::report
     return table;
   }
 
-  Table failure_table(const study::Results &results)
+  Table failure_table(const study::StudyResults &results)
   {
     Table table;
     table.columns = {"method", "problem", "series", "level", "h", "δ"};
     if (!results.variable.empty())
       table.columns.emplace_back(results.variable);
     table.columns.emplace_back("why");
-    for (const study::Run &run : results.runs)
+    for (const study::Record &run : results.records)
       if (!run.failure.empty())
       {
-        std::vector<Cell> row = {text_cell(run.method), text_cell(run.problem),
-                                 text_cell(run.series), count_cell(run.level),
-                                 number_cell(run.h),    number_cell(run.horizon)};
+        std::vector<Cell> row = {text_cell(run.key.method), text_cell(run.key.problem),
+                                 text_cell(run.key.series), count_cell(run.key.level),
+                                 number_cell(run.key.h),    number_cell(run.key.horizon)};
         if (!results.variable.empty())
-          row.push_back(number_cell(run.value));
+          row.push_back(number_cell(run.key.value));
         row.push_back(text_cell(run.failure));
         table.rows.push_back(std::move(row));
       }
     return table;
   }
 
-  void write_tables(const study::Results &results, const std::filesystem::path &dir)
+  void write_tables(const study::StudyResults &results, const std::filesystem::path &dir)
   {
     const std::filesystem::path folder = dir / "tables";
     for (const Case &one : cases(results))
       write_table(error_table(results, one), folder / ("errors_" + one.slug));
-    write_table(verdict_table(results), folder / "verdicts");
+    write_table(trend_table(results), folder / "verdicts");
     write_table(cost_table(results), folder / "cost");
     auto estimates = results.references;
     estimates.insert(estimates.end(), results.estimates.begin(), results.estimates.end());

@@ -9,16 +9,16 @@ namespace plumbline::report
 {
   /// Rows: levels with h, horizon and m = horizon / h. Columns: of each method the decisive
   /// error and the rate from the level before. No value: no solution, or no error of that name.
-  Table error_table(const study::Results &results, const Case &one);
+  Table error_table(const study::StudyResults &results, const Case &one);
 
   /// One row for each method and case: fitted rate and plateau, verdict and reason.
-  Table verdict_table(const study::Results &results);
+  Table trend_table(const study::StudyResults &results);
 
   /// One row for each run.
-  Table cost_table(const study::Results &results);
+  Table cost_table(const study::StudyResults &results);
 
   /// The errors that verdicts do not rest on: finest value, fitted rate, verdict.
-  Table other_errors_table(const study::Results &results);
+  Table other_errors_table(const study::StudyResults &results);
 
   /// The reference's own uncertainty at each level.
   Table estimate_table(const std::vector<study::ErrorEstimate> &estimates);
@@ -29,21 +29,21 @@ namespace plumbline::report
 
   /// The differences too small for the reference: one row each, with the ratio. Differences are the
   /// errors with the target "reference". A level without an estimate (zero) says nothing.
-  Table doubtful_differences(const study::Results &results);
+  Table doubtful_differences(const study::StudyResults &results);
 
   /// Of each method over all its runs: neighbours, weights, residual, backend, notes.
-  Table diagnostics_table(const study::Results &results);
+  Table diagnostics_table(const study::StudyResults &results);
 
   /// The net force of surface terms about each tip of a crack, of each run that has them.
-  Table tip_force_table(const study::Results &results);
+  Table tip_force_table(const study::StudyResults &results);
 
   /// What the smallest model saved, where the full one was solved too.
-  Table saving_table(const study::Results &results);
+  Table saving_table(const study::StudyResults &results);
 
   /// The runs without a solution, and why.
-  Table failure_table(const study::Results &results);
+  Table failure_table(const study::StudyResults &results);
 
   /// Write dir/tables: errors_CASE, verdicts and cost, each as .csv (unrounded), .md and .tex.
   /// @throws InputError  dir cannot be written
-  void write_tables(const study::Results &results, const std::filesystem::path &dir);
+  void write_tables(const study::StudyResults &results, const std::filesystem::path &dir);
 } // namespace plumbline::report

@@ -100,6 +100,7 @@ namespace plumbline::study
         results_.scene_name = scene.name;
         results_.purpose = scene.purpose;
         results_.scene_text = scene.text;
+        results_.regime = scene.study.regime;
         results_.variable = scene.study.variable;
         common_.make_part = [this](const Record &begun, const Common::Fill &fill)
         { make_part(begun, fill); };

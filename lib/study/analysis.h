@@ -51,7 +51,8 @@ namespace plumbline::study
     const scene::Scene &scene() const { return scene_; } ///< with the values of this level
     const problem::Series &series() const { return series_; }
     const problem::Level &level() const { return series_.levels[level_]; }
-    bool is_finest() const { return is_finest_; } ///< of the levels that are run
+    unsigned int number() const { return level_; } ///< of the level, from coarse to fine
+    bool is_finest() const { return is_finest_; }  ///< of the levels that are run
 
     /// The problem of a case, made when it is first asked for.
     /// @param index  into ProblemSection::case_names()

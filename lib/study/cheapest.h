@@ -1,6 +1,6 @@
 #pragma once
 
-#include "study/results.h"
+#include "study/study_results.h"
 
 #include <vector>
 
@@ -17,5 +17,5 @@ namespace plumbline::study
   /// Which of the runs to take: of those that tie with the least cost the one with the fewest
   /// unknowns, then by name. First that one, then the cheapest run of each other method within the
   /// tie, in the same order. Empty if there are no runs.
-  std::vector<const Run *> cheapest(std::vector<const Run *> runs);
+  std::vector<const Record *> cheapest(std::vector<const Record *> runs);
 } // namespace plumbline::study

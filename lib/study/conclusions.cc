@@ -4,6 +4,7 @@
 #include "scene/models/model.h"
 #include "study/cheapest.h"
 #include "study/expectations.h"
+#include "study/solution_record.h"
 #include "study/target_words.h"
 #include "study/tip_forces.h"
 #include "study/trend.h"
@@ -29,19 +30,19 @@ namespace plumbline::study
     }
 
     /// Where the last level of a run's method, case and series is on the axis.
-    double finest_place(const Results &results, const Run &first, Axis axis)
+    double finest_place(const StudyResults &results, const Record &first, Axis axis)
     {
-      double least = coordinate(axis, first);
-      for (const Run &run : results.runs)
-        if (run.method == first.method && run.problem == first.problem &&
-            run.series == first.series)
-          least = std::min(least, coordinate(axis, run));
+      double least = coordinate(axis, first.key);
+      for (const Record &run : results.records)
+        if (run.key.method == first.key.method && run.key.problem == first.key.problem &&
+            run.key.series == first.key.series)
+          least = std::min(least, coordinate(axis, run.key));
       return least;
     }
 
     /// A difference to the reference that is not ten times the reference's own estimate decides
     /// nothing.
-    void doubt_reference(const Results &results, Trend &trend)
+    void doubt_reference(const StudyResults &results, Trend &trend)
     {
       if (!is_against_reference(trend.error) || trend.values.empty() ||
           trend.outcome == Outcome::failed)
@@ -74,37 +75,36 @@ namespace plumbline::study
     }
 
     /// The errors of one method, case and series over its levels.
-    Trend collect(const scene::Scene &scene, const Results &results, const Run &first,
+    Trend collect(const scene::Scene &scene, const StudyResults &results, const Record &first,
                   const std::string &error)
     {
       Trend trend;
-      trend.method = first.method;
-      trend.family = first.family;
-      trend.problem = first.problem;
-      trend.series = first.series;
+      trend.method = first.key.method;
+      trend.family = first.key.family;
+      trend.problem = first.key.problem;
+      trend.series = first.key.series;
       trend.error = error;
       trend.axis = level_axis(scene.study.regime);
       std::vector<LimitProof> proofs;
-      for (const Run &run : results.runs)
+      for (const Record &run : results.records)
       {
-        if (run.method != first.method || run.problem != first.problem ||
-            run.series != first.series)
+        if (run.key.method != first.key.method || run.key.problem != first.key.problem ||
+            run.key.series != first.key.series)
           continue;
-        const auto value = run.errors.find(error);
         if (!run.failure.empty())
         {
           trend.outcome = Outcome::failed;
           trend.reason = run.failure;
         }
-        if (value == run.errors.end())
+        if (!run.has(error))
           continue;
-        const double unit = norm_of_one(error, run.area);
-        trend.size = std::max(trend.size, unit * run.size);
-        trend.round_off = std::max(trend.round_off, unit * run.round_off);
-        const LimitProof &proof = run.diagnostics.limit;
+        const double unit = norm_of_one(error, area_of(run));
+        trend.size = std::max(trend.size, unit * size_of(run));
+        trend.round_off = std::max(trend.round_off, unit * round_off_of(run));
+        const LimitProof proof = limit_of(run);
         trend.proof = trend.x.empty() ? proof : weaker(trend.proof, proof);
-        trend.x.push_back(coordinate(trend.axis, run));
-        trend.values.push_back(value->second);
+        trend.x.push_back(coordinate(trend.axis, run.key));
+        trend.values.push_back(run[error]);
         proofs.push_back(proof);
       }
       if (is_against(error, scene::Target::finest))
@@ -129,7 +129,7 @@ namespace plumbline::study
     }
 
     /// Once, of a decisive error that decides nothing.
-    void warn_of_target(Results &results)
+    void warn_of_target(StudyResults &results)
     {
       if (!is_between_models(results))
         return;
@@ -144,55 +144,56 @@ namespace plumbline::study
         results.warnings.push_back(warning);
     }
 
-    void make_trends(const scene::Scene &scene, Results &results)
+    void make_trends(const scene::Scene &scene, StudyResults &results)
     {
       std::set<std::tuple<std::string, std::string, std::string>> seen;
-      for (const Run &run : results.runs)
+      for (const Record &run : results.records)
       {
-        if (!seen.insert({run.method, run.problem, run.series}).second)
+        if (!seen.insert({run.key.method, run.key.problem, run.key.series}).second)
           continue;
         std::set<std::string> errors{scene.study.decisive_error.text()};
-        for (const Run &other : results.runs)
-          if (other.method == run.method && other.problem == run.problem)
-            for (const auto &entry : other.errors)
+        for (const Record &other : results.records)
+          if (other.key.method == run.key.method && other.key.problem == run.key.problem)
+            for (const auto &entry : errors_of(other))
               errors.insert(entry.first);
         for (const std::string &error : errors)
           // the reference held against itself says nothing
           if (!is_against_reference(error) || results.references.empty() ||
-              run.method != results.references.front().method)
+              run.key.method != results.references.front().method)
             results.trends.push_back(collect(scene, results, run, error));
       }
     }
 
     /// The cheapest runs of methods that converge, to this field and to others, with an error of at
     /// most a target times how far their solution varies.
-    std::vector<const Run *> cheapest_to(const Results &results,
-                                         const std::set<std::string> &methods,
-                                         const std::string &problem, const std::string &series,
-                                         double target)
+    std::vector<const Record *> cheapest_to(const StudyResults &results,
+                                            const std::set<std::string> &methods,
+                                            const std::string &problem, const std::string &series,
+                                            double target)
     {
-      std::vector<const Run *> runs;
-      for (const Run &run : results.runs)
+      std::vector<const Record *> runs;
+      for (const Record &run : results.records)
       {
-        const auto error = run.errors.find(results.decisive_error);
-        if (run.problem == problem && run.series == series && methods.count(run.method) > 0 &&
-            error != run.errors.end() &&
-            error->second <= target * norm_of_one(error->first, run.area) * run.size)
+        if (run.key.problem == problem && run.key.series == series &&
+            methods.count(run.key.method) > 0 &&
+            run[results.decisive_error] <=
+                target * norm_of_one(results.decisive_error, area_of(run)) * size_of(run))
           runs.push_back(&run);
       }
       return cheapest(runs);
     }
 
-    Choice choice_of(const std::vector<const Run *> &runs, double target, const std::string &error)
+    Choice choice_of(const std::vector<const Record *> &runs, double target,
+                     const std::string &error)
     {
-      const Run &run = *runs.front();
-      Choice choice{target, run.method, run.h, run.errors.at(error), run.cost.seconds(), {}};
+      const Record &run = *runs.front();
+      Choice choice{target, run.key.method, run.key.h, run[error], run.cost.seconds(), {}};
       for (std::size_t i = 1; i < runs.size(); ++i)
-        choice.tied.push_back(runs[i]->method);
+        choice.tied.push_back(runs[i]->key.method);
       return choice;
     }
 
-    void give_advice(const scene::Scene &scene, Results &results)
+    void give_advice(const scene::Scene &scene, StudyResults &results)
     {
       for (const std::string &problem : scene.problem.case_names())
         for (const auto &series : scene.study.series)
@@ -220,10 +221,10 @@ namespace plumbline::study
         }
     }
 
-    void list_omissions(const scene::Scene &scene, Results &results)
+    void list_omissions(const scene::Scene &scene, StudyResults &results)
     {
-      const Run *largest = nullptr;
-      for (const Run &run : results.runs)
+      const Record *largest = nullptr;
+      for (const Record &run : results.records)
         if (run.failure.empty() && (largest == nullptr || run.cost.n_bonds > largest->cost.n_bonds))
           largest = &run;
       if (largest == nullptr)
@@ -231,7 +232,7 @@ namespace plumbline::study
       const double bonds = static_cast<double>(largest->cost.n_bonds);
       const double rows = std::max<double>(1., static_cast<double>(largest->cost.n_unknowns));
       const std::string where =
-          " (" + largest->method + ", h = " + base::to_text(largest->h, 4) + ")";
+          " (" + largest->key.method + ", h = " + base::to_text(largest->key.h, 4) + ")";
       const auto megabytes = [](double bytes) { return base::to_text(bytes / 1e6, 4) + " MB"; };
       if (!scene.domain.mesh.is_lattice())
       {
@@ -282,7 +283,7 @@ namespace plumbline::study
     }
   } // namespace
 
-  void conclude(const scene::Scene &scene, Results &results)
+  void conclude(const scene::Scene &scene, StudyResults &results)
   {
     results.trends.clear();
     results.advice.clear();

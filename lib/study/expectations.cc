@@ -26,7 +26,7 @@ namespace plumbline::study
 
     using Check = std::function<Expectation(const scene::Expected &, const Trend &)>;
 
-    void check_all(const scene::Scene &scene, scene::ExpectedKind kind, Results &results,
+    void check_all(const scene::Scene &scene, scene::ExpectedKind kind, StudyResults &results,
                    const std::string &what, const Check &check)
     {
       for (const scene::Expected &expected : scene.expected.all)
@@ -105,7 +105,7 @@ namespace plumbline::study
     }
   } // namespace
 
-  void check_expectations(const scene::Scene &scene, Results &results)
+  void check_expectations(const scene::Scene &scene, StudyResults &results)
   {
     using Kind = scene::ExpectedKind;
     const auto check = [&](Kind kind, const std::string &what, const Check &of_trend)

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <limits>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -16,30 +15,6 @@ namespace plumbline::study
   using method::Diagnostics;
   using method::LimitProof;
   using method::MethodFamily;
-
-  /// One method on one case at one level.
-  struct Run
-  {
-    std::string method;                           ///< e.g. "IPA-AC"
-    MethodFamily family = MethodFamily::meshfree; ///< of the method
-    std::string problem;                          ///< case name, e.g. "case1"
-    std::string series;                           ///< what is held fixed, e.g. "m = 3"
-    unsigned int level = 0;                       ///< from coarse to fine
-    double h = 0, horizon = 0;                    ///< [length]
-    double value = 0;                             ///< of Results::variable
-    base::Cost cost;
-    /// What making the mesh and, for meshfree methods, the cells of nodes took. Methods of a level
-    /// share it; it is in no cost [CPU s].
-    double geometry_seconds = 0;
-    Diagnostics diagnostics;
-    /// Of the solution: largest less least cell average of a component. A constant counts for
-    /// nothing, as for the operator.
-    double size = 0;
-    double round_off = 0; ///< errors up to this are round-off, see study/round_off.h
-    double area = 1;      ///< of Ω: the L2 norm of a constant 1 is its root [length^2]
-    std::map<std::string, double> errors; ///< by "norm | target", e.g. "nodal Linf | exact"
-    std::string failure;                  ///< empty, or why there is no solution
-  };
 
   /// A convergence study has one of these answers.
   enum class Outcome
@@ -71,7 +46,8 @@ namespace plumbline::study
     Axis axis = Axis::mesh_size;
     std::vector<double> x;      ///< values on the axis, coarse to fine
     std::vector<double> values; ///< the errors
-    double size = 0; ///< of the solution, how far it varies, see Run; in the unit of the errors
+    double size =
+        0; ///< of the solution, how far it varies, see size_of(); in the unit of the errors
     std::vector<double> rates; ///< between neighbours, size x.size() - 1
     /// Slope of the last three levels, log over log, and a of the fit; NaN where nothing is fitted:
     /// fewer than four levels above round-off, or no refinement.
@@ -163,31 +139,8 @@ namespace plumbline::study
     double h = 0, horizon = 0;
     std::array<double, 2> lower{}, upper{}; ///< corners of the bounding box [length]
     unsigned int n_x = 0, n_y = 0;          ///< blocks, at most 32 each
-    double size = 1;                        ///< of the solution, see Run
+    double size = 1;                        ///< of the solution, see size_of()
     std::vector<double> values;             ///< shape (n_y, n_x), NaN outside the domain
-  };
-
-  /// Everything of one run of a scene, as written to results.json.
-  struct Results
-  {
-    std::string scene_name, purpose;
-    scene::Regime regime = scene::Regime::delta;
-    std::string variable;                          ///< that varies in its regime, else empty
-    std::string scene_text;                        ///< the scene as read, all keys
-    std::map<std::string, std::string> provenance; ///< version, libraries, machine
-    std::string decisive_error;                    ///< the "norm | target" that verdicts rest on
-    std::vector<Run> runs;
-    std::vector<std::string> left_out; ///< solves that the budget did not allow
-    std::vector<std::string> warnings; ///< of the scene, e.g. that its solution and load contradict
-    std::vector<Trend> trends;
-    std::vector<ErrorEstimate> references; ///< of the scene's reference
-    std::vector<ErrorEstimate> estimates;  ///< of other Galerkin solutions
-    std::vector<Omission> omissions;
-    std::vector<Saving> savings; ///< at the coarsest level, of the first method of each side
-    std::vector<Expectation> expectations;
-    std::vector<Advice> advice;
-    std::vector<ErrorMap> maps;
-    bool is_complete = false; ///< false while a run is going on, or after an interrupt
   };
 } // namespace plumbline::study
 

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "study/comparison.h"
+#include "study/solution_record.h"
 
 namespace plumbline::study
 {
@@ -64,25 +65,25 @@ namespace plumbline::study
     std::vector<SampleCase> cases;
     SweepControl control;
     control.on_solution =
-        [&](const problem::Problem<2> &problem, const Solution &solution, const Run &run)
+        [&](const problem::Problem<2> &problem, const Solution &solution, const Record &run)
     {
       SampleCase one;
-      one.method = run.method;
-      one.problem = run.problem;
-      one.series = run.series;
-      one.level = run.level;
-      one.h = run.h;
-      one.horizon = run.horizon;
+      one.method = run.key.method;
+      one.problem = run.key.problem;
+      one.series = run.key.series;
+      one.level = run.key.level;
+      one.h = run.key.h;
+      one.horizon = run.key.horizon;
       one.seconds = run.cost.setup_seconds + run.cost.solve_seconds;
-      one.quantities = run.errors;
+      one.quantities = errors_of(run);
       one.field = field_of(problem, solution, is_nodal);
       cases.push_back(std::move(one));
     };
-    const Results results = run_sweep(scene, methods, available, control);
-    for (const Run &run : results.runs)
+    const StudyResults results = run_sweep(scene, methods, available, control);
+    for (const Record &run : results.records)
       if (!run.failure.empty())
-        throw NumericalError(run.method + ", " + run.problem + ", " + run.series + ": " +
-                             run.failure);
+        throw NumericalError(run.key.method + ", " + run.key.problem + ", " + run.key.series +
+                             ": " + run.failure);
     return cases;
   }
 

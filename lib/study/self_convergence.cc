@@ -88,24 +88,24 @@ namespace plumbline::study
     return sum;
   }
 
-  void OwnFinest::keep(const Run &run, const problem::Problem<2> &problem,
+  void OwnFinest::keep(const Record &run, const problem::Problem<2> &problem,
                        const std::vector<double> &averages)
   {
     if (cells_.count(place(run)) == 0)
       cells_[place(run)] = comparison_pieces(problem);
-    kept_[{run.method, place(run)}] = {averages, problem.n_components};
+    kept_[{run.key.method, place(run)}] = {averages, problem.n_components};
   }
 
-  void OwnFinest::compare(const scene::Scene &scene, std::vector<Run> &runs) const
+  void OwnFinest::compare(const scene::Scene &scene, std::vector<Record> &runs) const
   {
-    for (Run &run : runs)
+    for (Record &run : runs)
     {
-      const auto own = kept_.find({run.method, place(run)});
+      const auto own = kept_.find({run.key.method, place(run)});
       auto finest = place(run);
-      for (const Run &other : runs)
-        if (is_same_run(other, run.method, run.problem, run.series, other.level))
-          std::get<2>(finest) = std::max(std::get<2>(finest), other.level);
-      const auto target = kept_.find({run.method, finest});
+      for (const Record &other : runs)
+        if (is_same_run(other, run.key.method, run.key.problem, run.key.series, other.key.level))
+          std::get<2>(finest) = std::max(std::get<2>(finest), other.key.level);
+      const auto target = kept_.find({run.key.method, finest});
       if (own == kept_.end() || target == kept_.end() || own == target)
         continue;
       const CellPieces &cells = cells_.at(place(run));
@@ -120,8 +120,8 @@ namespace plumbline::study
       }
       for (const scene::Norm norm : scene.study.norms)
         if (scene::quantity(norm) == scene::Quantity::averages)
-          run.errors[scene::DecisiveError{norm, scene::Target::finest}.text()] =
-              scene::is_largest(norm) ? largest : std::sqrt(squares);
+          run.set(scene::DecisiveError{norm, scene::Target::finest}.text(),
+                  scene::is_largest(norm) ? largest : std::sqrt(squares));
     }
   }
 } // namespace plumbline::study

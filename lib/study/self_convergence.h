@@ -3,7 +3,7 @@
 #include "geometry/polygon.h"
 #include "scene/problem.h"
 #include "scene/scene.h"
-#include "study/results.h"
+#include "study/study_results.h"
 
 #include <map>
 #include <string>
@@ -37,12 +37,12 @@ namespace plumbline::study
   class OwnFinest
   {
   public:
-    void keep(const Run &run, const problem::Problem<2> &problem,
+    void keep(const Record &run, const problem::Problem<2> &problem,
               const std::vector<double> &averages);
 
     /// Enters "norm | own finest level" for the scene's norms of averages into all runs of a
     /// method, case and series that were kept, but the finest one; where that is missing, nowhere.
-    void compare(const scene::Scene &scene, std::vector<Run> &runs) const;
+    void compare(const scene::Scene &scene, std::vector<Record> &runs) const;
 
   private:
     /// Of a case and series, by level; of a method besides.
@@ -52,7 +52,10 @@ namespace plumbline::study
       unsigned int n_components = 0;
     };
     using Place = std::tuple<std::string, std::string, unsigned int>;
-    static Place place(const Run &run) { return {run.problem, run.series, run.level}; }
+    static Place place(const Record &run)
+    {
+      return {run.key.problem, run.key.series, run.key.level};
+    }
 
     std::map<Place, CellPieces> cells_;
     std::map<std::pair<std::string, Place>, Kept> kept_;

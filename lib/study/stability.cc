@@ -5,6 +5,7 @@
 #include "method/discretisation.h"
 #include "scene/capabilities.h"
 #include "study/preflight.h"
+#include "study/solution_record.h"
 #include "study/strain_growth.h"
 #include "study/trend.h"
 
@@ -305,13 +306,7 @@ namespace plumbline::study
     set(consistency.barrier > 0, "barrier", consistency.barrier, "u / b");
     set(consistency.n_inner > 0, "inner nodes", static_cast<double>(consistency.n_inner));
     set(consistency.n_inner > 0, "exact degree", consistency.degree);
-    const method::Diagnostics &d = s.diagnostics;
-    set(d.n_neighbours > 0, "neighbours", d.n_neighbours);
-    set(d.n_neighbours > 0, "smallest weight", d.smallest_weight_ratio);
-    set(true, "negative weights", d.n_negative_weights);
-    set(d.n_conditions > 0, "moment conditions", d.n_conditions);
-    set(d.n_conditions > 0, "moment rank", d.rank);
-    set(d.n_conditions > 0, "smallest singular value", d.smallest_singular_value);
+    set_weights(record, s.diagnostics);
     set(steps.largest > 0, "density", steps.density);
     set(steps.largest > 0, "largest eigenvalue in motion", steps.largest, "1/time^2");
     set(steps.largest > 0, "critical step", steps.own(), "time");
@@ -319,7 +314,7 @@ namespace plumbline::study
         "1/time^2");
     set(steps.largest_lumped > 0, "critical step, lumped", steps.lumped(), "time");
     set(steps.largest > 0, "grows", steps.is_oscillating ? 0 : 1);
-    record.notes = d.notes;
+    record.notes = s.diagnostics.notes;
     for (std::size_t k = 0; k < s.modes.values.size(); ++k)
       record.fields["mode " + std::to_string(k + 1)] = {s.modes.n_components, s.modes.nodes,
                                                         s.modes.values[k]};

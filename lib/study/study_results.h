@@ -3,6 +3,7 @@
 #include "analysis/record.h"
 #include "study/results.h"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -50,19 +51,27 @@ namespace plumbline::study
   {
     std::string analysis; ///< e.g. "stability"
     std::string scene_name, purpose;
-    std::string scene_text;                        ///< the scene as read, all keys
+    std::string scene_text; ///< the scene as read, all keys
+    scene::Regime regime = scene::Regime::delta;
     std::string variable;                          ///< that varies in its regime, else empty
+    std::string decisive_error;                    ///< "norm | target" of verdicts; empty: none
     std::map<std::string, std::string> provenance; ///< version, libraries, machine
     std::map<std::string, std::string> facts;      ///< of the study as a whole, by name
-    Records records; ///< method by method, coarse to fine in each series
+    Records records; ///< method by method or case by case, coarse to fine in each series
     std::vector<Trend> trends;
     std::vector<Power> powers;
     std::vector<Limit> limits;
     std::vector<Verdict> verdicts;
+    std::vector<Advice> advice;
+    std::vector<ErrorEstimate> references; ///< of the scene's reference
+    std::vector<ErrorEstimate> estimates;  ///< of other Galerkin solutions
+    std::vector<ErrorMap> maps;
+    std::vector<Omission> omissions;
+    std::vector<Saving> savings; ///< at the coarsest level, of the first method of each side
     std::vector<Expectation> expectations;
     std::vector<std::string> left_out; ///< what the budget did not allow
-    std::vector<std::string> warnings;
-    bool is_complete = true; ///< else it was interrupted
+    std::vector<std::string> warnings; ///< of the scene, e.g. that its solution and load contradict
+    bool is_complete = true;           ///< false while it goes on, or after an interrupt
   };
 
   /// The records of an analysis' finest level of each method and series, without failures.

@@ -2,6 +2,7 @@
 
 #include "base/communicator.h"
 #include "base/error.h"
+#include "study/analysis.h"
 #include "study/comparison.h"
 #include "study/conclusions.h"
 #include "study/contradiction.h"
@@ -13,6 +14,7 @@
 #include "study/sampling.h"
 #include "study/saving.h"
 #include "study/self_convergence.h"
+#include "study/solution_record.h"
 #include "study/timing.h"
 
 #include <algorithm>
@@ -33,10 +35,12 @@ namespace plumbline::study
     {
     public:
       Sweep(const scene::Scene &scene, const Methods &methods, const Methods &available,
-            const SweepControl &control, const Results &earlier)
+            const SweepControl &control, const StudyResults &earlier)
           : scene_(scene), methods_(methods), available_(available), control_(control),
             earlier_(earlier), cases_(scene.problem.case_names())
       {
+        results_.analysis = "statics";
+        results_.is_complete = false;
         results_.scene_name = scene.name;
         results_.purpose = scene.purpose;
         results_.regime = scene.study.regime;
@@ -46,16 +50,16 @@ namespace plumbline::study
         results_.provenance = earlier.provenance;
       }
 
-      Results run()
+      StudyResults run()
       {
         for (const auto &series : scene_.study.series)
           n_all_ += cases_.size() * n_levels(series) * methods_.size();
         for (const auto &series : scene_.study.series)
           for (unsigned int level = 0; level < n_levels(series) && !is_stopped_; ++level)
-            run_level(series, level);
+            run_level({scene_, series, level, level + 1 == n_levels(series), common_});
         results_.is_complete = !is_stopped_;
         if (!is_stopped_)
-          own_finest_.compare(scene_, results_.runs);
+          own_finest_.compare(scene_, results_.records);
         sort_by_case();
         conclude(scene_, results_);
         return results_;
@@ -77,15 +81,15 @@ namespace plumbline::study
       }
 
       /// Methods that the budget allows at this level.
-      Methods affordable(const std::string &name, const problem::Series &series, unsigned int level)
+      Methods affordable(const std::string &name, const Place &place)
       {
         if (control_.budget == 0)
           return methods_;
         Methods result;
         for (const auto &method : methods_)
         {
-          const auto seconds =
-              expected_seconds(results_.runs, method->name(), name, series.name, level);
+          const auto seconds = expected_seconds(results_.records, method->name(), name,
+                                                place.series().name, place.number());
           const bool is_dear = !seconds || *seconds > control_.budget;
           if (!base::Communicator::all().any(
                   is_dear)) // each rank has its own clock, and all must agree
@@ -94,8 +98,8 @@ namespace plumbline::study
             continue;
           }
           std::ostringstream what;
-          what << method->name() << ", " << name << ", " << series.name
-               << ", h = " << series.levels[level].h;
+          what << method->name() << ", " << name << ", " << place.series().name
+               << ", h = " << place.level().h;
           if (seconds)
             what << ": some " << *seconds << " CPU s";
           results_.left_out.push_back(what.str());
@@ -104,50 +108,50 @@ namespace plumbline::study
       }
 
       /// Take over what an earlier run of the same scene has for this level.
-      bool take_earlier(const Methods &due, const std::string &name, const problem::Series &series,
-                        unsigned int level)
+      bool take_earlier(const Methods &due, const std::string &name, const Place &place)
       {
         if (is_against_own()) // what an earlier run held against its own finest level is not kept
           return false;
-        std::vector<Run> known;
+        std::vector<Record> known;
         for (const auto &method : due)
-          for (const Run &run : earlier_.runs)
-            if (is_same_run(run, method->name(), name, series.name, level))
+          for (const Record &run : earlier_.records)
+            if (is_same_run(run, method->name(), name, place.series().name, place.number()))
               known.push_back(run);
         if (known.size() != due.size())
           return false;
-        results_.runs.insert(results_.runs.end(), known.begin(), known.end());
+        results_.records.insert(results_.records.end(), known.begin(), known.end());
         results_.savings = earlier_.savings; // of the first level, which is known then
         results_.warnings = earlier_.warnings;
         for (const ErrorMap &map : earlier_.maps)
-          if (map.problem == name && map.series == series.name && level + 1 == n_levels(series))
+          if (map.problem == name && map.series == place.series().name && place.is_finest())
             results_.maps.push_back(map);
         for (const ErrorEstimate &estimate : earlier_.references)
-          if (estimate.problem == name && estimate.series == series.name && estimate.level == level)
+          if (estimate.problem == name && estimate.series == place.series().name &&
+              estimate.level == place.number())
             results_.references.push_back(estimate);
         for (const ErrorEstimate &estimate : earlier_.estimates)
-          if (estimate.problem == name && estimate.series == series.name && estimate.level == level)
+          if (estimate.problem == name && estimate.series == place.series().name &&
+              estimate.level == place.number())
             results_.estimates.push_back(estimate);
         return true;
       }
 
-      void run_level(const problem::Series &series, unsigned int level)
+      void run_level(const Place &place)
       {
-        const scene::Scene here = at_level(scene_, series.levels[level]);
         std::vector<OpenCase> open;
         const std::size_t n_before = n_done_;
         for (unsigned int c = 0; c < cases_.size(); ++c)
         {
-          Methods due = affordable(cases_[c], series, level);
-          if (take_earlier(due, cases_[c], series, level))
+          Methods due = affordable(cases_[c], place);
+          if (take_earlier(due, cases_[c], place))
             continue;
-          say(cases_[c], series, level, "load and reference");
-          open.push_back({make_case(here, c, series.levels[level]), c, std::move(due)});
+          say(cases_[c], place, "load and reference");
+          open.push_back({make_case(place.scene(), c, place.level()), c, std::move(due)});
         }
-        warn(open, series, level);
-        solve_targets(open, series, level);
+        warn(open, place);
+        solve_targets(open, place);
         for (const auto &method : methods_)
-          run_method(*method, open, series, level);
+          run_method(*method, open, place);
         n_done_ = n_before + cases_.size() * methods_.size();
       }
 
@@ -157,11 +161,10 @@ namespace plumbline::study
       }
 
       /// Of the finest level, where the horizon is the shortest and limits are near.
-      void warn(const std::vector<OpenCase> &open, const problem::Series &series,
-                unsigned int level)
+      void warn(const std::vector<OpenCase> &open, const Place &place)
       {
-        if (open.empty() || level + 1 < n_levels(series) ||
-            series.name != scene_.study.series.front().name)
+        if (open.empty() || !place.is_finest() ||
+            place.series().name != scene_.study.series.front().name)
           return; // warnings of an earlier run are taken over with its cases
         if (const auto spectrum = field_spectrum(scene_.random); spectrum && spectrum->is_grey())
           results_.warnings.push_back("Random/modes: " + words_of(*spectrum));
@@ -172,17 +175,15 @@ namespace plumbline::study
             results_.warnings.push_back(cases_[one.index] + ": " + found->text());
       }
 
-      void say(const std::string &name, const problem::Series &series, unsigned int level,
-               const std::string &what) const
+      void say(const std::string &name, const Place &place, const std::string &what) const
       {
         if (control_.on_progress)
-          control_.on_progress(name + ", " + series.name + ", level " + std::to_string(level + 1) +
-                                   ": " + what,
+          control_.on_progress(name + ", " + place.series().name + ", level " +
+                                   std::to_string(place.number() + 1) + ": " + what,
                                static_cast<double>(n_done_) / static_cast<double>(n_all_));
       }
 
-      void solve_targets(std::vector<OpenCase> &open, const problem::Series &series,
-                         unsigned int level)
+      void solve_targets(std::vector<OpenCase> &open, const Place &place)
       {
         for (OpenCase &one : open)
         {
@@ -191,8 +192,7 @@ namespace plumbline::study
             ReferenceAverages reference = solve_reference(
                 one, *find_method(available_, *scene_.reference.method, "Reference/method"),
                 scene_.reference);
-            results_.references.push_back(
-                placed(reference.estimate, cases_[one.index], series, level));
+            results_.references.push_back(placed(reference.estimate, cases_[one.index], place));
             one.targets.reference = std::move(reference.averages);
           }
           if (scene_.problem.local_solution == scene::LocalSolution::computed)
@@ -201,8 +201,7 @@ namespace plumbline::study
       }
 
       /// All cases by one discretisation; on several ranks, where all must fail alike, one by one.
-      void run_method(const Method &method, std::vector<OpenCase> &open,
-                      const problem::Series &series, unsigned int level)
+      void run_method(const Method &method, std::vector<OpenCase> &open, const Place &place)
       {
         std::vector<const OpenCase *> due;
         for (const OpenCase &one : open)
@@ -216,21 +215,21 @@ namespace plumbline::study
           is_stopped_ = true;
           return;
         }
-        say(cases_[due.front()->index], series, level, method.name());
+        say(cases_[due.front()->index], place, method.name());
         const bool is_alone = base::Communicator::all().n_ranks() == 1;
         std::vector<analysis::Outcome> solved;
         if (is_alone)
           ranks_.communicator().together([&] { solved = solve_cases(method, due); });
         for (std::size_t i = 0; i < due.size(); ++i)
         {
-          Run run = empty_run(method, *due[i], series, level);
+          Record run = empty_run(method, *due[i], place);
           const auto solve = [&]
           {
             analysis::Outcome outcome =
                 is_alone ? std::move(solved[i]) : solve_cases(method, {due[i]}).front();
             if (!outcome.solution)
               std::rethrow_exception(outcome.failure);
-            evaluate(method, *due[i], *outcome.solution, series, run);
+            evaluate(method, *due[i], *outcome.solution, place, run);
           };
           try
           {
@@ -241,7 +240,7 @@ namespace plumbline::study
           {
             run.failure = error.what();
           }
-          results_.runs.push_back(run);
+          results_.records.push_back(run);
           ++n_done_;
           if (control_.on_result)
             control_.on_result(results_);
@@ -249,11 +248,11 @@ namespace plumbline::study
       }
 
       static ErrorEstimate placed(ErrorEstimate estimate, const std::string &name,
-                                  const problem::Series &series, unsigned int level)
+                                  const Place &place)
       {
         estimate.problem = name;
-        estimate.series = series.name;
-        estimate.level = level;
+        estimate.series = place.series().name;
+        estimate.level = place.number();
         return estimate;
       }
 
@@ -268,59 +267,56 @@ namespace plumbline::study
       }
 
       /// At the first level that is run, for the first method of each side, where it is cheap.
-      bool is_saving_due(const Method &method, const OpenCase &one, const Run &run) const
+      bool is_saving_due(const Method &method, const OpenCase &one, const Record &run) const
       {
         constexpr std::uint64_t most_bonds = 100000;
-        return run.problem == cases_.front() && run.series == scene_.study.series.front().name &&
-               run.level == 0 && run.cost.n_bonds <= most_bonds && one.full_model &&
-               std::none_of(results_.runs.begin(), results_.runs.end(),
-                            [&](const Run &other) { return other.family == method.family(); });
+        return run.key.problem == cases_.front() &&
+               run.key.series == scene_.study.series.front().name && run.key.level == 0 &&
+               run.cost.n_bonds <= most_bonds && one.full_model &&
+               std::none_of(results_.records.begin(), results_.records.end(),
+                            [&](const Record &other)
+                            { return other.key.family == method.family(); });
       }
 
-      Run empty_run(const Method &method, const OpenCase &one, const problem::Series &series,
-                    unsigned int level) const
+      Record empty_run(const Method &method, const OpenCase &one, const Place &place) const
       {
-        Run run;
-        run.method = method.name();
-        run.family = method.family();
-        run.problem = cases_[one.index];
-        run.series = series.name;
-        run.level = level;
-        run.h = series.levels[level].h;
-        run.horizon = series.levels[level].horizon;
-        run.value = series.levels[level].value;
+        Record run = place.record("statics", method);
+        run.key.problem = cases_[one.index];
         if (const problem::MeshDomain *mesh = one.problem.on_mesh())
-          run.geometry_seconds =
-              mesh->mesh_seconds +
-              (method.family() == MethodFamily::meshfree ? mesh->cells_seconds : 0);
+          run.set("geometry seconds",
+                  mesh->mesh_seconds +
+                      (method.family() == MethodFamily::meshfree ? mesh->cells_seconds : 0),
+                  "CPU s");
         return run;
       }
 
       /// Everything that is known of a solution.
       void evaluate(const Method &method, const OpenCase &one, const Solution &solution,
-                    const problem::Series &series, Run &run)
+                    const Place &place, Record &run)
       {
         const problem::Problem<2> &problem = one.problem;
         run.cost = solution.cost;
-        run.size = variation(problem, solution);
-        run.round_off = round_off_error(problem, solution);
-        run.area = area_of(problem);
-        run.diagnostics = solution.diagnostics;
-        run.errors = errors(scene_.study.norms, problem, solution, one.targets);
+        run.set("variation", variation(problem, solution));
+        run.set("round-off", round_off_error(problem, solution));
+        run.set("area", area_of(problem), "length^2");
+        set_diagnostics(run, solution.diagnostics);
+        const auto found = errors(scene_.study.norms, problem, solution, one.targets);
+        for (const auto &[error, value] : found)
+          run.set(error, value);
         if (control_.on_solution)
           control_.on_solution(problem, solution, run);
         if (is_against_own())
           own_finest_.keep(run, problem, solution.averages);
-        for (const auto &[error, value] : run.errors)
+        for (const auto &[error, value] : found)
           if (!std::isfinite(value))
             throw NumericalError("the error " + error + " is not a finite number");
         if (is_estimated(method, problem))
           results_.estimates.push_back(
-              placed(estimate_error(one, method, solution, true), run.problem, series, run.level));
+              placed(estimate_error(one, method, solution, true), run.key.problem, place));
         if (is_saving_due(method, one, run))
           if (const auto saving = measure_saving(one, method, solution))
             results_.savings.push_back(*saving);
-        if (run.level + 1 == n_levels(series))
+        if (place.is_finest())
           finish_series(solution, run, problem,
                         one.targets.reference.empty() ? one.targets.local : one.targets.reference);
       }
@@ -352,55 +348,60 @@ namespace plumbline::study
       /// Levels were solved for all cases at once; results read case by case.
       void sort_by_case()
       {
-        const auto sort = [&](auto &list)
+        const auto place = [&](const auto &one)
         {
-          const auto place = [&](const auto &one)
-          {
-            const auto series = std::find_if(scene_.study.series.begin(), scene_.study.series.end(),
-                                             [&](const auto &s) { return s.name == one.series; });
-            return std::tuple(std::find(cases_.begin(), cases_.end(), one.problem) - cases_.begin(),
-                              series - scene_.study.series.begin(), one.level);
-          };
-          std::stable_sort(list.begin(), list.end(),
-                           [&](const auto &a, const auto &b) { return place(a) < place(b); });
+          const auto series = std::find_if(scene_.study.series.begin(), scene_.study.series.end(),
+                                           [&](const auto &s) { return s.name == one.series; });
+          return std::tuple(std::find(cases_.begin(), cases_.end(), one.problem) - cases_.begin(),
+                            series - scene_.study.series.begin(), one.level);
         };
-        sort(results_.runs);
-        sort(results_.references);
-        sort(results_.estimates);
+        const auto sort = [&](auto &list, const auto &of)
+        {
+          std::stable_sort(list.begin(), list.end(),
+                           [&](const auto &a, const auto &b)
+                           { return place(of(a)) < place(of(b)); });
+        };
+        const auto itself = [](const ErrorEstimate &one) -> const ErrorEstimate & { return one; };
+        sort(results_.records, [](const Record &one) -> const Key & { return one.key; });
+        sort(results_.references, itself);
+        sort(results_.estimates, itself);
       }
 
       /// What is done with a solution of the finest level: stored, and drawn for the first series.
-      void finish_series(const Solution &solution, const Run &run,
+      void finish_series(const Solution &solution, const Record &run,
                          const problem::Problem<2> &problem, const std::vector<double> &target)
       {
         if (control_.on_finest)
           control_.on_finest(solution, run);
-        if (run.problem != cases_.back() || run.series != scene_.study.series.front().name ||
+        if (run.key.problem != cases_.back() ||
+            run.key.series != scene_.study.series.front().name ||
             (!problem.solution && target.empty()))
           return;
         ErrorMap map = error_map(scene_.study.decisive_error.norm, problem, solution, target);
-        map.method = run.method;
-        map.problem = run.problem;
-        map.series = run.series;
-        map.size = run.size;
+        map.method = run.key.method;
+        map.problem = run.key.problem;
+        map.series = run.key.series;
+        map.size = size_of(run);
         results_.maps.push_back(map);
       }
 
       const scene::Scene &scene_;
       const Methods &methods_, &available_;
       const SweepControl &control_;
-      const Results &earlier_;
+      const StudyResults &earlier_;
       const std::vector<std::string> cases_;
       const base::SeparateCommunicator ranks_{base::Communicator::all()};
-      Results results_;
+      StudyResults results_;
       OwnFinest own_finest_;
+      Common common_;
       std::size_t n_done_ = 0, n_all_ = 0;
       bool is_stopped_ = false;
     };
   } // namespace
 
-  Results run_sweep(const scene::Scene &scene, const Methods &methods, const Methods &available,
-                    const SweepControl &control, const Results &earlier)
+  StudyResults run_sweep(const scene::Scene &scene, const Methods &methods,
+                         const Methods &available, const SweepControl &control,
+                         const StudyResults &earlier)
   {
     return Sweep(scene, methods, available, control, earlier).run();
   }

@@ -2,7 +2,7 @@
 
 #include "analysis/statics.h"
 #include "scene/scene.h"
-#include "study/results.h"
+#include "study/study_results.h"
 
 #include <functional>
 
@@ -20,11 +20,11 @@ namespace plumbline::study
     /// grew; 0: none.
     double budget = 0;
     std::function<void(const std::string &what, double fraction)> on_progress;
-    std::function<void(const Results &)> on_result; ///< after each solve; its lists have grown
-    std::function<bool()> should_stop;              ///< asked before each solve
-    std::function<void(const Solution &, const Run &)>
+    std::function<void(const StudyResults &)> on_result; ///< after each solve; its lists have grown
+    std::function<bool()> should_stop;                   ///< asked before each solve
+    std::function<void(const Solution &, const Record &)>
         on_finest; ///< solutions of the finest levels
-    std::function<void(const problem::Problem<2> &, const Solution &, const Run &)>
+    std::function<void(const problem::Problem<2> &, const Solution &, const Record &)>
         on_solution; ///< of every level, their runs with errors
     /// How cases are solved; empty: analysis::solve.
     std::function<std::vector<analysis::Outcome>(const Method &,
@@ -36,6 +36,7 @@ namespace plumbline::study
   /// limit and reference; judge.
   /// @param earlier  results of an interrupted run of the same scene: what is in it is not run
   /// again
-  Results run_sweep(const scene::Scene &scene, const Methods &methods, const Methods &available,
-                    const SweepControl &control, const Results &earlier = {});
+  StudyResults run_sweep(const scene::Scene &scene, const Methods &methods,
+                         const Methods &available, const SweepControl &control,
+                         const StudyResults &earlier = {});
 } // namespace plumbline::study

@@ -4,7 +4,7 @@
 
 namespace plumbline::study
 {
-  std::string target_words(const Results &results)
+  std::string target_words(const StudyResults &results)
   {
     const auto is = [&](scene::Target target)
     { return is_against(results.decisive_error, target); };
@@ -18,7 +18,7 @@ namespace plumbline::study
     return "the exact solution of the nonlocal problem, Problem/solution";
   }
 
-  bool is_between_models(const Results &results)
+  bool is_between_models(const StudyResults &results)
   {
     return results.regime == scene::Regime::m &&
            is_against(results.decisive_error, scene::Target::local);

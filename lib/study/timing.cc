@@ -36,31 +36,31 @@ namespace plumbline::study
     return outcomes;
   }
 
-  bool is_same_run(const Run &run, const std::string &method, const std::string &problem,
+  bool is_same_run(const Record &run, const std::string &method, const std::string &problem,
                    const std::string &series, unsigned int level)
   {
-    return run.method == method && run.problem == problem && run.series == series &&
-           run.level == level;
+    return run.key.method == method && run.key.problem == problem && run.key.series == series &&
+           run.key.level == level;
   }
 
-  std::optional<double> expected_seconds(const std::vector<Run> &runs, const std::string &method,
+  std::optional<double> expected_seconds(const std::vector<Record> &runs, const std::string &method,
                                          const std::string &problem, const std::string &series,
                                          unsigned int level)
   {
     constexpr double usual_growth = 4; // unknowns, as h halves
     if (level == 0)
       return 0;
-    const auto find = [&](unsigned int wanted) -> const Run *
+    const auto find = [&](unsigned int wanted) -> const Record *
     {
-      for (const Run &run : runs)
+      for (const Record &run : runs)
         if (is_same_run(run, method, problem, series, wanted))
           return &run;
       return nullptr;
     };
-    const Run *last = find(level - 1);
+    const Record *last = find(level - 1);
     if (last == nullptr)
       return {};
-    const Run *before = level < 2 ? nullptr : find(level - 2);
+    const Record *before = level < 2 ? nullptr : find(level - 2);
     const double growth = before == nullptr || before->cost.seconds() == 0
                               ? usual_growth
                               : last->cost.seconds() / before->cost.seconds();

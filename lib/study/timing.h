@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/statics.h"
-#include "study/results.h"
+#include "study/study_results.h"
 
 #include <functional>
 #include <optional>
@@ -16,12 +16,12 @@ namespace plumbline::study
   std::vector<analysis::Outcome>
   solve_and_time(const std::function<std::vector<analysis::Outcome>()> &solve);
 
-  bool is_same_run(const Run &run, const std::string &method, const std::string &problem,
+  bool is_same_run(const Record &run, const std::string &method, const std::string &problem,
                    const std::string &series, unsigned int level);
 
   /// What a level is expected to cost, from the two before it [CPU s]; nothing if the one before is
   /// not among the runs.
-  std::optional<double> expected_seconds(const std::vector<Run> &runs, const std::string &method,
+  std::optional<double> expected_seconds(const std::vector<Record> &runs, const std::string &method,
                                          const std::string &problem, const std::string &series,
                                          unsigned int level);
 } // namespace plumbline::study

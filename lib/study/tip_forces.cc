@@ -1,6 +1,7 @@
 #include "study/tip_forces.h"
 
 #include "base/number_text.h"
+#include "study/solution_record.h"
 #include "study/trend.h"
 
 #include <algorithm>
@@ -43,17 +44,17 @@ namespace plumbline::study
     }
   } // namespace
 
-  std::vector<std::string> tip_force_findings(const Results &results)
+  std::vector<std::string> tip_force_findings(const StudyResults &results)
   {
     constexpr double rounding = 1e-6; // of the sum of the forces' norms
     if (results.regime != scene::Regime::delta)
       return {};
     std::map<Place, std::map<std::string, History>> all;
-    for (const Run &run : results.runs)
-      for (const method::TipForce &force : run.diagnostics.tip_forces)
+    for (const Record &run : results.records)
+      for (const method::TipForce &force : tip_forces_of(run))
       {
-        History &history = all[{run.problem, run.series, words_of(force)}][run.method];
-        history.horizons.push_back(run.horizon);
+        History &history = all[{run.key.problem, run.key.series, words_of(force)}][run.key.method];
+        history.horizons.push_back(run.key.horizon);
         history.forces.push_back(force.norm);
         history.over_root = force.over_root;
         history.is_rounding = history.is_rounding || force.norm <= rounding * force.sum_of_norms;
@@ -75,7 +76,7 @@ namespace plumbline::study
     return findings;
   }
 
-  void warn_of_tip_forces(Results &results)
+  void warn_of_tip_forces(StudyResults &results)
   {
     std::vector<std::string> &warnings = results.warnings;
     warnings.erase(std::remove_if(warnings.begin(), warnings.end(),

@@ -7,6 +7,7 @@
 #include "study/motion_norms.h"
 #include "study/motion_steps.h"
 #include "study/preflight.h"
+#include "study/solution_record.h"
 #include "study/torus_reference.h"
 
 #include <algorithm>
@@ -68,17 +69,6 @@ namespace plumbline::study
       if (step_rules(time).size() > 1)
         variant += (variant.empty() ? "" : ", ") + rule.text(all_digits);
       return variant;
-    }
-
-    void set_limit(Record &record, const LimitProof &limit)
-    {
-      record.texts["limit"] = base::word(limit.answer);
-      record.texts["limit, because"] = limit.reason;
-      record.set("moment defect", limit.defect);
-      record.set("mean moment defect", limit.mean_defect);
-      record.set("spread of moments", limit.spread);
-      record.set("moment defect from the ball", limit.ball_defect);
-      record.set("weight defect from areas", limit.area_defect);
     }
 
     /// A method on one case at one level, by all schemes and steps.
@@ -363,21 +353,6 @@ namespace plumbline::study
       std::optional<MotionEstimate> estimate_;
     };
   } // namespace
-
-  LimitProof limit_of(const Record &record)
-  {
-    LimitProof limit;
-    if (record.text("limit").empty())
-      return limit;
-    limit.answer = base::from_word<LimitProof::Answer>(record.text("limit")).value();
-    limit.reason = record.text("limit, because");
-    limit.defect = record["moment defect"];
-    limit.mean_defect = record["mean moment defect"];
-    limit.spread = record["spread of moments"];
-    limit.ball_defect = record["moment defect from the ball"];
-    limit.area_defect = record["weight defect from areas"];
-    return limit;
-  }
 
   std::vector<analysis::Energies> energies_of(const Record &record)
   {

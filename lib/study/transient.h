@@ -36,15 +36,11 @@ namespace plumbline::study
 
   inline const std::string time_error = "nodal L2 | time";
 
-  /// Names of facts: what verdicts rest on; the beginning of those about what was left out.
-  constexpr const char *const decisive_error = "decisive error";
+  /// The beginning of the names of facts about what was left out.
   inline const std::string left_out_of_model = "left out: ";
 
   /// Of a record over time, the start first.
   std::vector<analysis::Energies> energies_of(const Record &record);
-
-  /// What weights prove of the limit, of rules.
-  LimitProof limit_of(const Record &record);
 
   /// Trends over levels of the decisive error and the velocity's, with the shortest step of each
   /// scheme, their variant; and over time steps at the finest level. Facts of the model,

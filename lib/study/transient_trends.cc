@@ -3,6 +3,7 @@
 #include "base/number_text.h"
 #include "scene/models/model.h"
 #include "study/expectations.h"
+#include "study/solution_record.h"
 #include "study/trend.h"
 #include "study/weigh_proof.h"
 
@@ -254,7 +255,7 @@ namespace plumbline::study
     const std::string decisive = is_known ? scene.study.decisive_error.text() : "";
     if (is_known)
     {
-      results.facts[decisive_error] = decisive;
+      results.decisive_error = decisive;
       for (const auto &records : over_levels(results.records))
         for (const std::string &error : {decisive, "velocity " + decisive})
           results.trends.push_back(over_levels(scene, records, error));
@@ -265,9 +266,9 @@ namespace plumbline::study
     say_omissions(scene, results);
     say_warnings(results);
 
-    Results statics; // expectations of levels are those of statics
-    statics.decisive_error = decisive;
-    statics.trends = results.trends;
+    StudyResults statics; // expectations of levels are those of statics
+    statics.decisive_error = results.decisive_error;
+    statics.trends.assign(results.trends.begin(), results.trends.end());
     check_expectations(scene, statics);
     results.expectations = statics.expectations;
     expect_orders(scene, results);

@@ -98,7 +98,7 @@ TEST_F(BadFiles, scenes_from_a_pipe_run)
   {
     const std::string to = " run /dev/stdin --quiet -o " + output() + " 2>&1";
     EXPECT_EQ(std::system(("cat " + file + " | " PLUMBLINE_COMMAND + to).c_str()), 0) << file;
-    expect_found(read(fs::path(output()) / "results.json"), "\"scene_name\": \"stdin\"");
+    expect_found(read(fs::path(output()) / "results.json"), "\"scene\": \"stdin\"");
     fs::remove_all(output());
   }
   const int status =

@@ -52,9 +52,9 @@ namespace
   std::vector<double> errors(const Json &results, const std::string &method)
   {
     std::vector<double> values;
-    for (const Json &run : results.at("runs"))
-      if (run.at("method") == method)
-        values.push_back(run.at("errors").at("nodal Linf | exact"));
+    for (const Json &run : results.at("records"))
+      if (run.at("key").at("method") == method)
+        values.push_back(run.at("scalars").at("nodal Linf | exact").at("value"));
     return values;
   }
 

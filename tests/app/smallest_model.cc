@@ -2,7 +2,7 @@
 
 #include "command.h"
 
-#include "report/json.h"
+#include "io/results_json.h"
 
 namespace
 {
@@ -22,7 +22,7 @@ namespace
     const auto outcome = app::run("run " + scene + " -o " + folder.string() + " " + settings);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     std::vector<std::string> names;
-    for (const study::Omission &omission : report::read_json(folder / "results.json").omissions)
+    for (const study::Omission &omission : io::read_results(folder / "results.json").omissions)
     {
       EXPECT_FALSE(omission.why.empty() || omission.saving.empty()) << omission.what;
       names.push_back(omission.what);

@@ -11,22 +11,22 @@ namespace plumbline::atlas
   namespace
   {
     /// Runs of a method at given costs [CPU s] and errors, of a solution of size 2.
-    void add(study::Results &results, const std::string &method, const std::string &series,
+    void add(study::StudyResults &results, const std::string &method, const std::string &series,
              const std::vector<std::pair<double, double>> &costs_and_errors, study::Outcome outcome,
              study::MethodFamily family = study::MethodFamily::meshfree)
     {
       for (const auto &[seconds, error] : costs_and_errors)
       {
-        study::Run run;
-        run.method = method;
-        run.family = family;
-        run.problem = "case";
-        run.series = series;
+        study::Record run;
+        run.key.method = method;
+        run.key.family = family;
+        run.key.problem = "case";
+        run.key.series = series;
         run.cost.solve_seconds = seconds;
         run.cost.n_unknowns = static_cast<std::size_t>(100 * seconds); // those break ties
-        run.size = 2;
-        run.errors = {{results.decisive_error, error}};
-        results.runs.push_back(run);
+        run.set("variation", 2);
+        run.set(results.decisive_error, error);
+        results.records.push_back(run);
       }
       study::Trend trend;
       trend.method = method;
@@ -37,10 +37,10 @@ namespace plumbline::atlas
       results.trends.push_back(trend);
     }
 
-    study::Results results()
+    study::StudyResults results()
     {
       using study::Outcome;
-      study::Results results;
+      study::StudyResults results;
       results.decisive_error = "nodal Linf | exact";
       add(results, "cheap but stalling", "m = 3", {{1, .1}, {4, .09}}, Outcome::stalls);
       add(results, "good", "m = 3", {{2, .18}, {8, .01}, {32, .001}}, Outcome::converges);
@@ -56,20 +56,21 @@ namespace plumbline::atlas
 
   TEST(Atlas, names_the_cheapest_method_that_converges)
   {
-    const study::Results all = results();
+    const study::StudyResults all = results();
     const Question question{&all, "case", ""};
     ASSERT_NE(cheapest(question, 1e-2), nullptr); // relative: .02 of a solution of size 2
-    EXPECT_EQ(cheapest(question, 1e-2)->method, "good");
+    EXPECT_EQ(cheapest(question, 1e-2)->key.method, "good");
     EXPECT_EQ(cheapest(question, 1e-2)->cost.seconds(), 8);
-    EXPECT_EQ(cheapest(question, 1e-4)->method, "short"); // none converges this far
+    EXPECT_EQ(cheapest(question, 1e-4)->key.method, "short"); // none converges this far
     EXPECT_EQ(cheapest(question, 1e-5), nullptr);
   }
 
   TEST(Atlas, front_is_what_no_run_equals_for_clearly_less)
   {
-    study::Results all = results();
-    const auto is_short = [](const auto &one) { return one.method == "short"; };
-    all.runs.erase(std::remove_if(all.runs.begin(), all.runs.end(), is_short), all.runs.end());
+    study::StudyResults all = results();
+    const auto is_short = [](const auto &one) { return one.key.method == "short"; };
+    all.records.erase(std::remove_if(all.records.begin(), all.records.end(), is_short),
+                      all.records.end());
     EXPECT_EQ(methods_on_front({&all, "case", "m = 3"}),
               (std::vector<std::string>{"cheap but stalling", "good", "as good, a little dearer"}));
     EXPECT_TRUE(is_stalling({&all, "case", ""}, "cheap but stalling"));
@@ -77,7 +78,7 @@ namespace plumbline::atlas
 
   TEST(Atlas, takes_the_worst_outcome_of_pooled_series)
   {
-    study::Results all = results();
+    study::StudyResults all = results();
     add(all, "good", "m = 4", {{1, .1}}, study::Outcome::stalls);
     EXPECT_EQ(outcome_of({&all, "case", "m = 3"}, "good"), study::Outcome::converges);
     EXPECT_EQ(outcome_of({&all, "case", ""}, "good"), study::Outcome::stalls);

@@ -24,7 +24,7 @@ namespace plumbline::report
   TEST(ReportCharts, DrawEachCaseWithItsDataBeside)
   {
     const fixture::Folder folder;
-    const study::Results results = fixture::results();
+    const study::StudyResults results = fixture::results();
     const std::vector<Chart> charts = write_charts(results, folder.path());
     ASSERT_EQ(charts.size(), 1 + 5 * 4 + 1u); // overall, five kinds for four cases, error maps
     EXPECT_TRUE(is_overall(charts.front()));
@@ -70,7 +70,7 @@ namespace plumbline::report
 
   TEST(ReportCharts, TakeWhatVariesAsAbscissa)
   {
-    study::Results results = fixture::results();
+    study::StudyResults results = fixture::results();
     for (study::Trend &trend : results.trends)
       trend.axis = study::Axis::mesh_size;
     const fixture::Folder folder;
@@ -83,8 +83,8 @@ namespace plumbline::report
 
   TEST(ReportCharts, AreLeftOutWithoutAPoint)
   {
-    study::Results results = fixture::results();
-    for (study::Run &run : results.runs)
+    study::StudyResults results = fixture::results();
+    for (study::Record &run : results.records)
       run.cost.peak_bytes = 0;
     results.maps.clear();
     for (const Chart &chart : list_charts(results))
@@ -92,18 +92,18 @@ namespace plumbline::report
       EXPECT_NE(chart.kind, ChartKind::memory);
       EXPECT_NE(chart.kind, ChartKind::error_map);
     }
-    EXPECT_TRUE(list_charts(study::Results()).empty());
+    EXPECT_TRUE(list_charts(study::StudyResults()).empty());
     const fixture::Folder folder;
-    EXPECT_TRUE(write_charts(study::Results(), folder.path()).empty());
+    EXPECT_TRUE(write_charts(study::StudyResults(), folder.path()).empty());
   }
 
   TEST(ReportCharts, SurviveNamesThatMeanSomethingToGnuplot)
   {
     const fixture::Folder folder;
-    study::Results results = fixture::results();
-    for (study::Run &run : results.runs)
-      if (run.method == "FA")
-        run.method = "it's `touch boom` \"{x}_2\\n";
+    study::StudyResults results = fixture::results();
+    for (study::Record &run : results.records)
+      if (run.key.method == "FA")
+        run.key.method = "it's `touch boom` \"{x}_2\\n";
     results.trends.clear();
     write_charts(results, folder.path());
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "charts" / "boom"));
@@ -247,21 +247,21 @@ namespace plumbline::report
 
   TEST(ReportCharts, ShowWorkOfTheProblemThatIsNotSolvedExactly)
   {
-    study::Results results = fixture::results();
+    study::StudyResults results = fixture::results();
     EXPECT_EQ(telling_problem(results), "case_2 δ"); // case1 has a zero, a NaN, a failure
-    for (study::Run &run : results.runs)
-      if (run.problem != "case1" && run.method != "FA")
-        run.errors[results.decisive_error] = 1e-14;
+    for (study::Record &run : results.records)
+      if (run.key.problem != "case1" && run.key.method != "FA")
+        run.set(results.decisive_error, 1e-14);
     EXPECT_EQ(telling_problem(results), "case1");
     EXPECT_EQ(list_charts(results).front().problem, "case1");
     EXPECT_TRUE(holds(list_charts(results).front().title, "the best of m = 3, m = 4"));
-    EXPECT_EQ(telling_problem(study::Results()), "");
+    EXPECT_EQ(telling_problem(study::StudyResults()), "");
   }
 
   TEST(ReportCharts, DrawErrorMapsOnOneScaleWithTheirDataBeside)
   {
     const fixture::Folder folder;
-    const study::Results results = fixture::results();
+    const study::StudyResults results = fixture::results();
     write_charts(results, folder.path());
     const std::string svg = fixture::read(folder.path() / "charts" / "error-maps.svg");
     const std::string csv = fixture::read(folder.path() / "charts" / "error-maps.csv");

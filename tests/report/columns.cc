@@ -1,6 +1,7 @@
 // Each number stands under its own head: all differ, so that no two can be confused.
 #include "report/tables.h"
 #include "report/view.h"
+#include "study/solution_record.h"
 #include "study/stability.h"
 
 #include <gtest/gtest.h>
@@ -38,32 +39,32 @@ namespace plumbline::report
       return table.rows.at(row).at(column(table, head, index)).text;
     }
 
-    study::Run make_run(const std::string &method, unsigned int level, double h, double horizon)
+    study::Record make_run(const std::string &method, unsigned int level, double h, double horizon)
     {
-      study::Run run;
-      run.method = method;
-      run.family = study::MethodFamily::meshfree;
-      run.problem = "case";
-      run.series = "series";
-      run.level = level;
-      run.h = h;
-      run.horizon = horizon;
+      study::Record run;
+      run.key.method = method;
+      run.key.family = study::MethodFamily::meshfree;
+      run.key.problem = "case";
+      run.key.series = "series";
+      run.key.level = level;
+      run.key.h = h;
+      run.key.horizon = horizon;
       return run;
     }
   } // namespace
 
   TEST(ReportColumns, OfCostsAreInTheirUnits)
   {
-    study::Results results;
-    study::Run run = make_run("FA", 0, .5, 1.5);
+    study::StudyResults results;
+    study::Record run = make_run("FA", 0, .5, 1.5);
     run.cost.n_unknowns = 11;
     run.cost.n_bonds = 12;
-    run.geometry_seconds = 17;
+    run.set("geometry seconds", 17, "time");
     run.cost.setup_seconds = 13;
     run.cost.solve_seconds = 14;
     run.cost.peak_bytes = 15000000;
     run.cost.n_iterations = 16;
-    results.runs = {run};
+    results.records = {run};
     const Table table = cost_table(results);
     EXPECT_EQ(value(table, 0, "h"), .5);
     EXPECT_EQ(value(table, 0, "unknowns"), 11);
@@ -108,7 +109,7 @@ namespace plumbline::report
   {
     for (const bool is_horizon : {false, true})
     {
-      study::Results results;
+      study::StudyResults results;
       results.decisive_error = "nodal Linf | exact";
       study::Trend trend;
       trend.method = "FA";
@@ -122,9 +123,10 @@ namespace plumbline::report
       for (unsigned int level = 0; level < 3; ++level)
       {
         const double length = std::pow(.5, level);
-        study::Run run = make_run("FA", level, is_horizon ? .01 : length, is_horizon ? length : 3);
-        run.errors[results.decisive_error] = trend.values[level];
-        results.runs.push_back(run);
+        study::Record run =
+            make_run("FA", level, is_horizon ? .01 : length, is_horizon ? length : 3);
+        run.set(results.decisive_error, trend.values[level]);
+        results.records.push_back(run);
         trend.x.push_back(length);
       }
       results.trends = {trend};
@@ -139,7 +141,7 @@ namespace plumbline::report
 
   TEST(ReportColumns, OfVerdictsHaveEachItsOwnUncertainty)
   {
-    study::Results results;
+    study::StudyResults results;
     results.decisive_error = "nodal Linf | exact";
     study::Trend trend;
     trend.method = "FA";
@@ -151,7 +153,7 @@ namespace plumbline::report
     trend.plateau = 1e-3;
     trend.plateau_uncertainty = 1e-5;
     results.trends = {trend};
-    const Table table = verdict_table(results);
+    const Table table = trend_table(results);
     const auto fields = [&](const std::string &head)
     {
       std::vector<double> numbers;
@@ -165,17 +167,19 @@ namespace plumbline::report
 
   TEST(ReportColumns, OfDiagnosticsAreTheWorstOfAllRuns)
   {
-    study::Results results;
+    study::StudyResults results;
     for (unsigned int level = 0; level < 3; ++level)
     {
-      study::Run run = make_run("FA", level, std::pow(.5, level), 3);
+      study::Record run = make_run("FA", level, std::pow(.5, level), 3);
       const std::array<double, 3> ratio = {.5, -.25, .75}, residual = {1e-13, 4e-13, 2e-13};
       const std::array<unsigned int, 3> n_neighbours = {28, 20, 24}, n_negative = {0, 7, 3};
-      run.diagnostics.smallest_weight_ratio = ratio[level];
-      run.diagnostics.relative_residual = residual[level];
-      run.diagnostics.n_neighbours = n_neighbours[level];
-      run.diagnostics.n_negative_weights = n_negative[level];
-      results.runs.push_back(run);
+      method::Diagnostics diagnostics;
+      diagnostics.smallest_weight_ratio = ratio[level];
+      diagnostics.relative_residual = residual[level];
+      diagnostics.n_neighbours = n_neighbours[level];
+      diagnostics.n_negative_weights = n_negative[level];
+      study::set_diagnostics(run, diagnostics);
+      results.records.push_back(run);
     }
     const Table table = diagnostics_table(results);
     EXPECT_EQ(text(table, 0, "neighbours"), "20 to 28");
@@ -186,7 +190,7 @@ namespace plumbline::report
 
   TEST(ReportColumns, OfSavingsTellHowManyTimesDearerTheFullModelIs)
   {
-    study::Results results;
+    study::StudyResults results;
     study::Saving saving;
     saving.method = "FA";
     saving.h = .5;

@@ -30,7 +30,7 @@ namespace plumbline::report
     {
       StudyResults results;
       results.analysis = "dynamics";
-      results.facts[study::decisive_error] = "nodal L2 | exact";
+      results.decisive_error = "nodal L2 | exact";
       results.records = records;
       return results;
     }
@@ -97,9 +97,9 @@ namespace plumbline::report
     Record record = run_of(2, 1. / 3, 1e-17 / 7, .25);
     record.set("critical step", std::numeric_limits<double>::infinity()); // there is none
     record.texts["limit"] = "incompatible";
-    record.texts["limit, because"] = "its \"moments\"";
-    for (const char *const defect : {"moment defect", "mean moment defect", "spread of moments",
-                                     "moment defect from the ball", "weight defect from areas"})
+    record.texts["reason of the limit"] = "its \"moments\"";
+    for (const char *const defect :
+         {"moment defect", "mean moment defect", "spread of moments", "ball defect", "area defect"})
       record.set(defect, 1. / (3 + static_cast<double>(record.scalars.size())));
     record.curves["energy"] = {{"time", "time", {0, .5}},
                                {"kinetic", "", {1. / 3, std::nan("")}},

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "study/results.h"
+#include "study/solution_record.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -34,11 +34,11 @@ namespace plumbline::report::fixture
             {"Q1", study::MethodFamily::reference, 0, .2, 2, 6e-6, 16}};
   }
 
-  inline study::Results make(const std::vector<std::string> &problems,
-                             const std::vector<double> &ratios, const std::vector<Model> &models,
-                             unsigned int n_levels)
+  inline study::StudyResults make(const std::vector<std::string> &problems,
+                                  const std::vector<double> &ratios,
+                                  const std::vector<Model> &models, unsigned int n_levels)
   {
-    study::Results results;
+    study::StudyResults results;
     results.scene_name = "compatibility_scalar";
     results.purpose =
         "Which quadrature rules stay right as the horizon δ goes to 0 with δ/h fixed?";
@@ -78,35 +78,38 @@ namespace plumbline::report::fixture
                                  std::to_string(scale * model.plateau / m) + " ± 0.00002"};
           for (unsigned int level = 0; level < n_levels; ++level)
           {
-            study::Run run;
-            run.method = model.method;
-            run.family = model.family;
-            run.problem = problem;
-            run.series = series;
-            run.level = level;
-            run.h = .1 / std::pow(2., level);
-            run.horizon = m * run.h;
-            run.cost.n_unknowns = static_cast<std::size_t>(std::pow(1 / run.h - 1, 2));
+            study::Record run;
+            run.key.method = model.method;
+            run.key.family = model.family;
+            run.key.problem = problem;
+            run.key.series = series;
+            run.key.level = level;
+            run.key.h = .1 / std::pow(2., level);
+            run.key.horizon = m * run.key.h;
+            run.cost.n_unknowns = static_cast<std::size_t>(std::pow(1 / run.key.h - 1, 2));
             run.cost.n_bonds = static_cast<std::uint64_t>(3.14 * m * m) * run.cost.n_unknowns;
             run.cost.setup_seconds = model.cost * static_cast<double>(run.cost.n_bonds);
             run.cost.solve_seconds = 2e-7 * static_cast<double>(run.cost.n_unknowns);
             run.cost.peak_bytes = 2000000 + 80 * run.cost.n_unknowns;
             run.cost.n_iterations = model.iterations + level;
-            run.diagnostics.n_neighbours = static_cast<unsigned int>(3.14 * m * m);
-            run.diagnostics.smallest_weight_ratio =
+            method::Diagnostics diagnostics;
+            diagnostics.n_neighbours = static_cast<unsigned int>(3.14 * m * m);
+            diagnostics.smallest_weight_ratio =
                 model.family == study::MethodFamily::meshfree ? .87 : 1;
-            run.diagnostics.relative_residual = 3e-13;
-            run.diagnostics.operator_backend = "fft";
-            run.diagnostics.n_geometry_checks = 40;
-            run.diagnostics.geometry_difference = 2e-15;
+            diagnostics.relative_residual = 3e-13;
+            diagnostics.operator_backend = "fft";
+            diagnostics.n_geometry_checks = 40;
+            diagnostics.geometry_difference = 2e-15;
+            study::set_diagnostics(run, diagnostics);
             const double error =
-                scale * (model.plateau + model.factor * std::pow(run.horizon, model.rate)) / m;
-            run.errors = {{results.decisive_error, error}, {"averages L2 | reference", .6 * error}};
-            trend.x.push_back(run.horizon);
+                scale * (model.plateau + model.factor * std::pow(run.key.horizon, model.rate)) / m;
+            run.set(results.decisive_error, error);
+            run.set("averages L2 | reference", .6 * error);
+            trend.x.push_back(run.key.horizon);
             trend.values.push_back(error);
             if (level > 0)
               trend.rates.push_back(std::log2(trend.values[level - 1] / error));
-            results.runs.push_back(run);
+            results.records.push_back(run);
           }
           results.trends.push_back(trend);
         }
@@ -158,24 +161,24 @@ namespace plumbline::report::fixture
   }
 
   /// The awkward cases: an error that is zero, one that is not a number, a level without solution.
-  inline study::Results results()
+  inline study::StudyResults results()
   {
-    study::Results results = make({"case1", "case_2 δ"}, {3, 4}, models(), 5);
-    const auto run = [&](const std::string &method, unsigned int level) -> study::Run &
+    study::StudyResults results = make({"case1", "case_2 δ"}, {3, 4}, models(), 5);
+    const auto run = [&](const std::string &method, unsigned int level) -> study::Record &
     {
-      for (study::Run &one : results.runs)
-        if (one.method == method && one.level == level && one.problem == "case1")
+      for (study::Record &one : results.records)
+        if (one.key.method == method && one.key.level == level && one.key.problem == "case1")
           return one;
       std::abort();
     };
-    run("Q1", 0).errors[results.decisive_error] = 0;
-    run("Q1", 1).errors[results.decisive_error] = 3e-13;
-    run("P0", 2).errors[results.decisive_error] = std::numeric_limits<double>::quiet_NaN();
+    run("Q1", 0).set(results.decisive_error, 0);
+    run("Q1", 1).set(results.decisive_error, 3e-13);
+    run("P0", 2).set(results.decisive_error, std::numeric_limits<double>::quiet_NaN());
     run("FA", 4).failure = "family of node 17 is singular, \"rank\" 17 < 18";
-    run("FA", 4).errors.clear();
-    run("IPA-AC", 3).diagnostics.notes = {"kernel clipped at <0>, 12 nodes"};
-    run("IPA-AC", 3).diagnostics.n_negative_weights = 2;
-    run("IPA-AC", 3).diagnostics.tip_forces = {{{0, .5}, {3e-3, -4e-3}, .1, 5e-3, .05}};
+    run("FA", 4).scalars.clear();
+    run("IPA-AC", 3).notes = {"kernel clipped at <0>, 12 nodes"};
+    run("IPA-AC", 3).set("negative weights", 2);
+    study::set_tip_forces(run("IPA-AC", 3), {{{0, .5}, {3e-3, -4e-3}, .1, 5e-3, .05}});
     return results;
   }
 

@@ -23,7 +23,7 @@ namespace plumbline::report
     }
 
     /// Blanks and line breaks, which say nothing, are one blank.
-    std::string page_of(const study::Results &results)
+    std::string page_of(const study::StudyResults &results)
     {
       const fixture::Folder folder;
       write_report(results, folder.path());
@@ -38,7 +38,7 @@ namespace plumbline::report
 
   TEST(ReportPage, GivesEachVerdictInWordsWithErrorAndRate)
   {
-    const study::Results results = fixture::results();
+    const study::StudyResults results = fixture::results();
     const std::string html = page_of(results);
     std::size_t n_converge = 0;
     for (const study::Trend &trend : results.trends)
@@ -70,7 +70,7 @@ namespace plumbline::report
 
   TEST(ReportPage, AnswersWhichMethodInOneSentenceAndACardForEachCase)
   {
-    study::Results results = fixture::results();
+    study::StudyResults results = fixture::results();
     results.advice[0].choices = {{1e-2, "Q1", .1, 3e-5, 5.1e-4},
                                  {1e-4, "Q1", .1, 3e-5, 5.1e-4},
                                  {1e-6, "Q1", .025, 4e-7, 3.21}};
@@ -115,7 +115,7 @@ namespace plumbline::report
 
   TEST(ReportPage, NamesTiesWarningsAndWhatIsInNoCost)
   {
-    study::Results results = fixture::results();
+    study::StudyResults results = fixture::results();
     results.advice[0].choices = {{1e-2, "Q1", .1, 3e-5, 5.1e-4, {"A<B", "FA"}},
                                  {1e-4, "Q1", .1, 3e-5, 5.1e-4}};
     std::string html = page_of(results);
@@ -125,8 +125,8 @@ namespace plumbline::report
     EXPECT_TRUE(holds(html, "<b>Warning.</b> solution &amp; load contradict each other."));
     EXPECT_FALSE(holds(html, "Not in it, since methods share it")); // nothing was made
     results.warnings.clear();
-    results.runs.front().geometry_seconds = 2.5; // FA
-    results.runs.back().geometry_seconds = 1.5;  // Q1
+    results.records.front().set("geometry seconds", 2.5); // FA
+    results.records.back().set("geometry seconds", 1.5);  // Q1
     html = page_of(results);
     EXPECT_FALSE(holds(html, "<b>Warning.</b>"));
     EXPECT_TRUE(holds(html, "the mesh of Galerkin methods, up to 1.5 s a level; mesh and cells of "
@@ -135,11 +135,11 @@ namespace plumbline::report
 
   TEST(ReportPage, RanksByTheLargestErrorWhereNothingIsRefined)
   {
-    study::Results results = fixture::results();
+    study::StudyResults results = fixture::results();
     results.regime = scene::Regime::horizon;
-    for (study::Run &run : results.runs)
-      run.errors[results.decisive_error] = run.method == "Q1" ? 1e-4 : 2e-3;
-    results.runs.front().errors[results.decisive_error] = 3e-2; // of FA
+    for (study::Record &run : results.records)
+      run.set(results.decisive_error, run.key.method == "Q1" ? 1e-4 : 2e-3);
+    results.records.front().set(results.decisive_error, 3e-2); // of FA
     const std::string html = page_of(results);
     EXPECT_TRUE(holds(html, "the best method first: Q1 (1.000e-4), IPA-AC (2.000e-3), IPA-AC "
                             "recalibrated (2.000e-3), P0 (2.000e-3), FA (3.000e-2).</b>"));
@@ -149,7 +149,7 @@ namespace plumbline::report
 
   TEST(ReportPage, AdvisesNothingByDifferencesToAMethodsOwnFinestLevel)
   {
-    study::Results results = fixture::results();
+    study::StudyResults results = fixture::results();
     const std::string own = "averages L2 | own finest level";
     for (study::Trend &trend : results.trends)
       if (trend.error == results.decisive_error)
@@ -175,7 +175,7 @@ namespace plumbline::report
 
   TEST(ReportPage, ShowsTheExpectationsThatDoNotHoldAndFoldsTheOthers)
   {
-    study::Results results = fixture::results();
+    study::StudyResults results = fixture::results();
     std::string html = page_of(results);
     const std::size_t head = html.find("1 of 2 hold; these do not:");
     ASSERT_NE(head, std::string::npos);
@@ -196,7 +196,7 @@ namespace plumbline::report
 
   TEST(ReportPage, ShowsTheErrorMapsAfterTheConvergenceCharts)
   {
-    study::Results results = fixture::results();
+    study::StudyResults results = fixture::results();
     const std::string html = page_of(results);
     const std::size_t head = html.find("<h2>Where the error sits");
     EXPECT_LT(html.find("<h2>Convergence"), head);
@@ -237,7 +237,7 @@ namespace plumbline::report
 
   TEST(ReportPage, SaysWhatIsRightForThisFieldOnlyAndWhatIsNotDecidedYet)
   {
-    study::Results results = fixture::results();
+    study::StudyResults results = fixture::results();
     for (study::Trend &trend : results.trends)
     {
       trend.outcome = study::Outcome::field_only;
@@ -270,7 +270,7 @@ namespace plumbline::report
 
   TEST(ReportPage, CallsRoundingByItsName)
   {
-    study::Results results = fixture::results();
+    study::StudyResults results = fixture::results();
     study::Trend &trend = results.trends.back();
     trend.round_off = 1e-12;
     trend.values = {1e-13, 2e-13, 0};
@@ -297,7 +297,7 @@ namespace plumbline::report
 
   TEST(ReportPage, DoesNotTrustAReferenceWithoutEstimate)
   {
-    study::Results results = fixture::results();
+    study::StudyResults results = fixture::results();
     for (study::ErrorEstimate &estimate : results.references)
       estimate.h_change = estimate.p_change = estimate.estimate = 0;
     EXPECT_TRUE(holds(page_of(results), "nothing says how far the reference can be trusted"));
@@ -305,7 +305,7 @@ namespace plumbline::report
 
   TEST(ReportPage, SaysWhichEstimatesHoldForThePolygonAlone)
   {
-    study::Results results = fixture::results();
+    study::StudyResults results = fixture::results();
     EXPECT_TRUE(holds(page_of(results), "a bound in practice, no theorem: in audits of"));
     EXPECT_FALSE(holds(page_of(results), "the polygon alone"));
     results.references.at(0).is_of_polygon = true;
@@ -325,11 +325,11 @@ namespace plumbline::report
 
   TEST(ReportPage, SaysThatARunIsNotComplete)
   {
-    study::Results results = fixture::results();
+    study::StudyResults results = fixture::results();
     EXPECT_FALSE(holds(page_of(results), "This run is not complete"));
     results.is_complete = false;
     EXPECT_TRUE(holds(page_of(results), "This run is not complete"));
-    EXPECT_TRUE(holds(page_of(study::Results()), "No run has been finished yet"));
+    EXPECT_TRUE(holds(page_of(study::StudyResults()), "No run has been finished yet"));
   }
 
   TEST(ReportPage, StandsWithoutChartsAndNamesWhatIsMissing)

@@ -21,7 +21,7 @@ namespace plumbline::report
   TEST(ReportTables, HoldEveryDigitInTheCsv)
   {
     const fixture::Folder folder;
-    const study::Results results = fixture::results();
+    const study::StudyResults results = fixture::results();
     write_tables(results, folder.path());
     const std::string csv = fixture::read(folder.path() / "tables/errors_case1_m-3.csv");
     EXPECT_EQ(fixture::count(csv, "\n"), 6u); // a head and five levels
@@ -33,16 +33,16 @@ namespace plumbline::report
     for (std::size_t at = 0; at < line.find('\n'); at = line.find_first_of(",\n", at) + 1)
       numbers.push_back(std::strtod(line.c_str() + at, nullptr));
     ASSERT_EQ(numbers.size(), 14u);
-    const study::Run &run = results.runs.at(1);
-    EXPECT_EQ(numbers[1], run.h);
-    EXPECT_EQ(numbers[2], run.horizon);
-    EXPECT_EQ(numbers[4], run.errors.at(results.decisive_error));
+    const study::Record &run = results.records.at(1);
+    EXPECT_EQ(numbers[1], run.key.h);
+    EXPECT_EQ(numbers[2], run.key.horizon);
+    EXPECT_EQ(numbers[4], run[results.decisive_error]);
     EXPECT_EQ(numbers[5], results.trends.at(0).rates.at(0));
   }
 
   TEST(ReportTables, LeaveAnEmptyFieldWhereThereIsNoValue)
   {
-    const study::Results results = fixture::results();
+    const study::StudyResults results = fixture::results();
     const Table table = error_table(results, cases(results).at(0));
     // FA has no solution at level 4, P0 has a NaN at level 2, Q1 an exact zero at level 0.
     EXPECT_EQ(table.rows.at(4).at(4).csv.at(0), "");
@@ -80,7 +80,7 @@ namespace plumbline::report
   TEST(ReportTables, GiveEachVerdictWithItsReason)
   {
     const fixture::Folder folder;
-    const study::Results results = fixture::results();
+    const study::StudyResults results = fixture::results();
     write_tables(results, folder.path());
     const std::string csv = fixture::read(folder.path() / "tables/verdicts.csv");
     EXPECT_EQ(fixture::count(csv, "\n"), 1 + results.trends.size());
@@ -95,10 +95,10 @@ namespace plumbline::report
   TEST(ReportTables, GiveTheCostOfEachRunThatCameThrough)
   {
     const fixture::Folder folder;
-    const study::Results results = fixture::results();
+    const study::StudyResults results = fixture::results();
     write_tables(results, folder.path());
     const std::string csv = fixture::read(folder.path() / "tables/cost.csv");
-    EXPECT_EQ(fixture::count(csv, "\n"), results.runs.size()); // a head, less one failure
+    EXPECT_EQ(fixture::count(csv, "\n"), results.records.size()); // a head, less one failure
     EXPECT_TRUE(holds(csv, "FA,case1,m = 3,0.10000000000000001,81,2268,"));
   }
 
@@ -132,13 +132,13 @@ namespace plumbline::report
     EXPECT_EQ(slug("δ = 0.4"), "delta-0.4");
     EXPECT_EQ(slug("../Case 1/"), "case-1");
     EXPECT_EQ(slug(""), "all");
-    study::Results results;
+    study::StudyResults results;
     for (const char *series : {"m = 3", "m=3", "M 3"})
     {
-      study::Run run;
-      run.problem = "p";
-      run.series = series;
-      results.runs.push_back(run);
+      study::Record run;
+      run.key.problem = "p";
+      run.key.series = series;
+      results.records.push_back(run);
     }
     const std::vector<Case> all = cases(results);
     ASSERT_EQ(all.size(), 3u);
@@ -149,7 +149,7 @@ namespace plumbline::report
 
   TEST(ReportTables, FindDifferencesThatAreTooSmallForTheReference)
   {
-    study::Results results = fixture::results();
+    study::StudyResults results = fixture::results();
     results.references = {{"case1", "m = 3", "Q2", 3, .0125, .0375, 3e-5, 1e-5, 2e-6, 3e-5, 4}};
     const Table table = doubtful_differences(results);
     // Of level 3: recalibrated .6 × 1.453e-4 and Q1 .6 × 9.375e-5 are below 3e-4, the others above;
@@ -162,11 +162,11 @@ namespace plumbline::report
 
   TEST(ReportTables, LeaveAFitThatWasNotMadeEmpty)
   {
-    study::Results results = fixture::results();
+    study::StudyResults results = fixture::results();
     study::Trend &trend = results.trends.at(0);
     trend.rate = trend.rate_uncertainty = trend.plateau = trend.plateau_uncertainty =
         study::not_fitted;
-    const Table table = verdict_table(results);
+    const Table table = trend_table(results);
     EXPECT_EQ(table.rows.at(0).at(3).text, "–");
     EXPECT_EQ(table.rows.at(0).at(4).csv, std::vector<std::string>({"", ""}));
     EXPECT_EQ(table.rows.at(1).at(4).text, "1.850e-3 ± 2.0e-5");

@@ -1,7 +1,7 @@
 // What tables, charts and pages show of a study over a variable of the scene.
 
+#include "io/results_json.h"
 #include "report/charts.h"
-#include "report/json.h"
 #include "report/page.h"
 #include "report/tables.h"
 #include "report/view.h"
@@ -21,9 +21,9 @@ namespace plumbline::report
     }
 
     /// One method at two values that straddle 0.
-    study::Results over_q()
+    study::StudyResults over_q()
     {
-      study::Results results;
+      study::StudyResults results;
       results.regime = scene::Regime::variable;
       results.variable = "q";
       results.decisive_error = "nodal L2 | exact";
@@ -35,19 +35,19 @@ namespace plumbline::report
                          study::Axis::variable};
       for (const double q : {-.5, .5})
       {
-        study::Run run;
-        run.method = "FA";
-        run.problem = trend.problem;
-        run.series = trend.series;
-        run.level = q < 0 ? 0 : 1;
-        run.h = .1;
-        run.horizon = .3;
-        run.value = q;
+        study::Record run;
+        run.key.method = "FA";
+        run.key.problem = trend.problem;
+        run.key.series = trend.series;
+        run.key.level = q < 0 ? 0 : 1;
+        run.key.h = .1;
+        run.key.horizon = .3;
+        run.key.value = q;
         run.cost.solve_seconds = .5;
-        run.errors[results.decisive_error] = .02 + .01 * q;
+        run.set(results.decisive_error, .02 + .01 * q);
         trend.x.push_back(q);
         trend.values.push_back(.02 + .01 * q);
-        results.runs.push_back(run);
+        results.records.push_back(run);
       }
       results.trends = {trend};
       results.advice = {{"case1", trend.series, {}, {}, {}}};
@@ -67,13 +67,13 @@ namespace plumbline::report
 
   TEST(ReportOverAVariable, HasItsValuesInTablesAndNoRates)
   {
-    study::Results results = over_q();
+    study::StudyResults results = over_q();
     const Table errors = error_table(results, cases(results).front());
     EXPECT_EQ(heads(errors), (Heads{"level", "h", "δ", "m", "q", "FA"}));
     ASSERT_EQ(errors.rows.size(), 2u);
     EXPECT_EQ(errors.rows[0][4].text, "-0.5");
     EXPECT_EQ(errors.rows[1][5].text, "2.500e-2");
-    results.runs[1].failure = "none";
+    results.records[1].failure = "none";
     EXPECT_EQ(failure_table(results).rows.at(0)[6].text, "0.5");
     EXPECT_EQ(heads(failure_table(results))[6], "q");
     results.variable.clear();
@@ -83,7 +83,7 @@ namespace plumbline::report
   TEST(ReportOverAVariable, DrawsErrorsOverIt)
   {
     const fixture::Folder folder;
-    const study::Results results = over_q();
+    const study::StudyResults results = over_q();
     write_charts(results, folder.path());
     const std::string chart = "convergence_case1_h-0.1-m-3";
     EXPECT_TRUE(holds(fixture::read(folder.path() / "charts" / (chart + ".csv")),
@@ -111,9 +111,9 @@ namespace plumbline::report
 
   TEST(ReportOverAVariable, IsReadBack)
   {
-    const study::Results read = from_json(to_json(over_q(), 0), "a file");
+    const study::StudyResults read = io::from_json(io::to_json(over_q()), "a file");
     EXPECT_EQ(read.variable, "q");
-    EXPECT_EQ(read.runs[0].value, -.5);
+    EXPECT_EQ(read.records[0].key.value, -.5);
     EXPECT_EQ(read.trends[0].axis, study::Axis::variable);
     EXPECT_EQ(read.trends[0].x[0], -.5); // no length
   }

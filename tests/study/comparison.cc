@@ -199,9 +199,9 @@ TEST(Sweep, judges_checks_and_resumes)
   const auto scene = make_scene(study);
   const auto good = std::make_shared<FakeMethod>(2);
   const Methods methods = {good};
-  const Results results = run_sweep(scene, methods, methods, at_cost());
+  const StudyResults results = run_sweep(scene, methods, methods, at_cost());
   EXPECT_TRUE(results.is_complete);
-  EXPECT_EQ(results.runs.size(), 8u);
+  EXPECT_EQ(results.records.size(), 8u);
   ASSERT_EQ(results.trends.size(), 2u);
   EXPECT_EQ(results.trends[0].verdict, "AC");
   std::map<std::string, bool> holds;
@@ -216,13 +216,13 @@ TEST(Sweep, judges_checks_and_resumes)
   unsigned int n_allowed = 3;
   SweepControl control = at_cost();
   control.should_stop = [&] { return n_allowed-- == 0; };
-  const Results partial = run_sweep(scene, methods, methods, control);
+  const StudyResults partial = run_sweep(scene, methods, methods, control);
   EXPECT_FALSE(partial.is_complete);
-  EXPECT_EQ(partial.runs.size(), 3u);
+  EXPECT_EQ(partial.records.size(), 3u);
   good->n_solves = 0;
-  const Results whole = run_sweep(scene, methods, methods, at_cost(), partial);
+  const StudyResults whole = run_sweep(scene, methods, methods, at_cost(), partial);
   EXPECT_EQ(good->n_solves, 5u);
-  EXPECT_EQ(whole.runs.size(), 8u);
+  EXPECT_EQ(whole.records.size(), 8u);
 
   const Methods stalling = {std::make_shared<FakeMethod>(1, .01)};
   EXPECT_EQ(run_sweep(scene, stalling, stalling, at_cost()).trends[0].verdict, "not AC");

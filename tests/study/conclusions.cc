@@ -1,6 +1,7 @@
 // What is concluded from runs: doubt, jitter, expectations, the cheapest run. Tables of errors and
 // costs as a sweep leaves them, and the answer that each of them deserves.
 #include "study/conclusions.h"
+#include "study/solution_record.h"
 
 #include <gtest/gtest.h>
 
@@ -30,9 +31,9 @@ namespace
             decisive + "\nend\nsubsection Expected\n" + expected + "\nend\n");
   }
 
-  Results make_results(const scene::Scene &scene)
+  StudyResults make_results(const scene::Scene &scene)
   {
-    Results results;
+    StudyResults results;
     results.regime = scene::Regime::delta;
     results.decisive_error = scene.study.decisive_error.text();
     results.is_complete = true;
@@ -40,30 +41,30 @@ namespace
   }
 
   /// The runs of one method, case and series; an error that is no number: no solution there.
-  void add_runs(Results &results, const std::string &method, const std::vector<double> &errors,
+  void add_runs(StudyResults &results, const std::string &method, const std::vector<double> &errors,
                 const std::string &problem = "one", const std::string &series = "m = 2")
   {
     for (unsigned int level = 0; level < errors.size(); ++level)
     {
-      Run run;
-      run.method = method;
-      run.family = study::MethodFamily::meshfree;
-      run.problem = problem;
-      run.series = series;
-      run.level = level;
-      run.h = h[level];
-      run.horizon = (series == "m = 2" ? 2 : 3) * h[level];
-      run.size = 1;
+      Record run;
+      run.key.method = method;
+      run.key.family = study::MethodFamily::meshfree;
+      run.key.problem = problem;
+      run.key.series = series;
+      run.key.level = level;
+      run.key.h = h[level];
+      run.key.horizon = (series == "m = 2" ? 2 : 3) * h[level];
+      run.set("variation", 1);
       if (std::isnan(errors[level]))
         run.failure = "no solution";
       else
-        run.errors[results.decisive_error] = errors[level];
-      results.runs.push_back(run);
+        run.set(results.decisive_error, errors[level]);
+      results.records.push_back(run);
     }
   }
 
   /// How far the reference of one case and series may be wrong, level by level.
-  void add_reference(Results &results, const std::vector<double> &estimates,
+  void add_reference(StudyResults &results, const std::vector<double> &estimates,
                      const std::string &problem = "one", const std::string &series = "m = 2")
   {
     for (unsigned int level = 0; level < estimates.size(); ++level)
@@ -79,7 +80,7 @@ namespace
     }
   }
 
-  const Trend &trend_of(const Results &results, const std::string &method,
+  const Trend &trend_of(const StudyResults &results, const std::string &method,
                         const std::string &problem = "one", const std::string &series = "m = 2")
   {
     const auto found = std::find_if(results.trends.begin(), results.trends.end(),
@@ -117,7 +118,7 @@ TEST(Conclusions, a_difference_below_ten_estimates_of_the_reference_decides_noth
   const auto scene = make_scene(against_reference);
   for (const Doubt &row : table)
   {
-    Results results = make_results(scene);
+    StudyResults results = make_results(scene);
     add_runs(results, "A", second_order);
     add_reference(results, row.estimates);
     // of others, which say nothing about this one
@@ -132,7 +133,7 @@ TEST(Conclusions, a_difference_below_ten_estimates_of_the_reference_decides_noth
 TEST(Conclusions, a_reference_casts_no_doubt_on_errors_against_an_exact_solution)
 {
   const auto scene = make_scene(against_exact);
-  Results results = make_results(scene);
+  StudyResults results = make_results(scene);
   add_runs(results, "A", second_order);
   add_reference(results, std::vector<double>(4, 1));
   conclude(scene, results);
@@ -145,7 +146,7 @@ TEST(Conclusions, a_stall_below_the_estimate_of_the_reference_is_in_doubt_too)
   for (const auto &[estimate, outcome] :
        {std::pair{1e-3, Outcome::stalls}, {1e-2, Outcome::undecided}})
   {
-    Results results = make_results(scene);
+    StudyResults results = make_results(scene);
     add_runs(results, "A", stalled);
     add_reference(results, std::vector<double>(4, estimate));
     conclude(scene, results);
@@ -158,7 +159,7 @@ TEST(Conclusions, a_method_that_fails_at_one_level_has_failed)
   const auto scene = make_scene(against_exact);
   for (unsigned int level = 0; level < h.size(); ++level)
   {
-    Results results = make_results(scene);
+    StudyResults results = make_results(scene);
     auto errors = second_order;
     errors[level] = std::nan("");
     add_runs(results, "A", errors);
@@ -177,7 +178,7 @@ namespace
   bool holds(const std::string &expected, const std::vector<double> &errors)
   {
     const auto scene = make_scene(against_exact, expected);
-    Results results = make_results(scene);
+    StudyResults results = make_results(scene);
     add_runs(results, "A", errors);
     conclude(scene, results);
     EXPECT_EQ(results.expectations.size(), 1u) << expected;
@@ -243,18 +244,18 @@ TEST(Conclusions, an_expectation_of_what_was_not_run_does_not_hold)
 namespace
 {
   /// Setup and solve of the runs of a method, each level four times the one before [CPU s].
-  void set_cost(Results &results, const std::string &method, double setup, double solve)
+  void set_cost(StudyResults &results, const std::string &method, double setup, double solve)
   {
-    for (Run &run : results.runs)
-      if (run.method == method)
+    for (Record &run : results.records)
+      if (run.key.method == method)
       {
-        run.cost.setup_seconds = setup * std::pow(4., run.level);
-        run.cost.solve_seconds = solve * std::pow(4., run.level);
+        run.cost.setup_seconds = setup * std::pow(4., run.key.level);
+        run.cost.solve_seconds = solve * std::pow(4., run.key.level);
       }
   }
 
   /// What is advised for case one at m = 2: method and h by target.
-  std::map<double, std::pair<std::string, double>> advised(const Results &results)
+  std::map<double, std::pair<std::string, double>> advised(const StudyResults &results)
   {
     std::map<double, std::pair<std::string, double>> choices;
     for (const Advice &advice : results.advice)
@@ -270,7 +271,7 @@ TEST(Conclusions, the_cheapest_run_is_by_setup_and_solve_together)
   const auto scene = make_scene(against_exact);
   for (const bool is_solve_dear : {false, true})
   {
-    Results results = make_results(scene);
+    StudyResults results = make_results(scene);
     add_runs(results, "A", second_order);
     add_runs(results, "B", second_order);
     set_cost(results, "A", is_solve_dear ? 1 : 5, is_solve_dear ? 5 : 1);
@@ -304,13 +305,13 @@ TEST(Conclusions, costs_within_a_fifth_are_a_tie_that_fewer_unknowns_and_then_na
   const auto scene = make_scene(against_exact);
   for (const Row &row : table)
   {
-    Results results = make_results(scene);
+    StudyResults results = make_results(scene);
     add_runs(results, "A", second_order);
     add_runs(results, "B", second_order);
     set_cost(results, "A", row.seconds_a / 16, 0);
     set_cost(results, "B", row.seconds_b / 16, 0);
-    for (study::Run &run : results.runs)
-      run.cost.n_unknowns = run.method == "A" ? row.unknowns_a : row.unknowns_b;
+    for (study::Record &run : results.records)
+      run.cost.n_unknowns = run.key.method == "A" ? row.unknowns_a : row.unknowns_b;
     conclude(scene, results);
     ASSERT_FALSE(results.advice.front().choices.empty());
     const Choice &choice = results.advice.front().choices.front();
@@ -323,12 +324,12 @@ TEST(Conclusions, costs_within_a_fifth_are_a_tie_that_fewer_unknowns_and_then_na
 TEST(Conclusions, a_method_does_not_tie_with_another_level_of_its_own)
 {
   const auto scene = make_scene(against_exact);
-  Results results = make_results(scene);
+  StudyResults results = make_results(scene);
   add_runs(results, "A", {9e-3, 2e-3, 5e-4, 1.25e-4}); // each level is accurate enough
-  for (study::Run &run : results.runs)
+  for (study::Record &run : results.records)
   {
-    run.cost.solve_seconds = 1 - .01 * run.level;
-    run.cost.n_unknowns = 100 << run.level;
+    run.cost.solve_seconds = 1 - .01 * run.key.level;
+    run.cost.n_unknowns = 100 << run.key.level;
   }
   conclude(scene, results);
   const Choice &choice = results.advice.front().choices.front();
@@ -339,7 +340,7 @@ TEST(Conclusions, a_method_does_not_tie_with_another_level_of_its_own)
 TEST(Conclusions, the_cheapest_run_meets_its_target)
 {
   const auto scene = make_scene(against_exact);
-  Results results = make_results(scene);
+  StudyResults results = make_results(scene);
   add_runs(results, "A", {8e-2, 2e-2, 5e-3, 1.25e-3}); // cheap, but never at 1e-4
   add_runs(results, "B", {8e-3, 5e-4, 3.1e-5, 2e-6});
   set_cost(results, "A", 1, 1);
@@ -357,16 +358,16 @@ TEST(Conclusions, targets_are_relative_to_the_solution)
   const auto scene = make_scene(against_exact);
   for (const auto &[size, side] : {std::pair(1e-9, 1.), std::pair(1e6, 1.), std::pair(1e-9, 1e-6)})
   {
-    Results results = make_results(scene);
+    StudyResults results = make_results(scene);
     std::vector<double> errors = {8e-2, 2e-2, 5e-3, 1.25e-3};
     for (double &error : errors)
       error *= size * side;
     add_runs(results, "A", errors);
-    for (study::Run &run : results.runs)
+    for (study::Record &run : results.records)
     {
-      run.size = size;
-      run.area = side * side;
-      run.round_off = 1e-13 * size;
+      run.set("variation", size);
+      run.set("area", side * side, "length^2");
+      run.set("round-off", 1e-13 * size);
     }
     conclude(scene, results);
     const auto choices = advised(results);
@@ -383,15 +384,15 @@ TEST(Conclusions, advice_names_methods_that_converge_by_the_decisive_error_alone
 {
   const auto scene = make_scene(against_exact);
   const std::vector<double> ragged = {9e-3, 6e-3, 3e-3, 2.5e-3};
-  Results results = make_results(scene);
+  StudyResults results = make_results(scene);
   add_runs(results, "A", second_order);
   add_runs(results, "stalls", {9.2e-3, 9.05e-3, 9.01e-3, 9.003e-3});
   add_runs(results, "ragged", ragged);
   add_runs(results, "fails", {8e-3, 2e-3, std::nan(""), 1e-4});
-  set_cost(results, "A", 50, 50);      // all others would be cheaper
-  for (study::Run &run : results.runs) // by another error all of them converge
+  set_cost(results, "A", 50, 50);            // all others would be cheaper
+  for (study::Record &run : results.records) // by another error all of them converge
     if (run.failure.empty())
-      run.errors["averages Linf | exact"] = second_order[run.level];
+      run.set("averages Linf | exact", second_order[run.key.level]);
   conclude(scene, results);
   const auto choices = advised(results);
   ASSERT_EQ(choices.count(1e-2), 1u);
@@ -407,14 +408,17 @@ TEST(Conclusions, advice_names_methods_that_converge_by_the_decisive_error_alone
 
 namespace
 {
-  void prove(Results &results, const std::string &method, LimitProof::Answer answer, double defect)
+  void prove(StudyResults &results, const std::string &method, LimitProof::Answer answer,
+             double defect)
   {
-    for (Run &run : results.runs)
-      if (run.method == method)
+    for (Record &run : results.records)
+      if (run.key.method == method)
       {
-        run.diagnostics.limit.answer = answer;
-        run.diagnostics.limit.defect = defect;
-        run.diagnostics.limit.reason = "by this test";
+        LimitProof limit;
+        limit.answer = answer;
+        limit.defect = defect;
+        limit.reason = "by this test";
+        set_limit(run, limit);
       }
   }
 } // namespace
@@ -440,7 +444,7 @@ TEST(Conclusions, a_field_that_hides_wrong_moments_proves_nothing)
   const auto scene = make_scene(against_exact);
   for (const Row &row : table)
   {
-    Results results = make_results(scene);
+    StudyResults results = make_results(scene);
     add_runs(results, "A", row.errors);
     prove(results, "A", row.answer, row.defect);
     conclude(scene, results);
@@ -471,7 +475,7 @@ TEST(Conclusions, a_proof_settles_what_errors_leave_open)
   const auto scene = make_scene(against_exact);
   for (const Row &row : table)
   {
-    Results results = make_results(scene);
+    StudyResults results = make_results(scene);
     add_runs(results, "A", row.errors);
     prove(results, "A", row.answer, row.answer == Answer::incompatible ? .1 : 0);
     conclude(scene, results);
@@ -479,7 +483,7 @@ TEST(Conclusions, a_proof_settles_what_errors_leave_open)
   }
   // not where the reference is in doubt
   const auto held_against_reference = make_scene(against_reference);
-  Results results = make_results(held_against_reference);
+  StudyResults results = make_results(held_against_reference);
   add_runs(results, "A", sure_rate);
   add_reference(results, std::vector<double>(4, 1e-4));
   prove(results, "A", Answer::compatible, 0);
@@ -490,9 +494,9 @@ TEST(Conclusions, a_proof_settles_what_errors_leave_open)
 namespace
 {
   /// A and B over four levels at a fixed horizon or towards the local limit with m growing.
-  Results refined(const std::string &regime, const std::string &target,
-                  const std::vector<double> &errors, const std::vector<double> &area_defects,
-                  const std::vector<double> &ball_defects)
+  StudyResults refined(const std::string &regime, const std::string &target,
+                       const std::vector<double> &errors, const std::vector<double> &area_defects,
+                       const std::vector<double> &ball_defects)
   {
     const std::string series = regime == "m" ? " set horizon = 0.4\n" : " set m = 2, 3, 4, 6\n";
     const auto scene = scene::parse_scene(
@@ -504,16 +508,18 @@ namespace
                         " set h = 0.2, 0.1, 0.05, 0.025\n set norms = averages L2\n"
                         " set decisive error = averages L2 | " +
                         target + "\nend\n");
-    Results results = make_results(scene);
+    StudyResults results = make_results(scene);
     results.regime = scene.study.regime;
     const std::string name = scene.study.series.front().name;
     add_runs(results, "A", errors, "one", name);
-    for (std::size_t level = 0; level < results.runs.size(); ++level)
+    for (std::size_t level = 0; level < results.records.size(); ++level)
     {
-      Run &run = results.runs[level];
-      run.horizon = scene.study.series.front().levels[level].horizon;
-      run.diagnostics.limit.area_defect = area_defects[level];
-      run.diagnostics.limit.ball_defect = ball_defects[level];
+      Record &run = results.records[level];
+      run.key.horizon = scene.study.series.front().levels[level].horizon;
+      LimitProof limit;
+      limit.area_defect = area_defects[level];
+      limit.ball_defect = ball_defects[level];
+      set_limit(run, limit);
     }
     conclude(scene, results);
     return results;
@@ -526,9 +532,9 @@ namespace
 TEST(Conclusions,
      at_a_fixed_horizon_weights_that_do_not_tend_to_areas_are_right_for_this_field_only)
 {
-  const auto verdict = [](const Results &results) { return results.trends.front().verdict; };
+  const auto verdict = [](const StudyResults &results) { return results.trends.front().verdict; };
   EXPECT_EQ(verdict(refined("m", "exact", second_order, falling, falling)), "m-convergent");
-  const Results wrong = refined("m", "exact", second_order, staying, {.25, .03, .002, .02});
+  const StudyResults wrong = refined("m", "exact", second_order, staying, {.25, .03, .002, .02});
   EXPECT_EQ(verdict(wrong), "m-convergent for this field only");
   EXPECT_TRUE(wrong.advice.front().choices.empty());
   EXPECT_EQ(verdict(refined("m", "exact", stalled, staying, staying)), "not m-convergent");
@@ -545,7 +551,7 @@ TEST(Conclusions, a_fixed_horizon_against_the_local_solution_decides_nothing)
 {
   for (const auto &errors : {stalled, std::vector<double>{1.9e-1, 1.4e-1, 1.12e-1, 1.05e-1}})
   {
-    const Results results = refined("m", "local", errors, falling, falling);
+    const StudyResults results = refined("m", "local", errors, falling, falling);
     EXPECT_EQ(results.trends.front().verdict, "undecided");
     EXPECT_NE(results.trends.front().reason.find("nonlocal from the local"), std::string::npos);
     EXPECT_EQ(results.warnings.size(), 1u);
@@ -562,11 +568,13 @@ TEST(Conclusions, the_weakest_proof_of_all_levels_counts)
   const auto scene = make_scene(against_exact);
   for (const unsigned int wrong : {0u, 2u, 3u})
   {
-    Results results = make_results(scene);
+    StudyResults results = make_results(scene);
     add_runs(results, "A", second_order);
     prove(results, "A", LimitProof::Answer::compatible, 0);
-    results.runs[wrong].diagnostics.limit.answer = LimitProof::Answer::incompatible;
-    results.runs[wrong].diagnostics.limit.defect = .02;
+    LimitProof limit = limit_of(results.records[wrong]);
+    limit.answer = LimitProof::Answer::incompatible;
+    limit.defect = .02;
+    set_limit(results.records[wrong], limit);
     conclude(scene, results);
     EXPECT_EQ(trend_of(results, "A").verdict, "AC for this field only") << wrong;
   }
@@ -580,13 +588,13 @@ namespace
   Trend judged_by_own(const std::vector<double> &differences, LimitProof::Answer answer)
   {
     const auto scene = make_scene("averages L2 | own finest level");
-    Results results = make_results(scene);
+    StudyResults results = make_results(scene);
     add_runs(results, "A", differences);
-    Run finest = results.runs.back();
-    finest.level = 4;
-    finest.h = .0125;
-    finest.errors.clear();
-    results.runs.push_back(finest);
+    Record finest = results.records.back();
+    finest.key.level = 4;
+    finest.key.h = .0125;
+    finest.scalars.erase(results.decisive_error);
+    results.records.push_back(finest);
     prove(results, "A", answer, answer == LimitProof::Answer::incompatible ? .04 : 0);
     conclude(scene, results);
     return trend_of(results, "A");

@@ -91,7 +91,7 @@ namespace
                              const std::string &prefix = "")
   {
     for (const Trend &trend : results.trends)
-      if (trend.method == method && trend.error == prefix + results.facts.at(decisive_error))
+      if (trend.method == method && trend.error == prefix + results.decisive_error)
         return trend.values;
     throw InputError("no such trend: " + method);
   }

@@ -85,7 +85,7 @@ namespace
   std::vector<double> errors(const StudyResults &results, const std::string &method)
   {
     for (const Trend &trend : results.trends)
-      if (trend.method == method && trend.error == results.facts.at(decisive_error))
+      if (trend.method == method && trend.error == results.decisive_error)
         return trend.values;
     throw InputError("no such trend: " + method);
   }

@@ -70,7 +70,7 @@ namespace
     std::function<void()> fail_;
   };
 
-  study::Results sweep(const std::function<void()> &fail)
+  study::StudyResults sweep(const std::function<void()> &fail)
   {
     const scene::Scene scene = scene::parse_scene(
         "fault.prm", "subsection Problem\n set solution = x^2\nend\n"
@@ -120,10 +120,10 @@ TEST(SeparateCommunicator, has_the_same_ranks_and_its_own_messages)
 TEST(Sweep, what_fails_on_one_rank_has_failed_on_all)
 {
   const auto results = sweep([] { throw NumericalError("rank loss"); });
-  ASSERT_EQ(results.runs.size(), 2u);
-  for (const study::Run &run : results.runs)
+  ASSERT_EQ(results.records.size(), 2u);
+  for (const study::Record &run : results.records)
     EXPECT_EQ(run.failure, "rank loss");
-  EXPECT_EQ(sweep([] { throw std::bad_alloc(); }).runs[1].failure.find("memory ran out"), 0u);
+  EXPECT_EQ(sweep([] { throw std::bad_alloc(); }).records[1].failure.find("memory ran out"), 0u);
   EXPECT_THROW(sweep([] { throw InputError("bad data"); }), InputError);
   EXPECT_THROW(sweep([] { throw std::logic_error("a library's"); }), std::runtime_error);
 }

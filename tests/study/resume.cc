@@ -26,7 +26,7 @@ namespace
     return available;
   }
 
-  Results sweep(const scene::Scene &scene, const Results &earlier = {})
+  StudyResults sweep(const scene::Scene &scene, const StudyResults &earlier = {})
   {
     const Methods available = all_methods();
     return run_sweep(scene, choose_methods(scene, available), available, {}, earlier);
@@ -49,23 +49,23 @@ namespace
 
 TEST(SweepResume, runs_the_whole_of_a_level_that_is_not_finished)
 {
-  const Results whole = sweep(two_levels());
-  ASSERT_EQ(whole.runs.size(), 4u);
+  const StudyResults whole = sweep(two_levels());
+  ASSERT_EQ(whole.records.size(), 4u);
   for (std::size_t n_done = 0; n_done <= 4; ++n_done)
   {
-    Results earlier = whole;
+    StudyResults earlier = whole;
     earlier.is_complete = false;
-    earlier.runs.resize(n_done);
+    earlier.records.resize(n_done);
     earlier.references.resize((n_done + 1) / 2);
-    const Results resumed = sweep(two_levels(), earlier);
+    const StudyResults resumed = sweep(two_levels(), earlier);
     EXPECT_TRUE(resumed.is_complete);
-    ASSERT_EQ(resumed.runs.size(), 4u) << n_done;
+    ASSERT_EQ(resumed.records.size(), 4u) << n_done;
     for (std::size_t i = 0; i < 4; ++i)
     {
-      EXPECT_EQ(resumed.runs[i].method, whole.runs[i].method) << n_done;
-      EXPECT_EQ(resumed.runs[i].level, whole.runs[i].level) << n_done;
-      const double error = whole.runs[i].errors.at(whole.decisive_error);
-      EXPECT_NEAR(resumed.runs[i].errors.at(whole.decisive_error), error, 1e-9 * error) << n_done;
+      EXPECT_EQ(resumed.records[i].key.method, whole.records[i].key.method) << n_done;
+      EXPECT_EQ(resumed.records[i].key.level, whole.records[i].key.level) << n_done;
+      const double error = whole.records[i][whole.decisive_error];
+      EXPECT_NEAR(resumed.records[i][whole.decisive_error], error, 1e-9 * error) << n_done;
     }
     ASSERT_EQ(resumed.references.size(), 2u) << n_done;
     EXPECT_EQ(resumed.references[1].level, 1u);
@@ -74,12 +74,12 @@ TEST(SweepResume, runs_the_whole_of_a_level_that_is_not_finished)
 
 TEST(SweepResume, keeps_the_estimates_of_finished_levels)
 {
-  Results earlier = sweep(two_levels());
+  StudyResults earlier = sweep(two_levels());
   earlier.is_complete = false;
-  earlier.runs.resize(2);
+  earlier.records.resize(2);
   earlier.references.resize(1);
   earlier.references[0].estimate = 77; // so that it is known again
-  const Results resumed = sweep(two_levels(), earlier);
+  const StudyResults resumed = sweep(two_levels(), earlier);
   ASSERT_EQ(resumed.references.size(), 2u);
   EXPECT_EQ(resumed.references[0].estimate, 77);
   EXPECT_NE(resumed.references[1].estimate, 77);
@@ -116,8 +116,8 @@ TEST(SweepErrors, that_are_no_numbers_are_a_failure_and_are_not_stored)
                                                  {"Solver/operator", "sparse"},
                                                  {"Study/m", "2"},
                                                  {"Study/h", "0.25"}});
-  const Results results = run_sweep(scene, methods, methods, at_cost());
-  ASSERT_EQ(results.runs.size(), 1u);
-  EXPECT_NE(results.runs[0].failure.find("not a finite number"), std::string::npos)
-      << results.runs[0].failure;
+  const StudyResults results = run_sweep(scene, methods, methods, at_cost());
+  ASSERT_EQ(results.records.size(), 1u);
+  EXPECT_NE(results.records[0].failure.find("not a finite number"), std::string::npos)
+      << results.records[0].failure;
 }

@@ -79,28 +79,28 @@ TEST(SelfConvergence, every_level_is_held_against_the_last_one_of_the_same_metho
                       "norms = averages Linf, averages L2\n set decisive error = averages L2 | own "
                       "finest level\nend\n");
   OwnFinest own;
-  std::vector<study::Run> runs;
+  std::vector<study::Record> runs;
   for (const std::string method : {"A", "B"})
     for (unsigned int level = 0; level < 2; ++level)
     {
       const problem::Problem<2> problem =
           make_problem(scene, 0, scene.study.series[0].levels[level]);
-      study::Run run;
-      run.method = method;
-      run.problem = "u";
-      run.series = scene.study.series[0].name;
-      run.level = level;
-      run.h = problem.h;
+      study::Record run;
+      run.key.method = method;
+      run.key.problem = "u";
+      run.key.series = scene.study.series[0].name;
+      run.key.level = level;
+      run.key.h = problem.h;
       const double value = method == "A" ? 1. + level : 5. + 3 * level;
       own.keep(run, problem, std::vector<double>(level == 0 ? 8 : 32, value));
       runs.push_back(run);
     }
   own.compare(scene, runs);
-  EXPECT_NEAR(runs[0].errors.at("averages Linf | own finest level"), 1, 1e-13);
-  EXPECT_NEAR(runs[0].errors.at("averages L2 | own finest level"), std::sqrt(2.), 1e-13);
-  EXPECT_NEAR(runs[2].errors.at("averages Linf | own finest level"), 3, 1e-13);
-  EXPECT_TRUE(runs[1].errors.empty());
-  EXPECT_TRUE(runs[3].errors.empty());
+  EXPECT_NEAR(runs[0]["averages Linf | own finest level"], 1, 1e-13);
+  EXPECT_NEAR(runs[0]["averages L2 | own finest level"], std::sqrt(2.), 1e-13);
+  EXPECT_NEAR(runs[2]["averages Linf | own finest level"], 3, 1e-13);
+  EXPECT_TRUE(runs[1].scalars.empty());
+  EXPECT_TRUE(runs[3].scalars.empty());
 }
 
 namespace

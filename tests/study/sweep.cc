@@ -8,6 +8,7 @@
 #include "study/comparison.h"
 #include "study/preflight.h"
 #include "study/saving.h"
+#include "study/solution_record.h"
 
 #include "tests/study/given_solutions.h"
 
@@ -22,7 +23,7 @@ using namespace plumbline::study;
 
 namespace
 {
-  Results sweep(const std::vector<scene::Override> &settings)
+  StudyResults sweep(const std::vector<scene::Override> &settings)
   {
     const scene::Scene scene = scene::parse_scene("test.prm", "", settings);
     Methods available = meshfree::methods();
@@ -54,15 +55,15 @@ namespace
 TEST(SweepEstimates, bound_the_error_of_galerkin_solutions_that_nothing_stands_beside)
 {
   constexpr double generous = 10; // an estimate this far above the error would be of no use
-  const Results results = sweep(with(unknown, {{"Methods/names", "IPA-AC, Q1, DGQ1"}}));
+  const StudyResults results = sweep(with(unknown, {{"Methods/names", "IPA-AC, Q1, DGQ1"}}));
   ASSERT_EQ(results.estimates.size(), 2 * 3u); // of Q1 and DGQ1 at three levels
   for (const ErrorEstimate &one : results.estimates)
-    for (const study::Run &run : results.runs)
-      if (run.method == one.method && run.level == one.level)
+    for (const study::Record &run : results.records)
+      if (run.key.method == one.method && run.key.level == one.level)
       {
-        const double error = run.errors.at("averages L2 | local");
-        EXPECT_LE(error, one.estimate) << run.method << ' ' << run.h;
-        EXPECT_LE(one.estimate, generous * error) << run.method << ' ' << run.h;
+        const double error = run["averages L2 | local"];
+        EXPECT_LE(error, one.estimate) << run.key.method << ' ' << run.key.h;
+        EXPECT_LE(one.estimate, generous * error) << run.key.method << ' ' << run.key.h;
       }
 }
 
@@ -94,7 +95,7 @@ TEST(SweepSavings, are_measured_at_the_first_level_of_the_first_method_of_each_s
                                               {"Problem/solution", "x^3"},
                                               {"Solver/tolerance", "1e-13"},
                                               {"Geometry/checks", "0"}};
-  const Results results = sweep(small);
+  const StudyResults results = sweep(small);
   ASSERT_EQ(results.savings.size(), 2u);
   EXPECT_EQ(results.savings[0].method, "FA");
   EXPECT_EQ(results.savings[1].method, "Q1");
@@ -157,11 +158,11 @@ TEST(SweepSavings, compare_values_at_the_same_place_in_whatever_order_nodes_come
     EXPECT_EQ(saving->difference, defect / 4);
   }
   // lattices number the unknowns of Q2 by families, meshes by cells
-  const Results results = sweep({{"Study/h", "0.125"},
-                                 {"Methods/names", "Q2"},
-                                 {"Problem/solution", "x^3"},
-                                 {"Solver/tolerance", "1e-13"},
-                                 {"Geometry/checks", "0"}});
+  const StudyResults results = sweep({{"Study/h", "0.125"},
+                                      {"Methods/names", "Q2"},
+                                      {"Problem/solution", "x^3"},
+                                      {"Solver/tolerance", "1e-13"},
+                                      {"Geometry/checks", "0"}});
   ASSERT_EQ(results.savings.size(), 1u);
   EXPECT_LT(results.savings[0].difference, 1e-11);
 }
@@ -199,8 +200,8 @@ TEST(SweepBudget, leaves_out_what_the_levels_before_say_is_too_dear)
   SweepControl control =
       at_cost([](const problem::Problem<2> &problem) { return std::pow(.1 / problem.h, 2); });
   control.budget = 5; // levels of 1 and 4 seconds; the next ones would take 16 and 64
-  const Results results = run_sweep(scene, methods, methods, control);
-  EXPECT_EQ(results.runs.size(), 2u);
+  const StudyResults results = run_sweep(scene, methods, methods, control);
+  EXPECT_EQ(results.records.size(), 2u);
   ASSERT_EQ(results.left_out.size(), 2u);
   EXPECT_NE(results.left_out[0].find("h = 0.025: some 16 CPU s"), std::string::npos)
       << results.left_out[0];
@@ -208,12 +209,12 @@ TEST(SweepBudget, leaves_out_what_the_levels_before_say_is_too_dear)
   // after one level the next is expected to take four times as long
   control.budget = 2;
   const auto again = std::make_shared<DearMethod>();
-  EXPECT_EQ(run_sweep(scene, {again}, {again}, control).runs.size(), 1u);
+  EXPECT_EQ(run_sweep(scene, {again}, {again}, control).records.size(), 1u);
   control.budget = 5;
   // what is finished is not run again, and a larger budget goes on from there
   control.budget = 20;
-  const Results more = run_sweep(scene, methods, methods, control, results);
-  EXPECT_EQ(more.runs.size(), 3u);
+  const StudyResults more = run_sweep(scene, methods, methods, control, results);
+  EXPECT_EQ(more.records.size(), 3u);
   EXPECT_EQ(more.left_out.size(), 1u);
   EXPECT_EQ(dear->n_solves, 3u);
 }
@@ -236,18 +237,18 @@ namespace
 
 TEST(SweepOverAVariable, is_that_of_scenes_at_its_values)
 {
-  const Results results = sweep(with(of_nu, {{"Study/regime", "variable"},
-                                             {"Study/variable", "nu"},
-                                             {"Study/values", "0.25, 0.3, 0.45"}}));
-  ASSERT_EQ(results.runs.size(), 2 * 3u);
+  const StudyResults results = sweep(with(of_nu, {{"Study/regime", "variable"},
+                                                  {"Study/variable", "nu"},
+                                                  {"Study/values", "0.25, 0.3, 0.45"}}));
+  ASSERT_EQ(results.records.size(), 2 * 3u);
   EXPECT_EQ(results.variable, "nu");
-  for (const study::Run &run : results.runs)
+  for (const study::Record &run : results.records)
   {
     std::ostringstream value;
-    value << run.value;
-    for (const study::Run &other : sweep(with(of_nu, {{"Random/values", value.str()}})).runs)
-      if (other.method == run.method)
-        EXPECT_EQ(run.errors, other.errors) << run.method << ", nu = " << run.value;
+    value << run.key.value;
+    for (const study::Record &other : sweep(with(of_nu, {{"Random/values", value.str()}})).records)
+      if (other.key.method == run.key.method)
+        EXPECT_EQ(errors_of(run), errors_of(other)) << run.key.method << ", nu = " << run.key.value;
   }
   for (const Trend &trend : results.trends)
   {

@@ -8,7 +8,7 @@ using namespace plumbline::study;
 
 TEST(TargetWords, name_each_target)
 {
-  Results results;
+  StudyResults results;
   results.regime = scene::Regime::m;
   const auto words = [&](const std::string &error)
   {

@@ -1,6 +1,8 @@
 // Net forces of surface terms at tips of cracks: what is said of them.
 #include "study/tip_forces.h"
 
+#include "study/solution_record.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,19 +13,19 @@ using namespace plumbline::study;
 namespace
 {
   /// One method over levels of horizon 1, 1/2, 1/4, ..., with F = c δ^power about a tip.
-  Results swept(double power, std::size_t n_levels = 4, double sum_of_norms = 10)
+  StudyResults swept(double power, std::size_t n_levels = 4, double sum_of_norms = 10)
   {
-    Results results;
+    StudyResults results;
     for (std::size_t level = 0; level < n_levels; ++level)
     {
-      Run run;
-      run.method = "OPT";
-      run.problem = "case1";
-      run.series = "m = 3";
-      run.horizon = std::pow(.5, level);
-      const double F = .07 * std::pow(run.horizon, power);
-      run.diagnostics.tip_forces = {{{.5, 0}, {F, 0}, sum_of_norms, F, F / std::sqrt(run.horizon)}};
-      results.runs.push_back(run);
+      Record run;
+      run.key.method = "OPT";
+      run.key.problem = "case1";
+      run.key.series = "m = 3";
+      run.key.horizon = std::pow(.5, level);
+      const double F = .07 * std::pow(run.key.horizon, power);
+      set_tip_forces(run, {{{.5, 0}, {F, 0}, sum_of_norms, F, F / std::sqrt(run.key.horizon)}});
+      results.records.push_back(run);
     }
     return results;
   }
@@ -44,7 +46,7 @@ TEST(TipForces, that_vanish_faster_are_rounding_or_are_seen_on_few_levels_are_no
   EXPECT_TRUE(tip_force_findings(swept(1)).empty());
   EXPECT_TRUE(tip_force_findings(swept(.5, 2)).empty());
   EXPECT_TRUE(tip_force_findings(swept(.5, 4, 1e7)).empty());
-  Results fixed = swept(.5);
+  StudyResults fixed = swept(.5);
   fixed.regime = scene::Regime::horizon;
   EXPECT_TRUE(tip_force_findings(fixed).empty());
   EXPECT_TRUE(tip_force_findings({}).empty());
@@ -52,7 +54,7 @@ TEST(TipForces, that_vanish_faster_are_rounding_or_are_seen_on_few_levels_are_no
 
 TEST(TipForces, are_warned_of_once)
 {
-  Results results = swept(.5);
+  StudyResults results = swept(.5);
   results.warnings = {"another"};
   warn_of_tip_forces(results);
   warn_of_tip_forces(results);

@@ -1,6 +1,7 @@
-#include "report/json.h"
+#include "io/results_json.h"
 
 #include "base/error.h"
+#include "base/text_file.h"
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
@@ -9,15 +10,17 @@
 #include <cstdint>
 #include <limits>
 
-namespace plumbline::report
+namespace plumbline::io
 {
+  namespace fixture = report::fixture;
+
   namespace
   {
     std::string error_of(const std::filesystem::path &file)
     {
       try
       {
-        read_json(file);
+        read_results(file);
       }
       catch (const InputError &error)
       {
@@ -30,35 +33,39 @@ namespace plumbline::report
     {
       std::ofstream(file, std::ios::binary) << text;
     }
+
+    void write_json(const study::StudyResults &results, const std::filesystem::path &file)
+    {
+      base::write_file(file, to_json(results));
+    }
   } // namespace
 
-  TEST(ReportJson, IsTheSameAfterARoundTrip)
+  TEST(ResultsFile, IsTheSameAfterARoundTrip)
   {
     const fixture::Folder folder;
-    const study::Results results = fixture::results();
+    const study::StudyResults results = fixture::results();
     write_json(results, folder.path() / "a.json");
-    const study::Results back = read_json(folder.path() / "a.json");
+    const study::StudyResults back = read_results(folder.path() / "a.json");
 
     // Every key takes part: the text written from what was read is the text that was read.
     write_json(back, folder.path() / "b.json");
     EXPECT_EQ(fixture::read(folder.path() / "a.json"), fixture::read(folder.path() / "b.json"));
 
     // And what was read is what there was, in each part.
-    ASSERT_EQ(back.runs.size(), results.runs.size());
-    for (std::size_t i = 0; i < back.runs.size(); ++i)
+    ASSERT_EQ(back.records.size(), results.records.size());
+    for (std::size_t i = 0; i < back.records.size(); ++i)
     {
-      EXPECT_EQ(back.runs[i].method, results.runs[i].method);
-      EXPECT_EQ(back.runs[i].h, results.runs[i].h);
-      EXPECT_EQ(back.runs[i].cost.setup_seconds, results.runs[i].cost.setup_seconds);
-      EXPECT_EQ(back.runs[i].cost.n_bonds, results.runs[i].cost.n_bonds);
-      EXPECT_EQ(back.runs[i].diagnostics.notes, results.runs[i].diagnostics.notes);
-      EXPECT_EQ(back.runs[i].failure, results.runs[i].failure);
-      ASSERT_EQ(back.runs[i].errors.size(), results.runs[i].errors.size());
-      for (const auto &[name, value] : results.runs[i].errors)
-        if (std::isfinite(value))
-          EXPECT_EQ(back.runs[i].errors.at(name), value);
-        else
-          EXPECT_TRUE(std::isnan(back.runs[i].errors.at(name)));
+      EXPECT_EQ(back.records[i].key.method, results.records[i].key.method);
+      EXPECT_EQ(back.records[i].key.h, results.records[i].key.h);
+      EXPECT_EQ(back.records[i].cost.setup_seconds, results.records[i].cost.setup_seconds);
+      EXPECT_EQ(back.records[i].cost.n_bonds, results.records[i].cost.n_bonds);
+      EXPECT_EQ(back.records[i].notes, results.records[i].notes);
+      EXPECT_EQ(back.records[i].texts, results.records[i].texts);
+      EXPECT_EQ(back.records[i].failure, results.records[i].failure);
+      EXPECT_EQ(study::errors_of(back.records[i]), study::errors_of(results.records[i]));
+      ASSERT_EQ(back.records[i].scalars.size(), results.records[i].scalars.size());
+      for (const auto &[name, scalar] : results.records[i].scalars)
+        EXPECT_EQ(back.records[i][name], scalar.value) << name;
     }
     ASSERT_EQ(back.trends.size(), results.trends.size());
     for (std::size_t i = 0; i < back.trends.size(); ++i)
@@ -115,39 +122,43 @@ namespace plumbline::report
     }
   }
 
-  TEST(ReportJson, KeepsTheExtremesOfNumbers)
+  TEST(ResultsFile, KeepsTheExtremesOfNumbers)
   {
     const fixture::Folder folder;
-    study::Results results;
-    study::Run run;
+    study::StudyResults results;
+    study::Record run;
     run.cost.n_bonds = std::numeric_limits<std::uint64_t>::max();
-    run.h = .1;
-    run.horizon = std::nextafter(.3, 1.);
+    run.key.h = .1;
+    run.key.horizon = std::nextafter(.3, 1.);
     run.cost.setup_seconds = std::numeric_limits<double>::denorm_min();
     run.cost.solve_seconds = std::numeric_limits<double>::max();
-    run.errors = {{"nan", std::nan("")}, {"inf", std::numeric_limits<double>::infinity()}};
-    results.runs = {run};
+    run.set("nan | exact", std::nan(""));
+    results.records = {run};
+    study::Trend trend;
+    trend.rate = std::numeric_limits<double>::infinity();
+    results.trends = {trend};
     write_json(results, folder.path() / "results.json");
-    EXPECT_NE(fixture::read(folder.path() / "results.json").find("\"nan\": null"),
+    EXPECT_NE(fixture::read(folder.path() / "results.json").find("\"rate\": null"),
               std::string::npos);
-    const study::Run back = read_json(folder.path() / "results.json").runs.at(0);
+    EXPECT_TRUE(std::isnan(read_results(folder.path() / "results.json").trends.at(0).rate));
+    const study::Record back = read_results(folder.path() / "results.json").records.at(0);
     EXPECT_EQ(back.cost.n_bonds, run.cost.n_bonds);
-    EXPECT_EQ(back.h, run.h);
-    EXPECT_EQ(back.horizon, run.horizon);
+    EXPECT_EQ(back.key.h, run.key.h);
+    EXPECT_EQ(back.key.horizon, run.key.horizon);
     EXPECT_EQ(back.cost.setup_seconds, run.cost.setup_seconds);
     EXPECT_EQ(back.cost.solve_seconds, run.cost.solve_seconds);
-    EXPECT_TRUE(std::isnan(back.errors.at("nan")));
-    EXPECT_TRUE(std::isnan(back.errors.at("inf")));
+    EXPECT_FALSE(back.has("nan | exact"));
   }
 
-  TEST(ReportJson, DescribesEveryKeyInSchemaMd)
+  TEST(ResultsFile, DescribesEveryKeyInSchemaMd)
   {
     const std::string schema_md = fixture::read(PLUMBLINE_SCHEMA);
     ASSERT_FALSE(schema_md.empty());
     const fixture::Folder folder;
-    study::Results results = fixture::results();
-    for (study::Run &run : results.runs)
-      run.errors.clear(); // their keys, and those of the provenance, are the user's
+    study::StudyResults results = fixture::results();
+    for (study::Record &run : results.records)
+      for (const auto &[error, value] : study::errors_of(run))
+        run.scalars.erase(error); // their keys, and those of the provenance, are the user's
     results.provenance.clear();
     write_json(results, folder.path() / "results.json");
     const std::string json = fixture::read(folder.path() / "results.json");
@@ -167,20 +178,20 @@ namespace plumbline::report
     EXPECT_GT(n_keys, 1000u);
   }
 
-  TEST(ReportJson, ReplacesTheFileAndLeavesNoPart)
+  TEST(ResultsFile, ReplacesTheFileAndLeavesNoPart)
   {
     const fixture::Folder folder;
     const std::filesystem::path file = folder.path() / "new" / "results.json";
     write_json(fixture::results(), file);
-    write_json(study::Results(), file);
-    EXPECT_TRUE(read_json(file).runs.empty());
+    write_json(study::StudyResults(), file);
+    EXPECT_TRUE(read_results(file).records.empty());
     std::size_t n_files = 0;
     for (const auto &entry : std::filesystem::directory_iterator(file.parent_path()))
       n_files += entry.is_regular_file() ? 1 : 0;
     EXPECT_EQ(n_files, 1u);
   }
 
-  TEST(ReportJson, SaysWhatIsWrongWithAFileAndWhatToDo)
+  TEST(ResultsFile, SaysWhatIsWrongWithAFileAndWhatToDo)
   {
     const fixture::Folder folder;
     const std::filesystem::path file = folder.path() / "results.json";
@@ -201,7 +212,7 @@ namespace plumbline::report
     write(file, "{\"schema\": 2}");
     expect("schema = 2");
     write(file, "{\"schema\": " + std::to_string(schema) + "}");
-    expect("scene_name is missing");
+    expect("analysis is missing");
 
     const auto damaged = [&](const std::string &from, const std::string &to)
     {
@@ -214,9 +225,9 @@ namespace plumbline::report
     damaged("\"outcome\": \"stalls\"", "\"outcome\": \"so so\"");
     expect("trends[0].outcome is not one of converges, stalls, undecided, failed");
     damaged("\"n_unknowns\": 81", "\"n_unknowns\": -81");
-    expect("runs[0].cost.n_unknowns is not a whole number");
+    expect("records[0].cost.n_unknowns is not a whole number");
     damaged("\"peak_bytes\":", "\"bytes\":");
-    expect("runs[0].cost.peak_bytes is missing");
+    expect("records[0].cost.peak_bytes is missing");
     damaged("\"n_x\": 4", "\"n_x\": 5");
     expect("maps[0].values has 12 numbers, not n_x * n_y = 15");
     damaged("\"lower\": [", "\"lower\": [3,");
@@ -238,10 +249,10 @@ namespace plumbline::report
     damaged("\"target\": 0.01", "\"target\": null");
     expect("choices[0].target is not a positive number");
     damaged("\"purpose\":", "\"regime\": \"m\", \"purpose\":");
-    expect(", line 5: the key 'regime' comes twice in one object");
+    expect(", line 6: the key 'regime' comes twice in one object");
   }
 
-  TEST(ReportJson, NestedEverDeeperIsRefused)
+  TEST(ResultsFile, NestedEverDeeperIsRefused)
   {
     const fixture::Folder folder;
     const std::filesystem::path file = folder.path() / "results.json";
@@ -256,4 +267,4 @@ namespace plumbline::report
           << error_of(file);
     }
   }
-} // namespace plumbline::report
+} // namespace plumbline::io

@@ -1,10 +1,10 @@
-#include "report/json_checks.h"
+#include "io/results_checks.h"
 
 #include "base/error.h"
 
 #include <cmath>
 
-namespace plumbline::report
+namespace plumbline::io
 {
   namespace
   {
@@ -26,6 +26,16 @@ namespace plumbline::report
       void length(double value, const std::string &place) const
       {
         expect(value > 0 && std::isfinite(value), place, "is not a positive length");
+      }
+
+      /// Columns of a curve are as long as each other.
+      void record(const study::Record &record, const std::string &place) const
+      {
+        level(record.key, place + ".key");
+        for (const auto &[name, curve] : record.curves)
+          for (const analysis::Column &column : curve)
+            expect(column.values.size() == curve.front().values.size(),
+                   place + ".curves[\"" + name + "\"]", "has columns of different length");
       }
 
       template <typename Entry>
@@ -83,12 +93,14 @@ namespace plumbline::report
     };
   } // namespace
 
-  void check_results(const study::Results &results, const std::string &what)
+  void check_results(const study::StudyResults &results, const std::string &what)
   {
     const Checks checks(what);
     const auto level = [&](const auto &entry, const std::string &place)
     { checks.level(entry, place); };
-    Checks::each(results.runs, "runs", level);
+    Checks::each(results.records, "records",
+                 [&](const study::Record &record, const std::string &place)
+                 { checks.record(record, place); });
     Checks::each(results.references, "references", level);
     Checks::each(results.estimates, "estimates", level);
     Checks::each(results.savings, "savings", level);
@@ -110,4 +122,4 @@ namespace plumbline::report
                                 });
                  });
   }
-} // namespace plumbline::report
+} // namespace plumbline::io
