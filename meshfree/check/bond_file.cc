@@ -5,6 +5,7 @@
 #include "base/number_text.h"
 #include "geometry/cell_locator.h"
 #include "meshfree/check/given_rows.h"
+#include "meshfree/check/row_families.h"
 #include "meshfree/rules/families.h"
 
 #include <algorithm>
@@ -25,14 +26,6 @@ namespace plumbline::meshfree
       text << '(' << x[0] << ", " << x[1] << ')';
       return text.str();
     }
-
-    /// A bond of a node.
-    struct Row
-    {
-      unsigned int neighbour;
-      Bond<2> bond;
-      std::size_t line;
-    };
 
     /// Rounding of a double, as of coordinates far from the origin.
     double last_digit(double number)
@@ -258,63 +251,6 @@ namespace plumbline::meshfree
       }
       return rows;
     }
-
-    /// Why bonds cannot be used, given twice apart.
-    /// @return  line and fault of the first row that is wrong, if one is
-    std::optional<std::pair<std::size_t, std::string>> find_fault(const std::vector<GivenRow> &rows,
-                                                                  const NodeIndex &index,
-                                                                  const std::string &nodes_file)
-    {
-      for (const GivenRow &row : rows)
-      {
-        for (const auto &[name, id] : {std::pair{"i", row.i}, std::pair{"j", row.j}})
-          if (!index.find(id))
-            return std::pair{row.line, std::string(name) + " = " + std::to_string(id) +
-                                           " is no node of '" + nodes_file +
-                                           "'; take the bond out, or add the node"};
-        if (row.i == row.j)
-          return std::pair{row.line, "a bond of node " + std::to_string(row.i) +
-                                         " with itself; take it out, it has no part in the "
-                                         "operator"};
-      }
-      return {};
-    }
-
-    /// By the first node of the bonds.
-    std::vector<std::vector<Row>> rows_by_node(const std::vector<GivenRow> &given,
-                                               const NodeIndex &index, const GivenNodes &nodes,
-                                               const geometry::NodeCells &cells)
-    {
-      std::vector<std::vector<Row>> rows(cells.size());
-      for (const GivenRow &row : given)
-      {
-        const unsigned int i = *index.find(row.i), j = *index.find(row.j);
-        const Point<2> xi(cells.nodes[j] - cells.nodes[i]);
-        rows[i].push_back(
-            {j,
-             {xi, row.weight, row.kernel_point.value_or(xi), nodes.volume[cells.source[j]]},
-             row.line});
-      }
-      return rows;
-    }
-
-    /// By neighbour.
-    /// @param id  of a cell's node
-    template <class Id>
-    void sort_bonds(std::vector<Row> &rows, std::size_t node, const base::Csv &csv, const Id &id)
-    {
-      std::sort(rows.begin(), rows.end(),
-                [](const Row &a, const Row &b)
-                { return std::pair(a.neighbour, a.line) < std::pair(b.neighbour, b.line); });
-      const auto twin =
-          std::adjacent_find(rows.begin(), rows.end(),
-                             [](const Row &a, const Row &b) { return a.neighbour == b.neighbour; });
-      if (twin != rows.end())
-        csv.fail(twin[1].line, "the bond from node " + id(node) + " to node " +
-                                   id(twin->neighbour) + " is that of line " +
-                                   std::to_string(twin->line) +
-                                   " already; take one of them out, or add their weights");
-    }
   } // namespace
 
   GivenFamilies read_given_families(const std::string &file, const GivenNodes &nodes,
@@ -324,46 +260,9 @@ namespace plumbline::meshfree
     if (csv.has("qx") != csv.has("qy"))
       csv.fail("one of the columns qx and qy is missing; give both or none");
     const std::vector<GivenRow> given = read_rows(csv);
-    const NodeIndex index(nodes, cells);
-    const auto fail_unless_shifted = [&](const std::string &message)
-    {
-      const std::string shift = shifted_ids(given, index, cells);
-      throw InputError(shift.empty() ? message : "'" + file + "': " + shift);
-    };
-    if (const auto fault = find_fault(given, index, nodes.file))
-      fail_unless_shifted("'" + file + "', line " + std::to_string(fault->first) + ": " +
-                          fault->second);
-    std::vector<std::vector<Row>> rows = rows_by_node(given, index, nodes, cells);
-    const auto id = [&](std::size_t cell) { return std::to_string(nodes.id[cells.source[cell]]); };
-
-    GivenFamilies result{std::vector<Family<2>>(cells.n_free)};
-    result.lines.resize(cells.n_free);
-    result.is_half_list = is_half_list(given, index, cells.n_free);
+    GivenFamilies result = families_of_rows(given, nodes, cells, {file, "line"});
     result.weight_rounding = weight_rounding(given, csv.digits("weight"));
     result.notes = csv.notes();
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      sort_bonds(rows[i], i, csv, id);
-      if (i >= cells.n_free)
-      {
-        result.n_ignored += rows[i].size();
-        for (const Row &row : rows[i])
-          result.of_collar.push_back({i, row.neighbour, row.bond});
-        continue;
-      }
-      if (rows[i].empty() && !result.is_half_list)
-        fail_unless_shifted("'" + nodes.file + "', line " +
-                            std::to_string(nodes.line[cells.source[i]]) + ": node " + id(i) +
-                            " lies in the domain but has no bonds in '" + file +
-                            "'; add them, or, where nodes on the boundary carry data, write "
-                            "Methods/nodes = vertices");
-      for (const Row &row : rows[i])
-      {
-        result.families[i].neighbours.push_back(row.neighbour);
-        result.families[i].bonds.push_back(row.bond);
-        result.lines[i].push_back(row.line);
-      }
-    }
     return result;
   }
 } // namespace plumbline::meshfree

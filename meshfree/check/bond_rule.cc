@@ -86,9 +86,14 @@ namespace plumbline::meshfree
 
   bool Recognised::is_full_area() const
   {
+    using Of = NeighbourhoodQuadrature<2> (*)(const Kernel<2> &);
+    const auto is_whole = [](const Rule &one)
+    {
+      const Of *of = one.in_plane.target<Of>();
+      return of != nullptr && *of == full_area<2>;
+    };
     return std::any_of(rules().begin(), rules().end(),
-                       [this](const Rule &one)
-                       { return one.name == rule && one.in_plane == full_area<2>; });
+                       [&](const Rule &one) { return one.name == rule && is_whole(one); });
   }
 
   std::optional<Recognised> recognise(const GivenBonds &given)

@@ -2,6 +2,10 @@
 
 #include "meshfree/rules/quadrature_rule.h"
 
+#include <functional>
+#include <string>
+#include <vector>
+
 namespace plumbline::meshfree
 {
   // Every rule for one kernel: lattice_bonds(rule, kernel, h, backend) makes the bonds on a
@@ -60,8 +64,8 @@ namespace plumbline::meshfree
   struct Rule
   {
     std::string name, help;
-    NeighbourhoodQuadrature<2> (*in_plane)(const Kernel<2> &) = nullptr;
-    NeighbourhoodQuadrature<3> (*in_space)(const Kernel<3> &) = nullptr; ///< null: there is none
+    std::function<NeighbourhoodQuadrature<2>(const Kernel<2> &)> in_plane;
+    std::function<NeighbourhoodQuadrature<3>(const Kernel<3> &)> in_space = {}; ///< empty: none
   };
 
   /// All rules; a new one is one source file and one row here.

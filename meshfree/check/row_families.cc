@@ -1,0 +1,121 @@
+#include "meshfree/check/row_families.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    /// A bond of a node.
+    struct Row
+    {
+      unsigned int neighbour;
+      Bond bond;
+      std::size_t line;
+    };
+
+    /// Why bonds cannot be used, given twice apart.
+    /// @return  line and fault of the first row that is wrong, if one is
+    std::optional<std::pair<std::size_t, std::string>> find_fault(const std::vector<GivenRow> &rows,
+                                                                  const NodeIndex &index,
+                                                                  const std::string &nodes_file)
+    {
+      for (const GivenRow &row : rows)
+      {
+        for (const auto &[name, id] : {std::pair{"i", row.i}, std::pair{"j", row.j}})
+          if (!index.find(id))
+            return std::pair{row.line, std::string(name) + " = " + std::to_string(id) +
+                                           " is no node of '" + nodes_file +
+                                           "'; take the bond out, or add the node"};
+        if (row.i == row.j)
+          return std::pair{row.line, "a bond of node " + std::to_string(row.i) +
+                                         " with itself; take it out, it has no part in the "
+                                         "operator"};
+      }
+      return {};
+    }
+
+    /// By the first node of the bonds.
+    std::vector<std::vector<Row>> rows_by_node(const std::vector<GivenRow> &given,
+                                               const NodeIndex &index, const GivenNodes &nodes,
+                                               const geometry::NodeCells &cells)
+    {
+      std::vector<std::vector<Row>> rows(cells.size());
+      for (const GivenRow &row : given)
+      {
+        const unsigned int i = *index.find(row.i), j = *index.find(row.j);
+        const Point<2> xi(cells.nodes[j] - cells.nodes[i]);
+        rows[i].push_back(
+            {j,
+             {xi, row.weight, row.kernel_point.value_or(xi), nodes.volume[cells.source[j]]},
+             row.line});
+      }
+      return rows;
+    }
+
+    /// By neighbour.
+    /// @param id  of a cell's node
+    template <class Id>
+    void sort_bonds(std::vector<Row> &rows, std::size_t node, const RowSource &source, const Id &id)
+    {
+      std::sort(rows.begin(), rows.end(),
+                [](const Row &a, const Row &b)
+                { return std::pair(a.neighbour, a.line) < std::pair(b.neighbour, b.line); });
+      const auto twin =
+          std::adjacent_find(rows.begin(), rows.end(),
+                             [](const Row &a, const Row &b) { return a.neighbour == b.neighbour; });
+      if (twin != rows.end())
+        throw InputError(source.place(twin[1].line) + "the bond from node " + id(node) +
+                         " to node " + id(twin->neighbour) + " is that of " + source.unit + " " +
+                         std::to_string(twin->line) +
+                         " already; take one of them out, or add their weights");
+    }
+  } // namespace
+
+  GivenFamilies families_of_rows(const std::vector<GivenRow> &given, const GivenNodes &nodes,
+                                 const geometry::NodeCells &cells, const RowSource &source)
+  {
+    const NodeIndex index(nodes, cells);
+    const auto fail_unless_shifted = [&](const std::string &message)
+    {
+      const std::string shift = shifted_ids(given, index, cells);
+      throw InputError(shift.empty() ? message : "'" + source.file + "': " + shift);
+    };
+    if (const auto fault = find_fault(given, index, nodes.file))
+      fail_unless_shifted(source.place(fault->first) + fault->second);
+    std::vector<std::vector<Row>> rows = rows_by_node(given, index, nodes, cells);
+    const auto id = [&](std::size_t cell) { return std::to_string(nodes.id[cells.source[cell]]); };
+
+    GivenFamilies result{std::vector<Family>(cells.n_free)};
+    result.lines.resize(cells.n_free);
+    result.is_half_list = is_half_list(given, index, cells.n_free);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      sort_bonds(rows[i], i, source, id);
+      if (i >= cells.n_free)
+      {
+        result.n_ignored += rows[i].size();
+        for (const Row &row : rows[i])
+          result.of_collar.push_back({i, row.neighbour, row.bond});
+        continue;
+      }
+      if (rows[i].empty() && !result.is_half_list)
+        fail_unless_shifted(RowSource{nodes.file, source.unit}.place(nodes.line[cells.source[i]]) +
+                            "node " + id(i) + " lies in the domain but has no bonds in '" +
+                            source.file +
+                            "'; add them, or, where nodes on the boundary carry data, write "
+                            "Methods/nodes = vertices");
+      for (const Row &row : rows[i])
+      {
+        result.families[i].neighbours.push_back(row.neighbour);
+        result.families[i].bonds.push_back(row.bond);
+        result.lines[i].push_back(row.line);
+      }
+    }
+    return result;
+  }
+} // namespace plumbline::meshfree
