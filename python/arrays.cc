@@ -1,0 +1,86 @@
+#include "arrays.h"
+
+#include <cmath>
+
+namespace plumbline::python
+{
+  std::string shape_text(const py::array &array)
+  {
+    std::string text = "(";
+    for (py::ssize_t d = 0; d < array.ndim(); ++d)
+      text += (d == 0 ? "" : ", ") + std::to_string(array.shape(d));
+    return text + ")";
+  }
+
+  std::vector<Point<2>> to_points(const Doubles &array, const std::string &name)
+  {
+    if (array.ndim() != 2 || array.shape(1) != 2)
+      throw InputError(name + " has the shape " + shape_text(array) +
+                       "; give one row (x, y) for each point, shape (n, 2)");
+    const auto view = array.unchecked<2>();
+    std::vector<Point<2>> points;
+    points.reserve(static_cast<std::size_t>(view.shape(0)));
+    for (py::ssize_t k = 0; k < view.shape(0); ++k)
+    {
+      points.emplace_back(view(k, 0), view(k, 1));
+      if (!std::isfinite(view(k, 0)) || !std::isfinite(view(k, 1)))
+        throw InputError(name + "[" + std::to_string(k) + "] = (" + std::to_string(view(k, 0)) +
+                         ", " + std::to_string(view(k, 1)) +
+                         ") is not a point; give finite numbers");
+    }
+    return points;
+  }
+
+  namespace
+  {
+    std::vector<geometry::Box> to_boxes(const py::object &given, const std::string &name)
+    {
+      if (given.is_none())
+        return {};
+      const Doubles array = Doubles::ensure(given);
+      if (!array)
+        PyErr_Clear();
+      const py::ssize_t n = array ? array.ndim() : 0;
+      if (n < 2 || n > 3 || array.shape(n - 1) != 2 || array.shape(n - 2) != 2)
+        throw InputError(name + (array ? " has the shape " + shape_text(array) : " is no array") +
+                         "; give corners ((x0, y0), (x1, y1)) of one box or of a list of them");
+      std::vector<geometry::Box> boxes;
+      for (py::ssize_t k = 0; k < array.size(); k += 4)
+      {
+        const double *const x = array.data() + k;
+        boxes.push_back({{x[0], x[1]}, {x[2], x[3]}});
+      }
+      return boxes;
+    }
+  } // namespace
+
+  geometry::Domain to_domain(const py::object &boxes, const py::object &exclude)
+  {
+    return {to_boxes(boxes, "boxes"), to_boxes(exclude, "exclude")};
+  }
+
+  void require_length(const py::array &array, std::size_t n, const std::string &name,
+                      const std::string &of)
+  {
+    if (array.ndim() != 1 || static_cast<std::size_t>(array.shape(0)) != n)
+      throw InputError(name + " has the shape " + shape_text(array) +
+                       "; give one number for each " + of + ", shape (" + std::to_string(n) + ",)");
+  }
+
+  py::array to_array(const std::vector<Point<2>> &points)
+  {
+    std::vector<double> values;
+    values.reserve(2 * points.size());
+    for (const Point<2> &x : points)
+      values.insert(values.end(), {x[0], x[1]});
+    return to_array(std::move(values), {static_cast<py::ssize_t>(points.size()), 2});
+  }
+
+  py::array to_components(std::vector<double> values, unsigned int n_components)
+  {
+    const auto n = static_cast<py::ssize_t>(values.size());
+    if (n_components == 1)
+      return to_array(std::move(values));
+    return to_array(std::move(values), {n / n_components, n_components});
+  }
+} // namespace plumbline::python

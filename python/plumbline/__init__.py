@@ -1,0 +1,20 @@
+"""Nonlocal models: Galerkin references, meshfree rules, and the check of a code's weights.
+
+Arrays in, arrays out. Lengths, areas and moduli are in any consistent units. See README.md beside
+the sources, and help() of each name.
+"""
+import os as _os
+
+_n = _os.environ.get("DEAL_II_NUM_THREADS")
+if _n is not None and not (_n.isdigit() and 0 < int(_n) <= 100000):  # deal.II ends the process
+    raise ValueError("the environment variable DEAL_II_NUM_THREADS must be a whole number from 1 "
+                     "to 100000; unset it, or call plumbline.set_threads")
+
+from ._core import (InputError, Kernel, NumericalError, Problem, Rule, Solution, __version__,
+                    kernels, methods, reference, set_threads, solve)
+from ._checks import Findings, Weights, check, weights
+from ._studies import Record, Records, Study, dispersion, run, stability
+
+__all__ = ["Findings", "InputError", "Kernel", "NumericalError", "Problem", "Record", "Records",
+           "Rule", "Solution", "Study", "Weights", "check", "dispersion", "kernels", "methods",
+           "reference", "run", "set_threads", "solve", "stability", "weights"]

@@ -1,0 +1,104 @@
+"""Weights of rules, and the check of weights."""
+from typing import NamedTuple, Optional
+
+import numpy as np
+
+from . import _core
+
+
+class Weights(NamedTuple):
+    """What a rule makes of nodes; one row for each bond.
+
+    L_h u_i = -sum_k C(points_k) (u[j_k] - u[i_k]) w_k over the bonds with i_k = i.
+    """
+    i: Optional[np.ndarray]  # index of the node, shape (n,); None on lattices
+    j: Optional[np.ndarray]  # index of its neighbour, shape (n,); None on lattices
+    w: np.ndarray            # weights, shape (n,) [length^2]
+    points: np.ndarray       # where the kernel is taken, relative to node i, shape (n, 2) [length]
+    xi: np.ndarray           # from node i to node j, shape (n, 2) [length]
+    area: np.ndarray         # of the neighbour's cell, or of its part in the ball, shape (n,)
+    offsets: Optional[np.ndarray] = None  # of lattices: xi / h in whole numbers, shape (n, 2)
+
+
+def weights(rule, kernel, h=None, *, nodes=None, volumes=None, boxes=None, exclude=None):
+    """The bonds that a rule makes: one family on a lattice, or all families of nodes.
+
+    rule     a name ("FA", "LAMMPS", "QWJ", "PA-AC", "IPA-AC", "IPA-AC-R2", ...) or a Rule
+    kernel   a Kernel
+    h        spacing of a lattice, whose nodes all have the same family [length]
+    nodes    instead: shape (n, 2) [length], in the boxes (free) and within a horizon around them
+    volumes  areas of the nodes' cells, shape (n,); default: those of their Voronoi cells
+    boxes    the domain, ((x0, y0), (x1, y1)) or a list of them; exclude is taken out of it.
+             With nodes, h is the side of the cells that fill the boxes (default: as many as nodes)
+
+    Returns Weights: i, j, w, points, xi, area (and offsets of a lattice). i are free nodes.
+    """
+    if nodes is None:
+        if h is None or volumes is not None or boxes is not None:
+            raise _core.InputError("weights: give h of a lattice, or nodes with their boxes")
+        made = _core.lattice_weights(rule, kernel, h)
+        return Weights(None, None, made["w"], made["points"], made["xi"], made["area"],
+                       made["offsets"])
+    if boxes is None:
+        raise _core.InputError("weights: nodes need boxes, the domain whose nodes are free, e.g. "
+                               "boxes=((0, 0), (1, 1))")
+    if h is None:
+        h = _usual_h(np.asarray(nodes, float), boxes)
+    made = _core.node_weights(rule, kernel, nodes, volumes, boxes, exclude, h)
+    return Weights(made["i"], made["j"], made["w"], made["points"], made["xi"], made["area"])
+
+
+def _usual_h(nodes, boxes):
+    """Of cells that fill the first box, about as many as it has nodes."""
+    low, high = np.reshape(np.asarray(boxes, float), (-1, 2, 2))[0]
+    n_inside = np.count_nonzero(np.all((nodes > low) & (nodes < high), axis=-1))
+    size = np.sqrt(np.prod(high - low) / max(1, n_inside))
+    return (high - low)[0] / max(1, round((high - low)[0] / size))
+
+
+class Findings(dict):
+    """What check() finds: a dict with
+
+    passed      whether all that is required holds and nothing is inconsistent
+    complaints  sentences: causes, outliers, requirements that do not hold
+    verdicts    sentences: what else there is to say
+    rule        the rule that the weights are recognised as, or ""
+    causes      dicts with name, text, factor: what is wrong with all weights
+    outliers    dicts with node, neighbour, index (of the bond), found, expected, text
+    moments     degrees 1 to 4 with worst, median and the defects of all free nodes
+    weights, symmetry, matrix, volume_factor, volume_defect, n_free, n_ignored_bonds
+    """
+
+    @property
+    def passed(self):
+        return self["passed"]
+
+    def __str__(self):
+        return "\n".join([*self["verdicts"], *self["complaints"],
+                          "as required" if self.passed else "NOT as required"])
+
+    def _repr_pretty_(self, printer, _is_cycle):
+        printer.text(str(self))
+
+
+def check(nodes, volumes, i, j, w, kernel, *, boxes, exclude=None, points=None, h=None,
+          boundary_is_data=False, rule=(), require=("ac",)):
+    """Check the weights of another code, as `plumbline check` does, from arrays.
+
+    nodes     shape (n, 2) [length], those in the boxes (free) and within a horizon around them
+    volumes   areas of their cells, shape (n,) [length^2]
+    i, j, w   bonds: indices of node and neighbour (from 0) and weight [length^2], shape (n_bonds,)
+    kernel    the Kernel that the weights are meant for
+    boxes     the domain, ((x0, y0), (x1, y1)) or a list of them; exclude is taken out of it
+    points    where the kernel is taken, relative to node i, shape (n_bonds, 2); default: at node j
+    h         side of cells that fill the boxes; default: by the volumes
+    boundary_is_data  nodes on the boundary of the domain are constrained
+    rule      names of the rules that the weights are meant to be, if that is known
+    require   of "ac", "consistent", "symmetric", "m-matrix", "moments=TOL"
+
+    Returns Findings; print() shows its sentences, where nodes are numbered from 0.
+    """
+    as_list = lambda names: [names] if isinstance(names, str) else list(names)
+    return Findings(_core.check_arrays(nodes, volumes, i, j, w, kernel, boxes, exclude, points,
+                                       h or 0., boundary_is_data, as_list(rule),
+                                       as_list(require)))

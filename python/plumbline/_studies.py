@@ -1,0 +1,137 @@
+"""Studies of scenes as dicts with arrays, from the JSON that the command writes too."""
+import json
+import os
+
+import numpy as np
+
+from . import _core
+
+
+def _to_arrays(value):
+    """Lists of numbers as arrays, null as NaN where numbers are."""
+    if isinstance(value, dict):
+        return {key: _to_arrays(one) for key, one in value.items()}
+    if isinstance(value, list):
+        kinds = {type(one) for one in value}
+        if value and kinds <= {int, float, type(None)} and kinds != {type(None)}:
+            if kinds == {int}:
+                return np.array(value)
+            return np.array([np.nan if one is None else one for one in value], float)
+        return [_to_arrays(one) for one in value]
+    return value
+
+
+def _flat(record):
+    """The numbers and words of a record by one name each: a row of a table."""
+    row = {}
+    for name, value in record.items():
+        if name == "scalars":
+            row.update({one: scalar["value"] for one, scalar in value.items()})
+        elif name in ("key", "cost", "texts", "errors") and isinstance(value, dict):
+            row.update(value)
+        elif isinstance(value, (str, int, float, bool)) or value is None:
+            row[name] = value
+    return row
+
+
+class Record(dict):
+    """What one method finds at one level: key, cost, scalars, texts, curves, fields, notes,
+    failure. record["Δt"] is the number record["scalars"]["Δt"]["value"].
+    """
+
+    def __missing__(self, name):
+        scalars = self.get("scalars", {})
+        if name in scalars:
+            return scalars[name]["value"]
+        texts = self.get("texts", {})
+        if name in texts:
+            return texts[name]
+        raise KeyError(f"'{name}'; there are {', '.join([*self, *scalars, *texts])}")
+
+    def field(self, name):
+        """points, shape (n, 2) [length], and values, shape (n,) or (n, n_components)."""
+        field = self["fields"][name]
+        n = field["n_components"]
+        values = np.asarray(field["values"], float)
+        return (np.asarray(field["points"], float).reshape(-1, 2),
+                values if n == 1 else values.reshape(-1, n))
+
+
+class Records(list):
+    """A list of records."""
+
+    def to_frame(self):
+        """A pandas.DataFrame, a row for each record: key, cost and scalars. Needs pandas."""
+        try:
+            import pandas
+        except ImportError:
+            raise ImportError("to_frame needs pandas: apt-get install python3-pandas") from None
+        return pandas.DataFrame([_flat(record) for record in self])
+
+
+class Study(dict):
+    """What a study finds, by the keys of the JSON file that the command writes; lists of numbers
+    are arrays. `records` are its records, or the runs of run().
+    """
+
+    @property
+    def records(self):
+        return self["records" if "records" in self else "runs"]
+
+    def to_frame(self):
+        """See Records.to_frame."""
+        return self.records.to_frame()
+
+
+def _study(text):
+    study = Study(_to_arrays(json.loads(text)))
+    for name in ("records", "runs"):
+        if name in study:
+            study[name] = Records(Record(one) for one in study[name])
+    return study
+
+
+def _given(scene, set, methods):
+    """The scene's file or text, what is changed in it, and rules of Python among the methods."""
+    changed = dict(set or {})
+    if methods is None:
+        return os.fspath(scene), changed, []
+    methods = [methods] if isinstance(methods, (str, _core.Rule)) else list(methods)
+    rules = [one for one in methods if isinstance(one, _core.Rule)]
+    changed["Methods/names"] = ", ".join(one.name if isinstance(one, _core.Rule) else one
+                                         for one in methods)
+    return os.fspath(scene), changed, rules
+
+
+def run(scene, *, set=None, methods=None, levels=0):
+    """Run a scene, static or in time, as `plumbline run` does, without files.
+
+    scene    name of a .prm or .json file, or the text of a scene (several lines)
+    set      {"Section/key": value}: what is changed in the scene
+    methods  names and Rules instead of the scene's
+    levels   only the first so many of each series; 0: all
+
+    Returns a Study with the keys of results.json (dynamics.json in time): runs with errors and
+    cost, trends with verdicts and rates, advice, expectations.
+    """
+    text, changed, rules = _given(scene, set, methods)
+    return _study(_core.run_json(text, changed, rules, levels))
+
+
+def stability(scene, *, set=None, methods=None, levels=0):
+    """Eigenvalues, condition, critical time steps and verdicts of each method's operator, as
+    `plumbline stability` does. Arguments as of run(). Returns a Study whose records are Records.
+    """
+    text, changed, rules = _given(scene, set, methods)
+    return _study(_core.stability_json(text, changed, rules, levels))
+
+
+def dispersion(scene, *, angles=(), set=None, methods=None, levels=0):
+    """Phase and group speeds of waves, as `plumbline dispersion` does.
+
+    angles  directions from the first axis [degree]; default: along an axis, the diagonal, halfway
+
+    Other arguments as of run(). Returns a Study; curves of its records are columns over k.
+    """
+    text, changed, rules = _given(scene, set, methods)
+    return _study(_core.dispersion_json(text, changed, rules, levels, list(angles)))

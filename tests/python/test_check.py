@@ -1,0 +1,128 @@
+"""The check of weights from arrays names what is wrong with them."""
+import csv
+import json
+import os
+import subprocess
+
+import numpy as np
+import pytest
+from conftest import lattice
+
+import plumbline
+
+H = 1 / 16
+KERNEL = plumbline.Kernel("linear-decay", horizon=3 * H, diffusion=.5)
+NODES = lattice(16, 3)
+VOLUMES = np.full(len(NODES), H * H)
+
+
+def made(square, rule="IPA-AC-R2"):
+    return plumbline.weights(rule, KERNEL, nodes=NODES, boxes=square)
+
+
+def check(w, square, **given):
+    points = None if np.array_equal(w.points, w.xi) else w.points
+    return plumbline.check(NODES, given.pop("volumes", VOLUMES), w.i, w.j, w.w, KERNEL,
+                           boxes=square, points=points, **given)
+
+
+def test_right_weights_pass(square):
+    found = check(made(square), square)
+    assert found.passed and found["complaints"] == [] and found["rule"] == "IPA-AC-R2"
+    assert found["n_free"] == 256 and found["weights"]["n_bonds"] == len(made(square).w)
+    assert found["moments"]["exact_degree"] >= 2
+    assert np.max(found["moments"]["degrees"][1]["defects"]) < 1e-12
+    assert np.array_equal(np.sort(found["moments"]["nodes"]), np.unique(made(square).i))
+
+
+def test_a_doubled_weight_is_named(square):
+    w = made(square)
+    wrong = int(np.flatnonzero(w.i == NODES.shape[0] // 2 + 3)[5])
+    w.w[wrong] *= 2
+    found = check(w, square)
+    assert not found.passed
+    assert [one["index"] for one in found["outliers"]] == [wrong]
+    outlier = found["outliers"][0]
+    assert (outlier["node"], outlier["neighbour"]) == (w.i[wrong], w.j[wrong])
+    assert outlier["found"] == pytest.approx(2 * outlier["expected"])
+    place = f"(index {wrong} of the bonds)"
+    assert place in outlier["text"] and place in str(found)
+
+
+def test_a_missing_bond_is_named(square):
+    w = made(square)
+    keep = np.arange(len(w.w)) != 1000
+    found = plumbline.check(NODES, VOLUMES, w.i[keep], w.j[keep], w.w[keep], KERNEL, boxes=square,
+                            points=w.points[keep])
+    assert "missing" in found["outliers"][0]["text"]
+    assert (found["outliers"][0]["node"], found["outliers"][0]["neighbour"]) == (w.i[1000],
+                                                                                 w.j[1000])
+
+
+def test_a_common_factor_is_a_cause(square):
+    w = made(square)
+    w.w[:] *= 1.1
+    found = check(w, square)
+    assert not found.passed and found["causes"][0]["factor"] == pytest.approx(1.1, rel=1e-3)
+
+
+def test_a_wrong_volume_is_named(square):
+    volumes = VOLUMES.copy()
+    volumes[250] *= 3
+    found = check(made(square), square, volumes=volumes)
+    assert "volume of node 250" in found["outliers"][0]["text"]
+
+
+def test_what_is_required_decides(square):
+    w = made(square, "FA")
+    assert check(w, square)["passed"] is False
+    loose = check(w, square, require="moments=0.9")
+    assert not any(one.startswith("required") for one in loose["complaints"])
+    assert check(w, square)["rule"] == "FA"
+
+
+@pytest.mark.parametrize("change, words", [
+    (lambda a: a.update(i=a["i"] + 10**6), "no node of 'nodes'"),
+    (lambda a: a["j"].__setitem__(7, a["i"][7]), "'bonds', index 7: a bond of node"),
+    (lambda a: a["w"].__setitem__(3, np.inf), "w[3] = inf"),
+    (lambda a: a.update(w=a["w"][:-1]), "i has the shape"),
+    (lambda a: a["volumes"].__setitem__(2, -1), "volumes[2] = -1"),
+    (lambda a: a["nodes"].__setitem__((4, 0), 9), "node 4 at (9,"),
+    (lambda a: a.update(require=["perfect"]), "'perfect' is not known"),
+    (lambda a: a.update(points=np.zeros((len(a["w"]), 2))), "points[0] is 0"),
+])
+def test_wrong_arrays_are_told(square, change, words):
+    w = made(square)
+    given = {"nodes": NODES.copy(), "volumes": VOLUMES.copy(), "i": w.i, "j": w.j, "w": w.w}
+    change(given)
+    with pytest.raises(ValueError) as caught:
+        plumbline.check(kernel=KERNEL, boxes=square, **given)
+    assert words in str(caught.value)
+
+
+def test_the_command_finds_the_same_of_the_shipped_bonds(root, square):
+    def columns(file, *names):
+        with open(root / "scenes/check" / file) as opened:
+            rows = list(csv.DictReader(opened))
+        return [np.array([float(row[name] or "nan") for row in rows]) for name in names]
+    ids, x, y, volumes = columns("nodes.csv", "id", "x", "y", "volume")
+    i, j, w, qx, qy = columns("bonds_wrong.csv", "i", "j", "weight", "qx", "qy")
+    i, j = (i - 1).astype(int), (j - 1).astype(int)
+    nodes, points = np.stack([x, y], axis=1), np.stack([qx, qy], axis=1)
+    points = np.where(np.isnan(points), nodes[j] - nodes[i], points)  # empty: at the neighbour
+    found = plumbline.check(nodes, volumes, i, j, w,
+                            plumbline.Kernel("linear-decay", .375, diffusion=.5), boxes=square,
+                            points=points, h=.125)
+    text = subprocess.run(
+        [os.environ["PLUMBLINE_COMMAND"], "check", "scenes/check/nodes.csv",
+         "scenes/check/bonds_wrong.csv", "--scene", "scenes/check/check.prm", "--json"],
+        cwd=root, capture_output=True, text=True).stdout
+    said = json.loads(text)
+    assert np.array_equal(ids, np.arange(1, len(ids) + 1))
+    for ours, theirs in zip(found["moments"]["degrees"], said["moments"]):
+        # files are read relative to the scene's origin, which moves the last bits
+        assert ours["worst"]["value"] == pytest.approx(theirs["worst"]["value"], rel=1e-9, abs=1e-14)
+        assert ours["median"] == pytest.approx(theirs["median"], rel=1e-9, abs=1e-14)
+    assert [(one["node"] + 1, one["neighbour"] + 1) for one in found["outliers"]] == \
+        [(one["node"], one["neighbour"]) for one in said["outliers"]] == [(77, 79)]
+    assert found["rule"] == said["rule"]["name"]

@@ -1,0 +1,27 @@
+"""What the documents show runs, and what is exported is documented and typed."""
+import inspect
+import re
+
+import plumbline
+
+
+def test_the_example_of_the_readme_runs(root, capsys):
+    text = (root / "python/README.md").read_text()
+    example, = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    exec(compile(example, "README.md", "exec"), {})
+    printed = capsys.readouterr().out
+    assert "the weights are those of IPA-AC-R2" in printed and "\nas required\n" in printed
+    difference, estimate = map(float, printed.split("\n")[-2].split())
+    assert estimate < difference < .01
+
+
+def test_all_names_have_docstrings():
+    for name in plumbline.__all__:
+        assert (inspect.getdoc(getattr(plumbline, name)) or "").strip(), name
+
+
+def test_stubs_name_what_the_module_has(root):
+    stub = (root / "python/plumbline/_core.pyi").read_text()
+    from plumbline import _core
+    ours = {name for name in dir(_core) if not name.startswith("_")}
+    assert ours == set(re.findall(r"^(?:class|def) (\w+)", stub, re.MULTILINE))

@@ -1,0 +1,94 @@
+"""A wrong argument is told by our message, as an exception of Python's kinds."""
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from conftest import lattice
+
+import plumbline
+
+KERNEL = plumbline.Kernel("constant", .3)
+SQUARE = ((0, 0), (1, 1))
+
+
+def refused(words, action, kind=plumbline.InputError):
+    with pytest.raises(kind) as caught:
+        action()
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_kinds():
+    assert issubclass(plumbline.InputError, ValueError)
+    assert issubclass(plumbline.NumericalError, (ArithmeticError, RuntimeError))
+
+
+@pytest.mark.parametrize("words, action", [
+    (["no-such", "linear-decay"], lambda: plumbline.Kernel("no-such", .3)),
+    (["horizon", "-1"], lambda: plumbline.Kernel("constant", -1)),
+    (["tensor", "bulk_modulus"], lambda: plumbline.Kernel("bond-tensor", .3, diffusion=1)),
+    (["give one"], lambda: plumbline.Kernel("constant", .3, diffusion=1, constant=1)),
+    (["rule = 'FB'", "FA, LAMMPS"], lambda: plumbline.weights("FB", KERNEL, .1)),
+    (["h = -0.1"], lambda: plumbline.weights("FA", KERNEL, -.1)),
+    (["nodes has the shape (3, 1)"],
+     lambda: plumbline.weights("FA", KERNEL, nodes=[[1], [2], [3]], boxes=SQUARE, h=.1)),
+    (["boxes"], lambda: plumbline.weights("FA", KERNEL, nodes=[[1, 2]])),
+    (["xi[1] is 0"], lambda: KERNEL([[.1, .1], [0, 0]])),
+    (["boxes with h, or by a mesh"], lambda: plumbline.Problem(KERNEL)),
+    (["h = 0"], lambda: plumbline.Problem(KERNEL, boxes=SQUARE)),
+    (["cells = 'hexagons'"], lambda: plumbline.Problem(KERNEL, boxes=SQUARE, h=.1, cells="hexagons")),
+    (["load", "sin(3*x"], lambda: plumbline.Problem(KERNEL, boxes=SQUARE, h=.1, load="sin(3*x")),
+    (["load = 'x, y' has 2 components"],
+     lambda: plumbline.Problem(KERNEL, boxes=SQUARE, h=.1, load="x, y")),
+    (["load = [1]"], lambda: plumbline.Problem(KERNEL, boxes=SQUARE, h=.1, load=[1])),
+    (["load: the function returned an array of shape (3)", "shape (n,)"],
+     lambda: plumbline.Problem(KERNEL, boxes=SQUARE, h=.1, load=lambda x, y: np.ones(3))),
+    (["load", "finite"],
+     lambda: plumbline.Problem(KERNEL, boxes=SQUARE, h=.1, load=lambda x, y: x * np.nan)),
+    (["method", "Q17", "Q2"],
+     lambda: plumbline.solve(plumbline.Problem(KERNEL, boxes=SQUARE, h=.1), "Q17")),
+    (["method = 3"],
+     lambda: plumbline.solve(plumbline.Problem(KERNEL, boxes=SQUARE, h=.1), 3)),
+    (["P1", "lattice"],
+     lambda: plumbline.solve(plumbline.Problem(KERNEL, boxes=SQUARE, h=.1), "P1")),
+    (["FA", "no Galerkin method"],
+     lambda: plumbline.reference(plumbline.Problem(KERNEL, boxes=SQUARE, h=.1), "FA")),
+    (["points[0]", "outside"],
+     lambda: plumbline.solve(plumbline.Problem(KERNEL, boxes=SQUARE, h=.1), "FA")([[2, 2]])),
+    (["no-such.prm"], lambda: plumbline.run("no-such.prm")),
+    (["Study/no such key"], lambda: plumbline.run("set Purpose = x\n", set={"Study/no such key": 1})),
+    (["rule 'mine'", "shape (2)"],
+     lambda: plumbline.weights(plumbline.Rule("mine", lambda xi, area: area[:2]), KERNEL, .1)),
+])
+def test_messages(words, action):
+    refused(words, action)
+
+
+def test_a_numerical_failure_is_an_arithmetic_error():
+    # too few neighbours for the moments of degree 4
+    problem = plumbline.Problem(plumbline.Kernel("constant", .11), boxes=SQUARE, h=.1, load=1)
+    refused(["moment"], lambda: plumbline.solve(problem, "IPA-AC-R4"), plumbline.NumericalError)
+    refused(["moment"], lambda: plumbline.solve(problem, "IPA-AC-R4"), ArithmeticError)
+
+
+def test_an_exception_of_a_users_function_comes_through():
+    def load(x, y):
+        raise KeyError("mine")
+    with pytest.raises(KeyError, match="mine"):
+        plumbline.Problem(KERNEL, boxes=SQUARE, h=.1, load=load)
+    rule = plumbline.Rule("mine", lambda xi, area: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        plumbline.solve(plumbline.Problem(KERNEL, boxes=SQUARE, h=.1, load=1), rule)
+    nodes = lattice(10, 3)
+    # what ranks share tells the error of one of them to all: its words remain, not its kind
+    with pytest.raises(RuntimeError, match="ZeroDivisionError: division by zero"):
+        plumbline.solve(plumbline.Problem(KERNEL, boxes=SQUARE, h=.1, load=1, nodes=nodes), rule)
+
+
+def test_a_wrong_number_of_threads_does_not_end_the_process():
+    environment = dict(os.environ, DEAL_II_NUM_THREADS="many")
+    ended = subprocess.run([sys.executable, "-c", "import plumbline"], env=environment,
+                           capture_output=True, text=True)
+    assert ended.returncode == 1 and "DEAL_II_NUM_THREADS" in ended.stderr

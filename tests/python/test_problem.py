@@ -1,0 +1,162 @@
+"""Problems from arrays, expressions and functions, and their solutions."""
+import threading
+import time
+
+import numpy as np
+import pytest
+from conftest import lattice
+
+import plumbline
+
+H = 1 / 16
+KERNEL = plumbline.Kernel("linear-decay", horizon=3 * H, diffusion=.5)
+
+
+def quadratic(x, y):
+    return x * (1 - x) / 2 + y * (1 - y) / 2
+
+
+def square_problem(square, **given):
+    return plumbline.Problem(KERNEL, boxes=square, h=H, **given)
+
+
+def test_consistent_weights_solve_a_quadratic_exactly(square):
+    # L u = -1/2 Laplace u = 1 for every quadratic, the second moments being exact
+    u = plumbline.solve(square_problem(square, load=1, constraint=quadratic), "IPA-AC-R2")
+    assert u.nodes.shape == (256, 2) and u.values.shape == (256,)
+    assert u.values == pytest.approx(quadratic(*u.nodes.T), abs=1e-11)
+    wrong = plumbline.solve(square_problem(square, load=1, constraint=quadratic), "FA")
+    assert np.max(np.abs(wrong.values - quadratic(*wrong.nodes.T))) > 1e-3
+
+
+def test_functions_and_expressions_are_the_same_field(square):
+    by_text = plumbline.solve(square_problem(square, load="cos(x*y)", constraint="x^2"), "PA-AC")
+    by_function = plumbline.solve(
+        square_problem(square, load=lambda x, y: np.cos(x * y), constraint=lambda x, y: x**2),
+        "PA-AC")
+    assert by_function.values == pytest.approx(by_text.values, rel=1e-12)
+
+
+def test_functions_are_called_with_all_nodes_at_once(square):
+    sizes = []
+
+    def load(x, y):
+        sizes.append(x.size)
+        return np.ones_like(x)
+    problem = square_problem(square, load=load)
+    sizes_before = len(sizes)
+    plumbline.solve(problem, "FA")
+    assert max(sizes) >= 256
+    assert len(sizes) == sizes_before  # what the solve asks for is known by then
+
+
+def test_galerkin_converges_to_the_given_solution(square):
+    errors = []
+    for h in (1 / 8, 1 / 16):
+        kernel = plumbline.Kernel("linear-decay", horizon=3 / 16)
+        problem = plumbline.Problem(kernel, boxes=square, h=h, solution="sin(3*x)*cos(2*y)")
+        u = plumbline.solve(problem, "Q1")
+        points = np.random.default_rng(0).uniform(0, 1, (200, 2))
+        errors.append(np.sqrt(np.mean((u(points) - np.sin(3 * points[:, 0])
+                                       * np.cos(2 * points[:, 1]))**2)))
+    assert errors[1] < .3 * errors[0] < .01  # order 2
+
+
+def test_reference_is_as_right_as_it_says(square):
+    problem = square_problem(square, solution="sin(3*x)*cos(2*y)")
+    u = plumbline.reference(problem)
+    assert u.method == "Q2" and u.averages.shape == (256,)
+    # averages of the exact solution over the cells
+    low, high = u.cells - H / 2, u.cells + H / 2
+    exact = ((np.cos(3 * low[:, 0]) - np.cos(3 * high[:, 0])) / 3
+             * (np.sin(2 * high[:, 1]) - np.sin(2 * low[:, 1])) / 2) / H**2
+    error = np.sqrt(np.mean((u.averages - exact)**2))
+    assert 0 < error <= u.estimate["averages"] < 1e-4
+    assert u.estimate["certified_digits"] >= 4
+
+
+def test_scattered_nodes_keep_the_order_of_their_solution(square):
+    nodes = lattice(16, 3)
+    nodes += np.random.default_rng(3).uniform(-.2, .2, nodes.shape) * H
+    problem = square_problem(square, nodes=nodes, load=1, constraint=quadratic)
+    u = plumbline.solve(problem, "IPA-AC-R2")
+    assert u.values == pytest.approx(quadratic(*u.nodes.T), abs=1e-10)
+    assert u(u.nodes) == pytest.approx(u.values)
+    assert u.nodes == pytest.approx(nodes[np.all((nodes > 0) & (nodes < 1), axis=1)], abs=1e-15)
+
+
+def test_two_components(square):
+    kernel = plumbline.Kernel("bond-tensor", 3 * H, bulk_modulus=1)
+    problem = plumbline.Problem(kernel, boxes=square, h=H, load="0, 0",
+                                constraint=lambda x, y: (x + 2 * y, 3 * x))
+    u = plumbline.solve(problem, "FA")
+    x, y = u.nodes.T
+    assert u.values.shape == (256, 2)  # a linear field has no force on a symmetric family
+    assert u.values == pytest.approx(np.stack([x + 2 * y, 3 * x], axis=1), abs=1e-11)
+
+
+def test_coefficient_by_a_function(square):
+    def solve(a):
+        problem = plumbline.Problem(KERNEL, boxes=square, h=H, cells="squares", load=1,
+                                    coefficient=a)
+        return plumbline.solve(problem, "IPA-AC").values
+    one = solve(lambda x, y: np.ones_like(x))
+    assert solve(2.) == pytest.approx(one / 2, rel=1e-9)
+    assert solve("2 + x") == pytest.approx(solve(lambda x, y: 2 + x), rel=1e-9)
+
+
+def test_gmsh_file(tmp_path):
+    file = tmp_path / "square.geo"
+    file.write_text("""DefineConstant[ h = .1, delta = .3 ];
+SetFactory("OpenCASCADE");
+Rectangle(1) = {0, 0, 0, 1, 1};
+Rectangle(2) = {-1.01*delta, -1.01*delta, 0, 1 + 2.02*delta, 1 + 2.02*delta};
+BooleanFragments{ Surface{2}; Delete; }{ Surface{1}; Delete; }
+omega() = Surface In BoundingBox{-1e-3, -1e-3, -1, 1 + 1e-3, 1 + 1e-3, 1};
+Physical Surface("omega") = omega();
+all() = Surface "*"; all() -= omega();
+Physical Surface("collar") = all();
+Mesh.MeshSizeMin = h; Mesh.MeshSizeMax = h;
+""")
+    problem = plumbline.Problem(plumbline.Kernel("linear-decay", .3), mesh=str(file), h=.1,
+                                solution="x^2 - y^2")
+    u = plumbline.solve(problem, "P1")
+    points = np.random.default_rng(0).uniform(0, 1, (100, 2))
+    assert u(points) == pytest.approx(points[:, 0]**2 - points[:, 1]**2, abs=.01)
+
+
+def test_a_rule_in_python_solves_like_ours(square):
+    mine = plumbline.Rule("mine", lambda xi, area: area)
+    problem = square_problem(square, load=1)
+    assert np.array_equal(plumbline.solve(problem, mine).values,
+                          plumbline.solve(problem, "FA").values)
+    scattered = square_problem(square, load=1, nodes=lattice(16, 3) + .001)
+    assert np.array_equal(plumbline.solve(scattered, mine).values,
+                          plumbline.solve(scattered, "FA").values)
+
+
+def test_other_threads_run_while_one_solves(square):
+    problem = plumbline.Problem(KERNEL, boxes=square, h=H, cells="squares", load=1)
+    ticks, done = [], threading.Event()
+
+    def tick():
+        while not done.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(.001)
+    thread = threading.Thread(target=tick)
+    thread.start()
+    begin = time.perf_counter()
+    plumbline.solve(problem, "Q1")
+    end = time.perf_counter()
+    done.set()
+    thread.join()
+    inside = [t for t in ticks if begin < t < end]
+    assert end - begin < .02 or len(inside) > (end - begin) / .02
+
+
+def test_methods_and_cost(square):
+    names = [one["name"] for one in plumbline.methods()]
+    assert names[:2] == ["FA", "LAMMPS"] and "Q2" in names
+    u = plumbline.solve(square_problem(square, load=1), "FA")
+    assert u.cost["n_unknowns"] == 256 and u.cost["setup_seconds"] >= 0
+    assert u.diagnostics["n_neighbours"] == 28

@@ -1,0 +1,88 @@
+"""Studies of scenes give the command's numbers, to the last bit."""
+import json
+import os
+import subprocess
+
+import numpy as np
+import pytest
+
+import plumbline
+
+SCENE = "scenes/ipa_ac/constant_kernel.prm"
+
+
+def command(root, tmp_path, *arguments):
+    ended = subprocess.run([os.environ["PLUMBLINE_COMMAND"], *arguments, "--json", "-o",
+                            str(tmp_path)], cwd=root, capture_output=True, text=True)
+    assert ended.returncode == 0, ended.stderr
+    return json.loads(ended.stdout)
+
+
+def without_times(value):
+    """What is measured anew in each run: time and memory."""
+    if isinstance(value, dict):
+        return {key: without_times(one) for key, one in value.items()
+                if key not in ("cost", "setup_seconds", "solve_seconds", "peak_bytes")}
+    if isinstance(value, (list, np.ndarray)):
+        return [without_times(one) for one in value]
+    if isinstance(value, float) and np.isnan(value):
+        return None
+    return value
+
+
+def test_run_gives_the_commands_numbers(root, tmp_path):
+    study = plumbline.run(root / SCENE, levels=3, methods=["FA", "IPA-AC-R2", "Q1"])
+    said = command(root, tmp_path, "run", SCENE, "--levels", "3", "--methods", "FA,IPA-AC-R2,Q1")
+    assert len(study.records) == 9 and len(study["trends"]) == len(said["trends"]) > 0
+    assert without_times(study["runs"]) == without_times(said["runs"])
+    assert without_times(study["trends"]) == without_times(said["trends"])
+
+
+@pytest.mark.parametrize("analysis", ["stability", "dispersion"])
+def test_analyses_give_the_commands_records(root, tmp_path, analysis):
+    study = getattr(plumbline, analysis)(root / SCENE, levels=2, methods=["FA", "Q1"])
+    said = command(root, tmp_path, analysis, SCENE, "--levels", "2", "--methods", "FA,Q1")
+    assert without_times(study["records"]) == without_times(said["records"])
+    record = study.records[0]
+    name = next(iter(record["scalars"]))
+    assert record[name] == record["scalars"][name]["value"]
+    assert all(isinstance(column["values"], np.ndarray)
+               for one in study.records for curve in one["curves"].values() for column in curve)
+
+
+def test_a_problem_of_a_scene_is_the_studys(root):
+    u = plumbline.solve(plumbline.Problem.of_scene(str(root / SCENE), level=1), "IPA-AC")
+    run, = plumbline.run(root / SCENE, levels=2, methods="IPA-AC")["runs"][1:]
+    exact = np.sin(3 * u.nodes[:, 0]) * np.cos(2 * u.nodes[:, 1])
+    assert run["h"] == .0625
+    found = np.max(np.abs(u.values - exact))
+    assert any(found == pytest.approx(error, rel=1e-6) or
+               found == pytest.approx(error * run["size"], rel=1e-6)
+               for name, error in run["errors"].items() if name.startswith("nodal Linf"))
+
+
+def test_a_rule_in_python_gets_the_verdict_of_the_same_rule(root):
+    mine = plumbline.Rule("mine", lambda xi, area: area)
+    study = plumbline.run(root / SCENE, methods=[mine, "FA"], levels=3)
+    ours, theirs = ([one for one in study["trends"] if one["method"] == name]
+                    for name in ("mine", "FA"))
+    assert ours and [one["verdict"] for one in ours] == [one["verdict"] for one in theirs]
+    assert [run["errors"] for run in study["runs"] if run["method"] == "mine"] == \
+        [run["errors"] for run in study["runs"] if run["method"] == "FA"]
+
+
+def test_transient_scenes_run(root):
+    study = plumbline.run(root / "scenes/dynamics/wave.prm", levels=1)
+    assert len(study.records) > 0 and all(not run["failure"] for run in study["runs"])
+
+
+def test_to_frame_needs_pandas_and_says_so(root):
+    study = plumbline.stability(root / SCENE, levels=1, methods="FA")
+    try:
+        import pandas
+    except ImportError:
+        with pytest.raises(ImportError, match="python3-pandas"):
+            study.to_frame()
+        return
+    frame = study.to_frame()
+    assert isinstance(frame, pandas.DataFrame) and list(frame["method"]) == ["FA"]
