@@ -16,6 +16,7 @@
 #include "reference/mesh/rectangle_pairs.h"
 
 #include <cmath>
+#include <functional>
 #include <memory>
 
 namespace plumbline::benchmarks
@@ -58,8 +59,9 @@ namespace plumbline::benchmarks
               }};
     }
 
-    GuardKernel family(const std::string &rule,
-                       meshfree::NeighbourhoodQuadrature<2> (*of)(const physics::Kernel<2> &))
+    GuardKernel
+    family(const std::string &rule,
+           const std::function<meshfree::NeighbourhoodQuadrature<2>(const physics::Kernel<2> &)> &of)
     {
       return {"family " + rule, "family", 1, 8,
               [=]

@@ -8,6 +8,7 @@
 #include "meshfree/scattered/state_based_operator.h"
 
 #include <cmath>
+#include <functional>
 
 namespace plumbline::meshfree
 {
@@ -139,8 +140,9 @@ namespace plumbline::meshfree
     StateBasedBody body;
     Families families;
 
-    StateBasedCase(const StateBasedProblem &problem, const Square &square,
-                   NeighbourhoodQuadrature<2> (*rule)(const Kernel<2> &) = optimisation_based)
+    StateBasedCase(
+        const StateBasedProblem &problem, const Square &square,
+        const std::function<NeighbourhoodQuadrature<2>(const Kernel<2> &)> &rule = optimisation_based<2>)
         : problem(problem),
           square(square), body{&square.cells,
                                {physics::influence_function({{1, -1}}, square.horizon),
