@@ -59,9 +59,9 @@ namespace plumbline::benchmarks
               }};
     }
 
-    GuardKernel
-    family(const std::string &rule,
-           const std::function<meshfree::NeighbourhoodQuadrature<2>(const physics::Kernel<2> &)> &of)
+    GuardKernel family(
+        const std::string &rule,
+        const std::function<meshfree::NeighbourhoodQuadrature<2>(const physics::Kernel<2> &)> &of)
     {
       return {"family " + rule, "family", 1, 8,
               [=]

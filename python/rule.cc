@@ -20,11 +20,11 @@ namespace plumbline::python
   {
     /// @return  weights and, where the function gives them, kernel points
     std::pair<Doubles, std::optional<Doubles>>
-    call(const std::string &name, const py::function &function, const Family &family)
+    call(const std::string &name, const py::function &function, const Family<2> &family)
     {
       std::vector<Point<2>> xi;
       std::vector<double> area;
-      for (const Bond &bond : family.bonds)
+      for (const Bond<2> &bond : family.bonds)
       {
         xi.push_back(bond.xi);
         area.push_back(bond.area);
@@ -51,14 +51,14 @@ namespace plumbline::python
       return {weights, points};
     }
 
-    void adjust(const std::string &name, const py::function &function, Family &family)
+    void adjust(const std::string &name, const py::function &function, Family<2> &family)
     {
       const py::gil_scoped_acquire lock;
       const auto [weights, points] = call(name, function, family);
-      Family kept;
+      Family<2> kept;
       for (std::size_t k = 0; k < family.bonds.size(); ++k)
       {
-        Bond bond = family.bonds[k];
+        Bond<2> bond = family.bonds[k];
         bond.weight = weights.data()[k];
         if (points)
           bond.kernel_point = Point<2>(points->data()[2 * k], points->data()[2 * k + 1]);
@@ -79,15 +79,15 @@ namespace plumbline::python
       family.neighbours = std::move(kept.neighbours);
     }
 
-    Bond whole_cell(const Kernel<2> &kernel, const meshfree::Candidate &candidate)
+    Bond<2> whole_cell(const Kernel<2> &kernel, const meshfree::Candidate<2> &candidate)
     {
       return meshfree::full_area_bond(kernel, candidate);
     }
 
     /// Area and centroid of ball ∩ cell.
-    Bond part_of_cell(const Kernel<2> &kernel, const meshfree::Candidate &candidate)
+    Bond<2> part_of_cell(const Kernel<2> &kernel, const meshfree::Candidate<2> &candidate)
     {
-      Bond bond = meshfree::centroid_bond(kernel, candidate);
+      Bond<2> bond = meshfree::centroid_bond(kernel, candidate);
       bond.area = bond.weight;
       return bond;
     }
@@ -97,15 +97,15 @@ namespace plumbline::python
       const meshfree::Rule found = to_rule(rule);
       if (!(h > 0) || !std::isfinite(h))
         throw InputError("h = " + std::to_string(h) + "; give the spacing of the nodes, above 0");
-      meshfree::Bonds bonds;
+      meshfree::Bonds<2> bonds;
       {
         const py::gil_scoped_release others;
-        bonds = meshfree::lattice_bonds(found.of(kernel), kernel, h, geometry::Backend::fast);
+        bonds = meshfree::lattice_bonds(found.in_plane(kernel), kernel, h, geometry::Backend::fast);
       }
       std::vector<std::int64_t> offsets;
       std::vector<double> weights, areas;
       std::vector<Point<2>> xi, points;
-      for (const Bond &bond : bonds.family)
+      for (const Bond<2> &bond : bonds.family)
       {
         for (const unsigned int d : {0U, 1U})
           offsets.push_back(std::llround(bond.xi[d] / h));
@@ -146,8 +146,9 @@ namespace plumbline::python
         if (!own.empty())
           for (std::size_t k = 0; k < cells.size(); ++k)
             cells.area[k] = own[cells.source[k]];
-        const meshfree::Families families(found.of(kernel), kernel, cells, geometry::Backend::fast);
-        Family family;
+        const meshfree::Families families(found.in_plane(kernel), kernel, cells,
+                                          geometry::Backend::fast);
+        Family<2> family;
         for (std::size_t k = 0; k < families.size(); ++k)
         {
           families.make(k, family);
@@ -182,9 +183,9 @@ namespace plumbline::python
     return {name, help,
             [name = name, function = function, is_partial = is_partial](const Kernel<2> &)
             {
-              return meshfree::NeighbourhoodQuadrature{is_partial ? part_of_cell : whole_cell,
-                                                       [=](Family &family)
-                                                       { adjust(name, *function, family); }};
+              return meshfree::NeighbourhoodQuadrature<2>{is_partial ? part_of_cell : whole_cell,
+                                                          [=](Family<2> &family)
+                                                          { adjust(name, *function, family); }};
             }};
   }
 

@@ -2,16 +2,13 @@
 #include "bindings.h"
 #include "io/results_json.h"
 #include "reading.h"
-#include "report/dynamics_page.h"
-#include "report/json.h"
 #include "rule.h"
 #include "scene/capabilities.h"
-#include "study/conclusions.h"
 #include "study/dispersion.h"
-#include "study/dynamics.h"
 #include "study/preflight.h"
 #include "study/stability.h"
 #include "study/sweep.h"
+#include "study/transient.h"
 
 #include <pybind11/stl.h>
 
@@ -67,23 +64,19 @@ namespace plumbline::python
       study::SweepControl control;
       control.n_levels = n_levels;
       control.should_stop = is_interrupted;
-      return report::to_json(study::run_sweep(scene, methods, available, control));
+      return io::to_json(study::run_sweep(scene, methods, available, control));
     }
 
-    std::string run_transient(const scene::Scene &scene, const method::Methods &available,
-                              unsigned int n_levels)
+    std::string analyse(const study::Analysis &analysis, const scene::Scene &scene,
+                        const method::Methods &available, unsigned int n_levels)
     {
-      check_analysis(scene, scene::Analysis::motion);
-      const method::Methods methods = study::choose_methods(scene, available);
-      study::check_motions(scene, methods, n_levels);
-      study::MotionControl control;
+      const method::Methods methods = analysis.choose_methods(scene, available, n_levels, 1);
+      if (analysis.check)
+        analysis.check(scene, methods, n_levels);
+      study::RunControl control;
       control.n_levels = n_levels;
       control.should_stop = is_interrupted;
-      control.available = available;
-      study::DynamicResults results =
-          study::run_motions(scene, methods, control, study::begin_results(scene, n_levels));
-      study::conclude(scene, results);
-      return report::dynamics_json(results);
+      return io::to_json(run_study(analysis, scene, methods, control));
     }
 
     std::string run(const std::string &text, const py::dict &set,
@@ -97,8 +90,9 @@ namespace plumbline::python
         throw InputError("scene '" + scene.name +
                          "': Fracture/toughness is for 'plumbline grow', which breaks bonds; clear "
                          "it");
-      return scene.time.is_dynamic() ? run_transient(scene, available, n_levels)
-                                     : run_static(scene, available, n_levels);
+      return scene.time.is_dynamic()
+                 ? analyse(study::transient_analysis(available, {}), scene, available, n_levels)
+                 : run_static(scene, available, n_levels);
     }
 
     std::string analyse(const study::Analysis &analysis, const std::string &text,
@@ -110,12 +104,7 @@ namespace plumbline::python
       scene::Scene scene = scene_of(text, overrides);
       scene.reference.method.reset();
       scene.reference.estimate = scene::Estimate::none;
-      const method::Methods methods =
-          analysis.choose_methods(scene, available_with(rules), n_levels, 1);
-      study::RunControl control;
-      control.n_levels = n_levels;
-      control.should_stop = is_interrupted;
-      return io::to_json(run_study(analysis, scene, methods, control));
+      return analyse(analysis, scene, available_with(rules), n_levels);
     }
   } // namespace
 

@@ -14,7 +14,7 @@ namespace plumbline::meshfree
     struct Row
     {
       unsigned int neighbour;
-      Bond bond;
+      Bond<2> bond;
       std::size_t line;
     };
 
@@ -90,7 +90,7 @@ namespace plumbline::meshfree
     std::vector<std::vector<Row>> rows = rows_by_node(given, index, nodes, cells);
     const auto id = [&](std::size_t cell) { return std::to_string(nodes.id[cells.source[cell]]); };
 
-    GivenFamilies result{std::vector<Family>(cells.n_free)};
+    GivenFamilies result{std::vector<Family<2>>(cells.n_free)};
     result.lines.resize(cells.n_free);
     result.is_half_list = is_half_list(given, index, cells.n_free);
     for (std::size_t i = 0; i < rows.size(); ++i)

@@ -71,12 +71,12 @@ class Records(list):
 
 class Study(dict):
     """What a study finds, by the keys of the JSON file that the command writes; lists of numbers
-    are arrays. `records` are its records, or the runs of run().
+    are arrays.
     """
 
     @property
     def records(self):
-        return self["records" if "records" in self else "runs"]
+        return self["records"]
 
     def to_frame(self):
         """See Records.to_frame."""
@@ -85,9 +85,7 @@ class Study(dict):
 
 def _study(text):
     study = Study(_to_arrays(json.loads(text)))
-    for name in ("records", "runs"):
-        if name in study:
-            study[name] = Records(Record(one) for one in study[name])
+    study["records"] = Records(Record(one) for one in study["records"])
     return study
 
 
@@ -111,8 +109,8 @@ def run(scene, *, set=None, methods=None, levels=0):
     methods  names and Rules instead of the scene's
     levels   only the first so many of each series; 0: all
 
-    Returns a Study with the keys of results.json (dynamics.json in time): runs with errors and
-    cost, trends with verdicts and rates, advice, expectations.
+    Returns a Study with the keys of results.json (dynamics.json in time): records with errors as
+    scalars and cost, trends with verdicts and rates, advice, expectations.
     """
     text, changed, rules = _given(scene, set, methods)
     return _study(_core.run_json(text, changed, rules, levels))

@@ -131,7 +131,7 @@ namespace
   {
     const Square square(1, 3, .5, 2);
     const auto problem = quadratics[0];
-    const StateBasedCase one(problem, square, full_area);
+    const StateBasedCase one(problem, square, full_area<2>);
     const BrokenBonds bonds({{crack}, {}}, square.cells, square.horizon);
     std::vector<std::array<int, 2>> result;
     Family<2> family, other;
@@ -243,7 +243,7 @@ TEST(StateBasedOperator, solves_quadratics_exactly_on_nodes_that_were_moved)
     const StateBasedCase one(problem, square);
     EXPECT_LT(one.l2_error(solve(one.system()).values), 1e-11);
   }
-  const StateBasedCase other(quadratics[0], square, improved_partial_area);
+  const StateBasedCase other(quadratics[0], square, improved_partial_area<2>);
   EXPECT_GT(other.l2_error(solve(other.system()).values), 1e-3);
 }
 

@@ -140,9 +140,9 @@ namespace plumbline::meshfree
     StateBasedBody body;
     Families families;
 
-    StateBasedCase(
-        const StateBasedProblem &problem, const Square &square,
-        const std::function<NeighbourhoodQuadrature<2>(const Kernel<2> &)> &rule = optimisation_based<2>)
+    StateBasedCase(const StateBasedProblem &problem, const Square &square,
+                   const std::function<NeighbourhoodQuadrature<2>(const Kernel<2> &)> &rule =
+                       optimisation_based<2>)
         : problem(problem),
           square(square), body{&square.cells,
                                {physics::influence_function({{1, -1}}, square.horizon),
