@@ -1,7 +1,7 @@
 """Nonlocal models: Galerkin references, meshfree rules, and the check of a code's weights.
 
-Arrays in, arrays out. Lengths, areas and moduli are in any consistent units. See README.md beside
-the sources, and help() of each name.
+Input and output are arrays. Lengths, areas and moduli are in any consistent units. See README.md
+next to the sources, and help() of each name.
 """
 import os as _os
 

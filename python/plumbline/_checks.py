@@ -7,7 +7,7 @@ from . import _core
 
 
 class Weights(NamedTuple):
-    """What a rule makes of nodes; one row for each bond.
+    """The bonds and weights that a rule gives for nodes; one row for each bond.
 
     L_h u_i = -sum_k C(points_k) (u[j_k] - u[i_k]) w_k over the bonds with i_k = i.
     """
@@ -21,7 +21,7 @@ class Weights(NamedTuple):
 
 
 def weights(rule, kernel, h=None, *, nodes=None, volumes=None, boxes=None, exclude=None):
-    """The bonds that a rule makes: one family on a lattice, or all families of nodes.
+    """The bonds that a rule gives: one family on a lattice, or the families of all nodes.
 
     rule     a name ("FA", "LAMMPS", "QWJ", "PA-AC", "IPA-AC", "IPA-AC-R2", ...) or a Rule
     kernel   a Kernel
@@ -49,7 +49,7 @@ def weights(rule, kernel, h=None, *, nodes=None, volumes=None, boxes=None, exclu
 
 
 def _usual_h(nodes, boxes):
-    """Of cells that fill the first box, about as many as it has nodes."""
+    """The side of cells that fill the first box, about as many as it has nodes."""
     low, high = np.reshape(np.asarray(boxes, float), (-1, 2, 2))[0]
     n_inside = np.count_nonzero(np.all((nodes > low) & (nodes < high), axis=-1))
     size = np.sqrt(np.prod(high - low) / max(1, n_inside))
@@ -57,11 +57,11 @@ def _usual_h(nodes, boxes):
 
 
 class Findings(dict):
-    """What check() finds: a dict with
+    """The findings of check(): a dict with
 
-    passed      whether all that is required holds and nothing is inconsistent
+    passed      whether all requirements hold and nothing is inconsistent
     complaints  sentences: causes, outliers, requirements that do not hold
-    verdicts    sentences: what else there is to say
+    verdicts    sentences: all other results
     rule        the rule that the weights are recognised as, or ""
     causes      dicts with name, text, factor: what is wrong with all weights
     outliers    dicts with node, neighbour, index (of the bond), found, expected, text

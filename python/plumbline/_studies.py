@@ -22,7 +22,7 @@ def _to_arrays(value):
 
 
 def _flat(record):
-    """The numbers and words of a record by one name each: a row of a table."""
+    """The numbers and texts of a record, each under one name: a row of a table."""
     row = {}
     for name, value in record.items():
         if name == "scalars":
@@ -35,7 +35,7 @@ def _flat(record):
 
 
 class Record(dict):
-    """What one method finds at one level: key, cost, scalars, texts, curves, fields, notes,
+    """The results of one method at one level: key, cost, scalars, texts, curves, fields, notes,
     failure. record["Δt"] is the number record["scalars"]["Δt"]["value"].
     """
 
@@ -70,8 +70,8 @@ class Records(list):
 
 
 class Study(dict):
-    """What a study finds, by the keys of the JSON file that the command writes; lists of numbers
-    are arrays.
+    """The results of a study, under the keys of the JSON file that the command writes; lists of
+    numbers are arrays.
     """
 
     @property
@@ -90,7 +90,7 @@ def _study(text):
 
 
 def _given(scene, set, methods):
-    """The scene's file or text, what is changed in it, and rules of Python among the methods."""
+    """The scene's file or text, the changed keys, and the Python rules among the methods."""
     changed = dict(set or {})
     if methods is None:
         return os.fspath(scene), changed, []
@@ -105,9 +105,9 @@ def run(scene, *, set=None, methods=None, levels=0):
     """Run a scene, static or in time, as `plumbline run` does, without files.
 
     scene    name of a .prm or .json file, or the text of a scene (several lines)
-    set      {"Section/key": value}: what is changed in the scene
+    set      {"Section/key": value}: keys changed in the scene
     methods  names and Rules instead of the scene's
-    levels   only the first so many of each series; 0: all
+    levels   number of levels of each series, from the first; 0: all
 
     Returns a Study with the keys of results.json (dynamics.json in time): records with errors as
     scalars and cost, trends with verdicts and rates, advice, expectations.
