@@ -20,14 +20,28 @@ namespace plumbline::io
   {
     using Json = nlohmann::ordered_json;
 
-    constexpr unsigned int version = 3; ///< of what lines mean
+    constexpr unsigned int version = 4; ///< of what lines mean
+
+    std::string line_of(const Json &json)
+    {
+      return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    }
 
     std::string lines_of(const analysis::Records &records)
     {
       std::string text;
       for (const analysis::Record &record : records)
-        text += to_json(record).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+        text += line_of(to_json(record));
       return text;
+    }
+
+    /// All on one line, so that a kill leaves all of them or none.
+    std::string group_of(const analysis::Records &records)
+    {
+      Json group = Json::array();
+      for (const analysis::Record &record : records)
+        group.push_back(to_json(record));
+      return records.empty() ? "" : line_of(group);
     }
 
     /// What a list has beyond its first n.
@@ -62,7 +76,10 @@ namespace plumbline::io
       for (std::size_t i = 1; i < lines.size(); ++i)
       {
         const Json json = base::parse_json(lines[i], what, remedy);
-        if (json.is_object() && json.contains("key"))
+        if (json.is_array())
+          for (const Json &one : json)
+            records.push_back(record_from_json(one, "", file));
+        else if (json.is_object() && json.contains("key"))
           records.push_back(record_from_json(json, "", file));
         else if (std::exchange(has_scene, true))
           add_statements(results, from_json(lines[i], file));
@@ -92,8 +109,8 @@ namespace plumbline::io
 
   void RecordJournal::append(const analysis::Records &records)
   {
-    const std::string first = head_.empty() ? "" : head_ + lines_of(earlier_);
-    lines_.append(first + lines_of(records));
+    const std::string first = head_.empty() ? "" : head_ + group_of(earlier_);
+    lines_.append(first + group_of(records));
     head_.clear();
   }
 

@@ -103,6 +103,18 @@ namespace plumbline::io
     EXPECT_EQ(RecordJournal(file, "scene").earlier().size(), 1u);
   }
 
+  TEST(RecordJournal, LeavesOutAGroupThatAKillCutShort)
+  {
+    const Folder folder;
+    const auto file = folder.path() / "rows.jsonl";
+    RecordJournal journal(file, "scene");
+    journal.append({full_record()});
+    journal.append({full_record(), full_record()});
+    EXPECT_EQ(RecordJournal(file, "scene").earlier().size(), 3u);
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) - 9);
+    EXPECT_EQ(RecordJournal(file, "scene").earlier().size(), 1u);
+  }
+
   TEST(RecordJournal, TakesNothingOfAFileThatIsNone)
   {
     const Folder folder;
