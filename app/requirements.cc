@@ -302,6 +302,15 @@ namespace plumbline::app
       result.push_back("the matrix is NOT positive definite: " +
                        std::to_string(found.matrix.n_negative_eigenvalues) +
                        " negative eigenvalues");
+    constexpr double alike = .05; // of the spacing of scattered nodes and the level's h
+    const double h = found.level.level.h;
+    if (!result.empty() && std::abs(std::log(found.level.node_size / h)) > alike)
+      result.insert(
+          result.begin(),
+          "is the scene that of these nodes? Its nearest level has h = " + base::to_text(h, 6) +
+              " and the horizon " + base::to_text(found.level.level.horizon, 6) +
+              ", their spacing is " + base::to_text(found.level.node_size, 6) +
+              "; give Study/h and Study/m, or Study/horizon, of your bonds");
     return result;
   }
 

@@ -306,3 +306,15 @@ TEST(CheckCauses, threads_are_taken)
 {
   EXPECT_EQ(check(nodes_file, bonds_file, "--quiet --threads 1").exit_code, 0);
 }
+
+// a scene of another mesh size: its horizon is not that of the bonds, which are right
+TEST(CheckCauses, a_scene_of_other_nodes_is_asked_about_first)
+{
+  const std::string question = "is the scene that of these nodes? Its nearest level has h = 0.25";
+  const Outcome other = check(nodes_file, bonds_file, "--set Study/h=0.25 --set Study/m=1.6");
+  EXPECT_EQ(other.exit_code, 1) << other.err;
+  expect_found(other.out, question + " and the horizon 0.4, their spacing is 0.125");
+  const Outcome own = check(nodes_file, (folder / "bonds_wrong.csv").string());
+  EXPECT_EQ(own.exit_code, 1) << own.err;
+  expect_not_found(own.out, "is the scene that of these nodes");
+}
