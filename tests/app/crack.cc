@@ -78,7 +78,7 @@ TEST(CrackCommand, fails_with_3_when_the_motion_does)
                               "Time/damping=1e6 --set 'Time/final time=40' -o " +
                               folder.string());
   EXPECT_EQ(outcome.exit_code, 3);
-  expect_found(outcome.err, "the motion is not finite any more");
+  expect_found(outcome.err, "the solution is not finite any more");
   EXPECT_NE(records(folder)[0]["failure"], "");
   EXPECT_FALSE(fs::exists(folder / "crack.jsonl"));
   fs::remove_all(folder);
