@@ -167,6 +167,7 @@ namespace
     command.add_option("--budget", options->budget,
                        "Leave out what is expected to take more CPU seconds, of one method at one "
                        "level");
+    command.add_option("--threads", request.n_threads, "Threads (default: all cores)");
     set_action(command, request, options,
                [row](const AnalyseOptions &given) { return analyse(row, given); });
     return command;

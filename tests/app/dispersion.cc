@@ -66,7 +66,7 @@ TEST(DispersionCommand, takes_directions_however_they_are_separated)
   const auto angles = [](const std::string &arguments)
   {
     const Outcome outcome =
-        run("dispersion " + scene("diffusion") + " --methods FA --levels 1 --json -o " +
+        run("dispersion " + scene("diffusion") + " --methods FA --levels 1 --threads 1 --json -o " +
             temporary("dispersion").string() + " " + arguments);
     EXPECT_EQ(outcome.exit_code, 0) << arguments << ": " << outcome.err;
     return nlohmann::json::parse(outcome.out)["facts"]["directions"].get<std::string>();

@@ -1,5 +1,6 @@
 """What the documents show runs, and what is exported is documented and typed."""
 import inspect
+import math
 import re
 
 import plumbline
@@ -11,8 +12,12 @@ def test_the_example_of_the_readme_runs(root, capsys):
     exec(compile(example, "README.md", "exec"), {})
     printed = capsys.readouterr().out
     assert "the weights are those of IPA-AC-R2" in printed and "\nas required\n" in printed
-    difference, estimate = map(float, printed.split("\n")[-2].split())
+    *_, errors, values, _ = printed.split("\n")
+    difference, estimate = map(float, errors.split())
     assert estimate < difference < .01
+    centre, other = map(float, values.strip("[]").split())
+    assert abs(centre - math.sin(1.5) * math.cos(1)) < 1e-5
+    assert abs(other - math.sin(.75) * math.cos(1.5)) < 1e-5
 
 
 def test_all_names_have_docstrings():
