@@ -40,8 +40,7 @@ namespace plumbline::app
   /// @return exit code: 0; with check 1 if an expectation does not hold; 3 if a record failed
   ///         where that is no finding; 130 if it was interrupted
   /// @throws InputError  a scene that cannot be used, a folder that cannot be written
-  /// @throws NumericalError  a failure that is no finding, or pictures cannot be drawn; all else is
-  /// written before that
+  /// @throws NumericalError  pictures cannot be drawn; all else is written before that
   int analyse(const MakeRow &make_row, const AnalyseOptions &options);
 
   /// The same of a scene that is read already.

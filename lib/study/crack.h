@@ -65,7 +65,7 @@ namespace plumbline::study
     bool shows_blow_up = false;
     unsigned int n_samples = 6, n_frames = 0;
     unsigned int interval = 1; ///< of checkpoints [samples]
-    std::string subject;       ///< of checkpoints: what moves
+    std::string subject;       ///< of checkpoints: all that they depend on
     Checkpoints checkpoints;
 
     double time(unsigned int sample) const;

@@ -1,6 +1,7 @@
 #include "study/solution_record.h"
 
 #include "base/choice.h"
+#include "study/analysis.h"
 
 #include <algorithm>
 #include <cmath>
@@ -102,13 +103,8 @@ namespace plumbline::study
                              {"F", "force", {}},
                              {"F / sqrt(horizon)", "force/length^(1/2)", {}}};
     for (const method::TipForce &one : forces)
-    {
-      const std::array<double, n_columns> values = {one.tip[0],   one.tip[1],       one.force[0],
-                                                    one.force[1], one.sum_of_norms, one.norm,
-                                                    one.over_root};
-      for (std::size_t c = 0; c < n_columns; ++c)
-        curve[c].values.push_back(values[c]);
-    }
+      add_row(curve, {one.tip[0], one.tip[1], one.force[0], one.force[1], one.sum_of_norms,
+                      one.norm, one.over_root});
     record.curves[tip_forces] = std::move(curve);
   }
 

@@ -8,6 +8,8 @@
 #include "scene/problem.h"
 #include "study/comparison.h"
 
+#include "tests/meshfree/lattice_rules.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,40 +20,10 @@ using namespace plumbline::meshfree;
 
 namespace
 {
-  constexpr double h = .01;
-
-  Kernel<2> scalar_kernel(double m, const std::string &type = "linear-decay")
-  {
-    return Kernel<2>::with_diffusion(physics::kernel_type(type).profile, m * h, .5);
-  }
-  Kernel<2> tensor_kernel(double m)
-  {
-    return Kernel<2>::with_bulk_modulus(physics::kernel_type("bond-tensor").profile, m * h, 1);
-  }
-
   Bonds<2> make(const NeighbourhoodQuadrature<2> &rule, const Kernel<2> &kernel,
                 Backend backend = Backend::fast)
   {
     return lattice_bonds(rule, kernel, h, backend);
-  }
-
-  /// Σ C_ab(point) w ξ^α.
-  double moment(const Kernel<2> &kernel, const Bonds<2> &bonds, unsigned int a, unsigned int b,
-                int p, int q)
-  {
-    double sum = 0;
-    for (const Bond<2> &bond : bonds.family)
-      sum += kernel_value(kernel, bond, a, b) * bond.weight * std::pow(bond.xi[0], p) *
-             std::pow(bond.xi[1], q);
-    return sum;
-  }
-
-  double smallest_ratio(const Bonds<2> &bonds)
-  {
-    double smallest = 1e300;
-    for (const Bond<2> &bond : bonds.family)
-      smallest = std::min(smallest, bond.weight / bond.area);
-    return smallest;
   }
 } // namespace
 
@@ -60,7 +32,7 @@ TEST(PartialArea, weights_add_up_to_the_ball_without_the_nodes_own_cell)
   for (const double m : {1., 1.37, 2.5, 3., 5., 12.2, 32.})
   {
     double sum = 0;
-    const auto kernel = scalar_kernel(m);
+    const auto kernel = scalar_kernel<2>(m);
     for (const Bond<2> &bond : make(partial_area(kernel), kernel).family)
       sum += bond.weight;
     EXPECT_NEAR(sum / (h * h), M_PI * m * m - 1, 1e-12 * m * m) << m;
@@ -71,7 +43,7 @@ TEST(PartialArea, exact_geometry_gives_the_same_weights_and_centroids)
 {
   for (const double m : {2.5, 3., 5.})
   {
-    const auto kernel = scalar_kernel(m);
+    const auto kernel = scalar_kernel<2>(m);
     const auto fast = make(improved_partial_area(kernel), kernel).family;
     const auto exact = make(improved_partial_area(kernel), kernel, Backend::cgal).family;
     ASSERT_EQ(fast.size(), exact.size());
@@ -92,12 +64,12 @@ TEST(ImprovedPartialArea, has_the_known_neighbours_and_error_constants)
       {5, 100, .032889}, {10, 356, .008293}, {32, 3356, .000813}};
   for (const auto &[m, n_neighbours, defect] : known)
   {
-    const auto kernel = scalar_kernel(m);
+    const auto kernel = scalar_kernel<2>(m);
     const auto bonds = make(improved_partial_area(kernel), kernel);
     EXPECT_EQ(bonds.family.size(), n_neighbours);
     // C(m) = ½ Σ s(c_k) A_k |ξ_k|²
     const double constant =
-        .5 * (moment(kernel, bonds, 0, 0, 2, 0) + moment(kernel, bonds, 0, 0, 0, 2));
+        .5 * (moment(kernel, bonds, 0, 0, {2, 0}) + moment(kernel, bonds, 0, 0, {0, 2}));
     EXPECT_NEAR(constant - 1, defect, 6e-7) << m;
   }
 }
@@ -139,18 +111,18 @@ TEST(Recalibrated, scalar_weights_meet_the_moments_of_their_degree_and_stay_posi
       {2, {.82, .38}}, {3, {.90, .65}}, {4, {.94, .82}}, {5, {.96, .88}}};
   for (const auto &[m, ratios] : smallest)
   {
-    const auto kernel = scalar_kernel(m);
+    const auto kernel = scalar_kernel<2>(m);
     const auto two = make(recalibrated(kernel, 2), kernel);
     const auto four = make(recalibrated(kernel, 4), kernel);
     for (const auto *bonds : {&two, &four})
     {
-      EXPECT_NEAR(moment(kernel, *bonds, 0, 0, 2, 0), 1, 1e-12);
-      EXPECT_NEAR(moment(kernel, *bonds, 0, 0, 0, 2), 1, 1e-12);
-      EXPECT_NEAR(moment(kernel, *bonds, 0, 0, 1, 1), 0, 1e-12);
+      EXPECT_NEAR(moment(kernel, *bonds, 0, 0, {2, 0}), 1, 1e-12);
+      EXPECT_NEAR(moment(kernel, *bonds, 0, 0, {0, 2}), 1, 1e-12);
+      EXPECT_NEAR(moment(kernel, *bonds, 0, 0, {1, 1}), 0, 1e-12);
     }
     const double fourth = kernel.moment({4, 0});
-    EXPECT_NEAR(moment(kernel, four, 0, 0, 4, 0), fourth, 1e-12 * fourth);
-    EXPECT_NEAR(moment(kernel, four, 0, 0, 2, 2), kernel.moment({2, 2}), 1e-12 * fourth);
+    EXPECT_NEAR(moment(kernel, four, 0, 0, {4, 0}), fourth, 1e-12 * fourth);
+    EXPECT_NEAR(moment(kernel, four, 0, 0, {2, 2}), kernel.moment({2, 2}), 1e-12 * fourth);
     EXPECT_NEAR(smallest_ratio(two), ratios.first, .006) << m;
     EXPECT_NEAR(smallest_ratio(four), ratios.second, .006) << m;
   }
@@ -162,7 +134,7 @@ TEST(Recalibrated, scalar_degree_2_is_its_closed_form)
 {
   for (const double m : {1.5, 2., 3.3, 5.})
   {
-    const auto kernel = scalar_kernel(m);
+    const auto kernel = scalar_kernel<2>(m);
     const auto plain = make(improved_partial_area(kernel), kernel);
     const auto bonds = make(recalibrated(kernel, 2), kernel);
     double first = -2, second = 0;
@@ -189,13 +161,13 @@ TEST(Recalibrated, tensor_weights_meet_the_moments_and_stay_positive_for_every_r
   double smallest = 1;
   for (double m = 1.5; m <= 8; m += .0625)
   {
-    const auto kernel = tensor_kernel(m);
+    const auto kernel = tensor_kernel<2>(m);
     const auto bonds = make(recalibrated(kernel, 2), kernel);
     smallest = std::min(smallest, smallest_ratio(bonds));
     for (unsigned int a = 0; a < 2; ++a)
       for (unsigned int b = 0; b < 2; ++b)
         for (const auto &[p, q] : {std::pair<int, int>{2, 0}, {1, 1}, {0, 2}})
-          EXPECT_NEAR(moment(kernel, bonds, a, b, p, q), kernel.moment({p, q}, a, b), 1e-12);
+          EXPECT_NEAR(moment(kernel, bonds, a, b, {p, q}), kernel.moment({p, q}, a, b), 1e-12);
   }
   EXPECT_GT(smallest, .8);
 }
@@ -203,19 +175,19 @@ TEST(Recalibrated, tensor_weights_meet_the_moments_and_stay_positive_for_every_r
 // 5.15: where an independent prototype found weights down to -203 areas
 TEST(Recalibrated, tensors_at_the_centroid_meet_their_moments_by_negative_weights)
 {
-  const auto kernel = tensor_kernel(5.15);
+  const auto kernel = tensor_kernel<2>(5.15);
   const auto centroid = make(recalibrated_at_centroid(kernel), kernel),
              node = make(recalibrated(kernel, 2), kernel);
   for (const Bonds<2> &bonds : {centroid, node})
     for (const auto &[a, b, p, q] :
          {std::array<int, 4>{0, 0, 2, 0}, {0, 0, 0, 2}, {0, 1, 1, 1}, {1, 1, 2, 0}, {1, 1, 0, 2}})
-      EXPECT_NEAR(moment(kernel, bonds, a, b, p, q), kernel.moment({p, q}, a, b), 1e-9);
+      EXPECT_NEAR(moment(kernel, bonds, a, b, {p, q}), kernel.moment({p, q}, a, b), 1e-9);
   EXPECT_NEAR(smallest_ratio(centroid), -203, .5);
   EXPECT_GT(smallest_ratio(node), .85);
   EXPECT_EQ(centroid.fit.n_conditions, 5u);
   EXPECT_EQ(node.fit.n_conditions, 3u);
 
-  const auto scalar = scalar_kernel(3);
+  const auto scalar = scalar_kernel<2>(3);
   EXPECT_EQ(smallest_ratio(make(recalibrated_at_centroid(scalar), scalar)),
             smallest_ratio(make(recalibrated(scalar, 2), scalar)));
 }
@@ -223,7 +195,7 @@ TEST(Recalibrated, tensors_at_the_centroid_meet_their_moments_by_negative_weight
 TEST(Recalibrated, tensor_degree_4_has_negative_weights_for_some_small_ratios)
 {
   const auto smallest = [](double m)
-  { return smallest_ratio(make(recalibrated(tensor_kernel(m), 4), tensor_kernel(m))); };
+  { return smallest_ratio(make(recalibrated(tensor_kernel<2>(m), 4), tensor_kernel<2>(m))); };
   EXPECT_LT(smallest(1.7), 0);
   EXPECT_GT(smallest(3), 0);
 }
@@ -231,31 +203,31 @@ TEST(Recalibrated, tensor_degree_4_has_negative_weights_for_some_small_ratios)
 // 2 of the 22 conditions that scattered nodes have depend on the others at m = 2.
 TEST(Recalibrated, lattices_leave_the_odd_moments_to_symmetry)
 {
-  const auto kernel = tensor_kernel(2);
+  const auto kernel = tensor_kernel<2>(2);
   const auto bonds = make(recalibrated(kernel, 4), kernel);
   EXPECT_TRUE(bonds.notes.empty());
   for (const auto &[p, q] : {std::pair<int, int>{1, 0}, {3, 0}, {1, 2}})
     // relative to ∫ |C| |ξ|^(p + q), which δ^(p + q - 2) stands for
-    EXPECT_NEAR(moment(kernel, bonds, 0, 0, p, q) / std::pow(2 * h, p + q - 2), 0, 1e-13);
+    EXPECT_NEAR(moment(kernel, bonds, 0, 0, {p, q}) / std::pow(2 * h, p + q - 2), 0, 1e-13);
 }
 
 TEST(OptimisationBased, integrates_its_space_with_positive_weights_on_lattices)
 {
   for (double m = 2; m <= 6; m += .25)
   {
-    const auto kernel = tensor_kernel(m);
+    const auto kernel = tensor_kernel<2>(m);
     const auto bonds = make(optimisation_based(kernel), kernel);
     EXPECT_GT(smallest_ratio(bonds), -1e-13) << m; // 0 by symmetry at m = 2
     for (unsigned int a = 0; a < 2; ++a)
       for (const auto &[p, q] : {std::pair<int, int>{2, 0}, {1, 1}, {0, 2}})
-        EXPECT_NEAR(moment(kernel, bonds, a, a, p, q), kernel.moment({p, q}, a, a), 1e-11);
+        EXPECT_NEAR(moment(kernel, bonds, a, a, {p, q}), kernel.moment({p, q}, a, a), 1e-11);
   }
 }
 
 TEST(OptimisationBased, loses_rank_below_2_24_and_is_infeasible_at_1_5)
 {
   const auto bonds = [](double m)
-  { return make(optimisation_based(tensor_kernel(m)), tensor_kernel(m)); };
+  { return make(optimisation_based(tensor_kernel<2>(m)), tensor_kernel<2>(m)); };
   EXPECT_EQ(bonds(2.3).notes.size(), 0u);
   const auto notes = bonds(2.2).notes;
   ASSERT_EQ(notes.size(), 1u);
@@ -274,15 +246,15 @@ TEST(OptimisationBased, loses_rank_below_2_24_and_is_infeasible_at_1_5)
 TEST(FullArea, counts_nodes_on_the_circle_and_jitters_with_the_ratio)
 {
   // (3, 4, 5): 80 nodes of the disc of radius 5, ties included
-  EXPECT_EQ(make(full_area(scalar_kernel(5)), scalar_kernel(5)).family.size(), 80u);
+  EXPECT_EQ(make(full_area(scalar_kernel<2>(5)), scalar_kernel<2>(5)).family.size(), 80u);
   // as m grows, the moment of the full area rule jumps with every node that enters the ball
   const auto variation = [](NeighbourhoodQuadrature<2> (*rule)(const Kernel<2> &))
   {
     double total = 0, last = NAN;
     for (double m = 3; m <= 12; m += .125)
     {
-      const auto kernel = scalar_kernel(m, "constant");
-      const double moment_of_rule = moment(kernel, make(rule(kernel), kernel), 0, 0, 2, 0);
+      const auto kernel = scalar_kernel<2>(m, "constant");
+      const double moment_of_rule = moment(kernel, make(rule(kernel), kernel), 0, 0, {2, 0});
       total += std::isnan(last) ? 0 : std::abs(moment_of_rule - last);
       last = moment_of_rule;
     }
@@ -293,7 +265,7 @@ TEST(FullArea, counts_nodes_on_the_circle_and_jitters_with_the_ratio)
 
 TEST(Ramps, are_one_inside_and_linear_across_the_horizon)
 {
-  const auto kernel = scalar_kernel(3.2, "constant");
+  const auto kernel = scalar_kernel<2>(3.2, "constant");
   for (const Bond<2> &bond : make(lammps(kernel), kernel).family)
   {
     const double r = bond.xi.norm() / h;
@@ -313,8 +285,8 @@ TEST(Ramps, are_one_inside_and_linear_across_the_horizon)
 
 TEST(KernelValue, clips_a_negative_profile_beyond_the_horizon_and_says_so)
 {
-  const auto kernel = scalar_kernel(2.6);
-  const auto constant = scalar_kernel(2.6, "constant");
+  const auto kernel = scalar_kernel<2>(2.6);
+  const auto constant = scalar_kernel<2>(2.6, "constant");
   const Bond<2> outside{Point<2>(.03, 0), 1, Point<2>(.03, 0), 1};
   EXPECT_LT(kernel.radial(.03), 0);
   EXPECT_EQ(kernel_value(kernel, outside, 0, 0), 0);

@@ -1,47 +1,25 @@
 // The rules on lattices of cubes: their second moments decide whether they are asymptotically
 // compatible. The numbers are those of an independent program in quadruple precision.
 #include "base/error.h"
-#include "meshfree/rules/rules.h"
+#include "tests/meshfree/lattice_rules.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 using namespace plumbline;
 using namespace plumbline::meshfree;
 
 namespace
 {
-  constexpr double h = .01;
-
-  Kernel<3> scalar_kernel(double m, const std::string &type = "linear-decay")
-  {
-    return Kernel<3>::with_diffusion(physics::kernel_type(type).profile, m * h, .5);
-  }
-  Kernel<3> tensor_kernel(double m)
-  {
-    return Kernel<3>::with_bulk_modulus(physics::kernel_type("bond-tensor").profile, m * h, 1);
-  }
-
   Bonds<3> make(const std::string &rule, const Kernel<3> &kernel)
   {
     for (const Rule &one : rules())
       if (one.name == rule)
         return lattice_bonds(one.in_space(kernel), kernel, h, Backend::fast);
     throw InputError("there is no rule " + rule);
-  }
-
-  double moment(const Kernel<3> &kernel, const Bonds<3> &bonds, unsigned int a, unsigned int b,
-                const std::array<int, 3> &alpha)
-  {
-    double sum = 0;
-    for (const Bond<3> &bond : bonds.family)
-      sum += kernel_value(kernel, bond, a, b) * bond.weight * std::pow(bond.xi[0], alpha[0]) *
-             std::pow(bond.xi[1], alpha[1]) * std::pow(bond.xi[2], alpha[2]);
-    return sum;
   }
 
   /// Relative to the kernel's own.
@@ -53,10 +31,7 @@ namespace
 
   double smallest_ratio(const std::string &rule, const Kernel<3> &kernel)
   {
-    const Bonds<3> bonds = make(rule, kernel);
-    return std::accumulate(bonds.family.begin(), bonds.family.end(), 1e300,
-                           [](double least, const Bond<3> &bond)
-                           { return std::min(least, bond.weight / bond.area); });
+    return smallest_ratio(make(rule, kernel));
   }
 
   using Row = std::array<double, 4>; // m = 2, 3, 4, 5
@@ -74,7 +49,7 @@ TEST(RulesInSpace, have_as_many_neighbours_as_nodes_or_cells_are_in_the_ball)
 {
   expect_rows({{"FA", {32, 122, 256, 514}}, {"PA-AC", {80, 250, 460, 822}}}, 0,
               [](const std::string &rule, int m)
-              { return static_cast<double>(make(rule, scalar_kernel(m)).family.size()); });
+              { return static_cast<double>(make(rule, scalar_kernel<3>(m)).family.size()); });
 }
 
 TEST(RulesInSpace, partial_volumes_add_up_to_the_ball_without_the_nodes_own_cell)
@@ -82,7 +57,7 @@ TEST(RulesInSpace, partial_volumes_add_up_to_the_ball_without_the_nodes_own_cell
   for (const double m : {1.5, 2., 2.7, 4.})
   {
     double volume = 0;
-    for (const Bond<3> &bond : make("IPA-AC", scalar_kernel(m)).family)
+    for (const Bond<3> &bond : make("IPA-AC", scalar_kernel<3>(m)).family)
       volume += bond.weight;
     EXPECT_NEAR(volume / (h * h * h), 4 * M_PI / 3 * m * m * m - 1, 1e-11) << m;
   }
@@ -91,7 +66,7 @@ TEST(RulesInSpace, partial_volumes_add_up_to_the_ball_without_the_nodes_own_cell
 TEST(RulesInSpace, have_the_known_defects_for_scalar_kernels)
 {
   const auto of_linear_decay = [](const std::string &rule, int m)
-  { return defect(rule, scalar_kernel(m)); };
+  { return defect(rule, scalar_kernel<3>(m)); };
   expect_rows({{"FA", {-.0119, -.0441, .0080, -.0051}},
                {"LAMMPS", {-.0675, -.0618, -.0240, -.0187}},
                {"QWJ", {-.0675, -.0618, -.0240, -.0187}},
@@ -106,7 +81,7 @@ TEST(RulesInSpace, have_the_known_defects_for_scalar_kernels)
                {"IPA-AC", {.1133, .0481, .0266, .0169}}},
               5.1e-5,
               [](const std::string &rule, int m)
-              { return defect(rule, scalar_kernel(m, "constant")); });
+              { return defect(rule, scalar_kernel<3>(m, "constant")); });
 }
 
 TEST(RulesInSpace, have_the_known_defects_for_bond_tensors)
@@ -119,7 +94,7 @@ TEST(RulesInSpace, have_the_known_defects_for_bond_tensors)
                {"OPT", {0, 0, 0, 0}}},
               5.1e-4,
               [](const std::string &rule, int m) {
-                return defect(rule, tensor_kernel(m), {0, 2, 0});
+                return defect(rule, tensor_kernel<3>(m), {0, 2, 0});
               });
   expect_rows({{"FA", {.031, .056, -.066, -.036}},
                {"LAMMPS", {-.203, -.135, -.146, -.113}},
@@ -128,13 +103,13 @@ TEST(RulesInSpace, have_the_known_defects_for_bond_tensors)
                {"IPA-AC", {.172, .066, .035, .022}},
                {"OPT", {0, 0, 0, 0}}},
               5.1e-4,
-              [](const std::string &rule, int m) { return defect(rule, tensor_kernel(m)); });
+              [](const std::string &rule, int m) { return defect(rule, tensor_kernel<3>(m)); });
 }
 
 TEST(RulesInSpace, recalibrated_weights_meet_all_second_moments_and_stay_positive)
 {
   for (const double m : {1.5, 2., 3., 4.3})
-    for (const auto &kernel : {scalar_kernel(m), tensor_kernel(m)})
+    for (const auto &kernel : {scalar_kernel<3>(m), tensor_kernel<3>(m)})
     {
       const Bonds<3> bonds = make("IPA-AC-R2", kernel);
       for (unsigned int a = 0; a < kernel.n_components(); ++a)
@@ -146,25 +121,25 @@ TEST(RulesInSpace, recalibrated_weights_meet_all_second_moments_and_stay_positiv
     }
   expect_rows(
       {{"IPA-AC-R2", {.748, .853, .911, .940}}, {"IPA-AC-R4", {.274, .588, .770, .847}}}, 5.1e-4,
-      [](const std::string &rule, int m) { return smallest_ratio(rule, scalar_kernel(m)); });
+      [](const std::string &rule, int m) { return smallest_ratio(rule, scalar_kernel<3>(m)); });
   expect_rows(
       {{"IPA-AC-R2", {.847, .940, .974, .987}}, {"IPA-AC-R4", {-.010, .217, .604, .729}}}, 5.1e-4,
-      [](const std::string &rule, int m) { return smallest_ratio(rule, tensor_kernel(m)); });
+      [](const std::string &rule, int m) { return smallest_ratio(rule, tensor_kernel<3>(m)); });
 }
 
 TEST(RulesInSpace, of_higher_degree_need_more_neighbours)
 {
-  EXPECT_THROW((void)make("IPA-AC-R4", scalar_kernel(1.5)), NumericalError);
-  EXPECT_THROW((void)make("OPT", scalar_kernel(1.5)), NumericalError);
-  EXPECT_THROW((void)make("OPT", tensor_kernel(1.75)), NumericalError);
-  EXPECT_EQ(make("OPT", tensor_kernel(3)).fit.n_conditions, 52u);
+  EXPECT_THROW((void)make("IPA-AC-R4", scalar_kernel<3>(1.5)), NumericalError);
+  EXPECT_THROW((void)make("OPT", scalar_kernel<3>(1.5)), NumericalError);
+  EXPECT_THROW((void)make("OPT", tensor_kernel<3>(1.75)), NumericalError);
+  EXPECT_EQ(make("OPT", tensor_kernel<3>(3)).fit.n_conditions, 52u);
 }
 
 TEST(RulesInSpace, have_the_symmetry_of_the_cube)
 {
   for (const Rule &rule : rules())
   {
-    const Kernel<3> kernel = tensor_kernel(2.6);
+    const Kernel<3> kernel = tensor_kernel<3>(2.6);
     const Bonds<3> bonds = lattice_bonds(rule.in_space(kernel), kernel, h, Backend::fast);
     std::map<std::array<long, 3>, double> weights; // by sorted sizes of the coordinates
     for (const Bond<3> &bond : bonds.family)
