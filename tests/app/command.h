@@ -83,13 +83,15 @@ namespace plumbline::app
     return child;
   }
 
-  /// Send the command a signal as soon as it has written a file, or after half a minute.
+  /// Send the command a signal some time after it has written a file, or after half a minute.
   /// @return  how it ended, as waitpid says it
-  inline int signal_at(const std::string &arguments, const fs::path &file, int signal)
+  inline int signal_at(const std::string &arguments, const fs::path &file, int signal,
+                       std::chrono::milliseconds later = {})
   {
     const pid_t child = start(arguments);
     for (int i = 0; i < 6000 && !fs::exists(file); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(later);
     kill(child, signal);
     int status = 0;
     waitpid(child, &status, 0);
@@ -103,9 +105,10 @@ namespace plumbline::app
   }
 
   /// @return  its exit code
-  inline int interrupt_at(const std::string &arguments, const fs::path &file)
+  inline int interrupt_at(const std::string &arguments, const fs::path &file,
+                          std::chrono::milliseconds later = {})
   {
-    return WEXITSTATUS(signal_at(arguments, file, SIGINT));
+    return WEXITSTATUS(signal_at(arguments, file, SIGINT, later));
   }
 
   inline void expect_found(const std::string &text, const std::string &part,
