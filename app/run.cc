@@ -10,6 +10,7 @@
 #include "report/report.h"
 #include "run_parts.h"
 #include "scene/capabilities.h"
+#include "study/cheapest.h"
 #include "study/conclusions.h"
 #include "study/preflight.h"
 #include "study/sampling.h"
@@ -68,15 +69,6 @@ namespace plumbline::app
       return name + ".vtu";
     }
 
-    /// What is as cheap, to noise.
-    std::string tie(const study::Choice &choice)
-    {
-      std::string names;
-      for (const std::string &method : choice.tied)
-        names += (names.empty() ? "" : ", ") + method;
-      return names.empty() ? "" : "; a tie with " + names;
-    }
-
     void print_summary(const study::StudyResults &results, const fs::path &folder)
     {
       std::cout << results.scene_name << ": " << results.purpose << "\n\n"
@@ -104,11 +96,10 @@ namespace plumbline::app
         {
           std::cout << '\n'
                     << advice.problem << ", " << advice.series << ", against "
-                    << study::target_words(results) << '\n';
+                    << study::target_words(results) << ";\n  errors relative to "
+                    << study::relative_to(results.decisive_error) << ":\n";
           for (const study::Choice &choice : advice.choices)
-            std::cout << "  cheapest to a relative error of " << choice.target << ": "
-                      << choice.method << " at h = " << choice.h << ", error " << choice.error
-                      << ", " << choice.seconds << " CPU s" << tie(choice) << '\n';
+            std::cout << "  " << study::words_of(results, advice, choice) << '\n';
         }
       for (const study::Expectation &expectation : results.expectations)
         if (!expectation.holds)

@@ -1,8 +1,11 @@
 #include "study/cheapest.h"
 
+#include "study/solution_record.h"
+#include "study/trend.h"
+
 #include <algorithm>
 #include <set>
-#include <string>
+#include <sstream>
 #include <tuple>
 
 namespace plumbline::study
@@ -28,5 +31,35 @@ namespace plumbline::study
                               { return !seen.insert(run->key.method).second; }),
                runs.end());
     return runs;
+  }
+
+  double relative_error(const Record &run, const std::string &error)
+  {
+    return run[error] / (norm_of_one(error, area_of(run)) * size_of(run));
+  }
+
+  std::string relative_to(const std::string &error)
+  {
+    const bool is_l2 = norm_of_one(error, 4) != 1;
+    return std::string("how far the solution varies (maximum minus minimum") +
+           (is_l2 ? ", times the root of the area)" : ")");
+  }
+
+  std::string words_of(const StudyResults &results, const Advice &advice, const Choice &choice)
+  {
+    std::ostringstream text;
+    text << "cheapest to a relative error of " << choice.target << ": " << choice.method
+         << " at h = " << choice.h;
+    for (const Record &run : results.records)
+      if (run.key.method == choice.method && run.key.problem == advice.problem &&
+          run.key.series == advice.series && run.key.h == choice.h)
+      {
+        text << ", relative error " << relative_error(run, results.decisive_error);
+        break;
+      }
+    text << ", " << choice.seconds << " CPU s";
+    for (std::size_t i = 0; i < choice.tied.size(); ++i)
+      text << (i == 0 ? "; a tie with " : ", ") << choice.tied[i];
+    return text.str();
   }
 } // namespace plumbline::study

@@ -2,6 +2,7 @@
 
 #include "study/study_results.h"
 
+#include <string>
 #include <vector>
 
 namespace plumbline::study
@@ -18,4 +19,14 @@ namespace plumbline::study
   /// unknowns, then by name. First that one, then the cheapest run of each other method within the
   /// tie, in the same order. Empty if there are no runs.
   std::vector<const Record *> cheapest(std::vector<const Record *> runs);
+
+  /// An error of a run over how far its solution varies (see size_of()), for L2 norms times the
+  /// root of the domain's area.
+  double relative_error(const Record &run, const std::string &error);
+
+  /// What relative_error() divides by, for an error "norm | target".
+  std::string relative_to(const std::string &error);
+
+  /// One line: target, method, h, relative error, time and ties.
+  std::string words_of(const StudyResults &results, const Advice &advice, const Choice &choice);
 } // namespace plumbline::study

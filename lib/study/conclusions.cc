@@ -176,8 +176,7 @@ namespace plumbline::study
       {
         if (run.key.problem == problem && run.key.series == series &&
             methods.count(run.key.method) > 0 &&
-            run[results.decisive_error] <=
-                target * norm_of_one(results.decisive_error, area_of(run)) * size_of(run))
+            relative_error(run, results.decisive_error) <= target)
           runs.push_back(&run);
       }
       return cheapest(runs);

@@ -1,6 +1,7 @@
 // What is concluded from runs: doubt, jitter, expectations, the cheapest run. Tables of errors and
 // costs as a sweep leaves them, and the answer that each of them deserves.
 #include "study/conclusions.h"
+#include "study/cheapest.h"
 #include "study/solution_record.h"
 
 #include <gtest/gtest.h>
@@ -373,6 +374,10 @@ TEST(Conclusions, targets_are_relative_to_the_solution)
     const auto choices = advised(results);
     ASSERT_EQ(choices.size(), 1u) << size << ' ' << side;
     EXPECT_EQ(choices.at(1e-2), std::pair(std::string("A"), .05));
+    const Advice &advice = results.advice.front();
+    EXPECT_NE(words_of(results, advice, advice.choices.front()).find("relative error 0.005,"),
+              std::string::npos)
+        << words_of(results, advice, advice.choices.front());
     ASSERT_FALSE(results.trends.empty());
     EXPECT_EQ(results.trends[0].outcome, Outcome::converges) << results.trends[0].reason;
     EXPECT_DOUBLE_EQ(results.trends[0].size, size * side);
