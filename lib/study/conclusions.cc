@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -23,6 +24,9 @@ namespace plumbline::study
     const std::string other_targets =
         "compare with exact, reference or own finest level (Study/decisive error), or decrease the "
         "horizon with h (Study/regime = delta or delta-m)";
+
+    /// A reference with fewer certified digits gives a warning.
+    constexpr unsigned int few_digits = 2;
 
     bool is_against_reference(const std::string &error)
     {
@@ -142,6 +146,36 @@ namespace plumbline::study
       if (std::find(results.warnings.begin(), results.warnings.end(), warning) ==
           results.warnings.end())
         results.warnings.push_back(warning);
+    }
+
+    /// Once for each case, of a reference whose digits are too few, at its finest level.
+    void warn_of_reference(StudyResults &results)
+    {
+      std::map<std::tuple<std::string, std::string>, const ErrorEstimate *> finest;
+      for (const ErrorEstimate &one : results.references)
+        finest[{one.problem, one.series}] = &one;
+      for (const auto &[place, one] : finest)
+      {
+        if (!(one->estimate > 0) || one->certified_digits >= few_digits)
+          continue;
+        const std::string name = one->method;
+        const bool is_continuous = name.front() == 'Q' || name.front() == 'P';
+        const std::string warning =
+            "the reference " + name + " of " + one->problem + ", " + one->series + " has " +
+            (one->certified_digits == 0
+                 ? "no certified digit"
+                 : std::to_string(one->certified_digits) + " certified digit") +
+            " at h = " + base::to_text(one->h, 4) + ": " +
+            (is_continuous
+                 ? "where the solution or its data jump, a continuous space loses accuracy, so "
+                   "take a discontinuous one (Reference/method = " +
+                       std::string(name.front() == 'Q' ? "DGQ1" : "DGP1") +
+                       "); where they are smooth, refine Study/h"
+                 : "refine Study/h, or take a higher degree (Reference/method)");
+        if (std::find(results.warnings.begin(), results.warnings.end(), warning) ==
+            results.warnings.end())
+          results.warnings.push_back(warning);
+      }
     }
 
     void make_trends(const scene::Scene &scene, StudyResults &results)
@@ -289,6 +323,8 @@ namespace plumbline::study
     results.omissions.clear();
     make_trends(scene, results);
     warn_of_target(results);
+    if (results.is_complete)
+      warn_of_reference(results);
     warn_of_tip_forces(results);
     check_expectations(scene, results);
     give_advice(scene, results);

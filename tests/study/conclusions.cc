@@ -353,6 +353,35 @@ TEST(Conclusions, the_cheapest_run_meets_its_target)
   EXPECT_EQ(choices.at(1e-4), std::pair(std::string("B"), .05));
 }
 
+TEST(Conclusions, a_reference_with_one_digit_or_none_gives_one_warning)
+{
+  const auto scene = make_scene(against_exact);
+  for (const unsigned int digits : {0u, 1u, 2u})
+    for (const std::string method : {"Q2", "P2", "DGQ1"})
+    {
+      StudyResults results = make_results(scene);
+      add_runs(results, "A", second_order);
+      add_reference(results, {1e-1, 1e-2});
+      for (study::ErrorEstimate &one : results.references)
+      {
+        one.method = method;
+        one.certified_digits = one.level == 0 ? 0 : digits;
+      }
+      conclude(scene, results);
+      conclude(scene, results); // as an earlier run is taken up
+      ASSERT_EQ(results.warnings.size(), digits < 2 ? 1u : 0u) << digits;
+      if (digits == 2)
+        continue;
+      const std::string &warning = results.warnings[0];
+      EXPECT_EQ(warning.find("the reference " + method + " of one, m = 2 has " +
+                             (digits == 0 ? "no" : "1") + " certified digit"),
+                0u)
+          << warning;
+      const std::string advised = method == "Q2" ? "DGQ1" : method == "P2" ? "DGP1" : "degree";
+      EXPECT_NE(warning.find(advised), std::string::npos) << warning;
+    }
+}
+
 // In a unit of 1e-9, and by an L2 norm on a domain of 1e-6 x 1e-6, errors are 1e-15 times as large.
 TEST(Conclusions, targets_are_relative_to_the_solution)
 {
