@@ -19,12 +19,24 @@ namespace plumbline::report
           ->values;
     }
 
+    /// That break in the first event.
+    std::size_t first_bonds(const Record &record)
+    {
+      const Curve &events = record.curves.at("events");
+      return events[0].values.empty() ? 0
+                                      : static_cast<std::size_t>(column(events, "bonds").front());
+    }
+
     std::vector<std::pair<std::string, std::string>> meanings(const Record &record)
     {
       const bool has_factor = record.text("solver") != base::word(problem::GrowthSolver::multigrid);
       return {
           {"broken bonds", "the notch's not counted"},
           {"events", "at each a bond and its ties, or a batch"},
+          {"first break", "load at which the first bond breaks: event 0, " +
+                              std::to_string(first_bonds(record)) + " at once"},
+          {"first advance", "load at which the tip leaves the notch's: event " +
+                                std::to_string(record.count("first advance event"))},
           {"peak load", "where the reaction is largest"},
           {"peak reaction", "of the grips on what they do [force]"},
           {"advance", "of the tip, from the notch's [length]"},

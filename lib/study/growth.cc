@@ -206,6 +206,24 @@ namespace plumbline::study
       record.set("residual", residual);
     }
 
+    /// Loads of the first broken bond and of the first event at which the tip leaves the notch's.
+    void set_beginnings(const GrowthFindings &found, Record &record)
+    {
+      const std::vector<Event> &events = found.growth.events;
+      if (events.empty())
+        return;
+      record.set("first break", events.front().load);
+      const auto &tips = found.path.tips;
+      const auto moved = std::find_if(tips.begin(), tips.end(),
+                                      [&](const dealii::Point<2> &tip)
+                                      { return tip.distance(found.notch_tip) > 0; });
+      if (moved == tips.end())
+        return;
+      const std::ptrdiff_t event = moved - tips.begin();
+      record.set("first advance", events[static_cast<std::size_t>(event)].load);
+      record.set("first advance event", static_cast<double>(event));
+    }
+
     void add_events(const GrowthFindings &found, Record &record)
     {
       analysis::Curve events = curve_of(
@@ -273,6 +291,7 @@ namespace plumbline::study
     const Growth &growth = found.growth;
     const CrackPath &path = found.path;
     set_events(growth.events, record);
+    set_beginnings(found, record);
     record.set("advance", path.tips.empty() ? 0 : path.tips.back().distance(found.notch_tip),
                "length");
     if (path.width > 0)

@@ -104,7 +104,10 @@ namespace plumbline::study
   /// for then more is released than bonds take. K = √(G E/(1 - nu²)), the modulus' mean (ibid.,
   /// (5.3)). "L1", "L2" and "Li" are lengths of the crack within phase 1, the weaker one, within
   /// phase 2 and of bonds between the two (ibid., (5.2)) [length]: of one phase L1 is all; where G
-  /// has more than two values there are no phases. "width", "apart", "reaction left" and others.
+  /// has more than two values there are no phases. "first break" and
+  /// "first advance" are loads of the first broken bond, in event 0, and of the first event after
+  /// which the tip is not the notch's, the "first advance event". "width", "apart", "reaction left"
+  /// and others.
   /// Texts: "end" and "connected". Curves: "events", "broken" (their bonds), "sides" and "notch",
   /// "moments" of the components of the field "damage", "parts" and "phases". Field "G" where it
   /// varies.

@@ -134,6 +134,23 @@ TEST(Growth, a_path_may_step_to_the_next_row)
   EXPECT_EQ(path.n_elsewhere, 2u);
 }
 
+TEST(Growth, begins_at_the_first_break_and_at_the_first_advance)
+{
+  const GrowthModel model = comb(8);
+  GrowthFindings found;
+  found.notch_tip = model.notch_tip;
+  found.growth.events = {event({bond(model, 6.5, 0)}, 2), event({bond(model, 3.5, 0)}, 2.5),
+                         event({bond(model, 4.5, 0)}, 4)};
+  found.path = find_path(model, found.growth.events);
+  const analysis::Record record = growth_record({}, found);
+  EXPECT_EQ(record["first break"], 2); // ahead of the tip
+  EXPECT_EQ(record["first advance"], 2.5);
+  EXPECT_EQ(record["first advance event"], 1);
+  found.growth.events.resize(1);
+  found.path = find_path(model, found.growth.events);
+  EXPECT_FALSE(growth_record({}, found).has("first advance"));
+}
+
 TEST(Growth, toughness_counts_bonds_over_the_width_of_what_parted)
 {
   GrowthModel model = comb(8);
