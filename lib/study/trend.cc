@@ -260,7 +260,7 @@ namespace plumbline::study
         if (!is_significant && is_rate_sure)
           trend.leaning = Leaning::none_or_plateau;
         trend.reason = (is_nil ? "no plateau, but a rate that is not surely 3/4: "
-                               : "neither nil nor significant, run a finer level: ") +
+                               : "a plateau that is neither nil nor certain, run a finer level: ") +
                        numbers;
       }
     }

@@ -202,7 +202,10 @@ TEST(Judge, a_plateau_is_nil_below_a_tenth_of_the_last_error_and_counts_above)
 TEST(Judge, a_plateau_that_is_large_but_uncertain_decides_nothing)
 {
   // .74 of the last error, 1.8 uncertainties; the errors themselves still fall at rate .9
-  EXPECT_EQ(judged(h, {9.3e-3, 2.9e-3, 1.1e-3, 5.7e-4, 3.1e-4}).outcome, Outcome::undecided);
+  const Trend uncertain = judged(h, {9.3e-3, 2.9e-3, 1.1e-3, 5.7e-4, 3.1e-4});
+  EXPECT_EQ(uncertain.outcome, Outcome::undecided);
+  EXPECT_EQ(uncertain.reason.find("a plateau that is neither nil nor certain"), 0u)
+      << uncertain.reason;
   // .22 of the last error, 6 uncertainties: a small one must be ten times its own
   EXPECT_EQ(judged(h, {7.3e-2, 4.4e-2, 2.7e-2, 1.7e-2, 1.1e-2}).outcome, Outcome::undecided);
 }
