@@ -21,7 +21,7 @@ namespace plumbline::report
           record,
           {{"advance", "of the tip, from the notch to the end of the time [length]"},
            {"speed / c_R", "the line fitted to the tip where it has gone 1/5 to 4/5 of its way"},
-           {"fastest / c_R", "over any tenth of the time"},
+           {"fastest / c_R", "over any tenth of the time for which the tip moves"},
            {"c_R", "Rayleigh waves, which no crack overtakes [length/time]"},
            {"c_T", "shear waves [length/time]"},
            {"strained W H / G_c,h", "energy of the strained strip over the lattice's toughness"},

@@ -168,6 +168,18 @@ namespace plumbline::study
       return n >= 2 ? (n * tx - t * x) / (n * tt - t * t) : 0;
     }
 
+    /// From the last one before the tip leaves its place to the first one where it ends.
+    std::size_t samples_in_motion(const Samples &samples)
+    {
+      const auto leaves =
+          std::find_if(samples.begin(), samples.end(),
+                       [&](const CrackSample &sample) { return sample.tip > samples.front().tip; });
+      const auto ends =
+          std::find_if(samples.begin(), samples.end(),
+                       [&](const CrackSample &sample) { return sample.tip >= samples.back().tip; });
+      return leaves < ends ? static_cast<std::size_t>(ends - leaves) + 1 : 1;
+    }
+
     /// The longest way of the tip while there are several cracks side by side.
     double branched_way(const Samples &samples)
     {
@@ -273,7 +285,7 @@ namespace plumbline::study
       motion.soft_per_length = (last.soft - first.soft) / way;
     if (way > scales.horizon)
       motion.speed = fitted_speed(samples, way);
-    const std::size_t window = std::max<std::size_t>(1, (all.size() - 1) / 10);
+    const std::size_t window = std::max<std::size_t>(1, samples_in_motion(samples) / 10);
     for (std::size_t i = window; i < samples.size(); ++i)
       motion.fastest = std::max(motion.fastest, (samples[i].tip - samples[i - window].tip) /
                                                     (samples[i].t - samples[i - window].t));

@@ -90,7 +90,7 @@ namespace plumbline::study
   {
     double advance = 0; ///< from the notch's tip to the end
     double speed = 0;   ///< of the line fitted to its tip, if it has gone a horizon; see below
-    double fastest = 0; ///< over any tenth of the time
+    double fastest = 0; ///< over any tenth of the time for which the tip moves
     scene::CrackOutcome outcome = scene::CrackOutcome::unknown;
     std::string reason;         ///< of the outcome, one sentence with the numbers
     double energy_drift = 0;    ///< max |kinetic + bonds + dissipated - start| / start

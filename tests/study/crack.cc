@@ -214,6 +214,17 @@ TEST(Crack, is_described_by_where_its_tip_goes)
   EXPECT_NEAR(through.fastest, .3, 1e-12);
 }
 
+TEST(Crack, has_its_largest_speed_over_tenths_of_its_motion_however_long_it_is_watched)
+{
+  // gathers speed from t = 5 to 17, a tenth of the time that is watched
+  const auto tip = [](double t) { return 1 + .06 * std::pow(std::clamp(t - 5, 0., 12.), 2); };
+  const auto one = [](double) { return 1; };
+  const CrackMotion motion = described(tip, one, 120);
+  EXPECT_GT(motion.speed, .7);
+  EXPECT_GT(motion.fastest, motion.speed);
+  EXPECT_DOUBLE_EQ(motion.fastest, described(tip, one, 30).fastest);
+}
+
 TEST(Crack, branches_only_where_two_tips_go_on_side_by_side)
 {
   using scene::CrackOutcome;
