@@ -299,9 +299,9 @@ namespace plumbline::study
       return {};
     return {"the strain of the grips is " + base::to_text(strain, 3) + ", beyond " +
             base::to_text(large_strain, 2) +
-            ": bonds have linear kinematics, which hold for small strains. The same motion at a "
-            "1/k of the strains, with the same speeds and the same outcome, has the material with "
-            "k² Material/beta and Material/c / k²; to leave these, lower Crack/load"};
+            ": bonds have linear kinematics, which hold for small strains. With Material/beta "
+            "times k² and Material/c over k² the same motion, with the same speeds and outcome, "
+            "has 1/k of the strains; to keep the material, lower Crack/load"};
   }
 
   double rayleigh_ratio()
