@@ -182,6 +182,22 @@ namespace plumbline::report
     }
   }
 
+  TEST(GrowthReport, AnswersBeforeItWarnsAndNamesFirstEvents)
+  {
+    const fixture::Folder folder;
+    study::StudyResults results = grown();
+    results.warnings = {"nodes are few"};
+    write(results, folder);
+    const std::string page = fixture::read(folder.path() / "grow.html");
+    const std::size_t answer = page.find("<p class=\"answer\">");
+    ASSERT_NE(answer, std::string::npos);
+    EXPECT_LT(answer, page.find("nodes are few"));
+    const std::string text = in_one_line(text_of(results));
+    EXPECT_NE(text.find("load at which the first bond breaks: event 0"), std::string::npos) << text;
+    EXPECT_NE(text.find("load at which the tip leaves the notch's: event"), std::string::npos)
+        << text;
+  }
+
   TEST(GrowthReport, DrawsDamageAtEveryMoment)
   {
     const fixture::Folder folder;

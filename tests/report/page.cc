@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <regex>
 #include <set>
 
 namespace plumbline::report
@@ -47,8 +48,24 @@ namespace plumbline::report
     EXPECT_EQ(fixture::count(html, "<b>✗ not AC</b>"), results.trends.size() - n_converge);
     EXPECT_TRUE(holds(html, "<b>✓ AC</b><small>3.633e-5</small><small>rate 2.00</small>"));
     EXPECT_LT(html.find("Which method?"), html.find("<h2>Verdicts"));
+    EXPECT_LT(html.find("Which method?"), html.find("<b>Warning.</b>"));
+    EXPECT_TRUE(holds(html, "<b>Warning.</b>"));
     EXPECT_LT(html.find("<h2>Verdicts"), html.find("<h2>Work and precision"));
     EXPECT_LT(html.find("<h2>Work and precision"), html.find("<h2>Convergence"));
+  }
+
+  // every colour of a page but those of charts is a variable, which a dark screen has its own of
+  TEST(ReportPage, IsReadableOnDarkAndOnNarrowScreens)
+  {
+    const std::string html = page_of(fixture::results());
+    const std::string style = html.substr(0, html.find("</style>"));
+    const std::size_t dark = style.find("@media screen and (prefers-color-scheme: dark)");
+    ASSERT_NE(dark, std::string::npos);
+    const std::regex definition("(--[a-z-]+): ");
+    for (std::sregex_iterator one(style.begin(), style.end(), definition), end; one != end; ++one)
+      EXPECT_NE(style.find((*one)[1].str() + ": ", dark), std::string::npos) << (*one)[1];
+    EXPECT_TRUE(holds(style, "scroll the picture sideways"));
+    EXPECT_TRUE(holds(style, "no-repeat local")); // covers of the shadows beside tables
   }
 
   TEST(ReportPage, HasAllItsParts)
