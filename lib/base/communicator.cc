@@ -5,6 +5,7 @@
 
 #include <array>
 #include <chrono>
+#include <exception>
 #include <iostream>
 #include <new>
 #include <string>
@@ -42,7 +43,8 @@ namespace plumbline::base
     struct Fault
     {
       int kind = good;
-      std::string message;
+      std::string message = {};
+      std::exception_ptr exception = {}; ///< of a library or a caller's function
     };
 
     Fault attempt(const std::function<void()> &action)
@@ -69,7 +71,7 @@ namespace plumbline::base
     }
     catch (const std::exception &error) // of a library
     {
-      return {other, error.what()};
+      return {other, error.what(), std::current_exception()};
     }
     catch (...) // Trilinos throws numbers
     {
@@ -173,6 +175,8 @@ namespace plumbline::base
     const double first = -agree(own, fault, patience, *this);
     if (first == n_ranks())
       return;
+    if (n_ranks() == 1 && fault.exception)
+      std::rethrow_exception(fault.exception); // ranks share words; what is alone keeps the kind
     const int root = static_cast<int>(first);
     if (is_parallel())
     {
