@@ -28,33 +28,26 @@ namespace plumbline::app
     using meshfree::Rule;
     using physics::ElasticState;
 
-    std::vector<Rule> chosen_rules(const std::string &names)
+    std::vector<Rule> chosen_rules(const std::string &names, const std::vector<Rule> &own)
     {
       if (names == scene::all)
         return meshfree::rules();
+      std::vector<Rule> available = meshfree::rules();
+      available.insert(available.end(), own.begin(), own.end());
       std::vector<Rule> chosen;
       std::string known;
-      for (const Rule &rule : meshfree::rules())
+      for (const Rule &rule : available)
         known += (known.empty() ? "" : ", ") + rule.name;
       std::istringstream list(names);
       for (std::string name; std::getline(list, name, ',');)
       {
-        for (const Rule &rule : meshfree::rules())
+        for (const Rule &rule : available)
           if (rule.name == name)
             chosen.push_back(rule);
         if (chosen.empty() || chosen.back().name != name)
           throw InputError("--rules: '" + name + "' is not known; choose all or of " + known);
       }
       return chosen;
-    }
-
-    ElasticState state_of(const std::string &word)
-    {
-      const auto state = base::from_word<ElasticState>(word);
-      if (!state)
-        throw InputError("--state: '" + word +
-                         "' is not known; choose 'plane stress', 'plane strain' or 3D");
-      return *state;
     }
 
     std::vector<double> ratios_of(const std::vector<std::string> &given)
@@ -85,7 +78,12 @@ namespace plumbline::app
       if constexpr (dim == 2)
         return rule.in_plane(kernel);
       else
+      {
+        if (!rule.in_space)
+          throw InputError("--state: rule '" + rule.name +
+                           "' is made for the plane; choose 'plane stress' or 'plane strain'");
         return rule.in_space(kernel);
+      }
     }
 
     /// On a lattice of mesh size 1.
@@ -145,21 +143,36 @@ namespace plumbline::app
     }
   } // namespace
 
-  int moduli(const ModuliOptions &options)
+  ElasticState elastic_state(const std::string &word)
+  {
+    const auto state = base::from_word<ElasticState>(word);
+    if (!state)
+      throw InputError("--state: '" + word +
+                       "' is not known; choose 'plane stress', 'plane strain' or 3D");
+    return *state;
+  }
+
+  study::StudyResults moduli_of_rules(const ModuliOptions &options)
   {
     if (!(options.E > 0) || !std::isfinite(options.E))
       throw InputError("--E: Young's modulus is " + std::to_string(options.E) +
                        "; give a number above 0");
-    const ElasticState state = state_of(options.state);
+    const ElasticState state = elastic_state(options.state);
     study::StudyResults results;
     results.analysis = "moduli";
     results.scene_name = "moduli of " + options.kernel + ", " + options.state;
     results.purpose = "Elastic constants of meshfree rules on lattices";
-    for (const Rule &rule : chosen_rules(options.rules))
+    for (const Rule &rule : chosen_rules(options.rules, options.own_rules))
       for (const double m : ratios_of(options.ratios))
         results.records.push_back(state == ElasticState::solid
                                       ? measure<3>(rule, options, state, m)
                                       : measure<2>(rule, options, state, m));
+    return results;
+  }
+
+  int moduli(const ModuliOptions &options)
+  {
+    const study::StudyResults results = moduli_of_rules(options);
     if (options.json)
       std::cout << io::to_json(results);
     else

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "meshfree/rules/rules.h"
+#include "physics/elastic_constants.h"
 #include "scene/scene.h"
+#include "study/study_results.h"
 
 #include <string>
 #include <vector>
@@ -16,9 +19,17 @@ namespace plumbline::app
     double E = 1;                       ///< Young's modulus that the kernel is made for
     bool json = false;
     std::vector<scene::Override> overrides; ///< none
+    std::vector<meshfree::Rule> own_rules;  ///< besides those of the library, in the plane
   };
 
   constexpr auto ratios_option = "--m";
+
+  /// @throws InputError  a word that is none of "plane stress", "plane strain" and "3D"
+  physics::ElasticState elastic_state(const std::string &word);
+
+  /// The elastic constants of each rule on a square or cubic lattice, one record for each ratio.
+  /// @throws InputError  unknown names, numbers that cannot be
+  study::StudyResults moduli_of_rules(const ModuliOptions &options);
 
   /// Print the elastic constants of each rule on a square or cubic lattice.
   /// @return  exit code 0

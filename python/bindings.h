@@ -9,5 +9,6 @@ namespace plumbline::python
   void add_rules(pybind11::module_ &module);
   void add_problem(pybind11::module_ &module);
   void add_check(pybind11::module_ &module);
+  void add_moduli(pybind11::module_ &module);
   void add_studies(pybind11::module_ &module);
 } // namespace plumbline::python

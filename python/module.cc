@@ -104,5 +104,6 @@ PYBIND11_MODULE(_core, module)
   add_rules(module);
   add_problem(module);
   add_check(module);
+  add_moduli(module);
   add_studies(module);
 }

@@ -28,6 +28,7 @@ namespace plumbline::python
       double h = 0; ///< 0: that of the mesh
       geometry::Domain boxes = {};
       std::string mesh_file = {};
+      std::shared_ptr<const geometry::Mesh> mesh = {}; ///< of arrays
       std::vector<Point<2>> nodes = {};
       bool is_mesh = false, has_triangles = false, nodes_are_vertices = false, is_periodic = false;
       GivenField load, constraint, solution, coefficient;
@@ -56,6 +57,12 @@ namespace plumbline::python
         domain.name = given.mesh_file;
         return domain;
       }
+      if (given.mesh)
+      {
+        auto domain = problem::mesh_domain(*given.mesh, given.nodes, reach);
+        domain.name = "mesh";
+        return domain;
+      }
       if (!given.is_mesh)
         return problem::LatticeDomain{geometry::Lattice(given.boxes, given.h), given.is_periodic};
       auto domain = problem::mesh_domain(
@@ -68,7 +75,7 @@ namespace plumbline::python
     problem::Problem<2> pose(const Statement &given)
     {
       problem::ProblemBuilder builder(make_domain(given), given.kernel,
-                                      given.mesh_file.empty() ? given.h : 0);
+                                      given.mesh_file.empty() && !given.mesh ? given.h : 0);
       const std::vector<Point<2>> nodes = builder.lattice() != nullptr
                                               ? lattice_points(*builder.lattice(), builder.reach())
                                               : builder.cells()->nodes;
@@ -89,6 +96,8 @@ namespace plumbline::python
     Case make_case(const Statement &given)
     {
       Case result{"u", pose(given)};
+      if (given.mesh)
+        return result;
       if (given.mesh_file.empty() || std::filesystem::path(given.mesh_file).extension() == ".geo")
         result.at_h = [given](double h)
         {
@@ -100,9 +109,47 @@ namespace plumbline::python
       return result;
     }
 
+    /// @param given  (vertices, cells, inside); clockwise cells are turned around
+    geometry::Mesh mesh_of_arrays(const py::object &given)
+    {
+      if (!py::isinstance<py::tuple>(given) || py::len(given) != 3)
+        throw InputError("mesh is neither the name of a file nor (vertices, cells, inside); give "
+                         "arrays of shapes (n_vertices, 2), (n_cells, 3 or 4), (n_cells,)");
+      geometry::Mesh mesh;
+      mesh.vertices = to_points(given[py::int_(0)].cast<Doubles>(), "mesh: vertices");
+      const auto cells = given[py::int_(1)].cast<Integers>();
+      const auto inside = given[py::int_(2)].cast<py::array_t<bool, py::array::forcecast>>();
+      if (cells.ndim() != 2 || (cells.shape(1) != 3 && cells.shape(1) != 4))
+        throw InputError("mesh: cells has the shape " + shape_text(cells) +
+                         "; give three or four vertices of each, shape (n_cells, 3 or 4)");
+      require_length(inside, static_cast<std::size_t>(cells.shape(0)), "mesh: inside", "cell");
+      const auto n_vertices = static_cast<unsigned int>(cells.shape(1));
+      for (py::ssize_t c = 0; c < cells.shape(0); ++c)
+      {
+        geometry::MeshCell cell{{}, n_vertices, inside.at(c)};
+        for (unsigned int v = 0; v < n_vertices; ++v)
+        {
+          const std::int64_t index = cells.at(c, v);
+          if (index < 0 || index >= static_cast<std::int64_t>(mesh.vertices.size()))
+            throw InputError("mesh: cells[" + std::to_string(c) + ", " + std::to_string(v) +
+                             "] = " + std::to_string(index) + " is no vertex; there are " +
+                             std::to_string(mesh.vertices.size()) + ", counted from 0");
+          cell.vertex[v] = static_cast<unsigned int>(index);
+        }
+        const auto x = [&](unsigned int v) { return mesh.vertices[cell.vertex[v]]; };
+        const auto a = x(2) - x(0), b = x(n_vertices - 1) - x(n_vertices == 3 ? 0 : 1);
+        const double turn = n_vertices == 3 ? (x(1) - x(0))[0] * a[1] - (x(1) - x(0))[1] * a[0]
+                                            : a[0] * b[1] - a[1] * b[0];
+        if (turn < 0)
+          std::reverse(cell.vertex.begin(), cell.vertex.begin() + n_vertices);
+        mesh.cells.push_back(cell);
+      }
+      return mesh;
+    }
+
     std::shared_ptr<const Case> make_problem(const physics::Kernel<2> &kernel, double h,
                                              const py::object &boxes, const py::object &exclude,
-                                             const std::string &mesh, const py::object &nodes,
+                                             const py::object &mesh, const py::object &nodes,
                                              const std::string &cells, bool vertices, bool periodic,
                                              const py::object &load, const py::object &constraint,
                                              const py::object &solution,
@@ -111,7 +158,8 @@ namespace plumbline::python
       Statement given{kernel,
                       h,
                       to_domain(boxes, exclude),
-                      mesh,
+                      {},
+                      {},
                       {},
                       cells != "lattice" || !nodes.is_none() || !coefficient.is_none(),
                       cells == "triangles",
@@ -126,11 +174,18 @@ namespace plumbline::python
         throw InputError("cells = '" + cells + "'; choose of lattice, squares, triangles");
       if (mean != "harmonic" && mean != "arithmetic")
         throw InputError("mean = '" + mean + "'; choose of arithmetic, harmonic");
-      if (given.boxes.include.empty() == mesh.empty())
-        throw InputError("Problem: give the domain either by boxes with h, or by a mesh file");
-      if (mesh.empty() && !(h > 0))
+      const bool is_array = !py::isinstance<py::str>(mesh);
+      if (!is_array)
+        given.mesh_file = mesh.cast<std::string>();
+      const bool has_mesh = is_array || !given.mesh_file.empty();
+      if (given.boxes.include.empty() != has_mesh)
+        throw InputError("Problem: give the domain either by boxes with h, or by a mesh file or "
+                         "arrays");
+      if (!has_mesh && !(h > 0))
         throw InputError("h = " + std::to_string(h) +
                          "; boxes are made of cells of this size, give a length above 0");
+      if (is_array)
+        given.mesh = std::make_shared<const geometry::Mesh>(mesh_of_arrays(mesh));
       if (!nodes.is_none())
         given.nodes = to_points(nodes.cast<Doubles>(), "nodes");
       const py::gil_scoped_release others;
@@ -354,22 +409,26 @@ namespace plumbline::python
 Problem(kernel, *, boxes, h)              a lattice of cells of side h
 Problem(kernel, *, boxes, h, nodes=X)     nodes anywhere, with Voronoi cells
 Problem(kernel, *, mesh="plate.msh")      of gmsh: surfaces omega... and collar...; .geo with h
+Problem(kernel, *, mesh=(vertices, cells, inside))   a mesh in arrays
 
 boxes       corners ((x0, y0), (x1, y1)), or a list of them [length]; exclude: taken out of these
+mesh        a file, or arrays: vertices of shape (n_vertices, 2) [length], cells of shape
+            (n_cells, 3) or (n_cells, 4) (indices from 0), inside of shape (n_cells,): true in the
+            domain, false in the interaction domain around it
 nodes       shape (n, 2), in the domain and in the interaction domain around it
 cells       "lattice", "squares" or "triangles": what the boxes are made of
 vertices    nodes of lattices stand on vertices, not at centres
 periodic    the boxes close to a torus
 load, constraint, solution, coefficient
-            each an expression in x and y ("sin(3*x)";
-        "x*y, 0" of two components),
-        a number, or a function f(x, y) of arrays of shape(n, ) that returns an array of shape(n, ),
-        of two components a pair of them.Functions are called with all nodes at once,
-        elsewhere point by point.Without a load : that of the solution; without a constraint: the solution.
-coefficient a > 0 of a kernel mean(a(x), a(y)) C, with mean="arithmetic" or "harmonic")doc")
+            each an expression in x and y ("sin(3*x)"; "x*y, 0" of two components), a number, or a
+            function f(x, y) of arrays of shape (n,) that returns an array of shape (n,), of two
+            components a pair of them. Functions are called with all nodes at once, elsewhere point
+            by point. Without a load: that of the solution; without a constraint: the solution.
+            coefficient: a > 0 of a kernel mean(a(x), a(y)) C, with mean="arithmetic" or
+            "harmonic")doc")
         .def(py::init(
                  [](const physics::Kernel<2> &kernel, double h, const py::object &boxes,
-                    const py::object &exclude, const std::string &mesh, const py::object &nodes,
+                    const py::object &exclude, const py::object &mesh, const py::object &nodes,
                     const std::string &cells, bool vertices, bool periodic, const py::object &load,
                     const py::object &constraint, const py::object &solution,
                     const py::object &coefficient, const std::string &mean)

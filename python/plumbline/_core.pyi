@@ -43,7 +43,8 @@ class Rule:
 
 class Problem:
     def __init__(self, kernel: Kernel, *, h: float = ..., boxes: Optional[Boxes] = ...,
-                 exclude: Optional[Boxes] = ..., mesh: str = ...,
+                 exclude: Optional[Boxes] = ...,
+                 mesh: Union[str, Tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike]] = ...,
                  nodes: Optional[npt.ArrayLike] = ..., cells: str = ..., vertices: bool = ...,
                  periodic: bool = ..., load: Optional[Field] = ...,
                  constraint: Optional[Field] = ..., solution: Optional[Field] = ...,
@@ -98,3 +99,7 @@ def stability_json(scene: str, set: Dict[str, Any], rules: Sequence[Rule],
                    levels: int) -> str: ...
 def dispersion_json(scene: str, set: Dict[str, Any], rules: Sequence[Rule], levels: int,
                     angles: Sequence[float]) -> str: ...
+def moduli_json(names: str, rules: Sequence[Rule], m: Sequence[str], E: float, state: str,
+                kernel: str) -> str: ...
+def moduli_arrays(kernel: Kernel, w: npt.ArrayLike, xi: npt.ArrayLike, i: npt.ArrayLike,
+                  points: npt.ArrayLike, state: str) -> Dict[str, Any]: ...

@@ -8,7 +8,7 @@ import plumbline
 
 def test_the_example_of_the_readme_runs(root, capsys):
     text = (root / "python/README.md").read_text()
-    example, = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    example, _ = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     exec(compile(example, "README.md", "exec"), {})
     printed = capsys.readouterr().out
     assert "the weights are those of IPA-AC-R2" in printed and "\nas required\n" in printed
@@ -18,6 +18,14 @@ def test_the_example_of_the_readme_runs(root, capsys):
     centre, other = map(float, values.strip("[]").split())
     assert abs(centre - math.sin(1.5) * math.cos(1)) < 1e-5
     assert abs(other - math.sin(.75) * math.cos(1.5)) < 1e-5
+
+
+def test_the_example_of_moduli_runs(root, capsys):
+    text = (root / "python/README.md").read_text()
+    _, example = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    exec(compile(example, "README.md", "exec"), {})
+    own, rule = map(float, capsys.readouterr().out.split())
+    assert own == rule and abs(own - 209.7) < .05
 
 
 def test_all_names_have_docstrings():

@@ -125,6 +125,30 @@ Mesh.MeshSizeMin = h; Mesh.MeshSizeMax = h;
     assert u(points) == pytest.approx(points[:, 0]**2 - points[:, 1]**2, abs=.01)
 
 
+@pytest.mark.parametrize("n_vertices, method", [(4, "Q1"), (3, "P1"), (4, "IPA-AC")])
+def test_a_mesh_in_arrays_is_the_mesh_of_boxes(square, n_vertices, method):
+    n, around = 8, 4  # cells of the square, layers around it
+    kernel = plumbline.Kernel("linear-decay", 3 / 8)
+    x = np.arange(-around, n + around + 1) / n
+    vertices = np.stack([a.ravel() for a in np.meshgrid(x, x)], axis=-1)
+    j, i = [a.ravel() for a in np.mgrid[:n + 2 * around, :n + 2 * around]]
+    corner, row = j * len(x) + i, len(x)
+    cells = np.stack([corner, corner + 1, corner + row + 1, corner + row], axis=1)
+    inside = (i >= around) & (i < n + around) & (j >= around) & (j < n + around)
+    if n_vertices == 3:
+        cells = np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
+        inside = np.tile(inside, 2)
+    cells[::3] = cells[::3, ::-1]  # clockwise ones are turned around
+    exact = dict(solution="x^2 - y^2")
+    u = plumbline.solve(plumbline.Problem(kernel, mesh=(vertices, cells, inside), **exact), method)
+    same = plumbline.solve(plumbline.Problem(
+        kernel, boxes=square, h=1 / n, cells="squares" if n_vertices == 4 else "triangles",
+        **exact), method)
+    points = np.random.default_rng(0).uniform(0, 1, (50, 2))
+    assert u(points) == pytest.approx(same(points), abs=1e-9)
+    assert u(points) == pytest.approx(points[:, 0]**2 - points[:, 1]**2, abs=.2)
+
+
 def test_a_rule_in_python_solves_like_ours(square):
     mine = plumbline.Rule("mine", lambda xi, area: area)
     problem = square_problem(square, load=1)
