@@ -46,8 +46,8 @@ namespace plumbline::app
     /// Whether a command that was killed may have written it: what is written before the end.
     bool is_unfinished(const std::string &file, const std::string &command)
     {
-      static const std::set<std::string> begun = {"fields",  "frames", "samples", "checkpoint",
-                                                  "results", "report", "dynamics"};
+      static const std::set<std::string> begun = {"fields",     "points",  "frames", "samples",
+                                                  "checkpoint", "results", "report", "dynamics"};
       const std::string stem = fs::path(*fs::path(file).begin()).stem().string();
       return begun.count(stem) > 0 || stem == command;
     }

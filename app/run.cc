@@ -7,6 +7,7 @@
 #include "io/record_journal.h"
 #include "methods.h"
 #include "output_folder.h"
+#include "point_values.h"
 #include "report/report.h"
 #include "run_parts.h"
 #include "scene/capabilities.h"
@@ -185,10 +186,11 @@ namespace plumbline::app
                      "one rank is as fast, and Domain/mesh = squares is shared\n";
     }
 
-    /// @param journal, progress  outlive it
+    /// @param journal, progress, points  outlive it
     study::SweepControl control_of(const RunOptions &options, const scene::Scene &scene,
                                    const fs::path &folder, const base::Communicator &communicator,
-                                   io::RecordJournal &journal, ProgressLine &progress)
+                                   io::RecordJournal &journal, ProgressLine &progress,
+                                   PointValues &points)
     {
       study::SweepControl control;
       control.n_levels = options.n_levels;
@@ -208,6 +210,11 @@ namespace plumbline::app
       control.on_result = [write, &journal](const study::StudyResults &results)
       { write([&] { journal.append(results); }); };
       control.should_stop = [communicator] { return communicator.any(is_interrupted()); };
+      if (points.is_wanted())
+        control.on_solution = [write, folder, &points](const problem::Problem<2> &problem,
+                                                       const analysis::Solution &solution,
+                                                       const study::Record &run)
+        { write([&] { points.write(problem, solution, run, folder / "points"); }); };
       if (scene.output.fields)
         control.on_finest =
             [write, folder](const analysis::Solution &solution, const study::Record &run)
@@ -253,6 +260,7 @@ namespace plumbline::app
     const method::Methods methods = study::choose_methods(scene, available);
     study::check_memory(scene, methods, available, options.n_levels);
     study::check_data(scene);
+    PointValues points(scene);
 
     // every rank runs the scene, and they share the work on meshes; the first one talks and writes
     const base::Communicator communicator = base::Communicator::all();
@@ -270,7 +278,7 @@ namespace plumbline::app
       ProgressLine progress(!is_quiet);
       results = study::run_sweep(
           scene, methods, available,
-          control_of(options, scene, folder, communicator, journal, progress), earlier);
+          control_of(options, scene, folder, communicator, journal, progress, points), earlier);
     }
     communicator.together(
         [&]

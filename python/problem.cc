@@ -1,10 +1,10 @@
 #include "analysis/statics.h"
 #include "bindings.h"
 #include "callables.h"
-#include "geometry/cell_locator.h"
 #include "geometry/mesh_input.h"
 #include "method/lattice_discretisation.h"
 #include "problem/builder.h"
+#include "problem/inside.h"
 #include "problem/needs.h"
 #include "reading.h"
 #include "rule.h"
@@ -263,26 +263,7 @@ namespace plumbline::python
 
     void require_inside(const problem::Problem<2> &problem, const std::vector<Point<2>> &points)
     {
-      std::function<bool(const Point<2> &)> is_inside;
-      if (const geometry::Lattice *lattice = problem.lattice())
-        is_inside = [lattice](const Point<2> &x)
-        {
-          const auto s = (x - lattice->origin()) / lattice->h();
-          const int i = static_cast<int>(std::floor(s[0])), j = static_cast<int>(std::floor(s[1]));
-          // the upper sides of cells belong to Ω, too
-          return lattice->is_inside(i, j) || (s[0] == i && lattice->is_inside(i - 1, j)) ||
-                 (s[1] == j && lattice->is_inside(i, j - 1)) ||
-                 (s[0] == i && s[1] == j && lattice->is_inside(i - 1, j - 1));
-        };
-      else
-      {
-        const auto cells = std::make_shared<const geometry::CellLocator>(*problem.mesh());
-        is_inside = [cells](const Point<2> &x)
-        {
-          const auto cell = cells->find(x);
-          return cell && cells->is_inside(*cell);
-        };
-      }
+      const auto is_inside = problem::inside(problem);
       for (std::size_t k = 0; k < points.size(); ++k)
         if (!is_inside(points[k]))
           throw InputError("points[" + std::to_string(k) + "] = (" + std::to_string(points[k][0]) +

@@ -65,6 +65,8 @@ namespace plumbline::scene
       for (const Series &series : scene.study.series)
         for (const Level &level : series.levels)
           add(path(scene.methods.nodes.file_at(level.h)));
+    if (!scene.output.points.empty())
+      add(path(scene.output.points));
     for (const std::string &picture : scene.random.files)
       add(path(picture));
     return files;

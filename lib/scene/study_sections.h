@@ -93,6 +93,7 @@ namespace plumbline::scene
   struct OutputSection
   {
     bool fields = false;
+    std::string points; ///< name of a CSV file with columns x and y; empty: none
 
     void declare(Keys &keys);
   };

@@ -30,6 +30,7 @@ namespace plumbline::scene
                    " the horizon is Study/m times Study/h"},
               {"Domain/boxes", scene.domain.mesh.is_of_boxes(),
                "Domain/mesh = lattice, squares or triangles: other meshes define the domain"},
+              {"Output/points", !scene.time.is_dynamic(), "a static problem"},
               {"Time/critical fractions", scene.time.steps.empty(),
                "Time/steps to be empty, which gives the steps themselves"},
               {"Fracture/load step", scene.fracture.breaking == BreakMode::steps,

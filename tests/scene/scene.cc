@@ -93,6 +93,7 @@ TEST(Scene, one_that_nobody_filled_has_the_defaults_of_the_keys)
   EXPECT_EQ(scene.solver.tolerance, read.solver.tolerance);
   EXPECT_EQ(scene.solver.max_iterations, read.solver.max_iterations);
   EXPECT_EQ(scene.output.fields, read.output.fields);
+  EXPECT_EQ(scene.output.points, read.output.points);
   EXPECT_EQ(scene.expected.error_tolerance, read.expected.error_tolerance);
   EXPECT_EQ(scene.expected.rate_tolerance, read.expected.rate_tolerance);
   const Level level;

@@ -88,5 +88,9 @@ namespace plumbline::scene
   {
     keys.add("fields", fields, yes_or_no(),
              "Write the solutions of the finest levels as VTU files.");
+    keys.add("points", points, any_text(),
+             "CSV file with columns x and y: points in the domain, where 'run' writes each static "
+             "solution, its error and its change from the level before (points/*.csv). Relative to "
+             "the scene; empty: none.");
   }
 } // namespace plumbline::scene

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "scene/scene.h"
+#include "study/sweep.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace plumbline::app
+{
+  /// Values of solutions at the points of Output/points, one CSV file for each solve.
+  class PointValues
+  {
+  public:
+    /// @throws InputError  a file that cannot be read; a point outside of the domain of the first
+    /// level, by its line
+    explicit PointValues(const scene::Scene &scene);
+
+    bool is_wanted() const { return !points_.empty(); }
+
+    /// x, y, u, the exact solution and the error where the former is known, and how far u is from
+    /// that of the level before, if this object has written it; numbers read back to the same bits.
+    /// @param folder  of the files, made if it is not there
+    /// @throws InputError  a point outside of the domain of the level; a file that cannot be
+    /// written
+    void write(const problem::Problem<2> &problem, const analysis::Solution &solution,
+               const analysis::Record &run, const std::filesystem::path &folder);
+
+  private:
+    void require_inside(const problem::Problem<2> &problem) const;
+
+    std::string file_;
+    std::vector<dealii::Point<2>> points_; ///< in the scene's coordinates
+    std::vector<std::size_t> lines_;
+    /// By case, series and method: u at the level before, shape (n_points, n_components).
+    std::map<std::string, std::vector<double>> before_;
+  };
+} // namespace plumbline::app
