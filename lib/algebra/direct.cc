@@ -58,78 +58,137 @@ namespace plumbline::algebra
       std::memcpy(result, sum0, sizeof(sum0));
       std::memcpy(result + tile, sum1, sizeof(sum1));
     }
+
+    constexpr int half_tile = tile / 2; // three components' sums fill the registers
+
+    /// Half a tile of a three-component operator.
+    template <class Triple>
+    PLUMBLINE_VECTOR_CLONES void tile_triple(const double *u, std::size_t block, const double *a,
+                                             const Triple *triple, const Triple *end,
+                                             double *result)
+    {
+      constexpr int n = n_registers / 2;
+      Simd sum0[n], sum1[n], sum2[n];
+      for (int l = 0; l < n; ++l)
+      {
+        const double *const at = u + l * simd_width;
+        const Simd u0 = load(at), u1 = load(at + block), u2 = load(at + 2 * block);
+        sum0[l] = a[0] * u0 + a[1] * u1 + a[3] * u2;
+        sum1[l] = a[1] * u0 + a[2] * u1 + a[4] * u2;
+        sum2[l] = a[3] * u0 + a[4] * u1 + a[5] * u2;
+      }
+      for (; triple != end; ++triple)
+      {
+        const double *const w = triple->weight.data();
+        for (int l = 0; l < n; ++l)
+        {
+          const double *const forward = u + triple->shift + l * simd_width, *const backward =
+                                                                                u - triple->shift +
+                                                                                l * simd_width;
+          const Simd s0 = load(forward) + load(backward),
+                     s1 = load(forward + block) + load(backward + block),
+                     s2 = load(forward + 2 * block) + load(backward + 2 * block);
+          sum0[l] += w[0] * s0 + w[1] * s1 + w[3] * s2;
+          sum1[l] += w[1] * s0 + w[2] * s1 + w[4] * s2;
+          sum2[l] += w[3] * s0 + w[4] * s1 + w[5] * s2;
+        }
+      }
+      std::memcpy(result, sum0, sizeof(sum0));
+      std::memcpy(result + tile, sum1, sizeof(sum1));
+      std::memcpy(result + 2 * tile, sum2, sizeof(sum2));
+    }
   } // namespace
 
   bool DirectStencil::fits(const Stencil &stencil)
   {
-    return stencil.n_blocks() <= 2 && stencil.is_even();
+    return stencil.n_blocks() <= 3 && stencil.is_even();
   }
 
-  DirectStencil::DirectStencil(const Stencil &stencil, std::array<int, 2> n)
-      : n_blocks_(stencil.n_blocks()), n_(n), reach_(stencil.reach()),
-        width_((n[0] + tile - 1) / tile * tile + 2 * reach_),
-        block_size_(width_ * (n[1] + 2 * reach_)), padded_(n_blocks_ * block_size_)
+  DirectStencil::DirectStencil(const Stencil &stencil, std::array<int, 3> n)
+      : n_blocks_(stencil.n_blocks()), n_(n), reach_(stencil.reaches()),
+        width_((n[0] + tile - 1) / tile * tile + 2 * reach_[0]), height_(n[1] + 2 * reach_[1]),
+        block_size_(width_ * height_ * (n[2] + 2 * reach_[2])), padded_(n_blocks_ * block_size_)
   {
-    const auto weights = [&](int k1, int k2)
+    const auto weights = [&](int k1, int k2, int k3)
     {
-      std::array<double, 3> w{stencil(0, 0, k1, k2), 0, 0};
-      if (n_blocks_ == 2)
-      {
-        w[1] = stencil(0, 1, k1, k2);
-        w[2] = stencil(1, 1, k1, k2);
-      }
+      std::array<double, 6> w{};
+      for (unsigned int s = 0, at = 0; s < n_blocks_; ++s)
+        for (unsigned int t = 0; t <= s; ++t, ++at)
+          w[at] = stencil(t, s, k1, k2, k3);
       return w;
     };
-    diagonal_ = weights(0, 0);
-    for (int k2 = 0; k2 <= reach_; ++k2)
-      for (int k1 = k2 == 0 ? 1 : -reach_; k1 <= reach_; ++k1)
-      {
-        const Pair pair{k2 * static_cast<std::ptrdiff_t>(width_) + k1, weights(k1, k2)};
-        if (pair.weight != std::array<double, 3>{})
-          pairs_.push_back(pair);
-      }
+    diagonal_ = weights(0, 0, 0);
+    for (int k3 = 0; k3 <= reach_[2]; ++k3)
+      for (int k2 = k3 == 0 ? 0 : -reach_[1]; k2 <= reach_[1]; ++k2)
+        for (int k1 = k3 == 0 && k2 == 0 ? 1 : -reach_[0]; k1 <= reach_[0]; ++k1)
+        {
+          const auto w = weights(k1, k2, k3);
+          if (w == std::array<double, 6>{})
+            continue;
+          const std::ptrdiff_t rows = k3 * static_cast<std::ptrdiff_t>(height_) + k2,
+                               shift = rows * static_cast<std::ptrdiff_t>(width_) + k1;
+          if (n_blocks_ == 3)
+            triples_.push_back({shift, w});
+          else
+            pairs_.push_back({shift, {w[0], w[1], w[2]}});
+        }
+  }
+
+  /// The first node of a row of nodes, of which there are n[1] n[2].
+  double *DirectStencil::padded_row(int row, unsigned int block) const
+  {
+    const int j = row % n_[1], k = row / n_[1];
+    return padded_.data() + block * block_size_ +
+           ((k + reach_[2]) * height_ + (j + reach_[1])) * width_ + reach_[0];
   }
 
   template <unsigned int n_blocks>
   void DirectStencil::apply_rows(int from, int to, double *output) const
   {
-    double result[2 * tile];
+    double result[3 * tile];
+    const std::size_t n_rows = static_cast<std::size_t>(n_[1]) * n_[2];
     for (int j = from; j < to; ++j)
       for (int i = 0; i < n_[0]; i += tile)
       {
-        const double *const u = padded_.data() + (j + reach_) * width_ + reach_ + i;
+        const double *const u = padded_row(j, 0) + i;
         if constexpr (n_blocks == 1)
           tile_scalar(u, diagonal_[0], pairs_.data(), pairs_.data() + pairs_.size(), result);
-        else
+        else if constexpr (n_blocks == 2)
           tile_pair(u, block_size_, diagonal_.data(), pairs_.data(), pairs_.data() + pairs_.size(),
                     result);
+        else
+          for (const int half : {0, half_tile})
+            tile_triple(u + half, block_size_, diagonal_.data(), triples_.data(),
+                        triples_.data() + triples_.size(), result + half);
         for (unsigned int s = 0; s < n_blocks; ++s)
           std::copy_n(result + s * tile, std::min(tile, n_[0] - i),
-                      output + (static_cast<std::size_t>(s) * n_[1] + j) * n_[0] + i);
+                      output + (s * n_rows + j) * n_[0] + i);
       }
   }
 
   void DirectStencil::apply(const double *input, double *output) const
   {
+    const int n_rows = n_[1] * n_[2];
     for (unsigned int s = 0; s < n_blocks_; ++s)
-      for (int j = 0; j < n_[1]; ++j)
-        std::copy_n(input + (static_cast<std::size_t>(s) * n_[1] + j) * n_[0], n_[0],
-                    padded_.data() + s * block_size_ + (j + reach_) * width_ + reach_);
+      for (int j = 0; j < n_rows; ++j, input += n_[0])
+        std::copy_n(input, n_[0], padded_row(j, s));
     dealii::parallel::apply_to_subranges(
-        0, n_[1],
+        0, n_rows,
         [&](int from, int to)
         {
           if (n_blocks_ == 1)
             apply_rows<1>(from, to, output);
-          else
+          else if (n_blocks_ == 2)
             apply_rows<2>(from, to, output);
+          else
+            apply_rows<3>(from, to, output);
         },
         16);
   }
 
-  double DirectStencil::estimated_seconds(const Stencil &stencil, std::array<int, 2> n)
+  double DirectStencil::estimated_seconds(const Stencil &stencil, const std::array<int, 3> &n)
   {
     constexpr double seconds_per_entry = .06e-9;
-    return seconds_per_entry * static_cast<double>(stencil.n_entries()) * n[0] * n[1];
+    return seconds_per_entry * static_cast<double>(stencil.n_entries()) * n[0] * n[1] * n[2];
   }
 } // namespace plumbline::algebra

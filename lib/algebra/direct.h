@@ -7,22 +7,26 @@
 
 namespace plumbline::algebra
 {
-  /// Applies an even stencil of one or two components by summing over opposite pairs of bonds,
+  /// Applies an even stencil of one to three components by summing over opposite pairs of bonds,
   /// w (u(i+k) + u(i-k)), each pair loaded once for a register's worth of nodes. Wins over
   /// transforms when the reach is small.
   class DirectStencil
   {
   public:
-    /// @pre stencil.is_even(), and 1 or 2 blocks
-    DirectStencil(const Stencil &stencil, std::array<int, 2> n);
+    /// @pre stencil.is_even(), and 1 to 3 blocks
+    DirectStencil(const Stencil &stencil, std::array<int, 3> n);
+    DirectStencil(const Stencil &stencil, std::array<int, 2> n)
+        : DirectStencil(stencil, std::array<int, 3>{n[0], n[1], 1})
+    {
+    }
 
     static bool fits(const Stencil &stencil);
 
-    /// @param input, output  shape (n_blocks, n[1], n[0]); input counts as 0 outside
+    /// @param input, output  shape (n_blocks, n[2], n[1], n[0]); input counts as 0 outside
     void apply(const double *input, double *output) const;
 
     /// Estimated seconds an apply takes on one core, to choose a backend (measured on one machine).
-    static double estimated_seconds(const Stencil &stencil, std::array<int, 2> n);
+    static double estimated_seconds(const Stencil &stencil, const std::array<int, 3> &n);
 
   private:
     struct Pair
@@ -31,15 +35,24 @@ namespace plumbline::algebra
       std::array<double, 3> weight; ///< A_00, A_01, A_11
     };
 
+    struct Triple
+    {
+      std::ptrdiff_t shift;
+      std::array<double, 6> weight; ///< A_00, A_01, A_11, A_02, A_12, A_22
+    };
+
+    double *padded_row(int row, unsigned int block) const;
+
     template <unsigned int n_blocks>
     void apply_rows(int from, int to, double *output) const;
 
     unsigned int n_blocks_;
-    std::array<int, 2> n_;
-    int reach_;
-    std::size_t width_, block_size_; ///< of the padded field
-    std::array<double, 3> diagonal_;
-    std::vector<Pair> pairs_;
-    mutable std::vector<double> padded_; ///< shape (n_blocks, n[1] + 2 reach, width)
+    std::array<int, 3> n_, reach_;
+    std::size_t width_, height_, block_size_; ///< of the padded field
+    std::array<double, 6> diagonal_;
+    std::vector<Pair> pairs_;     ///< of one or two blocks
+    std::vector<Triple> triples_; ///< of three
+    /// shape (n_blocks, n[2] + 2 reach[2], height, width)
+    mutable std::vector<double> padded_;
   };
 } // namespace plumbline::algebra

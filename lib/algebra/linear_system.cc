@@ -25,6 +25,13 @@ namespace plumbline::algebra
       }
       return stencil;
     }
+
+    SchwarzPreconditioner on_box(const Stencil &stencil, const std::array<int, 3> &n)
+    {
+      std::vector<std::unique_ptr<RectangleSolver>> solvers;
+      solvers.push_back(make_box_sine_solver(stencil, n));
+      return SchwarzPreconditioner(std::move(solvers));
+    }
   } // namespace
 
   StencilSystem::StencilSystem(const Stencil &stencil, const geometry::NodeSet &nodes,
@@ -32,6 +39,13 @@ namespace plumbline::algebra
                                OperatorBackend backend)
       : operator_(make_operator(symmetric(stencil), nodes, backend)),
         preconditioner_(stencil, nodes, rectangles)
+  {
+  }
+
+  StencilSystem::StencilSystem(const Stencil &stencil, const std::array<int, 3> &n,
+                               OperatorBackend backend)
+      : operator_(make_operator(symmetric(stencil), n, backend)),
+        preconditioner_(on_box(stencil, n))
   {
   }
 

@@ -31,12 +31,23 @@ namespace plumbline::algebra
 
   /// Couplings between free nodes of a stencil, by the backend asked for.
   /// @throws InputError  OperatorBackend::direct for a stencil that is not even or has more than
-  /// two blocks
+  /// three blocks
   std::unique_ptr<Operator> make_operator(const Stencil &stencil, const geometry::NodeSet &nodes,
+                                          OperatorBackend backend = OperatorBackend::automatic);
+
+  /// The same on a box of nodes in space that are all free; vectors have shape (n_blocks, n[2],
+  /// n[1], n[0]). Not for: OperatorBackend::sparse.
+  std::unique_ptr<Operator> make_operator(const Stencil &stencil, const std::array<int, 3> &n,
                                           OperatorBackend backend = OperatorBackend::automatic);
 
   /// The action of given values outside the free nodes on the free nodes: Σ_k A(k) g(i + k).
   /// @param data  shape (n_blocks, n[1] + 2 reach, n[0] + 2 reach), 0 at free positions
   Vector collar_action(const Stencil &stencil, const geometry::NodeSet &nodes,
+                       const std::vector<double> &data);
+
+  /// The same on a box of nodes in space.
+  /// @param data  shape (n_blocks, n[2] + 2 reach, n[1] + 2 reach, n[0] + 2 reach)
+  /// @pre the same reach along all axes
+  Vector collar_action(const Stencil &stencil, const std::array<int, 3> &n,
                        const std::vector<double> &data);
 } // namespace plumbline::algebra

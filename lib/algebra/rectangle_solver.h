@@ -49,6 +49,12 @@ namespace plumbline::algebra
                                                     const Sides &sides = {},
                                                     Zeros zeros = Zeros::next);
 
+  /// The τ preconditioner on a box of nodes in space, or on a slab of one layer and reach 0 along
+  /// it. Vectors have shape (n_components, n[2], n[1], n[0]).
+  /// @throws NumericalError  as above
+  std::unique_ptr<RectangleSolver> make_box_sine_solver(const Stencil &stencil,
+                                                        const std::array<int, 3> &n);
+
   /// The same idea for several node families: reflect the rectangle, and as many cells around it as
   /// make that fast, oddly to twice its size, where the operator is block circulant, and invert its
   /// symbol block by block.

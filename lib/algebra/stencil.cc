@@ -5,23 +5,53 @@
 
 namespace plumbline::algebra
 {
-  Stencil::Stencil(unsigned int n_blocks, int reach)
-      : n_blocks_(n_blocks), reach_(reach),
-        entries_(static_cast<std::size_t>(n_blocks) * n_blocks * (2 * reach + 1) * (2 * reach + 1))
+  namespace
+  {
+    std::size_t n_offsets(const std::array<int, 3> &reaches)
+    {
+      std::size_t n = 1;
+      for (const int reach : reaches)
+        n *= 2 * reach + 1;
+      return n;
+    }
+
+    /// f(k1, k2, k3) for all offsets with k_d >= lowest_d.
+    template <typename Function>
+    void for_each_offset(const std::array<int, 3> &lowest, const std::array<int, 3> &reaches,
+                         const Function &f)
+    {
+      for (int k3 = lowest[2]; k3 <= reaches[2]; ++k3)
+        for (int k2 = lowest[1]; k2 <= reaches[1]; ++k2)
+          for (int k1 = lowest[0]; k1 <= reaches[0]; ++k1)
+            f(k1, k2, k3);
+    }
+
+    template <typename Function>
+    void for_each_offset(const std::array<int, 3> &reaches, const Function &f)
+    {
+      for_each_offset({-reaches[0], -reaches[1], -reaches[2]}, reaches, f);
+    }
+  } // namespace
+
+  Stencil::Stencil(unsigned int n_blocks, int reach) : Stencil(n_blocks, {reach, reach, 0}) {}
+
+  Stencil::Stencil(unsigned int n_blocks, const std::array<int, 3> &reaches)
+      : n_blocks_(n_blocks), reaches_(reaches),
+        entries_(static_cast<std::size_t>(n_blocks) * n_blocks * n_offsets(reaches))
   {
   }
 
-  double &Stencil::operator()(unsigned int s, unsigned int t, int k1, int k2)
+  double &Stencil::operator()(unsigned int s, unsigned int t, int k1, int k2, int k3)
   {
-    const std::size_t width = 2 * reach_ + 1;
-    return entries_[((static_cast<std::size_t>(s) * n_blocks_ + t) * width + (k2 + reach_)) *
-                        width +
-                    (k1 + reach_)];
+    const std::size_t block = static_cast<std::size_t>(s) * n_blocks_ + t;
+    const std::size_t plane = block * (2 * reaches_[2] + 1) + (k3 + reaches_[2]);
+    const std::size_t row = plane * (2 * reaches_[1] + 1) + (k2 + reaches_[1]);
+    return entries_[row * (2 * reaches_[0] + 1) + (k1 + reaches_[0])];
   }
 
-  double Stencil::operator()(unsigned int s, unsigned int t, int k1, int k2) const
+  double Stencil::operator()(unsigned int s, unsigned int t, int k1, int k2, int k3) const
   {
-    return const_cast<Stencil &>(*this)(s, t, k1, k2);
+    return const_cast<Stencil &>(*this)(s, t, k1, k2, k3);
   }
 
   std::uint64_t Stencil::n_entries() const
@@ -38,16 +68,19 @@ namespace plumbline::algebra
   bool Stencil::is_even() const
   {
     double largest = 0, defect = 0;
+    // of two opposite offsets one has the last index that is not negative
+    std::array<int, 3> lowest = {-reaches_[0], -reaches_[1], -reaches_[2]};
+    lowest[reaches_[2] > 0 ? 2 : 1] = 0;
     for (unsigned int s = 0; s < n_blocks_; ++s)
       for (unsigned int t = 0; t < n_blocks_; ++t)
-        for (int k2 = 0; k2 <= reach_; ++k2)
-          for (int k1 = -reach_; k1 <= reach_; ++k1)
-          {
-            const double a = (*this)(s, t, k1, k2);
-            largest = std::max(largest, std::abs(a));
-            defect = std::max({defect, std::abs(a - (*this)(s, t, -k1, -k2)),
-                               std::abs(a - (*this)(t, s, k1, k2))});
-          }
+        for_each_offset(lowest, reaches_,
+                        [&](int k1, int k2, int k3)
+                        {
+                          const double a = (*this)(s, t, k1, k2, k3);
+                          largest = std::max(largest, std::abs(a));
+                          defect = std::max({defect, std::abs(a - (*this)(s, t, -k1, -k2, -k3)),
+                                             std::abs(a - (*this)(t, s, k1, k2, k3))});
+                        });
     return defect <= 1e-14 * largest;
   }
 
@@ -56,24 +89,27 @@ namespace plumbline::algebra
     double largest = 0, defect = 0;
     for (unsigned int s = 0; s < n_blocks_; ++s)
       for (unsigned int t = 0; t <= s; ++t)
-        for (int k2 = -reach_; k2 <= reach_; ++k2)
-          for (int k1 = -reach_; k1 <= reach_; ++k1)
-          {
-            largest = std::max(largest, std::abs((*this)(s, t, k1, k2)));
-            defect = std::max(defect, std::abs((*this)(s, t, k1, k2) - (*this)(t, s, -k1, -k2)));
-          }
+        for_each_offset(reaches_,
+                        [&](int k1, int k2, int k3)
+                        {
+                          const double a = (*this)(s, t, k1, k2, k3);
+                          largest = std::max(largest, std::abs(a));
+                          defect = std::max(defect, std::abs(a - (*this)(t, s, -k1, -k2, -k3)));
+                        });
     return largest > 0 ? defect / largest : 0;
   }
 
   Stencil add(const Stencil &a, const Stencil &b)
   {
-    Stencil sum(a.n_blocks(), std::max(a.reach(), b.reach()));
+    std::array<int, 3> reaches{};
+    for (unsigned int d = 0; d < 3; ++d)
+      reaches[d] = std::max(a.reaches()[d], b.reaches()[d]);
+    Stencil sum(a.n_blocks(), reaches);
     for (const Stencil *term : {&a, &b})
       for (unsigned int s = 0; s < term->n_blocks(); ++s)
         for (unsigned int t = 0; t < term->n_blocks(); ++t)
-          for (int k2 = -term->reach(); k2 <= term->reach(); ++k2)
-            for (int k1 = -term->reach(); k1 <= term->reach(); ++k1)
-              sum(s, t, k1, k2) += (*term)(s, t, k1, k2);
+          for_each_offset(term->reaches(), [&](int k1, int k2, int k3)
+                          { sum(s, t, k1, k2, k3) += (*term)(s, t, k1, k2, k3); });
     return sum;
   }
 } // namespace plumbline::algebra
