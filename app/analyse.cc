@@ -158,7 +158,7 @@ namespace plumbline::app
     control.n_levels = options.n_levels;
     control.budget = options.budget;
     control.should_stop = is_interrupted;
-    control.earlier = journal.earlier();
+    control.earlier.records = journal.earlier();
     std::optional<ProgressLine> progress(!options.quiet);
     control.on_progress = [&](const std::string &what, double fraction)
     { progress->show(what, fraction); };

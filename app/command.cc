@@ -109,8 +109,9 @@ namespace
                    "Methods, comma separated; overrides Methods/names");
     run.add_option("--model", options->model, "smallest (only what the scene needs) or full");
     run.add_option("--levels", options->n_levels, "Only the first N levels of each sweep");
-    run.add_option("--budget", options->budget,
-                   "Leave out solves that are expected to take more CPU seconds");
+    run.add_option(
+        "--budget", options->budget,
+        "Leave out what is expected to take more CPU seconds, of one method at one level");
     run.add_option("--threads", request.n_threads, "Threads (default: all cores)");
     run.add_flag("--check", options->check, "Exit with 1 if the Expected section does not hold");
     run.add_flag("--quiet", options->quiet, "Print nothing but errors");

@@ -1,7 +1,8 @@
 #pragma once
 
+#include "analysis/record.h"
+#include "analysis/statics.h"
 #include "scene/scene.h"
-#include "study/sweep.h"
 
 #include <filesystem>
 #include <map>

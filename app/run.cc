@@ -13,9 +13,8 @@
 #include "scene/capabilities.h"
 #include "study/cheapest.h"
 #include "study/conclusions.h"
-#include "study/preflight.h"
 #include "study/sampling.h"
-#include "study/sweep.h"
+#include "study/statics.h"
 #include "study/target_words.h"
 
 #include <algorithm>
@@ -46,8 +45,8 @@ namespace plumbline::app
     study::StudyResults earlier_results(const fs::path &folder, const scene::Scene &scene)
     {
       const fs::path file = io::results_file(folder);
-      if (!fs::exists(file))
-        return {};
+      if (!fs::exists(file) || scene.study.decisive_error.target == scene::Target::finest)
+        return {}; // differences to the own finest level need all solutions
       try
       {
         const study::StudyResults earlier = io::results_in(folder);
@@ -186,46 +185,55 @@ namespace plumbline::app
                      "one rank is as fast, and Domain/mesh = squares is shared\n";
     }
 
-    /// @param journal, progress, points  outlive it
-    study::SweepControl control_of(const RunOptions &options, const scene::Scene &scene,
-                                   const fs::path &folder, const base::Communicator &communicator,
-                                   io::RecordJournal &journal, ProgressLine &progress,
-                                   PointValues &points)
+    /// On the first rank; where it cannot, all end.
+    void write(const base::Communicator &communicator, const std::function<void()> &action)
     {
-      study::SweepControl control;
+      communicator.together(
+          [&]
+          {
+            if (communicator.rank() == 0)
+              action();
+          });
+    }
+
+    /// @param points  outlive it
+    study::StaticsOptions statics_options(const scene::Scene &scene, const fs::path &folder,
+                                          const base::Communicator &communicator,
+                                          PointValues &points)
+    {
+      study::StaticsOptions options;
+      if (points.is_wanted())
+        options.on_solution = [communicator, folder, &points](const problem::Problem<2> &problem,
+                                                              const analysis::Solution &solution,
+                                                              const study::Record &run)
+        { write(communicator, [&] { points.write(problem, solution, run, folder / "points"); }); };
+      if (scene.output.fields)
+        options.on_finest =
+            [communicator, folder](const analysis::Solution &solution, const study::Record &run)
+        {
+          write(communicator,
+                [&]
+                {
+                  fs::create_directories(folder / "fields");
+                  solution.write_vtu((folder / "fields" / file_name(run)).string());
+                });
+        };
+      return options;
+    }
+
+    /// @param journal, progress  outlive it
+    study::RunControl control_of(const RunOptions &options, const base::Communicator &communicator,
+                                 io::RecordJournal &journal, ProgressLine &progress)
+    {
+      study::RunControl control;
       control.n_levels = options.n_levels;
       control.budget = options.budget;
+      control.ranks = communicator;
       control.on_progress = [&progress](const std::string &what, double f)
       { progress.show(what, f); };
-      // the first rank writes; where it cannot, all end
-      const auto write = [communicator](const std::function<void()> &action)
-      {
-        communicator.together(
-            [&]
-            {
-              if (communicator.rank() == 0)
-                action();
-            });
-      };
-      control.on_result = [write, &journal](const study::StudyResults &results)
-      { write([&] { journal.append(results); }); };
+      control.on_result = [communicator, &journal](const study::StudyResults &results)
+      { write(communicator, [&] { journal.append(results); }); };
       control.should_stop = [communicator] { return communicator.any(is_interrupted()); };
-      if (points.is_wanted())
-        control.on_solution = [write, folder, &points](const problem::Problem<2> &problem,
-                                                       const analysis::Solution &solution,
-                                                       const study::Record &run)
-        { write([&] { points.write(problem, solution, run, folder / "points"); }); };
-      if (scene.output.fields)
-        control.on_finest =
-            [write, folder](const analysis::Solution &solution, const study::Record &run)
-        {
-          write(
-              [&]
-              {
-                fs::create_directories(folder / "fields");
-                solution.write_vtu((folder / "fields" / file_name(run)).string());
-              });
-        };
       return control;
     }
 
@@ -256,17 +264,17 @@ namespace plumbline::app
       check_analysis(scene, scene::Analysis::transient);
       return run_transient(options, scene);
     }
-    const method::Methods available = all_methods();
-    const method::Methods methods = study::choose_methods(scene, available);
-    study::check_memory(scene, methods, available, options.n_levels);
-    study::check_data(scene);
-    PointValues points(scene);
-
     // every rank runs the scene, and they share the work on meshes; the first one talks and writes
     const base::Communicator communicator = base::Communicator::all();
     const bool is_first = communicator.rank() == 0, is_quiet = options.quiet || !is_first;
     const fs::path folder =
         options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
+    PointValues points(scene);
+    const study::Analysis statics = study::statics_analysis(
+        all_methods(), statics_options(scene, folder, communicator, points));
+    const method::Methods methods =
+        statics.choose_methods(scene, all_methods(), options.n_levels, 1);
+    statics.check(scene, methods, options.n_levels);
     const OutputFolder output(folder, {"run", scene.name, scene.text}, communicator);
     const study::StudyResults earlier = begin_results(folder, scene, methods, communicator);
     tell_beginning(earlier, folder, communicator, is_quiet);
@@ -276,18 +284,16 @@ namespace plumbline::app
     study::StudyResults results;
     {
       ProgressLine progress(!is_quiet);
-      results = study::run_sweep(
-          scene, methods, available,
-          control_of(options, scene, folder, communicator, journal, progress, points), earlier);
+      study::RunControl control = control_of(options, communicator, journal, progress);
+      control.earlier = earlier;
+      results = run_study(statics, scene, methods, control);
     }
-    communicator.together(
-        [&]
-        {
-          if (!is_first)
-            return;
-          report::write_report(results, folder);
-          journal.remove();
-        });
+    write(communicator,
+          [&]
+          {
+            report::write_report(results, folder);
+            journal.remove();
+          });
     if (is_first)
       tell_end(options, results, folder);
     return exit_code(results, options.check);

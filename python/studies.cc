@@ -5,9 +5,8 @@
 #include "rule.h"
 #include "scene/capabilities.h"
 #include "study/dispersion.h"
-#include "study/preflight.h"
 #include "study/stability.h"
-#include "study/sweep.h"
+#include "study/statics.h"
 #include "study/transient.h"
 
 #include <pybind11/stl.h>
@@ -55,18 +54,6 @@ namespace plumbline::python
       return false;
     }
 
-    std::string run_static(const scene::Scene &scene, const method::Methods &available,
-                           unsigned int n_levels)
-    {
-      const method::Methods methods = study::choose_methods(scene, available);
-      study::check_memory(scene, methods, available, n_levels);
-      study::check_data(scene);
-      study::SweepControl control;
-      control.n_levels = n_levels;
-      control.should_stop = is_interrupted;
-      return io::to_json(study::run_sweep(scene, methods, available, control));
-    }
-
     std::string analyse(const study::Analysis &analysis, const scene::Scene &scene,
                         const method::Methods &available, unsigned int n_levels)
     {
@@ -76,6 +63,7 @@ namespace plumbline::python
       study::RunControl control;
       control.n_levels = n_levels;
       control.should_stop = is_interrupted;
+      control.ranks = base::Communicator::all();
       return io::to_json(run_study(analysis, scene, methods, control));
     }
 
@@ -90,9 +78,9 @@ namespace plumbline::python
         throw InputError("scene '" + scene.name +
                          "': Fracture/toughness is for 'plumbline grow', which breaks bonds; clear "
                          "it");
-      return scene.time.is_dynamic()
-                 ? analyse(study::transient_analysis(available, {}), scene, available, n_levels)
-                 : run_static(scene, available, n_levels);
+      return analyse(scene.time.is_dynamic() ? study::transient_analysis(available, {})
+                                             : study::statics_analysis(available),
+                     scene, available, n_levels);
     }
 
     std::string analyse(const study::Analysis &analysis, const std::string &text,

@@ -27,14 +27,6 @@ namespace plumbline::io
       return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
     }
 
-    std::string lines_of(const analysis::Records &records)
-    {
-      std::string text;
-      for (const analysis::Record &record : records)
-        text += line_of(to_json(record));
-      return text;
-    }
-
     /// All on one line, so that a kill leaves all of them or none.
     std::string group_of(const analysis::Records &records)
     {
@@ -136,7 +128,7 @@ namespace plumbline::io
     with_records.records = now.records;
     // statements first: a record is known with all that came with it, or not at all
     const bool is_more = !head_.empty() || !(now == with_records);
-    lines_.append(head_ + (is_more ? to_json(more, -1) : "") + lines_of(records));
+    lines_.append(head_ + (is_more ? to_json(more, -1) : "") + group_of(records));
     head_.clear();
     written_ = now;
   }

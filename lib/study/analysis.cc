@@ -6,6 +6,9 @@
 #include "study/expectations.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 namespace plumbline::study
 {
@@ -71,16 +74,18 @@ namespace plumbline::study
              record.key.value == place.level().value;
     }
 
-    /// What a method is expected to cost at a level, from the two levels before it [CPU s].
+    /// What a method is expected to cost at a place, from the two levels before it [CPU s].
     /// Infinite where the level before was left out.
-    double expected_seconds(const Records &records, const Place &place, unsigned int level)
+    double expected_seconds(const Records &records, const Place &place, const Method &method)
     {
       constexpr double usual_growth = 4; // of unknowns, as h halves
+      const unsigned int level = place.number();
       if (level == 0)
         return 0;
       std::vector<double> seconds(level, 0);
       for (const Record &record : records)
-        if (record.key.series == place.series().name && record.key.level < level)
+        if (record.key.method == method.name() && record.key.series == place.series().name &&
+            record.key.level < level)
           seconds[record.key.level] += record.cost.seconds();
       const double last = seconds[level - 1], before = level < 2 ? 0 : seconds[level - 2];
       if (last == 0)
@@ -88,13 +93,19 @@ namespace plumbline::study
       return last * (before > 0 ? last / before : usual_growth);
     }
 
+    /// Append those of others that are meant.
+    template <class T, class IsMeant>
+    void take(std::vector<T> &list, const std::vector<T> &others, const IsMeant &is_meant)
+    {
+      std::copy_if(others.begin(), others.end(), std::back_inserter(list), is_meant);
+    }
+
     class Study
     {
     public:
       Study(const Analysis &analysis, const scene::Scene &scene, const Methods &methods,
             const RunControl &control)
-          : analysis_(analysis), scene_(scene), methods_(methods), control_(control),
-            records_(methods.size())
+          : analysis_(analysis), scene_(scene), methods_(methods), control_(control)
       {
         results_.analysis = analysis.name;
         results_.scene_name = scene.name;
@@ -102,8 +113,20 @@ namespace plumbline::study
         results_.scene_text = scene.text;
         results_.regime = scene.study.regime;
         results_.variable = scene.study.variable;
+        if (analysis.has_decisive_error)
+          results_.decisive_error = scene.study.decisive_error.text();
+        results_.provenance = control.earlier.provenance;
+        if (!control.earlier.records.empty())
+        {
+          results_.savings = control.earlier.savings;
+          results_.warnings = control.earlier.warnings;
+        }
+        results_.is_complete = false;
+        common_.methods = methods;
         common_.make_part = [this](const Record &begun, const Common::Fill &fill)
         { make_part(begun, fill); };
+        common_.fill = [this](Record &record, const Common::Fill &fill)
+        { fill_record(record, fill); };
       }
 
       StudyResults run()
@@ -111,10 +134,19 @@ namespace plumbline::study
         for (const problem::Series &series : scene_.study.series)
           n_all_ += n_levels(series) * methods_.size();
         for (const problem::Series &series : scene_.study.series)
-          for (unsigned int level = 0; level < n_levels(series) && results_.is_complete; ++level)
-            run_level({scene_, series, level, level + 1 == n_levels(series), common_}, level);
-        for (Records &own : records_)
-          std::move(own.begin(), own.end(), std::back_inserter(results_.records));
+          for (unsigned int level = 0; level < n_levels(series) && !is_stopped_; ++level)
+            run_level({scene_, series, level, level + 1 == n_levels(series), common_});
+        results_.is_complete = !is_stopped_;
+        if (analysis_.complete && !is_stopped_)
+          analysis_.complete(scene_, common_);
+        const auto index = [&](const Record &record)
+        {
+          return std::find_if(methods_.begin(), methods_.end(),
+                              [&](const auto &method)
+                              { return method->name() == record.key.method; });
+        };
+        std::stable_sort(results_.records.begin(), results_.records.end(),
+                         [&](const Record &a, const Record &b) { return index(a) < index(b); });
         if (analysis_.conclude)
           analysis_.conclude(scene_, results_);
         check_values(scene_, results_);
@@ -128,30 +160,67 @@ namespace plumbline::study
         return control_.n_levels == 0 ? n : std::min(n, control_.n_levels);
       }
 
-      void run_level(const Place &place, unsigned int level)
+      void run_level(const Place &place)
       {
-        for (std::size_t i = 0; i < methods_.size() && results_.is_complete; ++i, ++n_done_)
+        bool is_begun = false;
+        for (std::size_t i = 0; i < methods_.size(); ++i, ++n_done_)
         {
           if (control_.should_stop && control_.should_stop())
           {
-            results_.is_complete = false;
+            is_stopped_ = true;
             return;
           }
           const Method &method = *methods_[i];
-          Records own;
-          std::copy_if(control_.earlier.begin(), control_.earlier.end(), std::back_inserter(own),
-                       [&](const Record &record) { return is_of(record, place, method); });
-          if (own.empty() ? is_affordable(records_[i], place, level, method) : analysis_.has_parts)
+          Records own = take_earlier(place, method);
+          const bool is_due = own.empty() ? is_affordable(place, method) : analysis_.has_parts;
+          if (is_due && analysis_.begin && !std::exchange(is_begun, true))
+          {
+            show_progress(place.record(analysis_.name, method).key, "what methods share");
+            analysis_.begin(place);
+          }
+          if (is_due)
             own = analyse(place, method);
-          std::move(own.begin(), own.end(), std::back_inserter(records_[i]));
+          std::move(own.begin(), own.end(), std::back_inserter(results_.records));
+          if (is_due && control_.on_result)
+            control_.on_result(results_);
+          if (is_stopped_)
+            return;
         }
+        if (!is_begun)
+          take(results_.references, control_.earlier.references,
+               [&](const ErrorEstimate &one)
+               { return one.series == place.series().name && one.level == place.number(); });
       }
 
-      bool is_affordable(const Records &before, const Place &place, unsigned int level,
-                         const Method &method)
+      /// Records of an earlier study; what came with them goes to the results.
+      Records take_earlier(const Place &place, const Method &method)
       {
-        const double seconds = control_.budget > 0 ? expected_seconds(before, place, level) : 0;
-        if (seconds <= control_.budget)
+        Records own;
+        take(own, control_.earlier.records,
+             [&](const Record &record) { return is_of(record, place, method); });
+        if (own.empty())
+          return own;
+        take(results_.estimates, control_.earlier.estimates,
+             [&](const ErrorEstimate &one)
+             {
+               return one.method == method.name() && one.series == place.series().name &&
+                      one.level == place.number();
+             });
+        take(results_.maps, control_.earlier.maps,
+             [&](const ErrorMap &one) {
+               return place.is_finest() && one.method == method.name() &&
+                      one.series == place.series().name;
+             });
+        return own;
+      }
+
+      bool is_affordable(const Place &place, const Method &method)
+      {
+        if (control_.budget == 0)
+          return true;
+        const double seconds = expected_seconds(results_.records, place, method);
+        // each rank has its own clock, and all must agree
+        if (!control_.ranks.any(seconds > control_.budget))
           return true;
         results_.left_out.push_back(
             method.name() + ", " + place.series().name +
@@ -160,38 +229,44 @@ namespace plumbline::study
         return false;
       }
 
-      void show_progress(const Key &key) const
+      void show_progress(const Key &key, const std::string &what) const
       {
         if (control_.on_progress)
           control_.on_progress(analysis_.name + ", " + key.series +
-                                   ", h = " + base::to_text(key.h, 4) + ": " + key.label(),
+                                   ", h = " + base::to_text(key.h, 4) + ": " + what,
                                static_cast<double>(n_done_) / static_cast<double>(n_all_));
+      }
+
+      void fill_record(Record &record, const Common::Fill &fill) const
+      {
+        constexpr double patience = 30; // with ranks that wait for the failed one in a solve [s]
+        try
+        {
+          ranks_.communicator().together([&] { fill(record); }, patience);
+        }
+        catch (const NumericalError &error)
+        {
+          record.failure = error.what();
+        }
       }
 
       void make_part(const Record &begun, const Common::Fill &fill)
       {
-        const auto known = std::find_if(control_.earlier.begin(), control_.earlier.end(),
+        const Records &earlier = control_.earlier.records;
+        const auto known = std::find_if(earlier.begin(), earlier.end(),
                                         [&](const Record &one) { return one.key == begun.key; });
-        if (known != control_.earlier.end())
+        if (known != earlier.end())
         {
           parts_.push_back(*known);
           return;
         }
         if (control_.should_stop && control_.should_stop())
           throw Interrupted();
-        show_progress(begun.key);
-        Record record = begun;
-        try
-        {
-          fill(record);
-        }
-        catch (const NumericalError &error)
-        {
-          record.failure = error.what();
-        }
-        parts_.push_back(record);
+        show_progress(begun.key, begun.key.label());
+        parts_.push_back(begun);
+        fill_record(parts_.back(), fill);
         if (control_.on_records)
-          control_.on_records({record});
+          control_.on_records({parts_.back()});
       }
 
       Records analyse(const Place &place, const Method &method)
@@ -200,7 +275,7 @@ namespace plumbline::study
         Records records;
         parts_.clear();
         if (!analysis_.has_parts)
-          show_progress(place.record(analysis_.name, method).key);
+          show_progress(place.record(analysis_.name, method).key, method.name());
         try
         {
           records = analysis_.analyse(place, method);
@@ -212,7 +287,7 @@ namespace plumbline::study
         }
         catch (const Interrupted &)
         {
-          results_.is_complete = false;
+          is_stopped_ = true;
         }
         double known = 0;
         for (const Record &record : records)
@@ -230,11 +305,12 @@ namespace plumbline::study
       const scene::Scene &scene_;
       const Methods &methods_;
       const RunControl &control_;
-      std::vector<Records> records_; ///< of each method
-      StudyResults results_;
+      const base::SeparateCommunicator ranks_{control_.ranks};
       Common common_;
+      StudyResults &results_ = common_.results;
       Records parts_; ///< of the present method and place
       std::size_t n_done_ = 0, n_all_ = 0;
+      bool is_stopped_ = false;
     };
   } // namespace
 

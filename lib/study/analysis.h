@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/communicator.h"
 #include "method/method.h"
 #include "scene/capabilities.h"
 #include "scene/problem.h"
@@ -36,8 +37,22 @@ namespace plumbline::study
   {
     using Fill = std::function<void(Record &)>;
 
+    StudyResults results; ///< so far
+    Methods methods;      ///< that are run
     std::function<void(const Record &begun, const Fill &fill)> make_part = {};
-    std::map<std::string, std::shared_ptr<void>> kept = {};
+    std::function<void(Record &record, const Fill &fill)> fill = {};
+    std::map<std::string, std::shared_ptr<void>> slots = {};
+
+    /// What methods and places share, and may change; made by its default constructor when it is
+    /// first asked for, and there until the study ends.
+    template <class T>
+    T &kept(const std::string &name)
+    {
+      auto &slot = slots[name];
+      if (!slot)
+        slot = std::make_shared<T>();
+      return *static_cast<T *>(slot.get());
+    }
   };
 
   /// A level of a study, where an analysis is made by one method after the other.
@@ -68,16 +83,20 @@ namespace plumbline::study
       return *static_cast<const T *>(slot.get());
     }
 
-    /// What methods and places share, and may change; made by its default constructor when it is
-    /// first asked for, and there until the study ends.
+    /// As Common::kept.
     template <class T>
     T &kept(const std::string &name) const
     {
-      auto &slot = common_.kept[name];
-      if (!slot)
-        slot = std::make_shared<T>();
-      return *static_cast<T *>(slot.get());
+      return common_.kept<T>(name);
     }
+
+    const Methods &methods() const { return common_.methods; } ///< of the study
+
+    /// Of the study so far, for what is found besides records; its lists only grow.
+    StudyResults &results() const { return common_.results; }
+
+    /// NumericalError becomes the record's failure. What fails on one rank fails on all.
+    void fill(Record &record, const Common::Fill &fill) const { common_.fill(record, fill); }
 
     /// One of several records of a method, which takes long: it is saved as soon as it is there,
     /// an interrupt is heeded before it, and that of an earlier study is taken over.
@@ -121,12 +140,18 @@ namespace plumbline::study
     /// What else is refused before the first record, where that takes a moment; samples are not
     /// asked one by one. Empty: nothing.
     std::function<void(const scene::Scene &, const Methods &, unsigned int n_levels)> check = {};
+    /// What comes before the first method at a place that has something to do, e.g. a reference;
+    /// its errors end the study. Empty: nothing.
+    std::function<void(const Place &)> begin = {};
     /// What one method finds at one level: a record, or several that differ in case or variant.
     /// NumericalError becomes the failure of a record.
     std::function<Records(const Place &, const Method &)> analyse = {};
     bool has_parts = false; ///< `analyse` makes its records by Place::part
+    /// What is entered into records once all of them are there; empty: nothing.
+    std::function<void(const scene::Scene &, Common &)> complete = {};
     /// Trends, powers, verdicts and expectations of its own; empty: none.
     std::function<void(const scene::Scene &, StudyResults &)> conclude = {};
+    bool has_decisive_error = false;   ///< that of the scene
     bool are_failures_findings = true; ///< of methods; else numerical failures (exit code 3)
     /// The names of scalars, and of a field, that samples count, or how those names end; empty: all
     /// scalars.
@@ -147,7 +172,11 @@ namespace plumbline::study
     std::function<void(const std::string &what, double fraction)> on_progress = {};
     std::function<bool()> should_stop = {}; ///< asked before each method at each level, and part
     std::function<void(const Records &)> on_records = {}; ///< that were made just now
-    Records earlier = {};                                 ///< that need not be made again
+    /// After them, of all that is there; its lists have grown.
+    std::function<void(const StudyResults &)> on_result = {};
+    /// Records that need not be made again, with what was found besides them, and provenance.
+    StudyResults earlier = {};
+    base::Communicator ranks = base::Communicator::alone(); ///< that run this study together
   };
 
   /// All methods at all levels of a scene's series: the one loop for every analysis.

@@ -63,8 +63,8 @@ namespace plumbline::study
     const bool is_nodal =
         scene::quantity(scene.study.decisive_error.norm) == scene::Quantity::nodal;
     std::vector<SampleCase> cases;
-    SweepControl control;
-    control.on_solution =
+    StaticsOptions options;
+    options.on_solution =
         [&](const problem::Problem<2> &problem, const Solution &solution, const Record &run)
     {
       SampleCase one;
@@ -79,7 +79,10 @@ namespace plumbline::study
       one.field = field_of(problem, solution, is_nodal);
       cases.push_back(std::move(one));
     };
-    const StudyResults results = run_sweep(scene, methods, available, control);
+    RunControl control;
+    control.ranks = base::Communicator::all();
+    const StudyResults results =
+        run_study(statics_analysis(available, options), scene, methods, control);
     for (const Record &run : results.records)
       if (!run.failure.empty())
         throw NumericalError(run.key.method + ", " + run.key.problem + ", " + run.key.series +

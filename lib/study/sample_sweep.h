@@ -3,7 +3,7 @@
 #include "scene/scene.h"
 #include "study/analysis.h"
 #include "study/sampling.h"
-#include "study/sweep.h"
+#include "study/statics.h"
 
 namespace plumbline::study
 {

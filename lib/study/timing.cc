@@ -42,28 +42,4 @@ namespace plumbline::study
     return run.key.method == method && run.key.problem == problem && run.key.series == series &&
            run.key.level == level;
   }
-
-  std::optional<double> expected_seconds(const std::vector<Record> &runs, const std::string &method,
-                                         const std::string &problem, const std::string &series,
-                                         unsigned int level)
-  {
-    constexpr double usual_growth = 4; // unknowns, as h halves
-    if (level == 0)
-      return 0;
-    const auto find = [&](unsigned int wanted) -> const Record *
-    {
-      for (const Record &run : runs)
-        if (is_same_run(run, method, problem, series, wanted))
-          return &run;
-      return nullptr;
-    };
-    const Record *last = find(level - 1);
-    if (last == nullptr)
-      return {};
-    const Record *before = level < 2 ? nullptr : find(level - 2);
-    const double growth = before == nullptr || before->cost.seconds() == 0
-                              ? usual_growth
-                              : last->cost.seconds() / before->cost.seconds();
-    return growth * last->cost.seconds();
-  }
 } // namespace plumbline::study

@@ -4,7 +4,6 @@
 #include "study/study_results.h"
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,10 +17,4 @@ namespace plumbline::study
 
   bool is_same_run(const Record &run, const std::string &method, const std::string &problem,
                    const std::string &series, unsigned int level);
-
-  /// What a level is expected to cost, from the two before it [CPU s]; nothing if the one before is
-  /// not among the runs.
-  std::optional<double> expected_seconds(const std::vector<Record> &runs, const std::string &method,
-                                         const std::string &problem, const std::string &series,
-                                         unsigned int level);
 } // namespace plumbline::study

@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "scene/problem.h"
 #include "study/preflight.h"
-#include "study/sweep.h"
+#include "study/statics.h"
 
 #include "method/lattice_discretisation.h"
 #include "tests/study/given_solutions.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "method/discretisation.h"
-#include "study/sweep.h"
+#include "study/statics.h"
 
 /// Methods that solve nothing, for what is done with solutions.
 namespace plumbline::study
@@ -72,6 +72,21 @@ namespace plumbline::study
     std::string name_;
     MethodFamily family_;
   };
+
+  struct SweepControl : RunControl, StaticsOptions
+  {
+  };
+
+  /// Static solutions of a scene, by all ranks together.
+  inline StudyResults run_sweep(const scene::Scene &scene, const Methods &methods,
+                                const Methods &available, const SweepControl &options = {},
+                                const StudyResults &earlier = {})
+  {
+    RunControl control = options;
+    control.earlier = earlier;
+    control.ranks = base::Communicator::all();
+    return run_study(statics_analysis(available, options), scene, methods, control);
+  }
 
   /// Solutions as if each had cost so many CPU seconds; 1 is enough not to be repeated for its
   /// time.

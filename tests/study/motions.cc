@@ -420,9 +420,9 @@ TEST(Motions, that_are_taken_over_stand_for_their_own_step)
   for (std::size_t n_done = 0; n_done <= 4; ++n_done)
   {
     RunControl control;
-    control.earlier = whole.records;
-    control.earlier.resize(n_done);
-    for (Record &motion : control.earlier)
+    control.earlier.records = whole.records;
+    control.earlier.records.resize(n_done);
+    for (Record &motion : control.earlier.records)
       motion.cost.solve_seconds = 77; // known again
     std::size_t n_made = 0;
     control.on_records = [&](const Records &records) { n_made += records.size(); };

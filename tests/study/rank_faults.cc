@@ -1,7 +1,7 @@
 // A fault of one rank alone is one of all: they throw the same, and none waits for another.
 #include "base/communicator.h"
 #include "base/error.h"
-#include "study/sweep.h"
+#include "study/statics.h"
 
 #include <deal.II/base/exceptions.h>
 

@@ -1,5 +1,5 @@
 // A sweep takes over what an earlier one has finished, and nothing of what it has not.
-#include "study/sweep.h"
+#include "study/statics.h"
 
 #include "meshfree/method.h"
 #include "reference/method.h"

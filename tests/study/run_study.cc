@@ -105,7 +105,7 @@ TEST(RunStudy, stops_between_methods_and_goes_on_from_records)
   EXPECT_FALSE(first.is_complete);
   EXPECT_EQ(first.records.size(), 5u);
   control.should_stop = {};
-  control.earlier = first.records;
+  control.earlier.records = first.records;
   control.on_records = [&](const Records &records) { n_made += records.size(); };
   const StudyResults second = run(make_scene(), control);
   EXPECT_EQ(n_made, 7u);

@@ -1,6 +1,6 @@
 // What a sweep adds to its solves: estimates, what the smallest model saved, what a budget leaves
 // out.
-#include "study/sweep.h"
+#include "study/statics.h"
 
 #include "meshfree/method.h"
 #include "reference/method.h"

@@ -1,0 +1,298 @@
+#include "study/statics.h"
+
+#include "base/communicator.h"
+#include "base/error.h"
+#include "study/comparison.h"
+#include "study/conclusions.h"
+#include "study/contradiction.h"
+#include "study/motion_norms.h"
+#include "study/node_warnings.h"
+#include "study/preflight.h"
+#include "study/reference_estimate.h"
+#include "study/round_off.h"
+#include "study/sampling.h"
+#include "study/saving.h"
+#include "study/self_convergence.h"
+#include "study/solution_record.h"
+#include "study/timing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace plumbline::study
+{
+  namespace
+  {
+    constexpr auto own_finest = "own finest level"; ///< what the study keeps of it
+
+    /// A case of a level, and what its solutions are held against.
+    struct OpenCase : scene::Case
+    {
+      std::string name;
+      Targets targets = {};
+    };
+    using OpenCases = std::vector<OpenCase>;
+
+    /// All cases of a level.
+    class LevelOfStatics
+    {
+    public:
+      LevelOfStatics(const Place &place, const Methods &available, const StaticsOptions &options)
+          : place_(place), scene_(place.scene()), available_(available), options_(options),
+            results_(place.results()),
+            cases_(place.shared<OpenCases>("cases", [this] { return open_cases(); }))
+      {
+      }
+
+      /// Of the finest level, where the horizon is the shortest and limits are near.
+      void warn() const
+      {
+        if (!place_.is_finest() || !is_of_first_series())
+          return;
+        const auto add = [&](const std::string &text)
+        {
+          auto &all = results_.warnings; // an earlier study may have it
+          if (std::find(all.begin(), all.end(), text) == all.end())
+            all.push_back(text);
+        };
+        if (const auto spectrum = field_spectrum(scene_.random); spectrum && spectrum->is_grey())
+          add("Random/modes: " + words_of(*spectrum));
+        for (const std::string &text : node_warnings(cases_.front(), place_.methods()))
+          add(text);
+        for (const OpenCase &one : cases_)
+          if (const auto found = measure_contradiction(one.problem); found && found->is_clear())
+            add(one.name + ": " + found->text());
+      }
+
+      /// All cases by one discretisation; on several ranks, where all must fail alike, one by one.
+      Records run(const Method &method) const
+      {
+        const bool is_alone = base::Communicator::all().n_ranks() == 1;
+        std::vector<analysis::Outcome> solved;
+        Records records;
+        for (std::size_t i = 0; i < cases_.size(); ++i)
+        {
+          records.push_back(empty_record(method, cases_[i]));
+          place_.fill(records.back(),
+                      [&](Record &record)
+                      {
+                        if (!is_alone)
+                          solved = solve_cases(method, {&cases_[i].problem});
+                        else if (solved.empty())
+                          solved = solve_cases(method, problems());
+                        const analysis::Outcome &outcome = solved[is_alone ? i : 0];
+                        if (!outcome.solution)
+                          std::rethrow_exception(outcome.failure);
+                        evaluate(method, cases_[i], *outcome.solution, record);
+                      });
+        }
+        return records;
+      }
+
+    private:
+      bool is_of_first_series() const
+      {
+        return place_.series().name == scene_.study.series.front().name;
+      }
+
+      OpenCases open_cases() const
+      {
+        OpenCases cases;
+        const auto names = scene_.problem.case_names();
+        for (unsigned int c = 0; c < names.size(); ++c)
+          cases.push_back({make_case(scene_, c, place_.level()), names[c]});
+        for (OpenCase &one : cases)
+        {
+          if (scene_.reference.method)
+          {
+            ReferenceAverages reference = solve_reference(
+                one, *find_method(available_, *scene_.reference.method, "Reference/method"),
+                scene_.reference);
+            results_.references.push_back(placed(reference.estimate, one.name));
+            one.targets.reference = std::move(reference.averages);
+          }
+          if (scene_.problem.local_solution == scene::LocalSolution::computed)
+            one.targets.local = local_averages(one.problem);
+        }
+        return cases;
+      }
+
+      ErrorEstimate placed(ErrorEstimate estimate, const std::string &name) const
+      {
+        estimate.problem = name;
+        estimate.series = place_.series().name;
+        estimate.level = place_.number();
+        return estimate;
+      }
+
+      /// Besides the reference.
+      bool is_estimated(const Method &method, const problem::Problem<2> &problem) const
+      {
+        return method.family() == MethodFamily::reference &&
+               method.name() != scene_.reference.method &&
+               (scene_.reference.estimate == scene::Estimate::every ||
+                (scene_.reference.estimate == scene::Estimate::automatic &&
+                 !scene_.reference.method && !problem.solution));
+      }
+
+      /// At the first level that is run, for the first method of each side, where it is cheap.
+      bool is_saving_due(const Method &method, const OpenCase &one, const Record &record) const
+      {
+        constexpr std::uint64_t most_bonds = 100000;
+        const auto first =
+            std::find_if(place_.methods().begin(), place_.methods().end(),
+                         [&](const auto &other) { return other->family() == method.family(); });
+        return &one == &cases_.front() && is_of_first_series() && place_.number() == 0 &&
+               record.cost.n_bonds <= most_bonds && one.full_model && first->get() == &method;
+      }
+
+      Record empty_record(const Method &method, const OpenCase &one) const
+      {
+        Record record = place_.record("statics", method);
+        record.key.problem = one.name;
+        if (const problem::MeshDomain *mesh = one.problem.on_mesh())
+          record.set("geometry seconds",
+                     mesh->mesh_seconds +
+                         (method.family() == MethodFamily::meshfree ? mesh->cells_seconds : 0),
+                     "CPU s");
+        return record;
+      }
+
+      /// Everything that is known of a solution.
+      void evaluate(const Method &method, const OpenCase &one, const Solution &solution,
+                    Record &run) const
+      {
+        const problem::Problem<2> &problem = one.problem;
+        run.cost = solution.cost;
+        run.set("variation", variation(problem, solution));
+        run.set("round-off", round_off_error(problem, solution));
+        run.set("area", area_of(problem), "length^2");
+        set_diagnostics(run, solution.diagnostics);
+        const auto found = errors(scene_.study.norms, problem, solution, one.targets);
+        for (const auto &[error, value] : found)
+          run.set(error, value);
+        if (options_.on_solution)
+          options_.on_solution(problem, solution, run);
+        if (scene_.study.decisive_error.target == scene::Target::finest)
+          place_.kept<OwnFinest>(own_finest).keep(run, problem, solution.averages);
+        for (const auto &[error, value] : found)
+          if (!std::isfinite(value))
+            throw NumericalError("the error " + error + " is not a finite number");
+        if (is_estimated(method, problem))
+          results_.estimates.push_back(
+              placed(estimate_error(one, method, solution, true), one.name));
+        if (is_saving_due(method, one, run))
+          if (const auto saving = measure_saving(one, method, solution))
+            results_.savings.push_back(*saving);
+        if (place_.is_finest())
+          finish_series(solution, run, problem,
+                        one.targets.reference.empty() ? one.targets.local : one.targets.reference);
+      }
+
+      /// Averages of the local limit, by classical finite elements on the mesh refined once.
+      std::vector<double> local_averages(const problem::Problem<2> &problem) const
+      {
+        problem::Problem<2> fine = problem;
+        fine.on_mesh()->mesh =
+            std::make_shared<const geometry::Mesh>(geometry::refine(*problem.mesh()));
+        return analysis::solve(*find_method(available_, "LOCAL", "Problem/local solution"), fine)
+            .averages;
+      }
+
+      std::vector<const problem::Problem<2> *> problems() const
+      {
+        std::vector<const problem::Problem<2> *> all;
+        for (const OpenCase &one : cases_)
+          all.push_back(&one.problem);
+        return all;
+      }
+
+      /// Of the cases by one discretisation, and what each costs.
+      std::vector<analysis::Outcome>
+      solve_cases(const Method &method, const std::vector<const problem::Problem<2> *> &cases) const
+      {
+        return solve_and_time(
+            [&] {
+              return options_.solve ? options_.solve(method, cases)
+                                    : analysis::solve(method, cases);
+            });
+      }
+
+      /// What is done with a solution of the finest level: stored, and drawn for the first series.
+      void finish_series(const Solution &solution, const Record &run,
+                         const problem::Problem<2> &problem,
+                         const std::vector<double> &target) const
+      {
+        if (options_.on_finest)
+          options_.on_finest(solution, run);
+        if (run.key.problem != cases_.back().name || !is_of_first_series() ||
+            (!problem.solution && target.empty()))
+          return;
+        ErrorMap map = error_map(scene_.study.decisive_error.norm, problem, solution, target);
+        map.method = run.key.method;
+        map.problem = run.key.problem;
+        map.series = run.key.series;
+        map.size = size_of(run);
+        results_.maps.push_back(map);
+      }
+
+      const Place &place_;
+      const scene::Scene &scene_;
+      const Methods &available_;
+      const StaticsOptions &options_;
+      StudyResults &results_;
+      const OpenCases &cases_;
+    };
+
+    /// Results read case by case.
+    void sort_by_case(const scene::Scene &scene, StudyResults &results)
+    {
+      const auto cases = scene.problem.case_names();
+      const auto place = [&](const auto &one)
+      {
+        const auto series = std::find_if(scene.study.series.begin(), scene.study.series.end(),
+                                         [&](const auto &s) { return s.name == one.series; });
+        return std::tuple(std::find(cases.begin(), cases.end(), one.problem) - cases.begin(),
+                          series - scene.study.series.begin(), one.level);
+      };
+      const auto sort = [&](auto &list, const auto &of)
+      {
+        std::stable_sort(list.begin(), list.end(),
+                         [&](const auto &a, const auto &b) { return place(of(a)) < place(of(b)); });
+      };
+      const auto itself = [](const ErrorEstimate &one) -> const ErrorEstimate & { return one; };
+      sort(results.records, [](const Record &one) -> const Key & { return one.key; });
+      sort(results.references, itself);
+      sort(results.estimates, itself);
+    }
+  } // namespace
+
+  Analysis statics_analysis(const Methods &available, const StaticsOptions &options)
+  {
+    Analysis analysis{"statics", "Static solutions"};
+    analysis.choose_methods = [](const scene::Scene &scene, const Methods &all,
+                                 unsigned int n_levels, unsigned int n_jobs)
+    {
+      Methods methods = study::choose_methods(scene, all);
+      check_memory(scene, methods, all, n_levels, n_jobs);
+      return methods;
+    };
+    analysis.check = [](const scene::Scene &scene, const Methods &, unsigned int)
+    { check_data(scene); };
+    analysis.begin = [available, options](const Place &place)
+    { LevelOfStatics(place, available, options).warn(); };
+    analysis.analyse = [available, options](const Place &place, const Method &method)
+    { return LevelOfStatics(place, available, options).run(method); };
+    analysis.complete = [](const scene::Scene &scene, Common &common)
+    { common.kept<OwnFinest>(own_finest).compare(scene, common.results.records); };
+    analysis.conclude = [](const scene::Scene &scene, StudyResults &results)
+    {
+      sort_by_case(scene, results);
+      study::conclude(scene, results);
+    };
+    analysis.has_decisive_error = true;
+    analysis.are_failures_findings = false;
+    return analysis;
+  }
+} // namespace plumbline::study

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "analysis/statics.h"
+#include "study/analysis.h"
+
+#include <functional>
+#include <vector>
+
+namespace plumbline::study
+{
+  using analysis::Solution;
+
+  /// What is done with static solutions besides.
+  struct StaticsOptions
+  {
+    std::function<void(const Solution &, const Record &)> on_finest = {}; ///< of finest levels
+    /// Of every level, their records with errors.
+    std::function<void(const problem::Problem<2> &, const Solution &, const Record &)> on_solution =
+        {};
+    /// How cases are solved; empty: analysis::solve.
+    std::function<std::vector<analysis::Outcome>(const Method &,
+                                                 const std::vector<const problem::Problem<2> *> &)>
+        solve = {};
+  };
+
+  /// Solutions of all cases, held against exact solution, local limit, reference and the own finest
+  /// level. On several ranks all run it together.
+  /// @param available  for references and the local limit
+  Analysis statics_analysis(const Methods &available, const StaticsOptions &options = {});
+} // namespace plumbline::study
