@@ -76,7 +76,8 @@ namespace plumbline::scene
           if (!(is_h ? series.levels[i].h < series.levels[i - 1].h
                      : series.levels[i].horizon < series.levels[i - 1].horizon))
             throw InputError(std::string(is_h ? "Study/h" : "Study/horizon") +
-                             " must be strictly decreasing (series '" + series.name + "')" +
+                             " must be strictly decreasing (series '" + series.name +
+                             "'); write the coarsest level first, such as 0.1, 0.05, 0.025" +
                              hint_of_order(series, i, is_h));
       }
       std::set<std::string> cases;

@@ -227,18 +227,26 @@ namespace plumbline::scene
   const Keys::Key &Keys::find(const std::string &path) const
   {
     const std::string section = path.substr(0, path.find('/')), current = current_key(path);
-    std::vector<std::string> similar, every;
+    std::vector<std::string> similar, sections;
     for (const Key &key : keys_)
     {
       if (key.path() == current)
         return key;
-      every.push_back(key.path());
+      if (!key.section.empty() &&
+          std::find(sections.begin(), sections.end(), key.section) == sections.end())
+        sections.push_back(key.section);
       if (key.section == section || key.name == path ||
           current_key(key.section + "/" + path) == key.path())
         similar.push_back(key.path());
     }
-    throw InputError("key '" + path + "' is not known; write one of: " +
-                     join(similar.empty() ? every : similar, ", "));
+    if (similar.empty())
+      throw InputError(
+          "key '" + path + "' is not known" +
+          (path.find('/') == std::string::npos ? std::string("")
+                                               : ", for there is no section '" + section + "'") +
+          "; keys are written Section/key, with a section of: " + join(sections, ", ") +
+          "; 'plumbline describe SECTION' lists its keys");
+    throw InputError("key '" + path + "' is not known; write one of: " + join(similar, ", "));
   }
 
   void Keys::set(const std::string &path, const std::string &given_value)

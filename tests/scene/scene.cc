@@ -174,7 +174,9 @@ TEST(Scene, templates_parse_and_describe_knows_every_section)
 TEST(SceneErrors, unknown_keys_and_wrong_types)
 {
   expect_error(section("Study", "mesh = 0.1"), "mesh");
-  expect_error("subsection Sudy\n set h = 1\nend\n", "Sudy");
+  expect_error("subsection Sudy\n set h = 1\nend\n",
+               "key 'Sudy/h' is not known, for there is no section 'Sudy'; keys are written "
+               "Section/key, with a section of: Domain, Random, Kernel");
   expect_error(section("Geometry", "checks = many"), "checks");
   expect_error(section("Kernel", "type = gauss"), "linear-decay");
   expect_error(
@@ -252,7 +254,9 @@ TEST(SceneErrors, expressions_and_targets)
 
 TEST(SceneErrors, what_would_merge_or_mislead_silently)
 {
-  expect_error(section("Study", "h = 0.05, 0.1"), "Study/h must be strictly decreasing");
+  expect_error(section("Study", "h = 0.05, 0.1"),
+               "Study/h must be strictly decreasing (series 'm = 3'); write the coarsest level "
+               "first, such as 0.1");
   expect_error(section("Study", "h = 0.1, 0.1, 0.05"), "strictly decreasing");
   expect_error(section("Study", "m = 3, 3"), "the series 'm = 3' occurs twice");
   expect_error(
