@@ -90,8 +90,9 @@ namespace plumbline::app
     if (is(static_cast<const CLI::RequiredError *>(nullptr)))
       return said.find("ubcommand") == std::string::npos
                  ? said.substr(0, said.find(' ')) + " is missing" + help
-                 : "no command that is known is given; write plumbline run SCENE, or 'plumbline "
-                   "--help' for the others";
+                 : "no command that is known is given; write plumbline run SCENE, or another of "
+                   "check, moduli, stability, dispersion, crack, grow, strip and sample "
+                   "('plumbline --help' lists all)";
     if (is(static_cast<const CLI::ConversionError *>(nullptr)))
       return "the value of " + behind(": ") + " is not of the right kind" + help;
     if (is(static_cast<const CLI::ArgumentMismatch *>(nullptr)))
