@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -23,10 +24,13 @@ namespace plumbline::geometry
       const double cells = length / h;
       if (std::abs(cells - std::round(cells)) > whole)
       {
+        constexpr int n_digits = 10; // 12.000005 cells are not 12
         std::ostringstream message;
-        message << "mesh size h = " << h << " does not divide the box [" << box.lower << "; "
-                << box.upper << "] of Domain into whole cells (" << cells
-                << " cells); choose h so that every side is a multiple of it";
+        message
+            << std::setprecision(n_digits) << "mesh size h = " << h << " does not divide the box ["
+            << box.lower << "; " << box.upper << "] of Domain into whole cells (" << cells
+            << " cells); choose h so that every side is a multiple of it, as a fraction such as "
+            << "1/12 if it has no short decimal";
         throw InputError(message.str());
       }
       if (cells > most_cells)

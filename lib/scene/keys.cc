@@ -1,6 +1,8 @@
 #include "scene/keys.h"
 
 #include "base/error.h"
+#include "base/number_text.h"
+#include "base/similar_words.h"
 #include "base/text_file.h"
 #include "scene/aliases.h"
 #include "scene/values.h"
@@ -9,6 +11,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 
 namespace plumbline::scene
@@ -55,6 +58,41 @@ namespace plumbline::scene
       }
     };
 
+    /// One of some words, in any case.
+    class Choice : public InWords<Patterns::Selection>
+    {
+    public:
+      explicit Choice(const std::vector<std::string> &words)
+          : InWords<Patterns::Selection>("one of " + join(words, ", "), join(words, "|")),
+            words_(words)
+      {
+      }
+      std::unique_ptr<PatternBase> clone() const override
+      {
+        return std::make_unique<Choice>(*this);
+      }
+      const std::vector<std::string> &words() const { return words_; }
+
+      /// The word as it is declared, or the text that is none.
+      std::string declared(const std::string &text) const
+      {
+        if (match(text))
+          return text;
+        std::string found = text;
+        for (const std::string &word : words_)
+          if (base::to_lower(word) == base::to_lower(text))
+          {
+            if (found != text)
+              return text; // two words differ in their case alone
+            found = word;
+          }
+        return found;
+      }
+
+    private:
+      std::vector<std::string> words_;
+    };
+
     constexpr double least_positive = 1e-300;
     constexpr unsigned int any_length = std::numeric_limits<unsigned int>::max();
 
@@ -70,6 +108,13 @@ namespace plumbline::scene
       return dynamic_cast<const Patterns::List *>(&allowed) != nullptr;
     }
 
+    /// A word of a choice that the text may stand for.
+    std::string word_hint(const std::string &text, const Patterns::PatternBase &allowed)
+    {
+      const auto *choice = dynamic_cast<const Choice *>(&allowed);
+      return choice == nullptr ? "" : base::did_you_mean(text, choice->words());
+    }
+
     /// The part of a list that is not allowed; else the whole text.
     std::string culprit(const std::string &text, const Patterns::PatternBase &allowed)
     {
@@ -79,6 +124,45 @@ namespace plumbline::scene
           if (!list->get_base_pattern().match(part))
             return culprit(part, list->get_base_pattern());
       return text;
+    }
+  } // namespace
+
+  namespace
+  {
+    /// A fraction of two numbers, as 1/12, as the shortest decimal that is the same number; any
+    /// other text as it is.
+    std::string without_fraction(const std::string &text)
+    {
+      const Patterns::Double number;
+      const auto slash = text.find('/');
+      if (slash == std::string::npos)
+        return text;
+      const std::string over = trim(text.substr(0, slash)), under = trim(text.substr(slash + 1));
+      if (!number.match(over) || !number.match(under) || to_number(under) == 0)
+        return text;
+      const double value = to_number(over) / to_number(under);
+      constexpr int fewest = 15, always_enough = 17; // digits of a double
+      int n_digits = fewest;
+      while (n_digits < always_enough && to_number(base::to_text(value, n_digits)) != value)
+        ++n_digits;
+      return base::to_text(value, n_digits);
+    }
+
+    /// A value as its key is to have it: words as they are declared, numbers without fractions.
+    std::string normalised(const std::string &text, const Patterns::PatternBase &allowed)
+    {
+      if (const auto *choice = dynamic_cast<const Choice *>(&allowed))
+        return choice->declared(text);
+      if (allowed.match(text) || text.find('/') == std::string::npos)
+        return text;
+      if (dynamic_cast<const Patterns::Double *>(&allowed) != nullptr)
+        return without_fraction(text);
+      if (dynamic_cast<const Numbers *>(&allowed) == nullptr)
+        return text;
+      std::vector<std::string> parts = dealii::Utilities::split_string_list(text, ",");
+      std::transform(parts.begin(), parts.end(), parts.begin(), without_fraction);
+      const std::string decimals = join(parts, ", ");
+      return allowed.match(decimals) ? decimals : text; // the message has the text that was given
     }
   } // namespace
 
@@ -94,8 +178,7 @@ namespace plumbline::scene
 
   Allowed one_of(const std::vector<std::string> &words)
   {
-    return std::make_shared<InWords<Patterns::Selection>>("one of " + join(words, ", "),
-                                                          join(words, "|"));
+    return std::make_shared<Choice>(words);
   }
 
   Allowed count(int lowest, int highest)
@@ -224,35 +307,74 @@ namespace plumbline::scene
     remember(name, allowed, help);
   }
 
-  const Keys::Key &Keys::find(const std::string &path) const
+  std::vector<const Keys::Key *> Keys::matches(const std::string &path) const
   {
-    const std::string section = path.substr(0, path.find('/')), current = current_key(path);
-    std::vector<std::string> similar, sections;
+    const std::string current = current_key(path), given = base::to_lower(path);
+    std::vector<const Key *> found;
     for (const Key &key : keys_)
     {
       if (key.path() == current)
-        return key;
-      if (!key.section.empty() &&
-          std::find(sections.begin(), sections.end(), key.section) == sections.end())
-        sections.push_back(key.section);
-      if (key.section == section || key.name == path ||
+        return {&key};
+      if (base::to_lower(key.path()) == given || base::to_lower(key.name) == given ||
           current_key(key.section + "/" + path) == key.path())
-        similar.push_back(key.path());
+        found.push_back(&key);
     }
-    if (similar.empty())
-      throw InputError(
-          "key '" + path + "' is not known" +
-          (path.find('/') == std::string::npos ? std::string("")
-                                               : ", for there is no section '" + section + "'") +
-          "; keys are written Section/key, with a section of: " + join(sections, ", ") +
-          "; 'plumbline describe SECTION' lists its keys");
-    throw InputError("key '" + path + "' is not known; write one of: " + join(similar, ", "));
+    return found;
+  }
+
+  const Keys::Key &Keys::find(const std::string &path) const
+  {
+    const std::vector<const Key *> found = matches(path);
+    if (found.size() != 1)
+      refuse(path);
+    return *found[0];
+  }
+
+  void Keys::refuse(const std::string &path) const
+  {
+    const std::string section = base::to_lower(path.substr(0, path.find('/')));
+    std::vector<std::string> alike, every, sections;
+    for (const Key *key : matches(path))
+      alike.push_back(key->path());
+    const bool is_ambiguous = !alike.empty();
+    for (const Key &key : keys_)
+    {
+      every.push_back(path.find('/') == std::string::npos ? key.name : key.path());
+      if (!is_ambiguous && base::to_lower(key.section) == section)
+        alike.push_back(key.path());
+      if (!key.section.empty() && (sections.empty() || sections.back() != key.section))
+        sections.push_back(key.section);
+    }
+    std::vector<std::string> meant;
+    for (const std::string &similar : base::similar_words(path, every))
+      for (const Key *key : matches(similar))
+        if (std::find(meant.begin(), meant.end(), key->path()) == meant.end())
+          meant.push_back(key->path());
+    constexpr std::size_t most = 3;
+    const std::string no_section =
+        path.find('/') == std::string::npos
+            ? ""
+            : ", for there is no section '" + base::shown(path.substr(0, path.find('/'))) + "'";
+    throw InputError("key '" + base::shown(path) + "' is " +
+                     (is_ambiguous ? "in several sections" : "not known") +
+                     (alike.empty() ? "; the sections are " + join(sections, ", ") +
+                                          ", and 'plumbline describe WORD' finds keys by a word"
+                                    : "; write one of: " + join(alike, ", ")) +
+                     (is_ambiguous || meant.empty() || meant.size() > most
+                          ? ""
+                          : "; did you mean " + join(meant, " or ") + "?"));
+  }
+
+  std::string Keys::name_of(const std::string &path) const
+  {
+    const std::vector<const Key *> found = matches(path);
+    return found.size() == 1 ? found[0]->path() : path;
   }
 
   void Keys::set(const std::string &path, const std::string &given_value)
   {
     Key &key = keys_[static_cast<std::size_t>(&find(path) - keys_.data())];
-    const std::string value = current_value(key.path(), given_value);
+    const std::string value = normalised(current_value(key.path(), given_value), *key.allowed);
     const std::string given = path + " = '" + base::shown(value) + "' ";
     const bool is_text =
         std::none_of(value.begin(), value.end(),
@@ -270,7 +392,8 @@ namespace plumbline::scene
                        (bad == value ? "" : ", for '" + base::shown(bad) + "' in it") + "; write " +
                        key.allowed->description() + ", or remove the key: its default is '" +
                        key.by_default + "'" +
-                       comma_hint(value, is_list(*key.allowed) ? Comma::after_0 : Comma::any));
+                       comma_hint(value, is_list(*key.allowed) ? Comma::after_0 : Comma::any) +
+                       word_hint(value, *key.allowed));
     key.value = value;
     key.is_given = true;
     enter(key.section);
@@ -315,13 +438,80 @@ namespace plumbline::scene
            "\n  allowed: " + allowed->description() + "\n";
   }
 
+  namespace
+  {
+    /// Words of a search in small letters; what is left of "'s" is none.
+    std::vector<std::string> words_of(const std::string &text)
+    {
+      std::vector<std::string> words(1);
+      for (const unsigned char c : base::to_lower(text))
+        if (std::isalnum(c) != 0 || c >= 128)
+          words.back() += static_cast<char>(c);
+        else
+          words.emplace_back();
+      words.erase(std::remove_if(words.begin(), words.end(),
+                                 [](const std::string &word) { return word.size() < 2; }),
+                  words.end());
+      return words;
+    }
+
+    /// How well words fit a text: for each of them 2 where a word of it begins so, 1 elsewhere in
+    /// it.
+    int rank(const std::string &word, const std::string &text)
+    {
+      const std::vector<std::string> all = words_of(text);
+      const bool begins = std::any_of(
+          all.begin(), all.end(), [&](const std::string &one) { return one.rfind(word, 0) == 0; });
+      return begins ? 2 : base::to_lower(text).find(word) != std::string::npos ? 1 : 0;
+    }
+  } // namespace
+
+  std::string Keys::search(const std::string &text) const
+  {
+    const std::vector<std::string> words = words_of(text);
+    std::vector<std::pair<int, const Key *>> found;
+    for (const Key &key : keys_)
+    {
+      int total = 0;
+      bool has_all = !words.empty();
+      for (const std::string &word : words)
+      {
+        constexpr int of_name = 16, of_section = 4;
+        const int one = of_name * rank(word, key.name) + of_section * rank(word, key.section) +
+                        rank(word, key.help);
+        has_all = has_all && one > 0;
+        total += one;
+      }
+      if (has_all)
+        found.emplace_back(total, &key);
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto &a, const auto &b) { return a.first > b.first; });
+    constexpr std::size_t most_described = 5, most_named = 15;
+    std::string described, named;
+    for (std::size_t i = 0; i < std::min(found.size(), most_named); ++i)
+      if (i < most_described)
+        described += found[i].second->description();
+      else
+        named += (named.empty() ? "also: " : ", ") + found[i].second->path();
+    if (found.size() > most_named)
+      named += " and " + std::to_string(found.size() - most_named) + " more; give another word too";
+    return described + (named.empty() ? "" : named + "\n");
+  }
+
   std::string Keys::describe(const std::string &path) const
   {
     std::string result;
     for (const Key &key : keys_)
-      if (key.section == path)
+      if (!key.section.empty() && base::to_lower(key.section) == base::to_lower(path))
         result += key.description();
-    return result.empty() ? find(path).description() : result;
+    if (result.empty() && matches(path).size() == 1)
+      result = find(path).description();
+    if (result.empty() && path.find('/') == std::string::npos)
+      result = search(path);
+    if (result.empty())
+      refuse(path);
+    return result;
   }
 
   std::string Keys::text(bool has_help)

@@ -77,7 +77,8 @@ namespace plumbline::scene
              const Read &read, const std::string &help);
 
     /// Give "Section/key", or a key outside sections, a value; both may have former names, see
-    /// scene/aliases.h.
+    /// scene/aliases.h. Their case does not matter, nor does the section where one alone has such a
+    /// key. Numbers may be fractions: 1/12.
     /// @throws InputError  unknown key, or a value that is not allowed
     void set(const std::string &path, const std::string &given_value);
 
@@ -89,8 +90,12 @@ namespace plumbline::scene
     std::string value(const std::string &path) const; ///< as it was set, or the default
     const std::string &default_of(const std::string &path) const { return find(path).by_default; }
 
-    /// Meaning, default and allowed values of a key; for "Section", of all its keys.
-    /// @throws InputError  unknown key; the message names similar ones
+    /// Its "Section/key", of a path that set() takes; an unknown path as it is.
+    std::string name_of(const std::string &path) const;
+
+    /// Meaning, default and allowed values of a key; for "Section", of all its keys; for other
+    /// words, of the keys whose names and meanings have them, names first.
+    /// @throws InputError  no such key, nor any with these words; the message names similar ones
     std::string describe(const std::string &path) const;
 
     /// All keys with their values, and optionally with their meanings.
@@ -110,6 +115,9 @@ namespace plumbline::scene
     };
     void remember(const std::string &name, const Allowed &allowed, const std::string &help);
     const Key &find(const std::string &path) const;
+    std::vector<const Key *> matches(const std::string &path) const;
+    [[noreturn]] void refuse(const std::string &path) const;
+    std::string search(const std::string &words) const;
     static bool is_changed(const Key &key);
 
     std::string section_; ///< current section of parameters_

@@ -1,6 +1,7 @@
 #include "study/preflight.h"
 
 #include "base/error.h"
+#include "base/similar_words.h"
 #include "scene/capabilities.h"
 #include "scene/damage.h"
 #include "scene/mesh.h"
@@ -17,14 +18,15 @@ namespace plumbline::study
   std::shared_ptr<const Method> find_method(const Methods &available, const std::string &name,
                                             const std::string &key)
   {
-    std::string names;
+    std::vector<std::string> names;
     for (const auto &method : available)
     {
       if (method->name() == name)
         return method;
-      names += (names.empty() ? "" : ", ") + method->name();
+      names.push_back(method->name());
     }
-    throw InputError(key + ": method '" + name + "' is not known; choose of " + names);
+    throw InputError(key + ": method '" + name + "' is not known; choose of " +
+                     scene::join(names, ", ") + base::did_you_mean(name, names));
   }
 
   Methods named_methods(const scene::Scene &scene, const Methods &available,

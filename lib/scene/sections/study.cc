@@ -71,7 +71,9 @@ namespace plumbline::scene
              "m: horizon fixed, h to 0. delta: m = horizon / h fixed, h to 0 (decides asymptotic "
              "compatibility). delta-m: pairs of h and m. horizon: h fixed, horizon varies. "
              "variable: h and m fixed, Study/variable varies.");
-    keys.add("h", h, positive_numbers(), "Mesh sizes, separated by ',', coarse to fine. [length]");
+    keys.add("h", h, positive_numbers(),
+             "Mesh sizes, separated by ',', coarse to fine; fractions as 1/12 are numbers too. "
+             "[length]");
     keys.add("m", m, positive_numbers(),
              "Ratios horizon / h, real numbers >= 1 (delta, delta-m, variable).");
     keys.add("horizon", horizon, positive_numbers(), "Horizons (m, horizon). [length]");

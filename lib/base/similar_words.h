@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace plumbline::base
+{
+  /// In small letters; other characters than ASCII letters stay.
+  std::string to_lower(std::string text);
+
+  /// The known words that a misspelt one may stand for, without regard to case: those with the
+  /// fewest edits (a letter inserted, removed or replaced), if these are few for its length.
+  std::vector<std::string> similar_words(const std::string &word,
+                                         const std::vector<std::string> &known);
+
+  /// "; did you mean X or Y?" of at most three similar words, or nothing.
+  std::string did_you_mean(const std::string &word, const std::vector<std::string> &known);
+} // namespace plumbline::base
