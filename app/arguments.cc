@@ -1,6 +1,7 @@
 #include "arguments.h"
 
 #include "base/error.h"
+#include "base/similar_words.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -72,7 +73,45 @@ namespace plumbline::app
     return result;
   }
 
-  std::string explain(const CLI::ParseError &error)
+  namespace
+  {
+    /// What may be written in place of an argument that is not known: an option of the command that
+    /// was parsed, or a command.
+    std::string hint(const std::string &argument, const CLI::App &app)
+    {
+      const std::vector<CLI::App *> parsed = app.get_subcommands();
+      const CLI::App &command = parsed.empty() ? app : *parsed.back();
+      std::vector<std::string> known;
+      if (argument.rfind('-', 0) == 0)
+      {
+        for (const CLI::Option *option : command.get_options())
+          if (!option->get_lnames().empty() && !option->get_group().empty())
+            known.push_back("--" + option->get_lnames()[0]);
+      }
+      else if (parsed.empty())
+        for (const CLI::App *one : app.get_subcommands([](const CLI::App *) { return true; }))
+          known.push_back(one->get_name());
+      return base::did_you_mean(argument.substr(0, argument.find('=')), known);
+    }
+
+    std::string explain_extras(const CLI::App &app)
+    {
+      std::string all, hints;
+      const std::vector<std::string> extras = app.remaining(true);
+      for (const std::string &extra : extras)
+      {
+        all += (all.empty() ? "" : " ") + extra;
+        if (hints.empty())
+          hints = hint(extra, app);
+      }
+      return "the argument '" + all +
+             "' is not known; 'plumbline --help' lists the commands, 'plumbline COMMAND --help' "
+             "what they take" +
+             hints;
+    }
+  } // namespace
+
+  std::string explain(const CLI::ParseError &error, const CLI::App &app)
   {
     const std::string said = error.what();
     const auto behind = [&](const std::string &mark)
@@ -84,15 +123,14 @@ namespace plumbline::app
     { return dynamic_cast<decltype(kind)>(&error) != nullptr; };
     const std::string help = "; 'plumbline COMMAND --help' tells all";
     if (is(static_cast<const CLI::ExtrasError *>(nullptr)))
-      return "the argument '" + behind(": ") +
-             "' is not known; 'plumbline --help' lists the commands, 'plumbline COMMAND --help' "
-             "what they take";
+      return explain_extras(app);
     if (is(static_cast<const CLI::RequiredError *>(nullptr)))
       return said.find("ubcommand") == std::string::npos
                  ? said.substr(0, said.find(' ')) + " is missing" + help
                  : "no command that is known is given; write plumbline run SCENE, or another of "
                    "check, moduli, stability, dispersion, crack, grow, strip and sample "
-                   "('plumbline --help' lists all)";
+                   "('plumbline --help' lists all)" +
+                       (app.remaining().empty() ? "" : hint(app.remaining()[0], app));
     if (is(static_cast<const CLI::ConversionError *>(nullptr)))
       return "the value of " + behind(": ") + " is not of the right kind" + help;
     if (is(static_cast<const CLI::ArgumentMismatch *>(nullptr)))

@@ -8,7 +8,8 @@
 namespace plumbline::app
 {
   /// What is wrong with the arguments of the command, and the remedy.
-  std::string explain(const CLI::ParseError &error);
+  /// @param app  after it has tried to parse them
+  std::string explain(const CLI::ParseError &error, const CLI::App &app);
 
   /// The numbers that were given for an option, separated by commas, semicolons or blanks.
   /// @throws InputError  what is no number

@@ -7,6 +7,8 @@
 #include "check.h"
 #include "list.h"
 #include "moduli.h"
+#include "new_scene.h"
+#include "parser_text.h"
 #include "requirements.h"
 #include "run.h"
 #include "sample.h"
@@ -228,6 +230,12 @@ namespace
     set_action(command, request, options, moduli);
   }
 
+  int print(const std::string &text)
+  {
+    std::cout << text;
+    return 0;
+  }
+
   /// What takes one word and prints or writes something about it.
   void add_word(CLI::App &app, Request &request, const std::string &name, const std::string &help,
                 const std::string &word, const std::string &word_help,
@@ -255,25 +263,68 @@ namespace
              });
     app.get_subcommand("list")->add_flag("--matrix", *as_matrix,
                                          "Capabilities of methods, as a table");
-    const auto print = [](std::string (*text)(const std::string &))
-    {
-      return [=](const std::string &word)
-      {
-        std::cout << text(word);
-        return 0;
-      };
-    };
+    const auto is_short = std::make_shared<bool>(false);
     add_word(app, request, "template", "Print a scene with every key and its help", "MODEL",
              "scalar, tensor, LPS, variational or double-well",
-             print(plumbline::scene::scene_template));
-    add_word(app, request, "describe", "Print meaning, default and allowed values of a key", "KEY",
-             "Section or Section/key", print(plumbline::scene::describe));
+             [=](const std::string &model)
+             {
+               return print(*is_short ? plumbline::scene::short_template(model)
+                                      : plumbline::scene::scene_template(model));
+             });
+    app.get_subcommand("template")
+        ->add_flag("--short", *is_short, "A scene of at most 20 lines, ready to run");
+    add_word(app, request, "describe", "Print meaning, default and allowed values of keys", "KEY",
+             "Section/key, Section, or words to search for in the help of all keys",
+             [](const std::string &key) { return print(plumbline::scene::describe(key)); });
+  }
+
+  void add_new(CLI::App &app, Request &request)
+  {
+    const auto options = std::make_shared<NewSceneOptions>();
+    auto &command = *app.add_subcommand("new", "Write a short scene that runs, to start from");
+    command.add_option("NAME", options->name, "Scene file; .prm may be left out")->required();
+    command.add_option("--kind", options->kind,
+                       "scalar (default), elastic, LPS, variational or double-well");
+    command.add_option("--domain", options->domain,
+                       "square (default), or a mesh file (.geo or .msh)");
+    command.add_option("--kernel", options->kernel, "Kernel type, see 'plumbline list kernels'");
+    command.add_option("--methods", options->methods,
+                       "Methods, comma separated, see 'plumbline list methods'");
+    command.callback([=, &request] { request.action = [=] { return write_new_scene(*options); }; });
+  }
+
+  /// @param topic  a command, what 'plumbline list' lists, a key, or words
+  int help(const CLI::App &app, const std::string &topic)
+  {
+    const std::string text = help_text(app, topic);
+    if (text.empty() && is_listed(topic))
+    {
+      plumbline::app::list(topic, false);
+      return 0;
+    }
+    return print(text.empty() ? plumbline::scene::describe(topic) : text);
+  }
+
+  /// Commands about the command itself.
+  void add_own(CLI::App &app, Request &request)
+  {
+    add_word(app, request, "help", "Print the help of a command, a list, or keys", "TOPIC",
+             "A command, methods, models, analyses, kernels, scenes, or a key as in describe",
+             [&app](const std::string &topic) { return help(app, topic); });
+    app.get_subcommand("help")->get_option("TOPIC")->required(false);
+    add_word(app, request, "completion", "Print a script that completes commands and options",
+             "SHELL", "bash or zsh",
+             [&app](const std::string &shell) { return print(completion(app, shell)); });
+    app.add_subcommand("man", "Print the page for man")
+        ->callback([&]
+                   { request.action = [&] { return print(man_page(app, PLUMBLINE_VERSION)); }; });
   }
 
   void add_commands(CLI::App &app, Request &request)
   {
     app.set_version_flag("--version", PLUMBLINE_VERSION);
     app.require_subcommand(1);
+    app.ignore_case(); // of commands, as they are added
     add_run(app, request);
     add_check(app, request);
     add_analysis(app, request, "stability",
@@ -292,6 +343,8 @@ namespace
     add_sample(app, request);
     add_moduli(app, request);
     add_words(app, request);
+    add_new(app, request);
+    add_own(app, request);
   }
 
   /// What is asked for, by all ranks or the first, and its exit code.
@@ -346,7 +399,7 @@ int plumbline::app::command(int argc, char **argv)
   }
   catch (const CLI::ParseError &error)
   {
-    std::cerr << "plumbline: " << explain(error) << '\n';
+    std::cerr << "plumbline: " << explain(error, app) << '\n';
     return 2;
   }
   // without mpirun: no daemon beside it, nor a shared folder, which one that ends may remove as

@@ -2,6 +2,7 @@
 
 #include "base/choice.h"
 #include "base/error.h"
+#include "base/similar_words.h"
 #include "base/text_file.h"
 #include "methods.h"
 #include "physics/kernel.h"
@@ -94,9 +95,14 @@ namespace plumbline::app
     }
   } // namespace
 
+  bool is_listed(const std::string &subject)
+  {
+    return base::from_word<Listed>(base::to_lower(subject)).has_value();
+  }
+
   void list(const std::string &subject, bool as_matrix)
   {
-    const auto listed = base::from_word<Listed>(subject);
+    const auto listed = base::from_word<Listed>(base::to_lower(subject));
     if (as_matrix && listed != Listed::methods)
       throw InputError("list --matrix is of methods, not of " + subject + "; leave it out");
     if (as_matrix)
@@ -104,16 +110,18 @@ namespace plumbline::app
     else if (listed == Listed::methods)
       list_methods();
     else if (listed == Listed::models)
-      std::cout << problem::capability_table(subject, scene::capable_models());
+      std::cout << problem::capability_table(base::word(*listed), scene::capable_models());
     else if (listed == Listed::analyses)
-      std::cout << problem::capability_table(subject, scene::analyses());
+      std::cout << problem::capability_table(base::word(*listed), scene::analyses());
     else if (listed == Listed::kernels)
       list_kernels();
     else if (listed == Listed::scenes)
       list_scenes();
     else
-      throw InputError("list: '" + subject +
-                       "' is not known; choose methods, models, analyses, kernels or "
-                       "scenes");
+      throw InputError(
+          "list: '" + subject +
+          "' is not known; choose methods, models, analyses, kernels or "
+          "scenes" +
+          base::did_you_mean(subject, {base::words<Listed>.begin(), base::words<Listed>.end()}));
   }
 } // namespace plumbline::app

@@ -8,6 +8,18 @@ install(DIRECTORY lib/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plumbline FILES_M
 install(DIRECTORY reference meshfree DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plumbline
         FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/plumbline/scenes)
+# the page for man and completions are printed by the command that is installed
+foreach(text "man:plumbline.1:${CMAKE_INSTALL_MANDIR}/man1" "completion bash:plumbline:${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
+             "completion zsh:_plumbline:${CMAKE_INSTALL_DATADIR}/zsh/site-functions")
+  string(REPLACE ":" ";" text ${text})
+  list(GET text 0 arguments)
+  list(GET text 1 name)
+  list(GET text 2 folder)
+  string(MAKE_C_IDENTIFIER "${arguments}" file)
+  string(REPLACE " " "\" \"" arguments "${arguments}")
+  install(CODE "execute_process(COMMAND \"$<TARGET_FILE:plumbline>\" \"${arguments}\" OUTPUT_FILE \"${PROJECT_BINARY_DIR}/${file}\" COMMAND_ERROR_IS_FATAL ANY)")
+  install(FILES ${PROJECT_BINARY_DIR}/${file} DESTINATION ${folder} RENAME ${name})
+endforeach()
 install(EXPORT plumblineTargets NAMESPACE plumbline:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/plumbline)
 configure_package_config_file(cmake/plumblineConfig.cmake.in plumblineConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/plumbline)

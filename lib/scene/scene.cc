@@ -3,6 +3,7 @@
 #include "base/communicator.h"
 #include "base/error.h"
 #include "base/number_text.h"
+#include "base/similar_words.h"
 #include "base/text_file.h"
 #include "physics/expression.h"
 #include "scene/aliases.h"
@@ -15,6 +16,7 @@
 #include "scene/scene_file.h"
 #include "scene/scene_keys.h"
 #include "scene/unused_keys.h"
+#include "scene/values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,6 +83,15 @@ namespace plumbline::scene
       scene.expected.complete(scene.problem.case_names());
     }
 
+    /// "Section/key" of a key in any spelling that scenes may have.
+    std::string name_of_key(const std::string &path)
+    {
+      Scene scene;
+      Keys keys;
+      declare(keys, scene);
+      return keys.name_of(path);
+    }
+
     struct KeyWithoutEffect : InputError
     {
       using InputError::InputError;
@@ -116,7 +127,7 @@ namespace plumbline::scene
     {
       const bool is_overridden =
           std::any_of(overrides.begin(), overrides.end(),
-                      [&](const Override &one) { return current_key(one.key) == unused.key; });
+                      [&](const Override &one) { return name_of_key(one.key) == unused.key; });
       if (overrides.empty() || is_overridden || has_unused_keys(file, settings, field))
         throw KeyWithoutEffect(what + ": " + unused.text);
       overrides.push_back({unused.key, by_default});
@@ -146,8 +157,17 @@ namespace plumbline::scene
           throw InputError(what + place + ": " + error.what());
         }
       };
+      std::map<std::string, std::string> places; // of keys in whatever spelling
       for (const Setting &one : settings)
-        saying(", " + one.place, [&] { keys.set(one.key, one.value); });
+        saying(", " + one.place,
+               [&]
+               {
+                 keys.set(one.key, one.value);
+                 const auto [found, is_new] = places.emplace(keys.name_of(one.key), one.place);
+                 if (!is_new)
+                   throw InputError(one.key + " is given in " + found->second +
+                                    " already; remove one of them");
+               });
       for (const Override &one : overrides)
         saying("", [&] { keys.set(one.key, one.value); });
       saying("",
@@ -332,10 +352,13 @@ namespace plumbline::scene
   std::string value_of_key(const std::string &file, const std::vector<Override> &overrides,
                            const std::string &key)
   {
+    Scene scene;
+    Keys keys;
+    declare(keys, scene);
     std::string value;
     const auto take = [&](const auto &one)
     {
-      if (current_key(one.key) == key)
+      if (keys.name_of(one.key) == key)
         value = current_value(key, one.value);
     };
     if (!is_read_once(file)) // its text is still to be read
@@ -362,26 +385,63 @@ namespace plumbline::scene
     };
   } // namespace
 
+  namespace
+  {
+    /// The settings of a model's template, in their order.
+    Settings template_settings(const std::string &model)
+    {
+      std::map<std::string, Settings> templates;
+      std::vector<std::string> names;
+      for (const Model *const one : models())
+        for (const auto &[name, settings] : one->templates())
+        {
+          templates[name] = settings;
+          names.push_back(name);
+        }
+      const auto found = templates.find(model);
+      if (found == templates.end())
+        throw InputError("template: model '" + base::shown(model) +
+                         "' is not known; choose one of " + join(names, ", ") +
+                         base::did_you_mean(model, names));
+      Settings all = first_steps;
+      all.insert(all.end(), found->second.begin(), found->second.end());
+      return all;
+    }
+  } // namespace
+
   std::string scene_template(const std::string &model)
   {
-    std::map<std::string, Settings> templates;
-    std::string all;
-    for (const Model *const one : models())
-      for (const auto &[name, settings] : one->templates())
-      {
-        templates[name] = settings;
-        all += (all.empty() ? "" : ", ") + name;
-      }
-    const auto found = templates.find(model);
-    if (found == templates.end())
-      throw InputError("template: model '" + model + "' is not known; choose one of " + all);
     Scene scene;
     Keys keys;
     declare(keys, scene);
-    for (const Settings &settings : {first_steps, found->second})
-      for (const auto &[key, value] : settings)
-        keys.set(key, value);
+    for (const auto &[key, value] : template_settings(model))
+      keys.set(key, value);
     return keys.text(true);
+  }
+
+  std::string short_template(const std::string &model, const std::vector<Override> &changes)
+  {
+    Scene scene;
+    Keys keys;
+    declare(keys, scene);
+    std::vector<std::string> order;
+    const auto set = [&](const std::string &key, const std::string &value)
+    {
+      keys.set(key, value);
+      if (std::find(order.begin(), order.end(), key) == order.end())
+        order.push_back(key);
+    };
+    for (const auto &[key, value] : template_settings(model))
+      set(key, value);
+    if (!keys.is_given("Study/regime"))
+      for (const std::string key : {"Study/m", "Study/h"})
+        set(key, keys.value(key));
+    for (const Override &one : changes)
+      set(one.key, one.value);
+    std::string text;
+    for (const std::string &key : order)
+      text += "set " + key + " = " + keys.value(key) + "\n";
+    return text;
   }
 
   std::string describe(const std::string &key)

@@ -111,7 +111,13 @@ namespace plumbline::scene
   /// "LPS", "variational" or "double-well".
   std::string scene_template(const std::string &model);
 
-  /// Meaning, default and allowed values of a key; for "Section", of all its keys.
-  /// @throws InputError  unknown key; the message names similar ones
+  /// A scene of a few lines for the same models, with the keys that differ from the defaults, mesh
+  /// sizes and horizons.
+  /// @param changes  in place of its values, or more keys
+  std::string short_template(const std::string &model, const std::vector<Override> &changes = {});
+
+  /// Meaning, default and allowed values of a key; for "Section", of all its keys; for other words,
+  /// of the keys whose names and meanings have them, names first.
+  /// @throws InputError  no such key, nor any with these words; the message names similar ones
   std::string describe(const std::string &key);
 } // namespace plumbline::scene

@@ -1,0 +1,79 @@
+#include "new_scene.h"
+
+#include "base/error.h"
+#include "base/text_file.h"
+#include "scene/scene.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+
+namespace plumbline::app
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    constexpr auto square = "square", elastic = "elastic";
+
+    std::vector<scene::Override> changes_of(const NewSceneOptions &options, const fs::path &folder)
+    {
+      std::vector<scene::Override> changes;
+      if (options.domain != square)
+      {
+        // curved outlines are met by straight sides: averages over cells compare what both have
+        changes = {
+            {"Domain/mesh", fs::proximate(options.domain, folder).string()},
+            {"Methods/names", "FA, IPA-AC, IPA-AC-R2, P1"},
+            {"Study/norms", "averages L2"},
+            {"Study/decisive error", "averages L2 | exact"},
+        };
+        if (!fs::exists(options.domain))
+          throw InputError("--domain: mesh file '" + options.domain +
+                           "' is not there; give a .geo or .msh file, or square");
+      }
+      if (!options.kernel.empty())
+        changes.push_back({"Kernel/type", options.kernel});
+      if (!options.methods.empty())
+        changes.push_back({"Methods/names", options.methods});
+      return changes;
+    }
+
+    /// Fails where the file exists, even if it is made meanwhile.
+    void write_new_file(const fs::path &file, const std::string &text)
+    {
+      std::FILE *const stream = std::fopen(file.c_str(), "wx");
+      if (stream == nullptr && errno == EEXIST)
+        throw InputError("'" + file.string() +
+                         "' is there already and is not overwritten; give another name");
+      const bool is_written = stream != nullptr && std::fputs(text.c_str(), stream) >= 0;
+      const int reason = errno;
+      if ((stream != nullptr && std::fclose(stream) != 0) || !is_written)
+        throw InputError("'" + file.string() + "' cannot be written (" + std::strerror(reason) +
+                         "); give a name in a folder that exists and can be written");
+    }
+  } // namespace
+
+  int write_new_scene(const NewSceneOptions &options)
+  {
+    fs::path file = options.name;
+    if (!base::has_ending(file.string(), ".prm"))
+      file += ".prm";
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    write_new_file(file, scene::short_template(options.kind == elastic ? "tensor" : options.kind,
+                                               changes_of(options, folder)));
+    try
+    {
+      (void)scene::read_scene(file.string());
+    }
+    catch (const InputError &)
+    {
+      fs::remove(file);
+      throw;
+    }
+    std::cout << "written: " << file.string() << "; next: plumbline run " << file.string() << '\n';
+    return 0;
+  }
+} // namespace plumbline::app

@@ -1,0 +1,140 @@
+// What helps to find commands, keys and words: searches, hints, short scenes, texts from the
+// parser.
+
+#include "command.h"
+
+#include <algorithm>
+
+namespace
+{
+  using namespace plumbline::app;
+
+  const std::string scene = std::string(PLUMBLINE_SCENES) + "/ipa_ac/scalar_delta_convergence.prm";
+
+  std::ptrdiff_t n_lines(const std::string &text)
+  {
+    return std::count(text.begin(), text.end(), '\n');
+  }
+} // namespace
+
+TEST(Finding, describe_searches_names_and_help_and_ranks_names_first)
+{
+  const std::string young = run("describe \"Young's modulus\"").out;
+  EXPECT_EQ(young.rfind("Material/E\n", 0), 0u) << young;
+  EXPECT_LE(n_lines(young), 20);
+  EXPECT_EQ(run("describe modulus").out.rfind("Kernel/bulk modulus\n", 0), 0u);
+  EXPECT_EQ(run("describe HORIZON").out, run("describe Study/horizon").out);
+  EXPECT_EQ(run("describe kernel").out, run("describe Kernel").out);
+  const Outcome none = run("describe horizn");
+  EXPECT_EQ(none.exit_code, 2);
+  expect_found(none.err, "did you mean Study/horizon?");
+  EXPECT_EQ(none.err.find("Output/fields"), std::string::npos); // not all keys
+}
+
+TEST(Finding, keys_and_words_are_taken_in_any_case_and_without_a_section_where_one_is_meant)
+{
+  const std::string common =
+      "run " + scene + " --json --levels 1 --methods FA --set Expected/rates= ";
+  const fs::path folder = temporary("case");
+  const std::string rest = " --set Expected/verdicts= --set Expected/errors= --set "
+                           "Expected/bounds= -o " +
+                           folder.string();
+  const std::string settings = " --set h=1/12,0.05 --set 'kernel/LIMIT=-1/2 laplace'";
+  const Outcome outcome = run(common + settings + rest);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "0.0833333333333333");
+  expect_refused("run " + scene + " --set seed=1",
+                 "key 'seed' is in several sections; write one of: "
+                 "Random/seed");
+  const std::string twice =
+      write("twice.prm", "subsection Study\n set h = 0.1\n set H = 0.2\nend\n");
+  expect_refused("run " + twice, "H is given in line 2 already");
+}
+
+TEST(Finding, refusals_name_what_may_be_meant)
+{
+  const std::string one = "run " + scene;
+  expect_refused(one + " --set Study/horizn=1", "did you mean Study/horizon?");
+  expect_refused(one + " --set Sudy/h=1", "did you mean Study/h?");
+  expect_refused(one + " --set Kernel/type=linear-decy", "did you mean linear-decay?");
+  expect_refused(one + " --methods IPA-AC-R3", "did you mean IPA-AC-R2 or IPA-AC-R4?");
+  expect_refused(one + " --thread 2", "the argument '--thread 2' is not known");
+  expect_refused(one + " --thread 2", "did you mean --threads?");
+  expect_found(run("moduli 1 --threads 2").err, "the argument '1 --threads 2' is not known");
+  expect_found(run("dispersoin").err, "did you mean dispersion?");
+  expect_found(run("list kernel").err, "did you mean kernels?");
+  expect_found(run("template scalr").err, "did you mean scalar?");
+  expect_refused(one + " --set Study/h=0.0833333", "(12.0000048 cells)");
+  expect_refused(one + " --set Study/h=1/0", "Study/h = '1/0' is not allowed");
+}
+
+TEST(Finding, short_templates_have_at_most_20_lines_and_run)
+{
+  for (const std::string model : {"scalar", "tensor", "LPS", "variational", "double-well"})
+  {
+    const std::string text = run("template " + model + " --short").out;
+    EXPECT_LE(n_lines(text), 20) << model;
+    const fs::path folder = temporary("short");
+    const Outcome outcome = run("run " + write("short.prm", text) + " --levels 1 --methods FA -o " +
+                                folder.string() + (model == "variational" ? " --set h=0.05" : ""));
+    EXPECT_EQ(outcome.exit_code, 0) << model << outcome.err;
+  }
+}
+
+TEST(Finding, new_writes_a_scene_that_runs_and_overwrites_none)
+{
+  const fs::path name = temporary("new"), file = name.string() + ".prm";
+  fs::remove(file);
+  const std::string command = "new " + name.string() + " --kind elastic --methods FA,Q1";
+  EXPECT_EQ(run(command + " --kernel bond-tensr").exit_code, 2);
+  EXPECT_FALSE(fs::exists(file));
+  const Outcome outcome = run(command);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "next: plumbline run " + file.string());
+  const std::string text = read(file);
+  expect_found(text, "set Methods/names = FA,Q1\n");
+  EXPECT_EQ(run("run " + file.string() + " --levels 1 --quiet -o " + temporary("new_out").string())
+                .exit_code,
+            0);
+  const Outcome again = run("new " + file.string());
+  EXPECT_EQ(again.exit_code, 2);
+  expect_found(again.err, "is there already and is not overwritten");
+  EXPECT_EQ(read(file), text);
+  expect_found(run("new " + name.string() + "2 --domain no.geo").err, "mesh file 'no.geo'");
+  expect_found(run("new " + name.string() + "2 --kind fluid").err, "model 'fluid' is not known");
+}
+
+TEST(Finding, help_has_commands_lists_and_keys)
+{
+  expect_found(run("help").out, "dispersion");
+  expect_found(run("help Run").out, "Usage: plumbline run");
+  EXPECT_EQ(run("help kernels").out, run("list kernels").out);
+  EXPECT_EQ(run("help Study/h").out, run("describe Study/h").out);
+  EXPECT_EQ(run("help nonsense").exit_code, 2);
+}
+
+TEST(Finding, completions_and_the_page_for_man_are_derived_from_the_parser)
+{
+  const std::string script = write("completion.bash", run("completion bash").out);
+  const auto completed = [&](const std::string &words, int at)
+  {
+    const fs::path out = temporary("completed");
+    const std::string text =
+        write("complete.sh", "source " + script + "\nCOMP_WORDS=(plumbline " + words +
+                                 "); COMP_CWORD=" + std::to_string(at) +
+                                 "; _plumbline; echo \"${COMPREPLY[@]}\"\n");
+    EXPECT_EQ(std::system(("bash " + text + " >" + out.string()).c_str()), 0);
+    return read(out);
+  };
+  EXPECT_EQ(completed("disp", 1), "dispersion\n");
+  EXPECT_EQ(completed("run x.prm --lev", 3), "--levels\n");
+  EXPECT_EQ(completed("sample --wor", 2), "\n"); // hidden
+  const std::string zsh = run("completion zsh").out;
+  expect_found(zsh, "#compdef plumbline\n");
+  expect_found(zsh, "'--levels[Only the first N levels of each sweep]:value:_files'");
+  expect_found(zsh, "'--quiet[Print nothing but errors]'");
+  expect_found(run("completion fish").err, "shell 'fish' is not known; choose bash or zsh");
+  const std::string page = run("man").out;
+  expect_found(page, ".SS dispersion\n");
+  expect_found(page, ".TP\n\\fB\\-\\-levels VALUE\\fR\nOnly the first N levels of each sweep\n");
+}
