@@ -271,8 +271,7 @@ namespace
                return print(*is_short ? plumbline::scene::short_template(model)
                                       : plumbline::scene::scene_template(model));
              });
-    app.get_subcommand("template")
-        ->add_flag("--short", *is_short, "A scene of at most 20 lines, ready to run");
+    app.get_subcommand("template")->add_flag("--short", *is_short, "A scene of at most 20 lines");
     add_word(app, request, "describe", "Print meaning, default and allowed values of keys", "KEY",
              "Section/key, Section, or words to search for in the help of all keys",
              [](const std::string &key) { return print(plumbline::scene::describe(key)); });
