@@ -2,36 +2,80 @@
 
 #include "base/error.h"
 
-#include <deal.II/base/data_out_base.h>
-
 #include <fstream>
+#include <limits>
 
 namespace plumbline::io
 {
+  namespace
+  {
+    void begin_array(std::ostream &out, const std::string &type, const std::string &name,
+                     unsigned int n_components)
+    {
+      out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\""
+          << n_components << "\" format=\"ascii\">\n";
+    }
+
+    void write_array(std::ostream &out, const std::string &name, const analysis::PointField &field,
+                     unsigned int first, unsigned int n)
+    {
+      const bool is_vector = n == 2;
+      begin_array(out, "Float64", name, is_vector ? 3 : 1);
+      for (std::size_t i = 0; i < field.points.size(); ++i)
+      {
+        for (unsigned int c = first; c < first + n; ++c)
+          out << field.values[i * field.n_components + c] << (c + 1 < first + n ? " " : "");
+        out << (is_vector ? " 0\n" : "\n");
+      }
+      out << "</DataArray>\n";
+    }
+
+    void write_data(std::ostream &out, const analysis::PointField &field)
+    {
+      out << "<PointData>\n";
+      if (field.n_components <= 2)
+        write_array(out, "u", field, 0, field.n_components);
+      else
+        for (unsigned int c = 0; c < field.n_components; ++c)
+          write_array(out, "u" + std::to_string(c + 1), field, c, 1);
+      out << "</PointData>\n";
+    }
+
+    /// Each point is a cell.
+    void write_cells(std::ostream &out, std::size_t n)
+    {
+      out << "<Cells>\n";
+      begin_array(out, "Int64", "connectivity", 1);
+      for (std::size_t i = 0; i < n; ++i)
+        out << i << '\n';
+      out << "</DataArray>\n";
+      begin_array(out, "Int64", "offsets", 1);
+      for (std::size_t i = 0; i < n; ++i)
+        out << i + 1 << '\n';
+      out << "</DataArray>\n";
+      begin_array(out, "UInt8", "types", 1);
+      for (std::size_t i = 0; i < n; ++i)
+        out << "1\n";
+      out << "</DataArray>\n</Cells>\n";
+    }
+  } // namespace
+
   void write_vtu(const analysis::PointField &field, const std::filesystem::path &file)
   {
-    const unsigned int n_components = field.n_components;
-    std::vector<dealii::DataOutBase::Patch<0, 2>> points(field.points.size());
-    for (unsigned int i = 0; i < points.size(); ++i)
-    {
-      points[i].vertices[0] = field.points[i];
-      points[i].patch_index = i;
-      points[i].data.reinit(n_components, 1);
-      for (unsigned int c = 0; c < n_components; ++c)
-        points[i].data(c, 0) = static_cast<float>(field.values[i * n_components + c]);
-    }
-    using dealii::DataComponentInterpretation::component_is_part_of_vector;
-    std::vector<std::tuple<unsigned int, unsigned int, std::string,
-                           dealii::DataComponentInterpretation::DataComponentInterpretation>>
-        vectors;
-    if (n_components == 2)
-      vectors.emplace_back(0, 1, "u", component_is_part_of_vector);
-    std::vector<std::string> names(n_components, "u");
-    for (unsigned int c = 0; c < n_components && n_components > 2; ++c)
-      names[c] += std::to_string(c + 1);
     std::filesystem::create_directories(file.parent_path());
     std::ofstream out(file);
-    dealii::DataOutBase::write_vtu(points, names, vectors, dealii::DataOutBase::VtkFlags(), out);
+    out.precision(std::numeric_limits<double>::max_digits10);
+    const std::size_t n = field.points.size();
+    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\">\n"
+        << "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << n << "\" NumberOfCells=\"" << n
+        << "\">\n<Points>\n";
+    begin_array(out, "Float64", "points", 3);
+    for (const dealii::Point<2> &x : field.points)
+      out << x[0] << ' ' << x[1] << " 0\n";
+    out << "</DataArray>\n</Points>\n";
+    write_cells(out, n);
+    write_data(out, field);
+    out << "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
     if (!out.flush())
       throw InputError("cannot write all of '" + file.string() +
                        "'; free some space, or give another output folder (-o)");
