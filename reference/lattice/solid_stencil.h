@@ -1,0 +1,16 @@
+#pragma once
+
+#include "algebra/stencil.h"
+#include "physics/kernel.h"
+#include "reference/shapes.h"
+
+namespace plumbline::reference
+{
+  /// The Galerkin matrix of a homogeneous kernel on a uniform lattice in space, as in stencil.h.
+  /// Cell ∩ ball is integrated by cones from the cell's corner next to the origin: over its faces
+  /// and over the part of the sphere in it. Family = s1 + n (s2 + n s3), n families along an axis.
+  /// Accuracy: 1e-14 of the largest entry; constants are in the kernel of the operator to
+  /// round-off.
+  algebra::Stencil galerkin_stencil(const physics::Kernel<3> &kernel, double h,
+                                    const AxisShapes &shapes);
+} // namespace plumbline::reference
