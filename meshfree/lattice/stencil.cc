@@ -9,31 +9,39 @@ namespace plumbline::meshfree
   namespace
   {
     /// Where a bond ends, in cells.
-    std::array<int, 2> offset(const Bond<2> &bond, double h)
+    template <int dim>
+    std::array<int, 3> offset(const Bond<dim> &bond, double h)
     {
-      return {static_cast<int>(std::lround(bond.xi[0] / h)),
-              static_cast<int>(std::lround(bond.xi[1] / h))};
+      std::array<int, 3> cells{};
+      for (unsigned int d = 0; d < dim; ++d)
+        cells[d] = static_cast<int>(std::lround(bond.xi[d] / h));
+      return cells;
     }
   } // namespace
 
-  algebra::Stencil lattice_operator(const physics::Kernel<2> &kernel, const Bonds<2> &bonds)
+  template <int dim>
+  algebra::Stencil lattice_operator(const physics::Kernel<dim> &kernel, const Bonds<dim> &bonds)
   {
     int reach = 0;
-    for (const Bond<2> &bond : bonds.family)
+    for (const Bond<dim> &bond : bonds.family)
       for (const int k : offset(bond, bonds.h))
         reach = std::max(reach, std::abs(k));
-    algebra::Stencil stencil(kernel.n_components(), reach);
-    for (const Bond<2> &bond : bonds.family)
+    algebra::Stencil stencil(kernel.n_components(),
+                             std::array<int, 3>{reach, reach, dim == 3 ? reach : 0});
+    for (const Bond<dim> &bond : bonds.family)
       for (unsigned int a = 0; a < kernel.n_components(); ++a)
         for (unsigned int b = 0; b < kernel.n_components(); ++b)
         {
           const auto k = offset(bond, bonds.h);
           const double entry = kernel_value(kernel, bond, a, b) * bond.weight;
-          stencil(a, b, k[0], k[1]) -= entry;
+          stencil(a, b, k[0], k[1], k[2]) -= entry;
           stencil(a, b, 0, 0) += entry;
         }
     return stencil;
   }
+
+  template algebra::Stencil lattice_operator(const physics::Kernel<2> &, const Bonds<2> &);
+  template algebra::Stencil lattice_operator(const physics::Kernel<3> &, const Bonds<3> &);
 
   algebra::Stencil state_based_stencil(const physics::Dilatation &dilatation, const Bonds<2> &bonds)
   {

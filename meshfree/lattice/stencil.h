@@ -7,8 +7,9 @@
 namespace plumbline::meshfree
 {
   /// The rule's operator L_h on a lattice: row i is -Σ C(kernel_point) (u(x_i + ξ) - u_i)
-  /// weight.
-  algebra::Stencil lattice_operator(const physics::Kernel<2> &kernel, const Bonds<2> &bonds);
+  /// weight. Instantiated for dim = 2 and 3.
+  template <int dim>
+  algebra::Stencil lattice_operator(const physics::Kernel<dim> &kernel, const Bonds<dim> &bonds);
 
   /// The same of a homogeneous state-based solid, θ eliminated: with g_k = w_k K(q_k) ξ_k, q the
   /// kernel point, and Σ g = 0 by symmetry, θ_i = Σ_k g_k·u_{i+k} adds -(λ - μ) Σ_k,l g_k ⊗ g_l
