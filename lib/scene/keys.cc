@@ -357,7 +357,7 @@ namespace plumbline::scene
             : ", for there is no section '" + base::shown(path.substr(0, path.find('/'))) + "'";
     throw InputError("key '" + base::shown(path) + "' is " +
                      (is_ambiguous ? "in several sections" : "not known") +
-                     (alike.empty() ? "; the sections are " + join(sections, ", ") +
+                     (alike.empty() ? no_section + "; the sections are " + join(sections, ", ") +
                                           ", and 'plumbline describe WORD' finds keys by a word"
                                     : "; write one of: " + join(alike, ", ")) +
                      (is_ambiguous || meant.empty() || meant.size() > most

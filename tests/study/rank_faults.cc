@@ -88,8 +88,14 @@ TEST(Together, every_kind_of_fault_reaches_all_ranks)
   EXPECT_EQ(heard<NumericalError>(NumericalError("no solution")), "no solution");
   EXPECT_EQ(heard<MemoryError>(MemoryError("no memory")), "no memory");
   EXPECT_EQ(heard<MemoryError>(std::bad_alloc()).find("memory ran out: this process holds "), 0u);
-  EXPECT_EQ(heard<std::runtime_error>(std::out_of_range("a library's")), "a library's");
-  EXPECT_NE(heard<std::runtime_error>(dealii::ExcMessage("deal's own")).find("deal's own"),
+  // ranks share words; what is alone keeps the kind
+  const bool is_alone = Communicator::all().n_ranks() == 1;
+  const std::out_of_range range("a library's");
+  EXPECT_EQ(is_alone ? heard<std::out_of_range>(range) : heard<std::runtime_error>(range),
+            "a library's");
+  const dealii::ExcMessage message("deal's own");
+  EXPECT_NE((is_alone ? heard<dealii::ExcMessage>(message) : heard<std::runtime_error>(message))
+                .find("deal's own"),
             std::string::npos);
   EXPECT_EQ(heard<std::runtime_error>(-3), "a library fails without saying why");
   EXPECT_EQ(heard<NumericalError>(NumericalError("")), ""); // nothing is said, and still it ends
@@ -125,5 +131,9 @@ TEST(Sweep, what_fails_on_one_rank_has_failed_on_all)
     EXPECT_EQ(run.failure, "rank loss");
   EXPECT_EQ(sweep([] { throw std::bad_alloc(); }).records[1].failure.find("memory ran out"), 0u);
   EXPECT_THROW(sweep([] { throw InputError("bad data"); }), InputError);
-  EXPECT_THROW(sweep([] { throw std::logic_error("a library's"); }), std::runtime_error);
+  const auto fail = [] { sweep([] { throw std::logic_error("a library's"); }); };
+  if (Communicator::all().n_ranks() == 1)
+    EXPECT_THROW(fail(), std::logic_error);
+  else
+    EXPECT_THROW(fail(), std::runtime_error);
 }
