@@ -75,6 +75,14 @@ namespace plumbline::app
 
   namespace
   {
+    std::vector<std::string> commands_of(const CLI::App &app)
+    {
+      std::vector<std::string> names;
+      for (const CLI::App *one : app.get_subcommands([](const CLI::App *) { return true; }))
+        names.push_back(one->get_name());
+      return names;
+    }
+
     /// What may be written in place of an argument that is not known: an option of the command that
     /// was parsed, or a command.
     std::string hint(const std::string &argument, const CLI::App &app)
@@ -89,9 +97,17 @@ namespace plumbline::app
             known.push_back("--" + option->get_lnames()[0]);
       }
       else if (parsed.empty())
-        for (const CLI::App *one : app.get_subcommands([](const CLI::App *) { return true; }))
-          known.push_back(one->get_name());
+        known = commands_of(app);
       return base::did_you_mean(argument.substr(0, argument.find('=')), known);
+    }
+
+    std::string explain_missing_command(const CLI::App &app)
+    {
+      std::string all;
+      for (const std::string &name : commands_of(app))
+        all += (all.empty() ? "" : ", ") + name;
+      return "no known command is given; write plumbline run SCENE, or another command: " + all +
+             (app.remaining().empty() ? "" : hint(app.remaining()[0], app));
     }
 
     std::string explain_extras(const CLI::App &app)
@@ -127,10 +143,7 @@ namespace plumbline::app
     if (is(static_cast<const CLI::RequiredError *>(nullptr)))
       return said.find("ubcommand") == std::string::npos
                  ? said.substr(0, said.find(' ')) + " is missing" + help
-                 : "no command that is known is given; write plumbline run SCENE, or another of "
-                   "check, moduli, stability, dispersion, crack, grow, strip and sample "
-                   "('plumbline --help' lists all)" +
-                       (app.remaining().empty() ? "" : hint(app.remaining()[0], app));
+                 : explain_missing_command(app);
     if (is(static_cast<const CLI::ConversionError *>(nullptr)))
       return "the value of " + behind(": ") + " is not of the right kind" + help;
     if (is(static_cast<const CLI::ArgumentMismatch *>(nullptr)))

@@ -280,7 +280,7 @@ namespace
   void add_new(CLI::App &app, Request &request)
   {
     const auto options = std::make_shared<NewSceneOptions>();
-    auto &command = *app.add_subcommand("new", "Write a short scene that runs, to start from");
+    auto &command = *app.add_subcommand("new", "Write a short scene to start from");
     command.add_option("NAME", options->name, "Scene file; .prm may be left out")->required();
     command.add_option("--kind", options->kind,
                        "scalar (default), elastic, LPS, variational or double-well");

@@ -12,7 +12,7 @@ namespace plumbline::app
     std::string kernel, methods; ///< empty: those of the kind
   };
 
-  /// Writes a short scene that runs. @return the exit code
+  /// Writes a short scene. @return the exit code
   /// @throws InputError  the file is there already, or it would be no valid scene: nothing is left
   int write_new_scene(const NewSceneOptions &options);
 } // namespace plumbline::app

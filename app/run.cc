@@ -46,7 +46,7 @@ namespace plumbline::app
     {
       const fs::path file = io::results_file(folder);
       if (!fs::exists(file) || scene.study.decisive_error.target == scene::Target::finest)
-        return {}; // differences to the own finest level need all solutions
+        return {}; // comparisons with the method's own finest level need all solutions
       try
       {
         const study::StudyResults earlier = io::results_in(folder);
@@ -185,7 +185,7 @@ namespace plumbline::app
                      "one rank is as fast, and Domain/mesh = squares is shared\n";
     }
 
-    /// On the first rank; where it cannot, all end.
+    /// On the first rank. If that fails, all ranks stop.
     void write(const base::Communicator &communicator, const std::function<void()> &action)
     {
       communicator.together(

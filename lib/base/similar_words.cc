@@ -47,7 +47,7 @@ namespace plumbline::base
     {
       const std::size_t edits = count_edits(to_lower(word), to_lower(one));
       if (edits > fewest || edits >= std::max(word.size(), one.size()))
-        continue; // nothing of it is alike
+        continue; // no letter in common
       if (edits < fewest)
         similar.clear();
       fewest = edits;
@@ -56,15 +56,19 @@ namespace plumbline::base
     return similar;
   }
 
-  std::string did_you_mean(const std::string &word, const std::vector<std::string> &known)
+  std::string did_you_mean(const std::vector<std::string> &meant)
   {
     constexpr std::size_t most = 3;
-    const std::vector<std::string> similar = similar_words(word, known);
-    if (similar.empty() || similar.size() > most)
+    if (meant.empty() || meant.size() > most)
       return "";
     std::string text;
-    for (const std::string &one : similar)
+    for (const std::string &one : meant)
       text += (text.empty() ? "; did you mean " : " or ") + one;
     return text + "?";
+  }
+
+  std::string did_you_mean(const std::string &word, const std::vector<std::string> &known)
+  {
+    return did_you_mean(similar_words(word, known));
   }
 } // namespace plumbline::base

@@ -350,19 +350,16 @@ namespace plumbline::scene
       for (const Key *key : matches(similar))
         if (std::find(meant.begin(), meant.end(), key->path()) == meant.end())
           meant.push_back(key->path());
-    constexpr std::size_t most = 3;
     const std::string no_section =
         path.find('/') == std::string::npos
             ? ""
-            : ", for there is no section '" + base::shown(path.substr(0, path.find('/'))) + "'";
+            : ": there is no section '" + base::shown(path.substr(0, path.find('/'))) + "'";
     throw InputError("key '" + base::shown(path) + "' is " +
                      (is_ambiguous ? "in several sections" : "not known") +
                      (alike.empty() ? no_section + "; the sections are " + join(sections, ", ") +
                                           ", and 'plumbline describe WORD' finds keys by a word"
                                     : "; write one of: " + join(alike, ", ")) +
-                     (is_ambiguous || meant.empty() || meant.size() > most
-                          ? ""
-                          : "; did you mean " + join(meant, " or ") + "?"));
+                     (is_ambiguous ? "" : base::did_you_mean(meant)));
   }
 
   std::string Keys::name_of(const std::string &path) const

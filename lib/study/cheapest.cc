@@ -41,7 +41,7 @@ namespace plumbline::study
   std::string relative_to(const std::string &error)
   {
     const bool is_l2 = norm_of_one(error, 4) != 1;
-    return std::string("how far the solution varies (maximum minus minimum") +
+    return std::string("the variation of the solution (maximum minus minimum") +
            (is_l2 ? ", times the root of the area)" : ")");
   }
 

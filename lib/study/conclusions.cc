@@ -149,7 +149,7 @@ namespace plumbline::study
     }
 
     /// Once for each case, of a reference whose digits are too few, at its finest level.
-    void warn_of_reference(StudyResults &results)
+    void warn_of_reference(const scene::Scene &scene, StudyResults &results)
     {
       std::map<std::tuple<std::string, std::string>, const ErrorEstimate *> finest;
       for (const ErrorEstimate &one : results.references)
@@ -159,6 +159,9 @@ namespace plumbline::study
         if (!(one->estimate > 0) || one->certified_digits >= few_digits)
           continue;
         const std::string name = one->method;
+        // digits are not counted where nothing is known of the entries' own error
+        const bool is_unrefined = one->certified_digits == 0 && scene.quadrature.tolerance == 0 &&
+                                  !scene.domain.mesh.is_lattice();
         const bool is_continuous = name.front() == 'Q' || name.front() == 'P';
         const std::string warning =
             "the reference " + name + " of " + one->problem + ", " + one->series + " has " +
@@ -166,7 +169,10 @@ namespace plumbline::study
                  ? "no certified digit"
                  : std::to_string(one->certified_digits) + " certified digit") +
             " at h = " + base::to_text(one->h, 4) + ": " +
-            (is_continuous
+            (is_unrefined
+                 ? "outer quadrature is not refined, so entries have an unknown error; set "
+                   "Quadrature/tolerance above 0"
+             : is_continuous
                  ? "where the solution or its data jump, a continuous space loses accuracy, so "
                    "take a discontinuous one (Reference/method = " +
                        std::string(name.front() == 'Q' ? "DGQ1" : "DGP1") +
@@ -324,7 +330,7 @@ namespace plumbline::study
     make_trends(scene, results);
     warn_of_target(results);
     if (results.is_complete)
-      warn_of_reference(results);
+      warn_of_reference(scene, results);
     warn_of_tip_forces(results);
     check_expectations(scene, results);
     give_advice(scene, results);

@@ -23,8 +23,8 @@ namespace plumbline::study
         solve = {};
   };
 
-  /// Solutions of all cases, held against exact solution, local limit, reference and the own finest
-  /// level. On several ranks all run it together.
+  /// Solutions of all cases, compared with the exact solution, the local limit, the reference and
+  /// the method's own finest level. On several ranks all run it together.
   /// @param available  for references and the local limit
   Analysis statics_analysis(const Methods &available, const StaticsOptions &options = {});
 } // namespace plumbline::study

@@ -204,10 +204,9 @@ TEST_F(BadFiles, results_that_are_broken_are_refused)
 
 TEST_F(BadFiles, arguments_are_refused_in_our_words)
 {
-  expect_found(refused("fly"), "plumbline: no command that is known is given; write plumbline run");
-  expect_found(refused(""),
-               "plumbline: no command that is known is given; write plumbline run SCENE, or "
-               "another of check, moduli");
+  expect_found(refused("fly"), "plumbline: no known command is given; write plumbline run");
+  expect_found(refused(""), "plumbline: no known command is given; write plumbline run SCENE, or "
+                            "another command: run, ");
   expect_found(refused("run"), "plumbline: SCENE is missing; 'plumbline COMMAND --help' tells all");
   expect_found(refused("run a.prm --fast"), "the argument '--fast' is not known");
   expect_found(refused("run a.prm --levels many"),

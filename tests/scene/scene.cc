@@ -175,7 +175,7 @@ TEST(SceneErrors, unknown_keys_and_wrong_types)
 {
   expect_error(section("Study", "mesh = 0.1"), "mesh");
   expect_error("subsection Sudy\n set h = 1\nend\n",
-               "key 'Sudy/h' is not known, for there is no section 'Sudy'; the sections are "
+               "key 'Sudy/h' is not known: there is no section 'Sudy'; the sections are "
                "Domain, Random, Kernel");
   expect_error(section("Geometry", "checks = many"), "checks");
   expect_error(section("Kernel", "type = gauss"), "linear-decay");

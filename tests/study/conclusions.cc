@@ -383,6 +383,23 @@ TEST(Conclusions, a_reference_with_one_digit_or_none_gives_one_warning)
 }
 
 // In a unit of 1e-9, and by an L2 norm on a domain of 1e-6 x 1e-6, errors are 1e-15 times as large.
+TEST(Conclusions, a_reference_on_a_mesh_whose_quadrature_is_not_refined_is_told_so)
+{
+  const auto advised = [](double tolerance)
+  {
+    auto scene = make_scene(against_exact);
+    scene.domain.mesh.name = "squares";
+    scene.quadrature.tolerance = tolerance;
+    StudyResults results = make_results(scene);
+    add_runs(results, "A", second_order);
+    add_reference(results, {1e-1, 1e-2});
+    conclude(scene, results);
+    return results.warnings.at(0).find("Quadrature/tolerance above 0") != std::string::npos;
+  };
+  EXPECT_TRUE(advised(0));
+  EXPECT_FALSE(advised(1e-3));
+}
+
 TEST(Conclusions, targets_are_relative_to_the_solution)
 {
   const auto scene = make_scene(against_exact);
