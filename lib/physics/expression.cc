@@ -136,7 +136,7 @@ namespace plumbline::physics
       double value = 0;
       const std::function<double(const Point<2> &)> *field = nullptr;
     };
-    double x = 0, y = 0;
+    double x = 0, y = 0, z = 0;
     std::map<std::string, Place> fields; ///< those that the expression names
     std::vector<mu::Parser> components;
   };
@@ -154,6 +154,8 @@ namespace plumbline::physics
         mu::Parser parser;
         parser.DefineVar("x", &parsers_->x);
         parser.DefineVar("y", &parsers_->y);
+        if (names_.is_in_space)
+          parser.DefineVar("z", &parsers_->z);
         parser.DefineConst("pi", M_PI);
         parser.DefineFun("weierstrass", weierstrass);
         parser.DefineFun("weierstrass_mean", weierstrass_mean);
@@ -170,7 +172,7 @@ namespace plumbline::physics
       }
       catch (const mu::Parser::exception_type &error)
       {
-        std::string names = "x, y, pi";
+        std::string names = names_.is_in_space ? "x, y, z, pi" : "x, y, pi";
         for (const auto &constant : names_.constants)
           names += ", " + constant.first;
         for (const auto &field : names_.fields)
@@ -231,7 +233,7 @@ namespace plumbline::physics
 
   bool Expression::is_smooth() const
   {
-    static const std::set<std::string> smooth = {"x",  "y",    "pi",   "sin", "cos",
+    static const std::set<std::string> smooth = {"x",  "y",    "z",    "pi",  "sin", "cos",
                                                  "ln", "sinh", "cosh", "exp", "tanh"};
     for (std::size_t i = 0; i < text_.size();)
     {
@@ -300,20 +302,35 @@ namespace plumbline::physics
   double Expression::value_at(const Point<2> &x, const Point<2> &in_scene,
                               unsigned int component) const
   {
-    parsers_->x = in_scene[0];
-    parsers_->y = in_scene[1];
     for (auto &[name, place] : parsers_->fields)
       if (place.field != nullptr)
         place.value = (*place.field)(x);
+    return evaluate(in_scene, component);
+  }
+
+  double Expression::at(const Point<3> &x, unsigned int component) const
+  {
+    return evaluate(x, component);
+  }
+
+  template <int dim>
+  double Expression::evaluate(const Point<dim> &in_scene, unsigned int component) const
+  {
+    parsers_->x = in_scene[0];
+    parsers_->y = in_scene[1];
+    if constexpr (dim == 3)
+      parsers_->z = in_scene[2];
     const double value = parsers_->components[component].Eval();
     if (!std::isfinite(value))
     {
       std::ostringstream message;
       if (!(names_.origin == Point<2>()))
         message.precision(std::numeric_limits<double>::digits10);
-      message << key_ << " = '" << text_ << "' gives " << value << " at (x, y) = (" << in_scene[0]
-              << ", " << in_scene[1]
-              << "); it must be a finite number in the domain and its collar";
+      message << key_ << " = '" << text_ << "' gives " << value << " at ("
+              << (dim == 3 ? "x, y, z" : "x, y") << ") = (" << in_scene[0] << ", " << in_scene[1];
+      if constexpr (dim == 3)
+        message << ", " << in_scene[2];
+      message << "); it must be a finite number in the domain and its collar";
       throw InputError(message.str());
     }
     return value;

@@ -13,9 +13,10 @@ namespace plumbline::physics
 {
   using dealii::Point;
 
-  /// What expressions may name besides x, y and pi.
+  /// What expressions may name besides x, y (in space z) and pi.
   struct Names
   {
+    bool is_in_space = false;                ///< z is a coordinate
     std::map<std::string, double> constants; ///< for example delta
     /// Fields of the place, whose functions threads may share.
     std::map<std::string, std::function<double(const Point<2> &)>> fields;
@@ -29,7 +30,8 @@ namespace plumbline::physics
     }
   };
 
-  /// A vector field R² → R^n_components given by muParser expressions in x and y.
+  /// A vector field R² → R^n_components given by muParser expressions in x and y; in space R³ →
+  /// R^n_components, in x, y and z.
   /// Copies share nothing: give each thread its own.
   class Expression
   {
@@ -59,9 +61,16 @@ namespace plumbline::physics
     /// @throws InputError  the value is not a finite number
     double operator()(const Point<2> &x, unsigned int component = 0) const;
 
+    /// In space. @pre Names::is_in_space
+    double at(const Point<3> &x, unsigned int component) const;
+
   private:
     /// @param x  the same point, relative to the origin and in the scene's coordinates
     double value_at(const Point<2> &x, const Point<2> &in_scene, unsigned int component) const;
+
+    /// With the parsers' variables at a place of the scene.
+    template <int dim>
+    double evaluate(const Point<dim> &in_scene, unsigned int component) const;
 
     struct Parsers;
     std::string key_, text_;

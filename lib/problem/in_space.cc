@@ -1,0 +1,148 @@
+#include "problem/in_space.h"
+
+#include "base/control_points.h"
+#include "base/error.h"
+#include "physics/load_in_space.h"
+
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+namespace plumbline::problem
+{
+  namespace
+  {
+    using Point = dealii::Point<3>;
+
+    struct Corners
+    {
+      Point lower, upper;
+    };
+
+    /// Ω, or more by a margin on all sides.
+    Corners corners(const Problem<3> &problem, double margin = 0)
+    {
+      Corners result;
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        result.lower[d] = problem.lattice.origin()[d] - margin;
+        result.upper[d] = problem.lattice.coordinate(d, problem.lattice.n_cells()[d]) + margin;
+      }
+      return result;
+    }
+
+    std::vector<Point> samples(const Corners &box, unsigned int n)
+    {
+      const auto along = base::control_points(n);
+      std::vector<Point> points;
+      for (const double r : along)
+        for (const double t : along)
+          for (const double s : along)
+          {
+            Point x;
+            for (unsigned int d = 0; d < 3; ++d)
+              x[d] =
+                  box.lower[d] + std::array<double, 3>{s, t, r}[d] * (box.upper[d] - box.lower[d]);
+            points.push_back(x);
+          }
+      return points;
+    }
+
+    bool is_inside(const Corners &box, const Point &x)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+        if (!(x[d] >= box.lower[d] && x[d] <= box.upper[d]))
+          return false;
+      return true;
+    }
+
+    void check_finite(const std::string &name, const Field<3> &field, unsigned int n_components,
+                      const Point &x)
+    {
+      for (unsigned int c = 0; c < n_components; ++c)
+        if (const double value = field.value(x, c); !std::isfinite(value))
+        {
+          std::ostringstream message;
+          message << name << " = " << value << " at (" << x << "), component " << c
+                  << "; it must be a finite number in the domain and within the horizon around it";
+          throw InputError(message.str());
+        }
+    }
+
+    void complete_field(const std::string &name, Field<3> &field, const Problem<3> &problem)
+    {
+      constexpr unsigned int n_samples = 8;
+      const Corners box = corners(problem);
+      for (const Point &x : samples(box, n_samples))
+        check_finite(name, field, problem.n_components, x);
+      if (!field.is_piecewise && !field.series)
+        field.series = physics::ChebyshevInSpace::resolve(field.value, problem.n_components,
+                                                          box.lower, box.upper);
+    }
+
+    void check_constraint(const Problem<3> &problem)
+    {
+      constexpr unsigned int n_samples = 16;
+      const Corners omega = corners(problem);
+      for (const Point &x : samples(corners(problem, problem.horizon()), n_samples))
+        if (!is_inside(omega, x))
+          check_finite("constraint", problem.constraint, problem.n_components, x);
+    }
+
+    Field<3> manufactured_load(const Problem<3> &problem)
+    {
+      constexpr unsigned int n_samples = 3;
+      const Corners box = corners(problem);
+      const physics::LoadInSpace load(problem.kernel, problem.solution->value,
+                                      samples(box, n_samples));
+      Field<3> field{load};
+      field.series = physics::ChebyshevInSpace::resolve(load, problem.n_components, box.lower,
+                                                        box.upper, load.noise());
+      return field;
+    }
+  } // namespace
+
+  std::vector<double> Field<3>::apply(unsigned int component,
+                                      const physics::AxisFunctionals &functionals) const
+  {
+    if (series)
+      return series->apply(component, functionals);
+    std::vector<double> result;
+    for (const auto &along_z : functionals[2])
+      for (const auto &along_y : functionals[1])
+        for (const auto &along_x : functionals[0])
+        {
+          double sum = 0;
+          for (const auto &[z, of_z] : along_z)
+            for (const auto &[y, of_y] : along_y)
+              for (const auto &[x, of_x] : along_x)
+                sum += of_x * of_y * of_z * value(Point(x, y, z), component);
+          result.push_back(sum);
+        }
+    return result;
+  }
+
+  Problem<3> complete(Problem<3> problem)
+  {
+    if (!problem.load.value && !problem.solution)
+      throw InputError("load: there is neither a load nor a solution to manufacture it from; give "
+                       "one of them");
+    if (!problem.constraint.value && !problem.solution)
+      throw InputError("constraint: u is not known around the domain; give the constraint or the "
+                       "solution");
+    if (problem.solution)
+      complete_field("solution", *problem.solution, problem);
+    if (problem.local_solution)
+      complete_field("local solution", *problem.local_solution, problem);
+    if (!problem.constraint.value)
+      problem.constraint = *problem.solution;
+    check_constraint(problem);
+    problem.is_load_given = static_cast<bool>(problem.load.value);
+    if (problem.is_load_given)
+      complete_field("load", problem.load, problem);
+    else
+      problem.load = manufactured_load(problem);
+    return problem;
+  }
+} // namespace plumbline::problem

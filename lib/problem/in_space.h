@@ -1,0 +1,52 @@
+#pragma once
+
+#include "geometry/cube_lattice.h"
+#include "physics/chebyshev_in_space.h"
+#include "physics/kernel.h"
+#include "problem/problem.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace plumbline::problem
+{
+  /// A field in space given pointwise, and as a series where it is smooth.
+  template <>
+  struct Field<3>
+  {
+    std::function<double(const dealii::Point<3> &, unsigned int component)> value;
+    std::optional<physics::ChebyshevInSpace> series = {}; ///< on Ω
+    bool is_piecewise = false; ///< no series is looked for: no number of points shows where pieces
+                               ///< end
+
+    /// Products of functionals whose points are in Ω: shape (n_z, n_y, n_x).
+    std::vector<double> apply(unsigned int component,
+                              const physics::AxisFunctionals &functionals) const;
+  };
+
+  /// A boundary-value problem in space at one level: a homogeneous material on a box of cubes, with
+  /// u given all around it. Fill in what it has, then complete() it.
+  template <>
+  struct Problem<3>
+  {
+    geometry::CubeLattice lattice;
+    physics::Kernel<3> kernel;
+    unsigned int n_components = kernel.n_components();
+    Field<3> load = {};                          ///< empty: manufactured from the solution
+    Field<3> constraint = {};                    ///< around Ω; empty: the solution
+    std::optional<Field<3>> solution = {};       ///< the exact nonlocal solution, if known
+    std::optional<Field<3>> local_solution = {}; ///< of the local limit, if known and another
+    bool is_load_given = true;                   ///< else it is manufactured from the solution
+    MethodSettings settings = {};
+
+    double h() const { return lattice.h(); }
+    double horizon() const { return kernel.horizon(); }
+  };
+
+  /// The problem with its fields as series where they are smooth, checked on samples.
+  /// @throws InputError      neither a load nor a solution; values that are not finite in Ω or
+  /// within the horizon around it
+  /// @throws NumericalError  a load that cannot be manufactured, see physics::LoadInSpace
+  Problem<3> complete(Problem<3> problem);
+} // namespace plumbline::problem
