@@ -60,13 +60,13 @@ namespace plumbline::app
       return {};
     }
 
-    std::string file_name(const study::Record &run)
+    std::string file_stem(const study::Record &run)
     {
       std::string name = run.key.problem + "_" + run.key.series + "_" + run.key.method;
       std::replace_if(
           name.begin(), name.end(),
           [](unsigned char c) { return std::isalnum(c) == 0 && c != '.'; }, '_');
-      return name + ".vtu";
+      return name;
     }
 
     void print_summary(const study::StudyResults &results, const fs::path &folder)
@@ -209,13 +209,14 @@ namespace plumbline::app
         { write(communicator, [&] { points.write(problem, solution, run, folder / "points"); }); };
       if (scene.output.fields)
         options.on_finest =
-            [communicator, folder](const analysis::Solution &solution, const study::Record &run)
+            [communicator, folder](const std::function<void(const std::string &)> &write_field,
+                                   const study::Record &run)
         {
           write(communicator,
                 [&]
                 {
                   fs::create_directories(folder / "fields");
-                  solution.write_vtu((folder / "fields" / file_name(run)).string());
+                  write_field((folder / "fields" / file_stem(run)).string());
                 });
         };
       return options;

@@ -3,6 +3,7 @@
 #include "meshfree/body/operator.h"
 #include "meshfree/rules/rules.h"
 #include "meshfree/scattered/operator.h"
+#include "method/box_discretisation.h"
 #include "method/method.h"
 
 namespace plumbline::meshfree
@@ -10,6 +11,11 @@ namespace plumbline::meshfree
   /// On the problem's lattice: one stencil for all nodes.
   std::unique_ptr<method::Discretisation> discretise_on_lattice(const Rule &rule,
                                                                 const problem::Problem<2> &problem);
+
+  /// On a box in space.
+  /// @pre rule.in_space
+  std::unique_ptr<method::BoxDiscretisation> discretise_on_box(const Rule &rule,
+                                                               const problem::Problem<3> &problem);
 
   /// On a lattice with one axis: motions of double wells.
   /// @pre is_axis_rule(rule.name)

@@ -45,8 +45,13 @@ namespace plumbline::meshfree
 
       method::Capabilities can() const override
       {
-        return is_axis_rule(rule_.name) ? problem::all_capabilities()
-                                        : problem::all_but({method::Capability::line});
+        method::Capabilities can =
+            problem::all_but({method::Capability::line, method::Capability::space});
+        if (is_axis_rule(rule_.name))
+          can.insert(method::Capability::line);
+        if (rule_.in_space)
+          can.insert(method::Capability::space);
+        return can;
       }
 
       std::unique_ptr<method::Discretisation>
@@ -59,6 +64,12 @@ namespace plumbline::meshfree
           return discretise_on_body(rule_, problem);
         return problem.lattice() ? discretise_on_lattice(rule_, problem)
                                  : discretise_on_scattered_nodes(rule_, problem, communicator);
+      }
+
+      std::unique_ptr<method::BoxDiscretisation>
+      discretise_in_space(const problem::Problem<3> &problem) const override
+      {
+        return discretise_on_box(rule_, problem);
       }
 
       const method::DynamicFractureSolver *dynamic_fracture_solver() const override { return this; }

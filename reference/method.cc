@@ -52,6 +52,8 @@ namespace plumbline::reference
           can.insert({Capability::lattice, Capability::quadrilaterals});
         if (n_vertices_ == 4 && is_continuous_)
           can.insert({Capability::double_well, Capability::periodic, Capability::line});
+        if (n_vertices_ == 4 && has_one_family())
+          can.insert(Capability::space);
         return can;
       }
       std::string why_not(const problem::Problem<2> &problem) const override
@@ -91,6 +93,11 @@ namespace plumbline::reference
                                   problem.settings.quadrature.exact_entries && !by_quadrature_,
                                   communicator);
       }
+      std::unique_ptr<method::BoxDiscretisation>
+      discretise_in_space(const problem::Problem<3> &problem) const override
+      {
+        return discretise_on_box(problem, AxisShapes(is_continuous_, degree_));
+      }
       const method::StripSolver *strip_solver() const override
       {
         return n_vertices_ == 4 ? this : nullptr;
@@ -118,6 +125,8 @@ namespace plumbline::reference
       }
 
     private:
+      bool has_one_family() const { return degree_ == (is_continuous_ ? 1 : 0); }
+
       unsigned int n_vertices_;
       bool is_continuous_;
       unsigned int degree_;

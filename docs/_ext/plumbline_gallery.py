@@ -111,6 +111,8 @@ def sketch(values, folder):
         values = {**values, "Domain/boxes": f"0, {-height / 2} : {length}, {height / 2}",
                   "Domain/cracks": f"0, 0 : {crack}, 0", "Domain/boundary": "free"}
     domain = boxes(values.get("Domain/boxes", "0, 0 : 1, 1"))
+    if values.get("Domain/dimension") == "3":  # its section across z
+        domain = [[corner[:2] for corner in box] for box in domain]
     if values.get("Domain/dimension") == "1":
         domain = [[(a[0], 0), (b[0], (b[0] - a[0]) / 8)] for a, b in domain]
     boundary = values.get("Domain/boundary", "constrained")

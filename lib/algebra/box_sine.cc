@@ -80,7 +80,7 @@ namespace plumbline::algebra
     BoxSineSolver::BoxSineSolver(const Stencil &stencil, const std::array<int, 3> &n)
         : field_(static_cast<std::size_t>(n[0]) * n[1] * n[2])
     {
-      set_plan_threads(field_.size());
+      set_plan_threads(0); // see Convolution
       const std::array<int, 3> extents = {n[2], n[1], n[0]};
       const std::array<fftw_r2r_kind, 3> kinds = {FFTW_RODFT00, FFTW_RODFT00, FFTW_RODFT00};
       transform_ = Plan(fftw_plan_r2r(3, extents.data(), field_.data(), field_.data(), kinds.data(),

@@ -42,7 +42,8 @@ namespace plumbline::algebra
     n_modes = (length[0] / 2 + 1) * n_rows;
     field = AlignedArray<double>(n_blocks * n_real);
     modes = AlignedArray<Complex>(n_blocks * n_modes);
-    set_plan_threads(n_real);
+    // in space two threads wake each other so often that some lengths take 70 times the CPU time
+    set_plan_threads(rank() == 3 ? 0 : n_real);
     const std::array<int, 3> extents = {length[2], length[1], length[0]};
     forward =
         Plan(fftw_plan_many_dft_r2c(rank(), extents.data() + 3 - rank(), static_cast<int>(n_blocks),

@@ -11,11 +11,11 @@
 
 namespace plumbline::analysis
 {
+  using method::Discretisation;
+  using method::Vector;
+
   namespace
   {
-    using method::Discretisation;
-    using method::Vector;
-
     [[noreturn]] void refuse_unsettled(double tolerance, unsigned int refinement, double change)
     {
       std::ostringstream message;
@@ -203,5 +203,31 @@ namespace plumbline::analysis
     if (!outcomes.front().solution)
       std::rethrow_exception(outcomes.front().failure);
     return std::move(*outcomes.front().solution);
+  }
+
+  SolutionInSpace solve(const method::Method &method, const problem::Problem<3> &problem)
+  {
+    const base::MemoryGauge memory;
+    base::CpuTimer timer;
+    const auto discretisation = method.discretise_in_space(problem);
+    const auto system = discretisation->tangent();
+    SolutionInSpace solution;
+    solution.cost.setup_seconds = timer.seconds();
+    timer.restart();
+    const auto data = discretisation->data(problem);
+    Vector u(data.load.size());
+    const auto &settings = problem.settings.solver;
+    const algebra::LinearSolve solved =
+        system->solve(u, data.load, {settings.tolerance, settings.max_iterations});
+    solution.cost.solve_seconds = timer.seconds();
+    solution.cost.n_unknowns = discretisation->n_unknowns();
+    solution.cost.n_bonds = solved.n_bonds;
+    solution.cost.n_iterations = solved.n_iterations;
+    solution.cost.peak_bytes = memory.peak_bytes();
+    static_cast<method::FieldInSpace &>(solution) = data.field(u);
+    solution.diagnostics = discretisation->diagnostics();
+    solution.diagnostics.relative_residual = solved.relative_residual;
+    solution.diagnostics.operator_backend = solved.backend;
+    return solution;
   }
 } // namespace plumbline::analysis

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/cost.h"
+#include "method/box_discretisation.h"
 #include "method/diagnostics.h"
 #include "method/field.h"
 #include "method/method.h"
@@ -37,6 +38,17 @@ namespace plumbline::analysis
   /// @throws NumericalError  it does not settle, or there is no solution
   void settle_quadrature(method::Discretisation &discretisation,
                          const problem::Problem<2> &problem);
+
+  struct SolutionInSpace : method::FieldInSpace
+  {
+    base::Cost cost;
+    method::Diagnostics diagnostics;
+  };
+
+  /// In space, where entries are exact or the rule's own.
+  /// @pre method.can() has Capability::space
+  /// @throws NumericalError  there is no solution
+  SolutionInSpace solve(const method::Method &method, const problem::Problem<3> &problem);
 
   /// One case.
   /// @throws NumericalError  there is no solution

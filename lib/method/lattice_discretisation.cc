@@ -156,10 +156,14 @@ namespace plumbline::method
     const double of_unknown = n_families == 1 ? 9 * value : 38 * value;
     // a field, its modes, and half of the symbol's blocks
     const double of_mode = value * n_blocks * (2 + (n_blocks + 1) / 2);
-    const double n = size.extents[0] * size.extents[1];
-    const double n_padded = (size.extents[0] + 2 * reach) * (size.extents[1] + 2 * reach);
+    const bool is_in_space = size.depth > 0;
+    const double n = size.extents[0] * size.extents[1] * (is_in_space ? size.depth : 1);
+    const double n_padded = (size.extents[0] + 2 * reach) * (size.extents[1] + 2 * reach) *
+                            (is_in_space ? size.depth + 2 * reach : 1);
+    const double width = 2 * reach + 1, n_bonds = is_in_space ? 4.2 * reach : 3.2;
     return n * n_blocks * of_unknown + n_padded * of_mode +
-           std::pow((2 * reach + 1) * n_blocks, 2) * value + 3.2 * reach * reach * bond;
+           std::pow(width * n_blocks, 2) * (is_in_space ? width : 1) * value +
+           n_bonds * reach * reach * bond;
   }
 
   std::vector<dealii::Point<2>> free_points(const geometry::Lattice &lattice,

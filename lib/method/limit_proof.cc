@@ -14,38 +14,51 @@ namespace plumbline::method
   {
     using Answer = LimitProof::Answer;
 
+    double cell_size(const problem::Problem<2> &problem)
+    {
+      return problem.h;
+    }
+    double cell_size(const problem::Problem<3> &problem)
+    {
+      return problem.h();
+    }
+
     /// T_abcd of the local operator L u_a = -T_abcd ∂_c ∂_d u_b, symmetric in c and d.
-    double local_tensor(const problem::Problem<2> &problem, unsigned int a, unsigned int b,
+    template <int dim>
+    double local_tensor(const problem::Problem<dim> &problem, unsigned int a, unsigned int b,
                         unsigned int c, unsigned int d)
     {
-      std::array<int, 2> alpha{};
+      std::array<int, dim> alpha{};
       ++alpha[c];
       ++alpha[d];
       double value = problem.kernel.moment(alpha, a, b) / 2;
-      if (problem.dilatation)
-      {
-        const physics::Lame lame = problem.dilatation->material({});
-        const int n_ways = (a == c && b == d ? 1 : 0) + (a == d && b == c ? 1 : 0);
-        value += (lame.lambda - lame.mu) * n_ways / 2;
-      }
+      if constexpr (dim == 2)
+        if (problem.dilatation)
+        {
+          const physics::Lame lame = problem.dilatation->material({});
+          const int n_ways = (a == c && b == d ? 1 : 0) + (a == d && b == c ? 1 : 0);
+          value += (lame.lambda - lame.mu) * n_ways / 2;
+        }
       return value;
     }
 
     /// Of T by a stencil, with the sums that must vanish, relative to the largest T.
-    double moment_defect(const problem::Problem<2> &problem, const algebra::Stencil &stencil,
+    template <int dim>
+    double moment_defect(const problem::Problem<dim> &problem, const algebra::Stencil &stencil,
                          double mass)
     {
-      const double h = problem.h, horizon = problem.horizon();
-      const int reach = stencil.reach();
+      const double h = cell_size(problem), horizon = problem.horizon();
+      const auto &reach = stencil.reaches();
       const auto sum = [&](unsigned int a, unsigned int b, int c, int d)
       {
-        const auto factor = [](int axis, int k1, int k2) {
-          return axis < 0 ? 1 : axis == 0 ? k1 : k2;
-        };
+        const auto factor = [](int axis, const std::array<int, 3> &k)
+        { return axis < 0 ? 1 : k[axis]; };
         double value = 0;
-        for (int k2 = -reach; k2 <= reach; ++k2)
-          for (int k1 = -reach; k1 <= reach; ++k1)
-            value += stencil(a, b, k1, k2) * factor(c, k1, k2) * factor(d, k1, k2);
+        std::array<int, 3> k{};
+        for (k[2] = -reach[2]; k[2] <= reach[2]; ++k[2])
+          for (k[1] = -reach[1]; k[1] <= reach[1]; ++k[1])
+            for (k[0] = -reach[0]; k[0] <= reach[0]; ++k[0])
+              value += stencil(a, b, k[0], k[1], k[2]) * factor(c, k) * factor(d, k);
         return value / mass;
       };
       double worst = 0, largest = 0;
@@ -53,11 +66,11 @@ namespace plumbline::method
         for (unsigned int b = 0; b < stencil.n_blocks(); ++b)
         {
           worst = std::max(worst, std::abs(sum(a, b, -1, -1)) * horizon * horizon);
-          for (unsigned int c = 0; c < 2; ++c)
+          for (unsigned int c = 0; c < dim; ++c)
           {
             const int axis = static_cast<int>(c);
             worst = std::max(worst, std::abs(sum(a, b, axis, -1)) * h * horizon);
-            for (unsigned int d = c; d < 2; ++d)
+            for (unsigned int d = c; d < dim; ++d)
             {
               const double exact = local_tensor(problem, a, b, c, d);
               const double found = -sum(a, b, axis, static_cast<int>(d)) * h * h / 2;
@@ -69,6 +82,17 @@ namespace plumbline::method
       return worst / largest;
     }
 
+    constexpr auto theorem =
+        "its space holds the continuous piecewise linear functions (Tian & Du 2014)";
+    constexpr auto no_theorem =
+        "no theorem for a kernel that is negative or increases with distance";
+
+    template <int dim>
+    bool has_theorem(const physics::Kernel<dim> &kernel)
+    {
+      return is_positive_and_non_increasing(kernel.profile(), kernel.constant());
+    }
+
     /// A homogeneous solid, or bonds whose coefficient is smooth.
     bool is_smooth(const problem::Problem<2> &problem)
     {
@@ -77,7 +101,8 @@ namespace plumbline::method
     }
   } // namespace
 
-  LimitProof prove_by_moments(const problem::Problem<2> &problem, const algebra::Stencil &stencil,
+  template <int dim>
+  LimitProof prove_by_moments(const problem::Problem<dim> &problem, const algebra::Stencil &stencil,
                               double mass)
   {
     LimitProof proof;
@@ -93,6 +118,11 @@ namespace plumbline::method
     proof.reason = reason.str();
     return proof;
   }
+
+  template LimitProof prove_by_moments(const problem::Problem<2> &, const algebra::Stencil &,
+                                       double);
+  template LimitProof prove_by_moments(const problem::Problem<3> &, const algebra::Stencil &,
+                                       double);
 
   LimitProof limit_of(const problem::Problem<2> &problem, const LimitProof &of_families)
   {
@@ -124,17 +154,28 @@ namespace plumbline::method
     const bool has_entries = problem.lattice() || diagnostics.is_outer_error_known;
     if (problem.body() || !is_smooth(problem))
       proof.reason = "no theorem for this material or boundary";
-    else if (!is_positive_and_non_increasing(problem.kernel.profile(), problem.kernel.constant()))
-      proof.reason = "no theorem for a kernel that is negative or increases with distance";
+    else if (!has_theorem(problem.kernel))
+      proof.reason = no_theorem;
     else if (!has_entries)
       proof.reason = "its entries are quadrature of unknown error";
     else
     {
       proof.answer = Answer::compatible;
-      proof.reason = "its space holds the continuous piecewise linear functions (Tian & Du 2014)";
+      proof.reason = theorem;
       if (!problem.is_homogeneous)
         proof.reason += ", and the coefficient is smooth and positive";
     }
+    return proof;
+  }
+
+  LimitProof prove_galerkin(const problem::Problem<3> &problem)
+  {
+    LimitProof proof;
+    if (!problem.settings.tends_to_local_limit)
+      return proof;
+    const bool is_proven = has_theorem(problem.kernel);
+    proof.answer = is_proven ? Answer::compatible : Answer::unknown;
+    proof.reason = is_proven ? theorem : no_theorem;
     return proof;
   }
 } // namespace plumbline::method

@@ -2,6 +2,7 @@
 
 #include "algebra/stencil.h"
 #include "method/diagnostics.h"
+#include "problem/in_space.h"
 #include "problem/problem.h"
 
 // What is known of a method's limit without solving for any field. A field may hide what is wrong:
@@ -13,9 +14,11 @@ namespace plumbline::method
   /// (L u_a → -T_abcd ∂_c ∂_d u_b), L_h u tends to it for every smooth u as h → 0 at a fixed reach
   /// in cells, and only then: Taylor's formula, with the remainder O(h²). Stability is the solver's
   /// to show, which refuses stencils that are not positive definite.
-  /// @param mass  1 for equations at nodes, h² for tested ones [1 or length^2]
+  /// In space and in the plane.
+  /// @param mass  1 for equations at nodes, h^dim for tested ones [1 or length^dim]
   /// @pre  stencil.n_blocks() == problem.n_components: one family of nodes
-  LimitProof prove_by_moments(const problem::Problem<2> &problem, const algebra::Stencil &stencil,
+  template <int dim>
+  LimitProof prove_by_moments(const problem::Problem<dim> &problem, const algebra::Stencil &stencil,
                               double mass);
 
   /// What the moments of the families of scattered nodes say of this problem. They are those of the
@@ -38,4 +41,7 @@ namespace plumbline::method
   /// coefficients, state-based solids that vary, free bodies, and entries by quadrature of unknown
   /// error.
   LimitProof prove_galerkin(const problem::Problem<2> &problem, const Diagnostics &diagnostics);
+
+  /// The same on a box in space, whose entries are exact and whose material is homogeneous.
+  LimitProof prove_galerkin(const problem::Problem<3> &problem);
 } // namespace plumbline::method

@@ -1,5 +1,6 @@
 #include "method/method.h"
 
+#include "method/box_discretisation.h"
 #include "method/equation_of_motion.h"
 
 namespace plumbline::method
@@ -7,6 +8,11 @@ namespace plumbline::method
   std::unique_ptr<ContinuousMotion> Method::continuous_motion(const physics::DoubleWell &,
                                                               const geometry::Box &, unsigned int,
                                                               unsigned int) const
+  {
+    return nullptr;
+  }
+
+  std::unique_ptr<BoxDiscretisation> Method::discretise_in_space(const problem::Problem<3> &) const
   {
     return nullptr;
   }

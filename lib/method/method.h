@@ -11,6 +11,7 @@
 
 namespace plumbline::method
 {
+  class BoxDiscretisation;
   class ContinuousMotion;
   class Discretisation;
   class DynamicFractureSolver;
@@ -22,6 +23,7 @@ namespace plumbline::method
   {
     problem::Level level;
     std::array<double, 2> extents{}; ///< of Ω's bounding box on a lattice [cells]
+    double depth = 0;                ///< of a box in space along its third axis [cells]
     double n_cells = 0, n_free = 0;  ///< of a mesh with its collar, and in Ω
     double cell_area = 0;            ///< of a mesh, in the mean [length^2]
     unsigned int n_components = 1;
@@ -58,6 +60,11 @@ namespace plumbline::method
     virtual std::unique_ptr<Discretisation>
     discretise(const problem::Problem<2> &problem,
                const base::Communicator &communicator = base::Communicator::all()) const = 0;
+
+    /// The same on a box in space.
+    /// @pre  can() has Capability::space
+    virtual std::unique_ptr<BoxDiscretisation>
+    discretise_in_space(const problem::Problem<3> &problem) const;
 
     /// Null: the method moves no strips whose bonds soften, see dynamic_fracture_solver.h.
     virtual const DynamicFractureSolver *dynamic_fracture_solver() const { return nullptr; }

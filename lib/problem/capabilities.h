@@ -31,7 +31,8 @@ namespace plumbline::problem
     double_well,
     double_well_collar, ///< with u given all around
     periodic,           ///< a torus
-    line                ///< one axis
+    line,               ///< one axis
+    space               ///< three axes
   };
 
   using Capabilities = std::set<Capability>;
@@ -76,5 +77,6 @@ namespace plumbline::base
                                                                 "double well",
                                                                 "double well in a collar",
                                                                 "periodic",
-                                                                "one dimension"};
+                                                                "one dimension",
+                                                                "three dimensions"};
 } // namespace plumbline::base

@@ -85,6 +85,9 @@ namespace plumbline::scene
         return {"Domain/boundary = periodic", "write constrained"};
       case C::line:
         return {"Domain/dimension = 1, which is for transient analysis of double wells", "write 2"};
+      case C::space:
+        return {"Domain/dimension = 3, which is for static problems of bond-based materials",
+                "write 2"};
       }
       return {};
     }
@@ -109,19 +112,20 @@ namespace plumbline::scene
     static const std::vector<Capable> all = {
         {base::word(Analysis::statics),
          all_but(moving | of_double_wells | Capabilities{C::floating})},
-        {base::word(Analysis::transient), all_but({C::notch})},
+        {base::word(Analysis::transient), all_but({C::notch, C::space})},
         {base::word(Analysis::crack),
          of_double_wells | Capabilities{C::lattice, C::notch, C::dynamic, C::nonlocal}},
         {base::word(Analysis::growth),
          of_damage() | Capabilities{C::lattice, C::free_boundary, C::heterogeneous, C::dilatation,
                                     C::nonlocal}},
         {base::word(Analysis::strip), {C::lattice, C::nonlocal}},
-        {base::word(Analysis::stability), all_but({C::line})},
+        {base::word(Analysis::stability), all_but({C::line, C::space})},
         {base::word(Analysis::dispersion),
-         all_but(on_meshes_alone | Capabilities{C::free_boundary, C::floating, C::line})},
+         all_but(on_meshes_alone | Capabilities{C::free_boundary, C::floating, C::line, C::space})},
         {base::word(Analysis::check),
-         all_but(of_damage() | Capabilities{C::line, C::free_boundary, C::floating, C::dilatation,
-                                            C::zero_dilatation, C::mixed_dilatation})}};
+         all_but(of_damage() | Capabilities{C::line, C::space, C::free_boundary, C::floating,
+                                            C::dilatation, C::zero_dilatation,
+                                            C::mixed_dilatation})}};
     return all;
   }
 
@@ -151,6 +155,7 @@ namespace plumbline::scene
     add(scene.time.is_dynamic(), C::dynamic);
     add(domain.is_periodic, C::periodic);
     add(domain.dimension == 1, C::line);
+    add(domain.is_in_space(), C::space);
     return needed;
   }
 

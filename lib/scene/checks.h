@@ -13,6 +13,9 @@ namespace plumbline::scene
   /// Kernel, limit, coefficient, and the number of components of every expression.
   void check_kernel_and_problem(const Scene &scene);
 
+  /// A scene has boxes of its dimension, and in space nothing that is for the plane.
+  void check_space(const Scene &scene);
+
   /// Keys of Domain and Methods/nodes fit together.
   void check_mesh_and_nodes(const Scene &scene);
 

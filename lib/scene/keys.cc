@@ -4,6 +4,7 @@
 #include "base/number_text.h"
 #include "base/similar_words.h"
 #include "base/text_file.h"
+#include "physics/expression.h"
 #include "scene/aliases.h"
 #include "scene/values.h"
 
@@ -96,12 +97,46 @@ namespace plumbline::scene
     constexpr double least_positive = 1e-300;
     constexpr unsigned int any_length = std::numeric_limits<unsigned int>::max();
 
-    Allowed polylines(const std::string &words, unsigned int most_points)
+    Patterns::List polyline(unsigned int most_points)
     {
       const Numbers point("'x, y'", Patterns::Double(), 2, 2, ",");
-      const Patterns::List line(point, 2, most_points, ":");
-      return std::make_shared<InWords<Patterns::List>>(words, line, 0, any_length, ";");
+      return {point, 2, most_points, ":"};
     }
+
+    Allowed polylines(const std::string &words, unsigned int most_points)
+    {
+      return std::make_shared<InWords<Patterns::List>>(words, polyline(most_points), 0, any_length,
+                                                       ";");
+    }
+
+    /// The first corner has three coordinates.
+    bool are_in_space(const std::string &boxes)
+    {
+      const auto first = boxes.begin(),
+                 last =
+                     first + static_cast<std::ptrdiff_t>(std::min(boxes.find(':'), boxes.size()));
+      return std::count(first, last, ',') == 2;
+    }
+
+    /// Boxes in the plane; what is said of boxes in space is read by to_cuboids.
+    class AnyBoxes : public InWords<Patterns::List>
+    {
+    public:
+      AnyBoxes()
+          : InWords<Patterns::List>("boxes 'x0, y0 : x1, y1' separated by ';' (in three dimensions "
+                                    "'x0, y0, z0 : x1, y1, z1')",
+                                    polyline(2), 0, any_length, ";")
+      {
+      }
+      bool match(const std::string &text) const override
+      {
+        return are_in_space(text) || List::match(text);
+      }
+      std::unique_ptr<PatternBase> clone() const override
+      {
+        return std::make_unique<AnyBoxes>(*this);
+      }
+    };
 
     bool is_list(const Patterns::PatternBase &allowed)
     {
@@ -222,6 +257,11 @@ namespace plumbline::scene
     return polylines("boxes 'x0, y0 : x1, y1' separated by ';'", 2);
   }
 
+  Allowed any_boxes()
+  {
+    return std::make_shared<AnyBoxes>();
+  }
+
   Allowed lines()
   {
     return polylines("lines 'x0, y0 : x1, y1', with more points if they bend, separated by ';'",
@@ -247,6 +287,38 @@ namespace plumbline::scene
         throw InputError("a box of '" + text +
                          "' is empty; its second corner must be above and right of its first");
       result.push_back({corners[0], corners[1]});
+    }
+    return result;
+  }
+
+  std::vector<geometry::Cuboid> to_cuboids(const std::string &text)
+  {
+    std::vector<geometry::Cuboid> result;
+    if (!are_in_space(text))
+      return result;
+    for (const std::string &box : physics::split_outside_brackets(text, ';'))
+    {
+      const auto corners = physics::split_outside_brackets(box, ':');
+      const auto wrong = [&](const std::string &reason)
+      {
+        return InputError("box '" + base::shown(box) + "' " + reason +
+                          "; write 'x0, y0, z0 : x1, y1, z1' with increasing coordinates");
+      };
+      if (corners.size() != 2)
+        throw wrong("does not have two corners");
+      geometry::Cuboid cuboid;
+      for (const bool is_upper : {false, true})
+      {
+        const auto words = physics::split_outside_brackets(corners[is_upper ? 1 : 0], ',');
+        if (words.size() != 3)
+          throw wrong("has a corner without three coordinates");
+        for (unsigned int d = 0; d < 3; ++d)
+          (is_upper ? cuboid.upper : cuboid.lower)[d] = to_number(without_fraction(words[d]));
+      }
+      for (unsigned int d = 0; d < 3; ++d)
+        if (!(cuboid.lower[d] < cuboid.upper[d]))
+          throw wrong("is empty");
+      result.push_back(cuboid);
     }
     return result;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/choice.h"
+#include "geometry/cube_lattice.h"
 #include "geometry/lattice.h"
 
 #include <deal.II/base/point.h>
@@ -36,6 +37,7 @@ namespace plumbline::scene
   Allowed numbers();          ///< separated by ','
   Allowed positive_numbers(); ///< the same, above 0
   Allowed boxes();            ///< "x0, y0 : x1, y1; ..."
+  Allowed any_boxes();        ///< the same, or in space "x0, y0, z0 : x1, y1, z1; ..."
   Allowed lines();            ///< the same, of two points or more
 
   /// @param allowed  boxes() or lines()
@@ -45,6 +47,11 @@ namespace plumbline::scene
 
   /// @throws InputError  text that boxes() does not allow; a box without area
   std::vector<geometry::Box> to_boxes(const std::string &text);
+
+  /// Boxes 'x0, y0, z0 : x1, y1, z1' in space; none where the first corner has other than three
+  /// coordinates.
+  /// @throws InputError  another corner has not three numbers; a box without volume
+  std::vector<geometry::Cuboid> to_cuboids(const std::string &text);
 
   /// The keys of a scene file, each bound to the member that takes its value.
   class Keys

@@ -141,6 +141,32 @@ namespace plumbline::scene
     return given.build();
   }
 
+  problem::Problem<3> make_problem_in_space(const Scene &scene, unsigned int case_index,
+                                            const Level &level)
+  {
+    const auto field = [&](const std::string &key, const std::string &text)
+    {
+      const Expression expression(key, text, scene.names(level.horizon));
+      problem::Field<3> result{[expression](const dealii::Point<3> &x, unsigned int component)
+                               { return expression.at(x, component); }};
+      result.is_piecewise = expression.is_piecewise();
+      return result;
+    };
+    problem::Problem<3> given{scene.domain.cubes(level.h),
+                              make_kernel_in_space(scene, level.horizon)};
+    given.settings = method_settings(scene);
+    const ProblemSection &section = scene.problem;
+    if (!section.solutions.empty())
+      given.solution = field("Problem/solution", section.solutions[case_index].expression);
+    if (!section.loads.empty())
+      given.load = field("Problem/load", section.loads[case_index].expression);
+    if (section.constraint)
+      given.constraint = field("Problem/constraint", *section.constraint);
+    if (section.local_solution == LocalSolution::expression)
+      given.local_solution = field("Problem/local solution", section.local_expression);
+    return problem::complete(std::move(given));
+  }
+
   Case make_case(const Scene &scene, unsigned int case_index, const Level &level)
   {
     return make_case(scene, case_index, make_problem(scene, case_index, level));

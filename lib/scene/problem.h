@@ -1,5 +1,6 @@
 #pragma once
 
+#include "problem/in_space.h"
 #include "problem/problem.h"
 #include "scene/scene.h"
 
@@ -31,6 +32,12 @@ namespace plumbline::scene
 
   /// The same of a problem that the scene poses, as it may have been changed since.
   Case make_case(const Scene &scene, unsigned int case_index, Problem problem);
+
+  /// In space.
+  /// @pre scene.domain.is_in_space()
+  /// @throws InputError, NumericalError  as problem::complete
+  problem::Problem<3> make_problem_in_space(const Scene &scene, unsigned int case_index,
+                                            const Level &level);
 
   /// Constants of the material that vary in space, by their keys.
   std::vector<problem::SpatialValue<2>> material_values(const Scene &scene);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/cube_lattice.h"
 #include "geometry/lattice.h"
 #include "physics/coefficient.h"
 #include "physics/expression.h"
@@ -49,8 +50,9 @@ namespace plumbline::scene
     /// relative to this point, expressions see the scene's. (0, 0) unless Ω is far from there, see
     /// geometry::local_origin; of a .geo file (0, 0) always. [length]
     dealii::Point<2> origin;
-    unsigned int dimension = 2; ///< 1: a line, the first axis of the boxes
+    unsigned int dimension = 2; ///< 1: a line, the first axis of the boxes; 3: space
     geometry::Domain boxes;
+    std::vector<geometry::Cuboid> cuboids; ///< of boxes in space, whose corners have three numbers
     MeshSource mesh;
     std::shared_ptr<MeshFiles> mesh_files; ///< those read so far; copies share them
     std::optional<double> collar;          ///< width; empty: as wide as the ball needs
@@ -64,13 +66,21 @@ namespace plumbline::scene
     std::vector<std::vector<dealii::Point<2>>> cracks;
     std::string outside;
 
+    bool is_in_space() const { return dimension == 3; }
     bool is_damaged() const { return !cracks.empty() || !outside.empty(); }
+
+    /// @pre is_in_space()
+    /// @throws InputError  as geometry::CubeLattice
+    geometry::CubeLattice cubes(double h) const { return {cuboids.front(), h}; }
 
     /// The cells of size h: of a line one row of them, whatever the boxes say of y.
     /// @throws InputError  as geometry::Lattice
     geometry::Lattice lattice(double h) const;
 
     void declare(Keys &keys);
+
+  private:
+    void declare_boundary(Keys &keys);
   };
 
   /// A named field to solve for, or a named load.

@@ -69,6 +69,7 @@ namespace plumbline::scene
       scene.strip.complete();
       if (scene.solver.is_full_model)
         scene = full_model(std::move(scene));
+      check_space(scene);
       check_kernel_and_problem(scene);
       scene.methods.complete();
       scene.study.complete();
@@ -242,6 +243,7 @@ namespace plumbline::scene
   physics::Names Scene::names(double horizon, double t) const
   {
     physics::Names names = random.names();
+    names.is_in_space = domain.is_in_space();
     names.constants["delta"] = horizon;
     if (time.is_dynamic())
       names.constants["t"] = t;
@@ -304,6 +306,7 @@ namespace plumbline::scene
       for (const std::string &text : texts)
       {
         physics::Names steady = random.names();
+        steady.is_in_space = domain.is_in_space();
         steady.constants["delta"] = 1;
         (void)physics::Expression("Problem", text, steady);
       }
@@ -318,6 +321,11 @@ namespace plumbline::scene
   physics::Kernel<2> make_kernel(const Scene &scene, double horizon)
   {
     return scene.material.model->kernel(scene, horizon);
+  }
+
+  physics::Kernel<3> make_kernel_in_space(const Scene &scene, double horizon)
+  {
+    return scene.material.model->kernel_in_space(scene, horizon);
   }
 
   namespace

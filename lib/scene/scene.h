@@ -70,6 +70,10 @@ namespace plumbline::scene
   /// The kernel of its bonds; for double wells, linearised at zero strain.
   physics::Kernel<2> make_kernel(const Scene &scene, double horizon);
 
+  /// The same in space.
+  /// @throws InputError  a model of the plane
+  physics::Kernel<3> make_kernel_in_space(const Scene &scene, double horizon);
+
   /// The double-well potential of its bonds.
   /// @throws InputError  a constant or an influence function (Kernel/type) that is not allowed
   /// @pre scene.material.model == &double_well()

@@ -130,18 +130,6 @@ namespace plumbline::study
       return sum;
     }
 
-    /// Cells along a side of a block of error maps: a divisor of both extents if there is a near
-    /// one.
-    int cells_per_block(const std::array<int, 2> &n)
-    {
-      constexpr int most_blocks = 32;
-      const int least = (std::max(n[0], n[1]) + most_blocks - 1) / most_blocks;
-      for (int size = least; size <= 2 * least; ++size)
-        if (n[0] % size == 0 && n[1] % size == 0)
-          return size;
-      return least;
-    }
-
     /// Calls f(x, weight) with a rule on every cell of Ω.
     template <class F>
     void for_each_point(const problem::Problem<2> &problem, const dealii::Quadrature<2> &on_square,
@@ -316,6 +304,16 @@ namespace plumbline::study
                        sum.add(a(x, c) - b(x, c), weight);
                    });
     return std::sqrt(sum.squares);
+  }
+
+  int cells_per_block(const std::array<int, 2> &n)
+  {
+    constexpr int most_blocks = 32;
+    const int least = (std::max(n[0], n[1]) + most_blocks - 1) / most_blocks;
+    for (int size = least; size <= 2 * least; ++size)
+      if (n[0] % size == 0 && n[1] % size == 0)
+        return size;
+    return least;
   }
 
   ErrorMap error_map(scene::Norm decisive, const problem::Problem<2> &problem,

@@ -59,6 +59,10 @@ namespace plumbline::study
     std::vector<double> local; ///< of the local limit where it is computed
   };
 
+  /// Cells along a side of a block of error maps, of which there are at most 32 along an axis: a
+  /// divisor of both extents if there is a near one.
+  int cells_per_block(const std::array<int, 2> &n);
+
   /// The errors of nodal values, if the decisive error is nodal, or else of cell averages against
   /// the exact solution, or else other averages: the largest in each of at most 32 × 32 blocks of
   /// cells.

@@ -26,6 +26,13 @@ namespace plumbline::study
     method::ProblemSize lattice_size(const scene::Scene &scene, const problem::Level &level)
     {
       method::ProblemSize size = size_of(scene, level);
+      if (scene.domain.is_in_space())
+      {
+        const auto n = scene.domain.cubes(level.h).n_cells();
+        size.extents = {static_cast<double>(n[0]), static_cast<double>(n[1])};
+        size.depth = n[2];
+        return size;
+      }
       const auto n = scene.domain.lattice(level.h).n_cells();
       size.extents = {static_cast<double>(n[0]), static_cast<double>(n[1])};
       return size;
@@ -54,6 +61,7 @@ namespace plumbline::study
       size.level = level;
       for (double &extent : size.extents)
         extent *= std::sqrt(finer);
+      size.depth *= std::sqrt(finer);
       size.n_cells *= finer;
       size.n_free *= finer;
       size.cell_area /= finer;
@@ -67,7 +75,9 @@ namespace plumbline::study
       text << what << method.name() << " at h = " << size.level.h
            << ", horizon = " << size.level.horizon << " (";
       if (size.is_lattice())
-        text << size.extents[0] << " x " << size.extents[1] << " cells)";
+        text << size.extents[0] << " x " << size.extents[1]
+             << (size.depth > 0 ? " x " + std::to_string(std::lround(size.depth)) : "")
+             << " cells)";
       else
         text << "some " << std::round(size.n_cells) << " cells)";
       base::require_memory(method.expected_bytes(size), text.str(),

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace plumbline::study
@@ -56,9 +57,14 @@ namespace plumbline::study
                        "or 0");
     const problem::Level &level = scene.study.series.front().levels.front();
     const scene::Scene here = at_level(scene, level);
-    const problem::Problem<2> first = make_problem(here, 0, level);
+    std::optional<problem::Problem<2>> first;
+    if (!here.domain.is_in_space())
+      first = make_problem(here, 0, level);
     const auto reason_against = [&](const Method &method)
-    { return refusal(method, here, first, available); };
+    {
+      return first ? refusal(method, here, *first, available)
+                   : refusal_in_space(method, here, available);
+    };
     Methods chosen = named_methods(
         scene, available, [&](const Method &method) { return reason_against(method).empty(); });
     for (const auto &method : chosen)
@@ -174,6 +180,13 @@ namespace plumbline::study
     check_analysis(scene, scene::Analysis::statics);
     if (!scene.domain.mesh.is_lattice() || scene.domain.is_free_body)
       check_meshes(scene);
+    const auto check = [&scene](unsigned int c, const problem::Level &level)
+    {
+      if (scene.domain.is_in_space())
+        (void)make_problem_in_space(scene, c, level);
+      else
+        check_data(make_problem(at_level(scene, level), c, level));
+    };
     const auto names = scene.problem.case_names();
     for (unsigned int c = 0; c < names.size(); ++c)
       for (const auto &series : scene.study.series)
@@ -184,7 +197,7 @@ namespace plumbline::study
                               { return a.horizon + a.h < b.horizon + b.h; });
         for (const problem::Level &level : series.levels)
           if (&level == &widest || scene.study.regime == scene::Regime::variable)
-            check_data(make_problem(at_level(scene, level), c, level));
+            check(c, level);
       }
   }
 } // namespace plumbline::study

@@ -39,13 +39,27 @@ namespace plumbline::study
     }
   } // namespace
 
+  namespace
+  {
+    std::string refusal(const Method &method, const scene::Scene &scene, const Capabilities &needed,
+                        const Methods &available)
+    {
+      return scene::refusal(scene, needed, method.can(), others(method, needed, available));
+    }
+  } // namespace
+
   std::string refusal(const Method &method, const scene::Scene &scene,
                       const problem::Problem<2> &problem, const Methods &available)
   {
-    const Capabilities needed = scene::needs(scene) | problem::needs_of_cells(problem);
     const std::string why =
-        scene::refusal(scene, needed, method.can(), others(method, needed, available));
+        refusal(method, scene, scene::needs(scene) | problem::needs_of_cells(problem), available);
     return why.empty() ? method.why_not(problem) : why;
+  }
+
+  std::string refusal_in_space(const Method &method, const scene::Scene &scene,
+                               const Methods &available)
+  {
+    return refusal(method, scene, scene::needs(scene), available);
   }
 
   bool can_solve(const Method &method, const problem::Problem<2> &problem)

@@ -15,6 +15,10 @@ namespace plumbline::study
   std::string refusal(const Method &method, const scene::Scene &scene,
                       const problem::Problem<2> &problem, const Methods &available);
 
+  /// The same of a scene in space.
+  std::string refusal_in_space(const Method &method, const scene::Scene &scene,
+                               const Methods &available);
+
   /// As far as the problem says so itself.
   bool can_solve(const Method &method, const problem::Problem<2> &problem);
 

@@ -1,8 +1,10 @@
 #include "study/round_off.h"
 
 #include "physics/load.h"
+#include "physics/load_in_space.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -22,28 +24,56 @@ namespace plumbline::study
       return problem.lattice()->h() * std::min(n[0], n[1]);
     }
 
+    double width(const problem::Problem<3> &problem)
+    {
+      const auto &n = problem.lattice.n_cells();
+      return problem.h() * *std::min_element(n.begin(), n.end());
+    }
+
     /// The least of ∫ C_aa ξ_c²: how stiff the operator is at least.
-    double least_second_moment(const physics::Kernel<2> &kernel)
+    template <int dim>
+    double least_second_moment(const physics::Kernel<dim> &kernel)
     {
       double least = std::numeric_limits<double>::infinity();
       for (unsigned int a = 0; a < kernel.n_components(); ++a)
-        for (const auto &alpha : {std::array<int, 2>{2, 0}, std::array<int, 2>{0, 2}})
+        for (unsigned int c = 0; c < dim; ++c)
+        {
+          std::array<int, dim> alpha{};
+          alpha[c] = 2;
           least = std::min(least, std::abs(kernel.moment(alpha, a, a)));
+        }
       return least;
+    }
+
+    /// @param is_shifted  a constant is taken off before it is solved
+    template <class Problem, class OneSolution>
+    double round_off(const Problem &problem, const OneSolution &solution, bool is_shifted)
+    {
+      constexpr double safety = 10, epsilon = std::numeric_limits<double>::epsilon();
+      const double a = width(problem) / 2 + problem.horizon();
+      const double amplification =
+          physics::operator_scale(problem.kernel) * a * a / least_second_moment(problem.kernel);
+      double largest = 0;
+      for (const double average : solution.averages)
+        largest = std::max(largest, std::abs(average));
+      const double residual = std::max(solution.diagnostics.relative_residual, epsilon);
+      const double solved_for =
+          is_shifted ? variation(problem.n_components, solution.averages) : largest;
+      const double loaded_by = problem.is_load_given ? solved_for : largest; // manufactured from u
+      return safety * (epsilon * (amplification * loaded_by + largest) + residual * solved_for);
     }
   } // namespace
 
-  double variation(const problem::Problem<2> &problem, const Solution &solution)
+  double variation(unsigned int n_components, const std::vector<double> &averages)
   {
     double most = 0;
-    const unsigned int n = problem.n_components;
-    for (unsigned int c = 0; c < n && !solution.averages.empty(); ++c)
+    for (unsigned int c = 0; c < n_components && !averages.empty(); ++c)
     {
-      double low = solution.averages[c], high = low;
-      for (std::size_t i = c; i < solution.averages.size(); i += n)
+      double low = averages[c], high = low;
+      for (std::size_t i = c; i < averages.size(); i += n_components)
       {
-        low = std::min(low, solution.averages[i]);
-        high = std::max(high, solution.averages[i]);
+        low = std::min(low, averages[i]);
+        high = std::max(high, averages[i]);
       }
       most = std::max(most, high - low);
     }
@@ -52,16 +82,12 @@ namespace plumbline::study
 
   double round_off_error(const problem::Problem<2> &problem, const Solution &solution)
   {
-    constexpr double safety = 10, epsilon = std::numeric_limits<double>::epsilon();
-    const double a = width(problem) / 2 + problem.horizon();
-    const double amplification =
-        physics::operator_scale(problem.kernel) * a * a / least_second_moment(problem.kernel);
-    double largest = 0;
-    for (const double average : solution.averages)
-      largest = std::max(largest, std::abs(average));
-    const double residual = std::max(solution.diagnostics.relative_residual, epsilon);
-    const double solved_for = problem.lattice() ? variation(problem, solution) : largest;
-    const double loaded_by = problem.is_load_given ? solved_for : largest; // manufactured from u
-    return safety * (epsilon * (amplification * loaded_by + largest) + residual * solved_for);
+    return round_off(problem, solution, problem.lattice() != nullptr);
+  }
+
+  double round_off_error(const problem::Problem<3> &problem,
+                         const analysis::SolutionInSpace &solution)
+  {
+    return round_off(problem, solution, true);
   }
 } // namespace plumbline::study

@@ -17,6 +17,11 @@ namespace plumbline::study
   /// @return  absolute, in the unit of the solution
   double round_off_error(const problem::Problem<2> &problem, const Solution &solution);
 
+  /// The same in space.
+  double round_off_error(const problem::Problem<3> &problem,
+                         const analysis::SolutionInSpace &solution);
+
   /// How far a solution varies: largest less least cell average, of the component where it is most.
-  double variation(const problem::Problem<2> &problem, const Solution &solution);
+  /// @param averages  shape (n_cells, n_components)
+  double variation(unsigned int n_components, const std::vector<double> &averages);
 } // namespace plumbline::study

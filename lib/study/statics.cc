@@ -14,6 +14,7 @@
 #include "study/saving.h"
 #include "study/self_convergence.h"
 #include "study/solution_record.h"
+#include "study/statics_in_space.h"
 #include "study/timing.h"
 
 #include <algorithm>
@@ -165,7 +166,7 @@ namespace plumbline::study
       {
         const problem::Problem<2> &problem = one.problem;
         run.cost = solution.cost;
-        run.set("variation", variation(problem, solution));
+        run.set("variation", variation(problem.n_components, solution.averages));
         run.set("round-off", round_off_error(problem, solution));
         run.set("area", area_of(problem), "length^2");
         set_diagnostics(run, solution.diagnostics);
@@ -225,7 +226,8 @@ namespace plumbline::study
                          const std::vector<double> &target) const
       {
         if (options_.on_finest)
-          options_.on_finest(solution, run);
+          options_.on_finest([&](const std::string &stem) { solution.write_vtu(stem + ".vtu"); },
+                             run);
         if (run.key.problem != cases_.back().name || !is_of_first_series() ||
             (!problem.solution && target.empty()))
           return;
@@ -281,9 +283,18 @@ namespace plumbline::study
     analysis.check = [](const scene::Scene &scene, const Methods &, unsigned int)
     { check_data(scene); };
     analysis.begin = [available, options](const Place &place)
-    { LevelOfStatics(place, available, options).warn(); };
+    {
+      if (place.scene().domain.is_in_space())
+        open_statics_in_space(place, available, options);
+      else
+        LevelOfStatics(place, available, options).warn();
+    };
     analysis.analyse = [available, options](const Place &place, const Method &method)
-    { return LevelOfStatics(place, available, options).run(method); };
+    {
+      return place.scene().domain.is_in_space()
+                 ? statics_in_space(place, method, available, options)
+                 : LevelOfStatics(place, available, options).run(method);
+    };
     analysis.complete = [](const scene::Scene &scene, Common &common)
     { common.kept<OwnFinest>(own_finest).compare(scene, common.results.records); };
     analysis.conclude = [](const scene::Scene &scene, StudyResults &results)

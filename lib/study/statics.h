@@ -13,7 +13,9 @@ namespace plumbline::study
   /// What is done with static solutions besides.
   struct StaticsOptions
   {
-    std::function<void(const Solution &, const Record &)> on_finest = {}; ///< of finest levels
+    /// Of finest levels: what writes the solution to a VTK file, whose name it ends.
+    std::function<void(const std::function<void(const std::string &stem)> &write, const Record &)>
+        on_finest = {};
     /// Of every level, their records with errors.
     std::function<void(const problem::Problem<2> &, const Solution &, const Record &)> on_solution =
         {};

@@ -1,45 +1,64 @@
 #include "meshfree/rules/family_moments.h"
 
+#include "meshfree/rules/moments.h"
 #include "method/diagnostics.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace plumbline::meshfree
 {
   namespace
   {
-    double largest_second_moment(const Kernel<2> &kernel)
+    /// Of one order, the last axis' exponents falling.
+    template <int dim>
+    std::vector<Exponents<dim>> of_order(int order)
+    {
+      auto all = exponents<dim>(order, order);
+      std::reverse(all.begin(), all.end());
+      return all;
+    }
+
+    template <int dim>
+    double largest_second_moment(const Kernel<dim> &kernel)
     {
       double largest = 0;
       for (unsigned int a = 0; a < kernel.n_components(); ++a)
         for (unsigned int b = a; b < kernel.n_components(); ++b)
-          for (const auto &alpha : {std::array{2, 0}, std::array{1, 1}, std::array{0, 2}})
+          for (const Exponents<dim> &alpha : of_order<dim>(2))
             largest = std::max(largest, std::abs(kernel.moment(alpha, a, b)));
       return largest;
     }
   } // namespace
 
-  BallMoments::BallMoments(const Kernel<2> &kernel, unsigned int order)
+  template <int dim>
+  BallMoments<dim>::BallMoments(const Kernel<dim> &kernel, unsigned int order)
       : kernel_(kernel), order_(order), scale_(largest_second_moment(kernel))
   {
+    for (int n = 1; n <= static_cast<int>(order); ++n)
+      for (const Exponents<dim> &alpha : of_order<dim>(n))
+        exponents_.push_back(alpha);
     for (unsigned int a = 0; a < kernel.n_components(); ++a)
       for (unsigned int b = a; b < kernel.n_components(); ++b)
-        for (int n = 1; n <= static_cast<int>(order); ++n)
-          for (int i = 0; i <= n; ++i)
-            exact_.push_back(kernel.moment({i, n - i}, a, b) /
-                             (scale_ * std::pow(kernel.horizon(), n - 2)));
+        for (const Exponents<dim> &alpha : exponents_)
+        {
+          const int n = std::accumulate(alpha.begin(), alpha.end(), 0);
+          exact_.push_back(kernel.moment(alpha, a, b) /
+                           (scale_ * std::pow(kernel.horizon(), n - 2)));
+        }
   }
 
-  std::vector<double> BallMoments::defects(const std::vector<Bond<2>> &family) const
+  template <int dim>
+  std::vector<double> BallMoments<dim>::defects(const std::vector<Bond<dim>> &family) const
   {
     constexpr unsigned int most = 6;
     const double horizon = kernel_.horizon();
     std::vector<double> defects(exact_.size());
-    std::array<std::array<double, most + 1>, 2> power{};
-    for (const Bond<2> &bond : family)
+    std::array<std::array<double, most + 1>, dim> power{};
+    for (const Bond<dim> &bond : family)
     {
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
       {
         power[d][0] = 1;
         for (unsigned int n = 1; n <= order_; ++n)
@@ -51,9 +70,13 @@ namespace plumbline::meshfree
         {
           const double C =
               bond.weight * kernel_value(kernel_, bond, a, b) * horizon * horizon / scale_;
-          for (unsigned int n = 1; n <= order_; ++n)
-            for (unsigned int i = 0; i <= n; ++i)
-              defects[place++] += C * power[0][i] * power[1][n - i];
+          for (const Exponents<dim> &alpha : exponents_)
+          {
+            double product = C;
+            for (unsigned int d = 0; d < dim; ++d)
+              product *= power[d][alpha[d]];
+            defects[place++] += product;
+          }
         }
     }
     for (std::size_t i = 0; i < defects.size(); ++i)
@@ -61,7 +84,8 @@ namespace plumbline::meshfree
     return defects;
   }
 
-  double BallMoments::worst_defect(const std::vector<Bond<2>> &family) const
+  template <int dim>
+  double BallMoments<dim>::worst_defect(const std::vector<Bond<dim>> &family) const
   {
     double worst = 0;
     for (const double defect : defects(family))
@@ -69,10 +93,11 @@ namespace plumbline::meshfree
     return worst;
   }
 
-  double BallMoments::area_defect(const std::vector<Bond<2>> &family) const
+  template <int dim>
+  double BallMoments<dim>::area_defect(const std::vector<Bond<dim>> &family) const
   {
     double difference = 0, whole = 0;
-    for (const Bond<2> &bond : family)
+    for (const Bond<dim> &bond : family)
     {
       const double size = std::abs(radial_value(kernel_, bond)) * bond.xi.norm_square();
       difference += std::abs(bond.weight - bond.area) * size;
@@ -80,6 +105,9 @@ namespace plumbline::meshfree
     }
     return difference / whole;
   }
+
+  template class BallMoments<2>;
+  template class BallMoments<3>;
 
   double MomentBias::Part::spread(std::size_t i) const
   {

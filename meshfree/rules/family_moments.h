@@ -9,29 +9,32 @@
 // Moments of the weights of families, by which a rule has the right limit or not.
 namespace plumbline::meshfree
 {
-  /// The moments of a kernel's ball that the weights of families are held against.
+  /// The moments of a kernel's ball that the weights of families are held against. Instantiated for
+  /// dim = 2 and 3.
+  template <int dim>
   class BallMoments
   {
   public:
     /// @param order  largest |α|, at most 6
-    BallMoments(const Kernel<2> &kernel, unsigned int order);
+    BallMoments(const Kernel<dim> &kernel, unsigned int order);
 
     /// Σ w C_ab ξ^α less ∫ C_ab ξ^α over the ball for all pairs a <= b and |α| = 1, 2, ..., order,
     /// over the largest exact second moment times horizon^(|α| - 2). Fixed places; of order 2: 5
     /// numbers for scalar kernels, 15 for tensors.
-    std::vector<double> defects(const std::vector<Bond<2>> &family) const;
+    std::vector<double> defects(const std::vector<Bond<dim>> &family) const;
 
     /// The largest size of them.
-    double worst_defect(const std::vector<Bond<2>> &family) const;
+    double worst_defect(const std::vector<Bond<dim>> &family) const;
 
     /// Σ |w - area| |C| |ξ|² / Σ area |C| |ξ|².
-    double area_defect(const std::vector<Bond<2>> &family) const;
+    double area_defect(const std::vector<Bond<dim>> &family) const;
 
   private:
-    Kernel<2> kernel_;
+    Kernel<dim> kernel_;
     unsigned int order_;
-    std::vector<double> exact_; ///< over that scale
-    double scale_ = 0;          ///< the largest second moment
+    std::vector<std::array<int, dim>> exponents_; ///< of orders 1, 2, ...
+    std::vector<double> exact_;                   ///< over that scale
+    double scale_ = 0;                            ///< the largest second moment
   };
 
   /// Means and spreads of the defects of families, over the whole domain and over parts of it. A

@@ -7,12 +7,13 @@
 
 namespace plumbline::meshfree
 {
-  void describe_weights(const std::vector<Bond<2>> &family, const Fit &fit,
+  template <int dim>
+  void describe_weights(const std::vector<Bond<dim>> &family, const Fit &fit,
                         method::Diagnostics &diagnostics)
   {
     diagnostics.n_neighbours =
         std::max(diagnostics.n_neighbours, static_cast<unsigned int>(family.size()));
-    for (const Bond<2> &bond : family)
+    for (const Bond<dim> &bond : family)
     {
       diagnostics.smallest_weight_ratio =
           std::min(diagnostics.smallest_weight_ratio, bond.weight / bond.area);
@@ -24,6 +25,9 @@ namespace plumbline::meshfree
     diagnostics.smallest_singular_value =
         std::min(diagnostics.smallest_singular_value, fit.smallest_singular_value);
   }
+
+  template void describe_weights(const std::vector<Bond<2>> &, const Fit &, method::Diagnostics &);
+  template void describe_weights(const std::vector<Bond<3>> &, const Fit &, method::Diagnostics &);
 
   namespace
   {

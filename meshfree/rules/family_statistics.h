@@ -11,7 +11,8 @@
 namespace plumbline::meshfree
 {
   /// Add a family to what a method says of its weights.
-  void describe_weights(const std::vector<Bond<2>> &family, const Fit &fit,
+  template <int dim>
+  void describe_weights(const std::vector<Bond<dim>> &family, const Fit &fit,
                         method::Diagnostics &diagnostics);
 
   /// What the families of scattered nodes are like.
@@ -33,7 +34,7 @@ namespace plumbline::meshfree
     method::Diagnostics weights_;
     bool is_scalar_ = true;
     unsigned int ball_order_ = 0;
-    std::optional<BallMoments> second_, all_; ///< of the families' kernel, once there is one
+    std::optional<BallMoments<2>> second_, all_; ///< of the families' kernel, once there is one
     double worst_defect_ = 0, ball_defect_ = 0, area_defect_ = 0;
     MomentBias bias_;
     double n_families_ = 0, n_negative_ = 0, n_unstable_ = 0, n_dependent_ = 0, n_clipped_ = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "method/box_discretisation.h"
 #include "method/method.h"
 #include "reference/shapes.h"
 
@@ -11,6 +12,12 @@ namespace plumbline::reference
   /// each cell: Hinton, Rock & Zienkiewicz 1976, doi:10.1002/eqe.4290040305.
   std::unique_ptr<method::Discretisation> discretise_on_lattice(const problem::Problem<2> &problem,
                                                                 const AxisShapes &shapes);
+
+  /// On a box in space.
+  /// @pre shapes of one family: continuous ones of degree 1, or constants
+  /// @throws NumericalError  no vertex is free
+  std::unique_ptr<method::BoxDiscretisation> discretise_on_box(const problem::Problem<3> &problem,
+                                                               const AxisShapes &shapes);
 
   /// With one axis: motions of double wells.
   /// @pre shapes are continuous

@@ -309,7 +309,7 @@ TEST(RoundOff, grows_with_the_offset_and_size_does_not)
         make_problem(scene, 0, scene.study.series.front().levels.front());
     const auto method = study::find_method(all(), "FA", "test");
     const analysis::Solution solution = analysis::solve(*method, problem);
-    return std::pair(study::variation(problem, solution),
+    return std::pair(study::variation(problem.n_components, solution.averages),
                      study::round_off_error(problem, solution));
   };
   const auto [size, noise] = make(0, false);

@@ -7,6 +7,19 @@ namespace plumbline::scene
 {
   namespace
   {
+    template <int dim>
+    physics::Kernel<dim> kernel_of(const Scene &scene, double horizon)
+    {
+      const KernelSection &kernel = scene.kernel;
+      if (kernel.limit == Limit::navier)
+        return physics::Kernel<dim>::with_bulk_modulus(kernel.profile, horizon,
+                                                       kernel.bulk_modulus);
+      if (kernel.limit == Limit::none)
+        return {kernel.structure, kernel.profile, horizon, kernel.constant};
+      return physics::Kernel<dim>::with_diffusion(kernel.profile, horizon,
+                                                  kernel.limit == Limit::laplace ? 1 : .5);
+    }
+
     class BondBased : public Model
     {
     public:
@@ -19,8 +32,8 @@ namespace plumbline::scene
       Capabilities can() const override
       {
         using C = Capability;
-        return of_meshes() |
-               Capabilities{C::lattice, C::heterogeneous, C::nonlocal, C::dynamic, C::cracks};
+        return of_meshes() | Capabilities{C::lattice, C::heterogeneous, C::nonlocal,
+                                          C::dynamic, C::cracks,        C::space};
       }
 
       std::map<std::string, Settings> templates() const override
@@ -44,14 +57,11 @@ namespace plumbline::scene
 
       physics::Kernel<2> kernel(const Scene &scene, double horizon) const override
       {
-        const KernelSection &kernel = scene.kernel;
-        if (kernel.limit == Limit::navier)
-          return physics::Kernel<2>::with_bulk_modulus(kernel.profile, horizon,
-                                                       kernel.bulk_modulus);
-        if (kernel.limit == Limit::none)
-          return {kernel.structure, kernel.profile, horizon, kernel.constant};
-        return physics::Kernel<2>::with_diffusion(kernel.profile, horizon,
-                                                  kernel.limit == Limit::laplace ? 1 : .5);
+        return kernel_of<2>(scene, horizon);
+      }
+      physics::Kernel<3> kernel_in_space(const Scene &scene, double horizon) const override
+      {
+        return kernel_of<3>(scene, horizon);
       }
 
       std::vector<std::pair<std::string, std::string>> facts(const Scene &scene,

@@ -61,6 +61,10 @@ namespace plumbline::scene
     /// Kernel of its bonds; of a nonlinear model, linearised at zero strain.
     virtual physics::Kernel<2> kernel(const Scene &scene, double horizon) const = 0;
 
+    /// The same in space.
+    /// @throws InputError  the model is of the plane
+    virtual physics::Kernel<3> kernel_in_space(const Scene &scene, double horizon) const;
+
     /// Adds the model's other data to a problem.
     virtual void complete(const Scene &, const Level &, Problem &) const {}
 

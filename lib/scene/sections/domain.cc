@@ -29,17 +29,23 @@ namespace plumbline::scene
 
   void DomainSection::declare(Keys &keys)
   {
-    const auto &words = base::words<Boundary>;
     mesh_files = std::make_shared<MeshFiles>();
-    keys.add("dimension", dimension, count(1, 2),
+    keys.add("dimension", dimension, count(1, 3),
              "2: the plane. 1: a line, the first axis of the boxes; expressions depend on x and "
              "have one component (transient analyses of Material/model = double well with "
-             "Domain/boundary = periodic).");
+             "Domain/boundary = periodic). 3: space; expressions depend on x, y and z (static "
+             "problems of Material/model = bond-based with Domain/mesh = lattice).");
     keys.add(
-        "boxes", "0, 0 : 1, 1", scene::boxes(),
-        [this](const std::string &text) { boxes.include = to_boxes(text); },
-        "The domain Omega: boxes 'x0, y0 : x1, y1' separated by ';'. Distances between parallel "
-        "sides must be multiples of every mesh size. [length]");
+        "boxes", "0, 0 : 1, 1", any_boxes(),
+        [this](const std::string &text)
+        {
+          cuboids = to_cuboids(text);
+          if (cuboids.empty())
+            boxes.include = to_boxes(text);
+        },
+        "The domain Omega: boxes 'x0, y0 : x1, y1' separated by ';'; in three dimensions one box "
+        "'x0, y0, z0 : x1, y1, z1'. Distances between parallel sides must be multiples of every "
+        "mesh size. [length]");
     keys.add(
         "holes", "", scene::boxes(),
         [this](const std::string &text) { boxes.exclude = to_boxes(text); },
@@ -78,6 +84,12 @@ namespace plumbline::scene
         },
         "Width of the interaction domain around Omega, where the volume constraint prescribes u: "
         "auto, or a width of at least the largest horizon. [length]");
+    declare_boundary(keys);
+  }
+
+  void DomainSection::declare_boundary(Keys &keys)
+  {
+    const auto &words = base::words<Boundary>;
     keys.add(
         "boundary", "constrained", one_of({words.begin(), words.end()}),
         [this](const std::string &text)

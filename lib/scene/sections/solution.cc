@@ -86,8 +86,9 @@ namespace plumbline::scene
 
   void OutputSection::declare(Keys &keys)
   {
-    keys.add("fields", fields, yes_or_no(),
-             "Write the solutions of the finest levels as VTU files.");
+    keys.add(
+        "fields", fields, yes_or_no(),
+        "Write the solutions of the finest levels as VTK files (.vtu, in three dimensions .vti).");
     keys.add("points", points, any_text(),
              "CSV file with columns x and y: points in the domain, where 'run' writes each static "
              "solution, its error and its change from the level before (points/*.csv). Relative to "

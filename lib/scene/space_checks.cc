@@ -1,0 +1,69 @@
+#include "base/error.h"
+#include "scene/checks.h"
+#include "scene/values.h"
+
+#include <algorithm>
+#include <string>
+
+namespace plumbline::scene
+{
+  namespace
+  {
+    /// What is in the way, and what to write instead.
+    void needs(bool is_right, const std::string &given, const std::string &remedy)
+    {
+      require(is_right, "Domain/dimension = 3 does not support " + given + " yet; " + remedy);
+    }
+
+    void check_domain_in_space(const Scene &scene)
+    {
+      const DomainSection &domain = scene.domain;
+      require(domain.cuboids.size() == 1,
+              "Domain/dimension = 3 needs Domain/boxes = one box with three coordinates a corner, "
+              "but it has " +
+                  std::to_string(domain.cuboids.size()) + "; write '0, 0, 0 : 1, 1, 1'");
+      needs(domain.boxes.exclude.empty(), "Domain/holes", "clear it");
+      needs(domain.mesh.is_lattice(), "Domain/mesh = " + domain.mesh.name, "write lattice");
+      needs(!domain.is_free_body && !domain.is_periodic, "Domain/boundary other than constrained",
+            "write constrained");
+      needs(!domain.is_damaged(), "Domain/cracks and Domain/outside", "clear both");
+      needs(!domain.collar, "Domain/interaction domain with a width", "write auto");
+    }
+
+    void check_study_in_space(const Scene &scene)
+    {
+      const NodeSource &nodes = scene.methods.nodes;
+      needs(nodes.kind() == NodeKind::centres && nodes.perturbation == 0,
+            "Methods/nodes = " + nodes.name + " with perturbation " +
+                short_number(nodes.perturbation),
+            "write centres without perturbation");
+      needs(scene.kernel.coefficient.empty() && scene.kernel.materials.empty(),
+            "Kernel/coefficient and Kernel/materials", "clear both");
+      needs(!scene.solver.is_full_model, "Solver/model = full", "write smallest");
+      needs(scene.problem.local_solution != LocalSolution::computed,
+            "Problem/local solution = computed", "write none, or an expression");
+      needs(scene.study.decisive_error.target != Target::finest,
+            "Study/decisive error against the own finest level", "write exact or reference");
+      needs(!scene.sampling.is_there() && scene.random.variables.empty(),
+            "random variables and samples", "clear Random/variables and Sampling/rule");
+      needs(scene.output.points.empty(), "Output/points", "clear it");
+      needs(quantity(scene.study.decisive_error.norm) != Quantity::field,
+            "Study/decisive error = " + scene.study.decisive_error.text(),
+            "write a nodal or averages norm");
+    }
+  } // namespace
+
+  void check_space(const Scene &scene)
+  {
+    if (scene.domain.is_in_space())
+    {
+      check_domain_in_space(scene);
+      check_study_in_space(scene);
+    }
+    else
+      require(scene.domain.cuboids.empty(),
+              "Domain/boxes has three coordinates a corner, but Domain/dimension = " +
+                  std::to_string(scene.domain.dimension) +
+                  "; write Domain/dimension = 3, or two coordinates");
+  }
+} // namespace plumbline::scene

@@ -1,0 +1,333 @@
+#include "study/statics_in_space.h"
+
+#include "analysis/statics.h"
+#include "base/error.h"
+#include "base/number_text.h"
+#include "physics/gauss.h"
+#include "study/comparison.h"
+#include "study/preflight.h"
+#include "study/reference_estimate.h"
+#include "study/round_off.h"
+#include "study/solution_record.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace plumbline::study
+{
+  namespace
+  {
+    using ProblemInSpace = problem::Problem<3>;
+    using analysis::SolutionInSpace;
+    using scene::Quantity;
+    using scene::Target;
+
+    /// Averages of a field over the cells, shape (n_cells, n_components): exact for polynomials of
+    /// degree 9 in each variable.
+    std::vector<double> cell_averages(const problem::Field<3> &field, const ProblemInSpace &problem)
+    {
+      constexpr unsigned int n_points = 5;
+      const auto &gauss = physics::gauss(n_points);
+      physics::AxisFunctionals means;
+      for (unsigned int d = 0; d < 3; ++d)
+        for (int i = 0; i < problem.lattice.n_cells()[d]; ++i)
+        {
+          physics::AxisFunctional mean;
+          for (unsigned int q = 0; q < n_points; ++q)
+            mean.emplace_back(problem.lattice.coordinate(d, i + gauss.point(q)[0]),
+                              gauss.weight(q));
+          means[d].push_back(std::move(mean));
+        }
+      std::vector<double> result(problem.lattice.size() * problem.n_components);
+      for (unsigned int c = 0; c < problem.n_components; ++c)
+      {
+        const auto of_component = field.apply(c, means);
+        for (std::size_t i = 0; i < of_component.size(); ++i)
+          result[i * problem.n_components + c] = of_component[i];
+      }
+      return result;
+    }
+
+    double cell_volume(const ProblemInSpace &problem)
+    {
+      return std::pow(problem.h(), 3);
+    }
+
+    /// The L2 distance of averages over the cells of a problem; `b` empty: 0.
+    double averages_l2(const ProblemInSpace &problem, const std::vector<double> &a,
+                       const std::vector<double> &b = {})
+    {
+      double squares = 0;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        squares += std::pow(a[i] - (b.empty() ? 0 : b[i]), 2);
+      return std::sqrt(cell_volume(problem) * squares);
+    }
+
+    /// Over cells of 2 h, each of eight.
+    /// @param n  cells of h along each axis, even
+    std::vector<double> coarsened(const std::vector<double> &averages, const std::array<int, 3> &n,
+                                  unsigned int n_components)
+    {
+      constexpr double part = 1. / 8;
+      std::vector<double> result(averages.size() / 8);
+      std::size_t place = 0;
+      for (int k = 0; k < n[2]; ++k)
+        for (int j = 0; j < n[1]; ++j)
+          for (int i = 0; i < n[0]; ++i)
+            for (unsigned int c = 0; c < n_components; ++c, ++place)
+            {
+              const std::size_t coarse =
+                  i / 2 + static_cast<std::size_t>(n[0] / 2) * (j / 2 + n[1] / 2 * (k / 2));
+              result[coarse * n_components + c] += part * averages[place];
+            }
+      return result;
+    }
+
+    /// Errors of averages in the layer of cells in the middle: the largest in each block of cells.
+    ErrorMap map_of_layer(const ProblemInSpace &problem, const std::vector<double> &averages,
+                          const std::vector<double> &target)
+    {
+      constexpr int n_digits = 4;
+      const auto &n = problem.lattice.n_cells();
+      const int layer = n[2] / 2, per_block = cells_per_block({n[0], n[1]});
+      ErrorMap map;
+      map.quantity = "cell averages at z = " +
+                     base::to_text(problem.lattice.coordinate(2, layer + .5), n_digits);
+      map.h = problem.h();
+      map.horizon = problem.horizon();
+      map.n_x = (n[0] + per_block - 1) / per_block;
+      map.n_y = (n[1] + per_block - 1) / per_block;
+      map.lower = {problem.lattice.coordinate(0, 0), problem.lattice.coordinate(1, 0)};
+      map.upper = {problem.lattice.coordinate(0, per_block * static_cast<double>(map.n_x)),
+                   problem.lattice.coordinate(1, per_block * static_cast<double>(map.n_y))};
+      map.values.assign(static_cast<std::size_t>(map.n_x) * map.n_y, 0);
+      std::size_t place = static_cast<std::size_t>(layer) * n[0] * n[1] * problem.n_components;
+      for (int j = 0; j < n[1]; ++j)
+        for (int i = 0; i < n[0]; ++i)
+          for (unsigned int c = 0; c < problem.n_components; ++c, ++place)
+          {
+            double &value =
+                map.values[static_cast<std::size_t>(j / per_block) * map.n_x + i / per_block];
+            value = std::max(value, std::abs(averages[place] - target[place]));
+          }
+      return map;
+    }
+
+    /// A case of a level, and the averages that its solutions are held against; empty: none.
+    struct CaseInSpace
+    {
+      std::string name;
+      ProblemInSpace problem;
+      std::vector<double> exact, local, reference;
+    };
+    using CasesInSpace = std::vector<CaseInSpace>;
+
+    /// How far a reference may be wrong, as estimate_error() says in the plane: with the changes d
+    /// to h/2 and d' from 2 h, 3/2 d / (1 - q), q the larger of 2^-(p+1) and d / d', at most 3/4.
+    ErrorEstimate estimate_of(const scene::Scene &scene, unsigned int index, const Method &method,
+                              const ProblemInSpace &problem, const SolutionInSpace &solution)
+    {
+      constexpr double safety = 1.5, slowest = .75, unknown = .7071, solver_share = 10;
+      const auto solved_at = [&](double h) {
+        return analysis::solve(method, make_problem_in_space(scene, index, {h, problem.horizon()}));
+      };
+      auto doubled = problem.lattice.n_cells();
+      for (int &n : doubled)
+        n *= 2;
+      const auto &n = problem.lattice.n_cells();
+      ErrorEstimate estimate;
+      estimate.method = method.name();
+      estimate.h = problem.h();
+      estimate.horizon = problem.horizon();
+      estimate.h_change = averages_l2(
+          problem, solution.averages,
+          coarsened(solved_at(problem.h() / 2).averages, doubled, problem.n_components));
+      const bool has_coarse =
+          std::all_of(n.begin(), n.end(), [](int one) { return one % 2 == 0 && one > 2; }) &&
+          problem.horizon() >= 2 * problem.h();
+      if (has_coarse)
+      {
+        const ProblemInSpace coarse =
+            make_problem_in_space(scene, index, {2 * problem.h(), problem.horizon()});
+        estimate.coarse_change = averages_l2(coarse, analysis::solve(method, coarse).averages,
+                                             coarsened(solution.averages, n, problem.n_components));
+      }
+      const double q = std::clamp(
+          estimate.coarse_change > 0 ? estimate.h_change / estimate.coarse_change : unknown,
+          std::pow(.5, method.order()), slowest);
+      const double size = averages_l2(problem, solution.averages);
+      estimate.rate = -std::log2(q);
+      estimate.estimate = safety * estimate.h_change / (1 - q) +
+                          solver_share * problem.settings.solver.tolerance * size;
+      estimate.certified_digits = certified_digits(estimate.estimate, size);
+      return estimate;
+    }
+
+    /// All cases of a level in space.
+    class LevelInSpace
+    {
+    public:
+      LevelInSpace(const Place &place, const Methods &available, const StaticsOptions &options)
+          : place_(place), scene_(place.scene()), available_(available), options_(options),
+            cases_(place.shared<CasesInSpace>("cases in space", [this] { return open_cases(); }))
+      {
+      }
+
+      Records run(const Method &method) const
+      {
+        Records records;
+        for (const CaseInSpace &one : cases_)
+        {
+          records.push_back(place_.record("statics", method));
+          records.back().key.problem = one.name;
+          place_.fill(records.back(), [&](Record &record)
+                      { evaluate(one, analysis::solve(method, one.problem), record); });
+        }
+        return records;
+      }
+
+    private:
+      CasesInSpace open_cases() const
+      {
+        CasesInSpace cases;
+        const auto names = scene_.problem.case_names();
+        for (unsigned int c = 0; c < names.size(); ++c)
+        {
+          CaseInSpace one{names[c], make_problem_in_space(scene_, c, place_.level()), {}, {}, {}};
+          if (one.problem.solution)
+            one.exact = cell_averages(*one.problem.solution, one.problem);
+          if (one.problem.local_solution)
+            one.local = cell_averages(*one.problem.local_solution, one.problem);
+          if (scene_.reference.method)
+            one.reference = solve_reference(one, c);
+          cases.push_back(std::move(one));
+        }
+        return cases;
+      }
+
+      std::vector<double> solve_reference(const CaseInSpace &one, unsigned int index) const
+      {
+        const auto method = find_method(available_, *scene_.reference.method, "Reference/method");
+        const SolutionInSpace solution = analysis::solve(*method, one.problem);
+        if (scene_.reference.estimate == scene::Estimate::none)
+          return solution.averages;
+        ErrorEstimate estimate = estimate_of(scene_, index, *method, one.problem, solution);
+        estimate.problem = one.name;
+        estimate.series = place_.series().name;
+        estimate.level = place_.number();
+        place_.results().references.push_back(estimate);
+        const double size = averages_l2(one.problem, solution.averages);
+        if (const double tolerance = scene_.reference.tolerance;
+            tolerance > 0 && !(estimate.estimate <= tolerance * size))
+        {
+          std::ostringstream message;
+          message << "the reference " << method->name() << " at h = " << one.problem.h()
+                  << " has an estimated error of " << estimate.estimate / size
+                  << " relative to the solution, more than Reference/tolerance = " << tolerance
+                  << "; take a smaller h, or a larger tolerance";
+          throw NumericalError(message.str());
+        }
+        return solution.averages;
+      }
+
+      void evaluate(const CaseInSpace &one, const SolutionInSpace &solution, Record &run) const
+      {
+        const ProblemInSpace &problem = one.problem;
+        run.cost = solution.cost;
+        run.set("variation", variation(problem.n_components, solution.averages));
+        run.set("round-off", round_off_error(problem, solution));
+        run.set("area", cell_volume(problem) * static_cast<double>(problem.lattice.size()),
+                "length^3");
+        set_diagnostics(run, solution.diagnostics);
+        for (const auto &[target, averages] :
+             {std::pair(Target::exact, &one.exact), std::pair(Target::local, &one.local),
+              std::pair(Target::reference, &one.reference)})
+          if (!averages->empty())
+            set_errors(run, Quantity::averages, target, solution.averages, *averages);
+        if (problem.solution)
+          set_errors(run, Quantity::nodal, Target::exact, solution.nodal,
+                     nodal_values(*problem.solution, solution));
+        if (problem.local_solution)
+          set_errors(run, Quantity::nodal, Target::local, solution.nodal,
+                     nodal_values(*problem.local_solution, solution));
+        if (place_.is_finest())
+          finish_series(one, solution, run);
+      }
+
+      /// What is done with a solution of the finest level: stored, and drawn for the first series.
+      void finish_series(const CaseInSpace &one, const SolutionInSpace &solution,
+                         const Record &run) const
+      {
+        if (options_.on_finest)
+          options_.on_finest([&](const std::string &stem)
+                             { method::write_vti(one.problem, solution.averages, stem + ".vti"); },
+                             run);
+        const std::vector<double> &target = !one.exact.empty() ? one.exact : one.reference;
+        if (target.empty() || run.key.problem != cases_.back().name ||
+            place_.series().name != scene_.study.series.front().name)
+          return;
+        ErrorMap map = map_of_layer(one.problem, solution.averages, target);
+        map.method = run.key.method;
+        map.problem = run.key.problem;
+        map.series = run.key.series;
+        map.size = size_of(run);
+        place_.results().maps.push_back(map);
+      }
+
+      std::vector<double> nodal_values(const problem::Field<3> &field,
+                                       const SolutionInSpace &solution) const
+      {
+        const auto n_components =
+            static_cast<unsigned int>(solution.nodal.size() / solution.nodes.size());
+        std::vector<double> values;
+        for (const auto &node : solution.nodes)
+          for (unsigned int c = 0; c < n_components; ++c)
+            values.push_back(field.value(node, c));
+        return values;
+      }
+
+      /// Of the scene's norms. Each value stands for h³.
+      void set_errors(Record &run, Quantity quantity, Target target,
+                      const std::vector<double> &found, const std::vector<double> &right) const
+      {
+        double largest = 0, squares = 0;
+        for (std::size_t i = 0; i < found.size(); ++i)
+        {
+          largest = std::max(largest, std::abs(found[i] - right[i]));
+          squares += std::pow(found[i] - right[i], 2);
+        }
+        const double l2 = std::sqrt(squares * std::pow(run.key.h, 3));
+        for (const scene::Norm norm : scene_.study.norms)
+          if (scene::quantity(norm) == quantity)
+          {
+            const std::string name = scene::DecisiveError{norm, target}.text();
+            const double value = scene::is_largest(norm) ? largest : l2;
+            if (!std::isfinite(value))
+              throw NumericalError("the error " + name + " is not a finite number");
+            run.set(name, value);
+          }
+      }
+
+      const Place &place_;
+      const scene::Scene &scene_;
+      const Methods &available_;
+      const StaticsOptions &options_;
+      const CasesInSpace &cases_;
+    };
+  } // namespace
+
+  void open_statics_in_space(const Place &place, const Methods &available,
+                             const StaticsOptions &options)
+  {
+    LevelInSpace(place, available, options);
+  }
+
+  Records statics_in_space(const Place &place, const Method &method, const Methods &available,
+                           const StaticsOptions &options)
+  {
+    return LevelInSpace(place, available, options).run(method);
+  }
+} // namespace plumbline::study

@@ -1,0 +1,236 @@
+// Static problems in space, from the scene to verdicts: known errors, the limits that theory says,
+// and references with estimates that are bounds.
+#include "base/error.h"
+#include "io/record_journal.h"
+#include "method/box_discretisation.h"
+#include "report/report.h"
+#include "scene/problem.h"
+#include "study/preflight.h"
+#include "study/statics.h"
+#include "tests/report/fixture.h"
+#include "tests/study/operators.h"
+
+#include <cmath>
+#include <map>
+
+namespace
+{
+  using namespace plumbline;
+  using namespace plumbline::study;
+  using report::fixture::Folder;
+  using Settings = std::vector<scene::Override>;
+
+  const std::string polynomial = "x^3*y^2 + z^4 + x*y*z^2";
+
+  scene::Scene make_scene(Settings settings)
+  {
+    settings.insert(settings.begin(),
+                    {{"Domain/dimension", "3"}, {"Domain/boxes", "0,0,0 : 1,1,1"}});
+    const auto is_given = [&](const std::string &key)
+    {
+      return std::any_of(settings.begin(), settings.end(),
+                         [&](const auto &one) { return one.key == key; });
+    };
+    for (const auto &[key, value] :
+         std::map<std::string, std::string>{{"Problem/solution", polynomial},
+                                            {"Methods/names", "FA"},
+                                            {"Study/h", "1/8, 1/16"},
+                                            {"Study/norms", "nodal Linf, averages L2"},
+                                            {"Study/decisive error", "nodal Linf | exact"}})
+      if (!is_given(key))
+        settings.push_back({key, value});
+    // the last of one key holds
+    Settings last;
+    for (const auto &one : settings)
+    {
+      last.erase(std::remove_if(last.begin(), last.end(),
+                                [&](const auto &other) { return other.key == one.key; }),
+                 last.end());
+      last.push_back(one);
+    }
+    return scene::parse_scene("space.prm", "", last);
+  }
+
+  Methods available()
+  {
+    Methods all = meshfree::methods();
+    for (const auto &method : reference::methods())
+      all.push_back(method);
+    return all;
+  }
+
+  StudyResults run(const scene::Scene &scene, const StaticsOptions &options = {})
+  {
+    const Methods all = available();
+    return run_study(statics_analysis(all, options), scene, choose_methods(scene, all));
+  }
+
+  std::string message_of(const Settings &settings)
+  {
+    try
+    {
+      (void)choose_methods(make_scene(settings), available());
+    }
+    catch (const InputError &error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+} // namespace
+
+TEST(StaticsInSpace, have_the_errors_of_an_independent_program)
+{
+  // 8, 16 and 32 cells a side at m = 3, linear decay
+  const std::map<std::string, std::vector<double>> known = {
+      {"FA", {2.43e-2, 1.96e-2, 1.76e-2}},
+      {"IPA-AC-R2", {1.26e-3, 2.67e-4, 6.14e-5}},
+      {"Q1", {3.29e-3, 7.31e-4, 1.73e-4}}};
+  const auto results = run(make_scene(
+      {{"Methods/names", "FA, IPA-AC-R2, Q1, IPA-AC-R4"}, {"Study/h", "1/8, 1/16, 1/32"}}));
+  ASSERT_EQ(results.records.size(), 12u);
+  for (const Record &record : results.records)
+  {
+    ASSERT_EQ(record.failure, "");
+    const double error = record["nodal Linf | exact"];
+    if (const auto found = known.find(record.key.method); found != known.end())
+      EXPECT_NEAR(error / found->second[record.key.level], 1, 5e-3) << record.key.method;
+    else // its moments are those of the polynomial
+      EXPECT_LT(error, 1e-11);
+    EXPECT_EQ(record["area"], 1);
+    EXPECT_LT(record["round-off"], 1e-9);
+  }
+}
+
+TEST(StaticsInSpace, are_judged_by_moments_as_in_the_plane)
+{
+  const auto results = run(make_scene({{"Methods/names", "FA, IPA-AC, IPA-AC-R2, OPT, Q1, DGQ0"},
+                                       {"Study/h", "1/4, 1/8, 1/16, 1/32"}}));
+  std::map<std::string, std::string> verdicts;
+  for (const Trend &trend : results.trends)
+    if (trend.error == "nodal Linf | exact")
+      verdicts[trend.method] = trend.verdict;
+  EXPECT_EQ(verdicts, (std::map<std::string, std::string>{{"FA", "not AC"},
+                                                          {"IPA-AC", "not AC"},
+                                                          {"IPA-AC-R2", "AC"},
+                                                          {"OPT", "not AC"},
+                                                          {"Q1", "AC"},
+                                                          {"DGQ0", "not AC"}}));
+  for (const Record &record : results.records)
+    if (record.key.method == "FA")
+      EXPECT_NEAR(record["moment defect"], .0441, 1e-4); // C(3) - 1 of FA, linear decay
+}
+
+TEST(StaticsInSpace, converge_at_a_fixed_horizon_where_weights_tend_to_the_ball)
+{
+  const auto results = run(make_scene({{"Study/regime", "m"},
+                                       {"Study/horizon", "1/4"},
+                                       {"Study/h", "1/8, 1/16, 1/32"},
+                                       {"Methods/names", "IPA-AC-R2, DGQ0"}}));
+  double before = 1;
+  for (const Record &record : results.records)
+    if (record.key.method == "IPA-AC-R2")
+    {
+      EXPECT_LT(record["ball defect"], before / 2);
+      before = record["ball defect"];
+    }
+  EXPECT_LT(before, .02);
+}
+
+TEST(StaticsInSpace, do_not_depend_on_the_order_of_the_axes_nor_on_the_place_of_the_box)
+{
+  const auto error = [](const Settings &settings)
+  { return run(make_scene(settings)).records.front()["nodal Linf | exact"]; };
+  const Settings tensor = {
+      {"Kernel/type", "bond-tensor"}, {"Kernel/limit", "Navier"}, {"Study/h", "1/8"}};
+  const auto with = [&](const Settings &more)
+  {
+    Settings all = tensor;
+    all.insert(all.end(), more.begin(), more.end());
+    return error(all);
+  };
+  const double given = with(
+      {{"Domain/boxes", "0,0,0 : 1,1/2,3/4"}, {"Problem/solution", "x^3*y^2, z^3 + x*z, x*y*z"}});
+  // x → y → z → x
+  EXPECT_NEAR(with({{"Domain/boxes", "0,0,0 : 3/4,1,1/2"},
+                    {"Problem/solution", "y*z*x, y^3*z^2, x^3 + y*x"}}) /
+                  given,
+              1, 1e-9);
+  EXPECT_NEAR(
+      with({{"Domain/boxes", "2,-1,5 : 3,-1/2,23/4"},
+            {"Problem/solution", "(x-2)^3*(y+1)^2, (z-5)^3 + (x-2)*(z-5), (x-2)*(y+1)*(z-5)"}}) /
+          given,
+      1, 1e-9);
+}
+
+TEST(ReferencesInSpace, have_estimates_that_bound_their_errors)
+{
+  const Settings posed = {{"Domain/boxes", "0,0,0 : 1,1,1/2"},
+                          {"Study/regime", "m"},
+                          {"Study/horizon", "1/4"},
+                          {"Study/h", "1/8, 1/12, 1/16"},
+                          {"Methods/names", "FA, Q1"},
+                          {"Reference/method", "Q1"},
+                          {"Study/decisive error", "averages L2 | reference"}};
+  const auto results = run(make_scene(posed));
+  ASSERT_EQ(results.references.size(), 3u);
+  for (const Record &record : results.records)
+    if (record.key.method == "Q1")
+    {
+      const double error = record["averages L2 | exact"];
+      const ErrorEstimate &estimate = results.references[record.key.level];
+      EXPECT_EQ(estimate.h, record.key.h);
+      EXPECT_LT(error, estimate.estimate);
+      EXPECT_GT(error, estimate.estimate / 4);
+      EXPECT_EQ(record["averages L2 | reference"], 0);
+    }
+  Settings strict = posed;
+  strict.push_back({"Reference/tolerance", "1e-4"});
+  EXPECT_THROW(run(make_scene(strict)), NumericalError);
+}
+
+TEST(StaticsInSpace, are_drawn_and_written)
+{
+  const Folder folder;
+  StaticsOptions options;
+  std::size_t n_written = 0;
+  options.on_finest = [&](const auto &write, const Record &)
+  {
+    write((folder.path() / "field").string());
+    ++n_written;
+  };
+  const auto results = run(make_scene({{"Study/h", "1/4, 1/8"}}), options);
+  EXPECT_EQ(n_written, 1u); // of the finest level alone
+  ASSERT_EQ(results.maps.size(), 1u);
+  EXPECT_EQ(results.maps[0].quantity, "cell averages at z = 0.5625");
+  EXPECT_EQ(results.maps[0].values.size(), 64u);
+  EXPECT_NE(report::fixture::read(folder.path() / "field.vti").find("WholeExtent=\"0 8 0 8 0 8 \""),
+            std::string::npos);
+  report::write_report(results, folder.path());
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "report.html"));
+  EXPECT_EQ(io::results_in(folder.path()).records.size(), 2u);
+}
+
+TEST(StaticsInSpace, refuse_what_is_for_the_plane)
+{
+  const std::vector<std::pair<Settings, std::string>> refused = {
+      {{{"Domain/boxes", "0,0 : 1,1"}}, "one box with three coordinates a corner"},
+      {{{"Domain/boxes", "0,0,0 : 1,1"}}, "a corner without three coordinates"},
+      {{{"Domain/boxes", "0,0,0 : 1,1,0"}}, "is empty"},
+      {{{"Domain/boxes", "0,0,0 : 1,1,1 ; 1,0,0 : 2,1,1"}}, "but it has 2"},
+      {{{"Domain/dimension", "2"}}, "write Domain/dimension = 3, or two coordinates"},
+      {{{"Domain/boxes", "0,0,0 : 1,1,.1"}}, "0.8 along z"},
+      {{{"Domain/mesh", "squares"}}, "Domain/mesh = squares yet; write lattice"},
+      {{{"Domain/holes", "0,0 : .5,.5"}}, "Domain/holes yet; clear it"},
+      {{{"Kernel/coefficient", "1 + x"}}, "clear both"},
+      {{{"Methods/nodes", "vertices"}}, "write centres"},
+      {{{"Study/decisive error", "field L2 | exact"}, {"Study/norms", "field L2"}},
+       "write a nodal or averages norm"},
+      {{{"Methods/names", "Q2"}}, "take Q1, DGQ0"},
+      {{{"Problem/solution", "x*w"}}, "in x, y, z, pi, delta"},
+      {{{"Kernel/type", "bond-tensor"}, {"Kernel/limit", "Navier"}}, "needs 3"}};
+  for (const auto &[settings, words] : refused)
+    EXPECT_NE(message_of(settings).find(words), std::string::npos)
+        << settings.back().key << ": " << message_of(settings);
+  EXPECT_EQ(message_of({}), "");
+}
