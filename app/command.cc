@@ -285,7 +285,7 @@ namespace
     command.add_option("--kind", options->kind,
                        "scalar (default), elastic, LPS, variational or double-well");
     command.add_option("--domain", options->domain,
-                       "square (default), or a mesh file (.geo or .msh)");
+                       "square (default), cube, or a mesh file (.geo or .msh)");
     command.add_option("--kernel", options->kernel, "Kernel type, see 'plumbline list kernels'");
     command.add_option("--methods", options->methods,
                        "Methods, comma separated, see 'plumbline list methods'");

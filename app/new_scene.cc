@@ -16,12 +16,20 @@ namespace plumbline::app
   {
     namespace fs = std::filesystem;
 
-    constexpr auto square = "square", elastic = "elastic";
+    constexpr auto square = "square", cube = "cube", elastic = "elastic";
 
     std::vector<scene::Override> changes_of(const NewSceneOptions &options, const fs::path &folder)
     {
       std::vector<scene::Override> changes;
-      if (options.domain != square)
+      if (options.domain == cube)
+        changes = {{"Domain/dimension", "3"},
+                   {"Domain/boxes", "0, 0, 0 : 1, 1, 1"},
+                   {"Problem/solution",
+                    options.kind == elastic ? "x^3*y^2, y^2*z^3, x^2*z + y^3" : "x^3 + 2*y^2*z^2"},
+                   {"Methods/names", "FA, IPA-AC, IPA-AC-R2, Q1"},
+                   {"Study/h", "0.25, 0.125, 0.0625, 0.03125"},
+                   {"Study/norms", "nodal Linf, averages L2"}};
+      else if (options.domain != square)
       {
         // curved outlines are met by straight sides: averages over cells compare what both have
         changes = {
@@ -32,7 +40,7 @@ namespace plumbline::app
         };
         if (!fs::exists(options.domain))
           throw InputError("--domain: mesh file '" + options.domain +
-                           "' is not there; give a .geo or .msh file, or square");
+                           "' is not there; give a .geo or .msh file, square or cube");
       }
       if (!options.kernel.empty())
         changes.push_back({"Kernel/type", options.kernel});

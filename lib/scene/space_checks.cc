@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "scene/checks.h"
+#include "scene/models/model.h"
 #include "scene/values.h"
 
 #include <algorithm>
@@ -32,6 +33,10 @@ namespace plumbline::scene
 
     void check_study_in_space(const Scene &scene)
     {
+      needs(scene.material.model == &bond_based(),
+            "Material/model = " + scene.material.model->name(), "write bond-based");
+      needs(!scene.is_no_problem(), "motions, cracks and strips",
+            "clear Time/final time, Crack, Fracture and Strip");
       const NodeSource &nodes = scene.methods.nodes;
       needs(nodes.kind() == NodeKind::centres && nodes.perturbation == 0,
             "Methods/nodes = " + nodes.name + " with perturbation " +

@@ -105,6 +105,11 @@ TEST(Finding, new_writes_a_scene_that_runs_and_overwrites_none)
   EXPECT_EQ(again.exit_code, 2);
   expect_found(again.err, "is there already and is not overwritten");
   EXPECT_EQ(read(file), text);
+  const std::string cube = temporary("new_cube").string();
+  fs::remove(cube + ".prm");
+  EXPECT_EQ(run("new " + cube + " --kind elastic --domain cube").exit_code, 0);
+  EXPECT_EQ(run("run " + cube + ".prm --levels 2 --quiet -o " + cube + "_out").exit_code, 0);
+  expect_found(run("new " + cube + "_LPS --kind LPS --domain cube").err, "write bond-based");
   expect_found(run("new " + name.string() + "2 --domain no.geo").err, "mesh file 'no.geo'");
   expect_found(run("new " + name.string() + "2 --kind fluid").err, "model 'fluid' is not known");
 }

@@ -211,6 +211,39 @@ TEST(StaticsInSpace, are_drawn_and_written)
   EXPECT_EQ(io::results_in(folder.path()).records.size(), 2u);
 }
 
+TEST(StaticsInSpace, have_the_memory_that_is_foretold)
+{
+  const auto scene = make_scene({{"Kernel/type", "bond-tensor"},
+                                 {"Kernel/limit", "Navier"},
+                                 {"Problem/solution", "x*z, y^2, x^2"},
+                                 {"Study/h", "1/48"},
+                                 {"Methods/names", "FA, Q1"}});
+  for (const Record &record : run(scene).records)
+  {
+    method::ProblemSize size;
+    size.level = scene.study.series.front().levels.front();
+    size.extents = {48, 48};
+    size.depth = 48;
+    size.n_components = 3;
+    const double expected =
+        find_method(available(), record.key.method, "test")->expected_bytes(size);
+    EXPECT_GT(expected, static_cast<double>(record.cost.peak_bytes) / 2) << record.key.method;
+    EXPECT_LT(expected, static_cast<double>(record.cost.peak_bytes) * 2) << record.key.method;
+  }
+  const Methods all = available();
+  try
+  {
+    const auto huge = make_scene({{"Study/h", "1/999"}});
+    check_memory(huge, choose_methods(make_scene({}), all), all, 0);
+    ADD_FAILURE() << "there is no such memory";
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("(999 x 999 x 999 cells)"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(StaticsInSpace, refuse_what_is_for_the_plane)
 {
   const std::vector<std::pair<Settings, std::string>> refused = {
@@ -224,6 +257,9 @@ TEST(StaticsInSpace, refuse_what_is_for_the_plane)
       {{{"Domain/holes", "0,0 : .5,.5"}}, "Domain/holes yet; clear it"},
       {{{"Kernel/coefficient", "1 + x"}}, "clear both"},
       {{{"Methods/nodes", "vertices"}}, "write centres"},
+      {{{"Material/model", "LPS"}, {"Material/E", "1"}, {"Material/nu", ".3"}},
+       "Material/model = LPS yet; write bond-based"},
+      {{{"Time/final time", "1"}}, "motions, cracks and strips yet"},
       {{{"Study/decisive error", "field L2 | exact"}, {"Study/norms", "field L2"}},
        "write a nodal or averages norm"},
       {{{"Methods/names", "Q2"}}, "take Q1, DGQ0"},
