@@ -3,6 +3,7 @@
 #include "base/communicator.h"
 #include "base/error.h"
 #include "check_files.h"
+#include "check_in_space.h"
 #include "check_text.h"
 #include "output_folder.h"
 #include "scene/scene_keys.h"
@@ -56,6 +57,8 @@ namespace plumbline::app
       throw InputError("Study/regime = variable: weights are those of one value of " +
                        scene.study.variable +
                        "; give it as Random/values, with another regime (and no Study/variable)");
+    if (scene.domain.is_in_space())
+      return check_in_space(scene, options, required);
     const Findings found = find(scene, options);
     const bool is_wrong = !complaints(found, required).empty();
     if (!is_wrong)

@@ -86,7 +86,8 @@ namespace plumbline::scene
       case C::line:
         return {"Domain/dimension = 1, which is for transient analysis of double wells", "write 2"};
       case C::space:
-        return {"Domain/dimension = 3, which is for static problems of bond-based materials",
+        return {"Domain/dimension = 3, which is for static problems and weights of bond-based "
+                "materials",
                 "write 2"};
       }
       return {};
@@ -123,9 +124,8 @@ namespace plumbline::scene
         {base::word(Analysis::dispersion),
          all_but(on_meshes_alone | Capabilities{C::free_boundary, C::floating, C::line, C::space})},
         {base::word(Analysis::check),
-         all_but(of_damage() | Capabilities{C::line, C::space, C::free_boundary, C::floating,
-                                            C::dilatation, C::zero_dilatation,
-                                            C::mixed_dilatation})}};
+         all_but(of_damage() | Capabilities{C::line, C::free_boundary, C::floating, C::dilatation,
+                                            C::zero_dilatation, C::mixed_dilatation})}};
     return all;
   }
 

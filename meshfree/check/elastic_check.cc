@@ -7,15 +7,16 @@
 
 namespace plumbline::meshfree
 {
-  std::vector<ElasticRange> elastic_ranges(const std::vector<Family<2>> &families,
-                                           const Kernel<2> &kernel)
+  template <int dim>
+  std::vector<ElasticRange> elastic_ranges(const std::vector<Family<dim>> &families,
+                                           const Kernel<dim> &kernel)
   {
     using physics::CubicStiffness;
     using physics::ElasticState;
     if (kernel.n_components() == 1 || families.empty())
       return {};
     std::vector<CubicStiffness> all;
-    for (const Family<2> &family : families)
+    for (const Family<dim> &family : families)
       all.push_back(stiffness(kernel, family.bonds));
     std::vector<ElasticRange> ranges;
     const auto add =
@@ -30,15 +31,24 @@ namespace plumbline::meshfree
     add("C1111", [](const CubicStiffness &one) { return one.C1111; });
     add("C1122", [](const CubicStiffness &one) { return one.C1122; });
     add("C1212", [](const CubicStiffness &one) { return one.C1212; });
-    for (const auto &[state, name] : {std::pair{ElasticState::plane_stress, "plane stress"},
-                                      std::pair{ElasticState::plane_strain, "plane strain"}})
+    const std::vector<std::pair<ElasticState, std::string>> states =
+        dim == 2 ? std::vector<std::pair<ElasticState, std::string>>{{ElasticState::plane_stress,
+                                                                      ", plane stress"},
+                                                                     {ElasticState::plane_strain,
+                                                                      ", plane strain"}}
+                 : std::vector<std::pair<ElasticState, std::string>>{{ElasticState::solid, ""}};
+    for (const auto &[state, name] : states)
     {
       const ElasticState of = state;
-      add(std::string("E, ") + name,
-          [of](const CubicStiffness &one) { return engineering_constants(one, of).E; });
-      add(std::string("nu, ") + name,
+      add("E" + name, [of](const CubicStiffness &one) { return engineering_constants(one, of).E; });
+      add("nu" + name,
           [of](const CubicStiffness &one) { return engineering_constants(one, of).nu; });
     }
     return ranges;
   }
+
+  template std::vector<ElasticRange> elastic_ranges(const std::vector<Family<2>> &,
+                                                    const Kernel<2> &);
+  template std::vector<ElasticRange> elastic_ranges(const std::vector<Family<3>> &,
+                                                    const Kernel<3> &);
 } // namespace plumbline::meshfree

@@ -15,7 +15,9 @@ namespace plumbline::meshfree
   };
 
   /// The stiffness of the weights, see `stiffness`, and Young's modulus and Poisson's ratio that
-  /// follow in plane stress and plane strain, in the unit of the kernel. Empty for scalar kernels.
-  std::vector<ElasticRange> elastic_ranges(const std::vector<Family<2>> &families,
-                                           const Kernel<2> &kernel);
+  /// follow, in the plane in plane stress and plane strain, in the unit of the kernel. Empty for
+  /// scalar kernels.
+  template <int dim>
+  std::vector<ElasticRange> elastic_ranges(const std::vector<Family<dim>> &families,
+                                           const Kernel<dim> &kernel);
 } // namespace plumbline::meshfree

@@ -1,0 +1,178 @@
+#include "check_in_space.h"
+
+#include "base/error.h"
+#include "base/number_text.h"
+#include "io/results_json.h"
+#include "meshfree/check/weights_in_space.h"
+#include "output_folder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+
+namespace plumbline::app
+{
+  namespace fs = std::filesystem;
+  using meshfree::FindingsInSpace;
+  using meshfree::WeightsInSpace;
+
+  namespace
+  {
+    std::string number(double value)
+    {
+      constexpr int digits = 5;
+      return base::to_text(value, digits);
+    }
+
+    /// That of the scene whose h is the spacing of the nodes.
+    problem::Level level_of(const scene::Scene &scene, double spacing)
+    {
+      constexpr double alike = .02;
+      problem::Level nearest;
+      double least = HUGE_VAL;
+      for (const auto &series : scene.study.series)
+        for (const problem::Level &level : series.levels)
+          if (const double off = std::abs(std::log(level.h / spacing)); off < least)
+          {
+            least = off;
+            nearest = level;
+          }
+      if (least > alike)
+        throw InputError("the spacing of the nodes is " + number(spacing) +
+                         ", but the nearest level of the scene has h = " + number(nearest.h) +
+                         "; give Study/h and Study/m, or Study/horizon, of your bonds");
+      return nearest;
+    }
+
+    std::string off(const FindingsInSpace &found, const WeightsInSpace &given)
+    {
+      const auto at = [&](const meshfree::Worst &worst) {
+        return base::to_percent(worst.value) + " at node " + std::to_string(given.id[worst.node]);
+      };
+      return "first moments are off by " + at(found.first) + ", second moments by " +
+             at(found.second);
+    }
+
+    /// What makes the exit code 1.
+    std::vector<std::string> complaints(const FindingsInSpace &found, const WeightsInSpace &given,
+                                        const Requirements &required, const problem::Level &level)
+    {
+      constexpr double of_files = 1e-5;
+      const double tolerance = std::max(of_files, 10 * given.rounding),
+                   ratio = level.h / level.horizon;
+      std::vector<std::string> result;
+      for (const std::string &cause : found.causes)
+        result.push_back("cause: " + cause);
+      for (const std::string &outlier : found.outliers)
+        result.push_back("outlier: " + outlier);
+      if (required.ac && found.second.value > tolerance)
+        result.push_back("required ac: " + off(found, given));
+      if (required.consistent && found.typical > ratio)
+        result.push_back("required consistent: moments of most nodes are off by " +
+                         base::to_percent(found.typical) +
+                         ", more than h/horizon = " + base::to_percent(ratio));
+      if (required.moments && found.second.value > *required.moments)
+        result.push_back("required moments=" + number(*required.moments) + ": " +
+                         off(found, given));
+      if (required.symmetric && (found.imbalance > tolerance || found.n_unpaired > 0))
+        result.push_back("required symmetric: forces of a pair differ by up to " +
+                         base::to_percent(found.imbalance) + " of the largest; " +
+                         std::to_string(found.n_unpaired) + " bonds without a partner");
+      if (required.m_matrix && found.n_negative > 0)
+        result.push_back("required m-matrix: " + std::to_string(found.n_negative) +
+                         " weights are negative");
+      return result;
+    }
+
+    /// What else there is to say.
+    std::vector<std::string> words_of(const FindingsInSpace &found, const WeightsInSpace &given)
+    {
+      std::vector<std::string> lines = {std::to_string(given.free.size()) +
+                                        " nodes in the domain, " + std::to_string(found.n_bonds) +
+                                        " bonds, spacing " + number(found.spacing)};
+      if (!found.rule.empty())
+        lines.push_back(
+            "the weights are those of " + found.rule +
+            (std::abs(found.rule_factor - 1) > 1e-4 ? " times " + number(found.rule_factor) : ""));
+      lines.push_back(off(found, given) + " (median of all nodes " +
+                      base::to_percent(found.typical) + ")");
+      for (const meshfree::ElasticRange &one : found.elastic)
+        lines.push_back(one.name + ": " + number(one.median) + " (" + number(one.least) + " ... " +
+                        number(one.largest) + ")");
+      if (found.n_negative > 0)
+        lines.push_back(std::to_string(found.n_negative) + " weights are negative");
+      return lines;
+    }
+
+    study::StudyResults results_of(const scene::Scene &scene, const FindingsInSpace &found,
+                                   const WeightsInSpace &given, const problem::Level &level,
+                                   const std::vector<std::string> &complaints)
+    {
+      analysis::Record record;
+      record.key.analysis = "check";
+      record.key.method = found.rule.empty() ? "given weights" : found.rule;
+      record.key.h = level.h;
+      record.key.horizon = level.horizon;
+      record.set("nodes", static_cast<double>(given.free.size()));
+      record.set("bonds", static_cast<double>(found.n_bonds));
+      record.set("negative weights", static_cast<double>(found.n_negative));
+      record.set("bonds without partner", static_cast<double>(found.n_unpaired));
+      record.set("first moment defect", found.first.value);
+      record.set("second moment defect", found.second.value);
+      record.set("median moment defect", found.typical);
+      record.set("imbalance of pairs", found.imbalance);
+      if (!found.rule.empty())
+        record.set("factor of the rule", found.rule_factor);
+      for (const meshfree::ElasticRange &one : found.elastic)
+      {
+        record.set("least " + one.name, one.least);
+        record.set("median " + one.name, one.median);
+        record.set("largest " + one.name, one.largest);
+      }
+      record.notes = complaints;
+      study::StudyResults results;
+      results.analysis = "check";
+      results.scene_name = scene.name;
+      results.purpose = scene.purpose;
+      results.records = {record};
+      return results;
+    }
+  } // namespace
+
+  int check_in_space(const scene::Scene &scene, const CheckOptions &options,
+                     const Requirements &required)
+  {
+    const geometry::Cuboid &omega = scene.domain.cuboids.front();
+    const WeightsInSpace given =
+        meshfree::read_weights_in_space(options.nodes_file, options.bonds_file, omega);
+    const problem::Level level = level_of(scene, meshfree::node_spacing(given, omega));
+    const auto kernel = make_kernel_in_space(scene, level.horizon);
+    const FindingsInSpace found = meshfree::find_defects(given, kernel, omega, scene.methods.names);
+    const auto wrong = complaints(found, given, required, level);
+    const std::string json = io::to_json(results_of(scene, found, given, level, wrong));
+    if (options.json)
+      std::cout << json;
+    else if (!options.quiet)
+    {
+      for (const std::string &line : words_of(found, given))
+        std::cout << line << '\n';
+      for (const std::string &line : wrong)
+        std::cout << line << '\n';
+      if (wrong.empty())
+        std::cout << "the weights have the properties that are required\n";
+      std::cout << "left out in three dimensions: Voronoi cells, the matrix, solutions, maps\n";
+    }
+    if (!options.output.empty())
+    {
+      const OutputFolder output(options.output, {"check", scene.name, scene.text},
+                                base::Communicator::alone());
+      std::ofstream file(fs::path(options.output) / "check.json");
+      file << json;
+      if (!file.flush())
+        throw InputError("cannot write all of check.json in '" + options.output +
+                         "'; free some space, or give another output folder (-o)");
+    }
+    return wrong.empty() ? 0 : 1;
+  }
+} // namespace plumbline::app
