@@ -11,18 +11,15 @@
 #include "report/report.h"
 #include "run_parts.h"
 #include "scene/capabilities.h"
-#include "study/cheapest.h"
 #include "study/conclusions.h"
 #include "study/sampling.h"
 #include "study/statics.h"
-#include "study/target_words.h"
+#include "summary.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iomanip>
 #include <iostream>
 
 namespace plumbline::app
@@ -67,51 +64,6 @@ namespace plumbline::app
           name.begin(), name.end(),
           [](unsigned char c) { return std::isalnum(c) == 0 && c != '.'; }, '_');
       return name;
-    }
-
-    void print_summary(const study::StudyResults &results, const fs::path &folder)
-    {
-      std::cout << results.scene_name << ": " << results.purpose << "\n\n"
-                << results.decisive_error << " (compared with " << study::target_words(results)
-                << ")\n";
-      std::array<std::size_t, 4> width{};
-      std::vector<std::array<std::string, 5>> rows;
-      for (const study::Trend &trend : results.trends)
-        if (trend.error == results.decisive_error)
-          rows.push_back({trend.method, trend.problem, trend.series, trend.verdict, trend.reason});
-      for (const auto &row : rows)
-        for (unsigned int c = 0; c < 4; ++c)
-          width[c] = std::max(width[c], row[c].size() + 2);
-      for (const auto &row : rows)
-      {
-        std::cout << "  ";
-        for (unsigned int c = 0; c < 4; ++c)
-          std::cout << std::left << std::setw(static_cast<int>(width[c])) << row[c];
-        std::cout << row[4] << '\n';
-      }
-      for (const std::string &warning : results.warnings)
-        std::cerr << "warning: " << warning << '\n';
-      for (const study::Advice &advice : results.advice)
-        if (!advice.choices.empty())
-        {
-          std::cout << '\n'
-                    << advice.problem << ", " << advice.series << ", against "
-                    << study::target_words(results) << ";\n  errors relative to "
-                    << study::relative_to(results.decisive_error) << ":\n";
-          for (const study::Choice &choice : advice.choices)
-            std::cout << "  " << study::words_of(results, advice, choice) << '\n';
-        }
-      for (const study::Expectation &expectation : results.expectations)
-        if (!expectation.holds)
-          std::cout << "\nnot as expected: " << expectation.subject << ": expected "
-                    << expectation.expected << ", found " << expectation.found << '\n';
-      const auto n_constrained =
-          std::count_if(results.expectations.begin(), results.expectations.end(),
-                        [](const auto &e) { return e.holds; });
-      if (!results.expectations.empty())
-        std::cout << "\nexpectations: " << n_constrained << " of " << results.expectations.size()
-                  << " hold\n";
-      std::cout << "\nreport: " << (folder / "report.html").string() << '\n';
     }
 
     /// A failure that the scene expects ("method: failed") is no error of the run.

@@ -2,8 +2,10 @@
 
 #include "command.h"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <sstream>
 #include <thread>
 
 namespace
@@ -251,6 +253,31 @@ TEST(Command, what_methods_can_do_is_a_table)
   const std::string table = run("list methods --matrix").out;
   expect_found(table, "| lattice | meshes | quadrilaterals |");
   EXPECT_EQ(run("list kernels --matrix").exit_code, 2);
+}
+
+TEST(Command, a_summary_is_short_and_ends_in_the_answer)
+{
+  const Outcome many =
+      run("run " + (fs::path(PLUMBLINE_SCENES) / "ipa_ac/constant_kernel.prm").string() + " -o " +
+          temporary("summary").string());
+  ASSERT_EQ(many.exit_code, 0) << many.err;
+  std::istringstream lines(many.out);
+  std::vector<std::string> all;
+  for (std::string line; std::getline(lines, line);)
+  {
+    all.push_back(line);
+    const auto n_characters =
+        std::count_if(line.begin(), line.end(),
+                      [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
+    EXPECT_LE(n_characters, 120) << line;
+  }
+  EXPECT_LE(all.size(), 25u);
+  expect_found(many.out, "  ... and 4 more in the report\n");
+  ASSERT_GE(all.size(), 3u);
+  EXPECT_EQ(all[all.size() - 3], "Converge: IPA-AC-R2, IPA-AC-R4, Q1, Q2, Q3, DGQ1, DGQ2");
+  EXPECT_EQ(all[all.size() - 2],
+            "Stall, however fine the mesh: FA, LAMMPS, QWJ, PA-AC, IPA-AC, DGQ0");
+  EXPECT_EQ(all.back().rfind("Cheapest to a relative error of 0.01: ", 0), 0u) << all.back();
 }
 
 TEST(Command, json_on_standard_output_is_the_results_file)

@@ -1,0 +1,169 @@
+#include "summary.h"
+
+#include "base/number_text.h"
+#include "study/cheapest.h"
+#include "study/target_words.h"
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <map>
+
+namespace plumbline::app
+{
+  namespace
+  {
+    using study::Outcome;
+    using study::StudyResults;
+
+    constexpr std::size_t n_columns = 120;
+
+    /// So much of it as fits into a line.
+    std::string fitted(const std::string &line)
+    {
+      const std::string more = " ...";
+      // continuation bytes of UTF-8 take no column
+      std::size_t n = 0, end = 0;
+      for (std::size_t i = 0; i < line.size(); ++i)
+        if ((static_cast<unsigned char>(line[i]) & 0xC0U) != 0x80U &&
+            ++n == n_columns - more.size())
+          end = i;
+      if (n <= n_columns)
+        return line;
+      const std::size_t blank = line.rfind(' ', end);
+      return line.substr(0, blank == std::string::npos ? end : blank) + more;
+    }
+
+    void print(const std::string &line)
+    {
+      std::cout << fitted(line) << '\n';
+    }
+
+    /// A row for each method, problem and series.
+    void print_trends(const StudyResults &results)
+    {
+      constexpr std::size_t most = 9;
+      std::array<std::size_t, 4> width{};
+      std::vector<std::array<std::string, 5>> rows;
+      for (const study::Trend &trend : results.trends)
+        if (trend.error == results.decisive_error)
+          rows.push_back({trend.method, trend.problem, trend.series, trend.verdict, trend.reason});
+      const std::size_t n = std::min(most, rows.size());
+      for (std::size_t row = 0; row < n; ++row)
+        for (unsigned int c = 0; c < width.size(); ++c)
+          width[c] = std::max(width[c], rows[row][c].size() + 2);
+      for (std::size_t row = 0; row < n; ++row)
+      {
+        std::string line = "  ";
+        for (unsigned int c = 0; c < width.size(); ++c)
+          line += rows[row][c] + std::string(width[c] - rows[row][c].size(), ' ');
+        print(line + rows[row][4]);
+      }
+      if (rows.size() > n)
+        print("  ... and " + std::to_string(rows.size() - n) + " more in the report");
+    }
+
+    void print_expectations(const StudyResults &results)
+    {
+      constexpr std::size_t most = 2;
+      std::size_t n_missed = 0;
+      for (const study::Expectation &one : results.expectations)
+        if (!one.holds && n_missed++ < most)
+          print("not as expected: " + one.subject + ": expected " + one.expected + ", found " +
+                one.found);
+      if (n_missed > most)
+        print("not as expected: " + std::to_string(n_missed - most) + " more in the report");
+      if (!results.expectations.empty())
+        print("expectations: " + std::to_string(results.expectations.size() - n_missed) + " of " +
+              std::to_string(results.expectations.size()) + " hold");
+    }
+
+    /// Methods by what became of them, each in the worst class that it belongs to.
+    void print_answer(const StudyResults &results)
+    {
+      // from good to bad
+      const std::vector<std::pair<Outcome, std::string>> classes = {
+          {Outcome::converges, "Converge: "},
+          {Outcome::undecided, "Undecided: "},
+          {Outcome::field_only, "Converge for this field only: "},
+          {Outcome::failed, "No solution: "},
+          {Outcome::stalls, "Stall, however fine the mesh: "}};
+      const auto rank = [&](Outcome outcome)
+      {
+        return std::find_if(classes.begin(), classes.end(),
+                            [&](const auto &one) { return one.first == outcome; }) -
+               classes.begin();
+      };
+      std::vector<std::string> methods;
+      std::map<std::string, std::map<Outcome, std::size_t>> found;
+      for (const study::Trend &trend : results.trends)
+        if (trend.error == results.decisive_error && trend.axis == study::Axis::mesh_size)
+        {
+          if (found.count(trend.method) == 0)
+            methods.push_back(trend.method);
+          ++found[trend.method][trend.outcome];
+        }
+      for (const auto &[outcome, words] : classes)
+      {
+        std::string names;
+        for (const std::string &method : methods)
+        {
+          const auto &outcomes = found[method];
+          const auto worst = std::max_element(outcomes.begin(), outcomes.end(),
+                                              [&](const auto &a, const auto &b)
+                                              { return rank(a.first) < rank(b.first); });
+          if (worst->first != outcome)
+            continue;
+          std::size_t n = 0;
+          for (const auto &one : outcomes)
+            n += one.second;
+          names += (names.empty() ? "" : ", ") + method +
+                   (worst->second < n ? " (in " + std::to_string(worst->second) + " of " +
+                                            std::to_string(n) + " cases)"
+                                      : "");
+        }
+        if (!names.empty())
+          print(words + names);
+      }
+    }
+
+    /// Of the first problems and series.
+    void print_cheapest(const StudyResults &results)
+    {
+      constexpr std::size_t most = 2, most_targets = 2;
+      constexpr int n_digits = 3;
+      std::size_t n = 0;
+      for (const study::Advice &advice : results.advice)
+        if (!advice.choices.empty() && n++ < most)
+        {
+          std::string line = results.advice.size() > 1
+                                 ? advice.problem + ", " + advice.series + ": cheapest"
+                                 : "Cheapest";
+          for (std::size_t i = 0; i < std::min(most_targets, advice.choices.size()); ++i)
+          {
+            const study::Choice &choice = advice.choices[i];
+            line += (i == 0 ? " to a relative error of " : "; of ") +
+                    base::to_text(choice.target, n_digits) + ": " + choice.method +
+                    " at h = " + base::to_text(choice.h, n_digits) + ", " +
+                    base::to_text(choice.seconds, n_digits) + " CPU s";
+          }
+          print(line);
+        }
+    }
+  } // namespace
+
+  void print_summary(const StudyResults &results, const std::filesystem::path &folder)
+  {
+    print(results.scene_name + ": " + results.purpose);
+    std::cout << '\n';
+    print(results.decisive_error + " (compared with " + study::target_words(results) + ")");
+    print_trends(results);
+    for (const std::string &warning : results.warnings)
+      std::cerr << "warning: " << warning << '\n';
+    std::cout << '\n';
+    print_expectations(results);
+    std::cout << "report: " << (folder / "report.html").string() << "\n\n";
+    print_answer(results);
+    print_cheapest(results);
+  }
+} // namespace plumbline::app

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "study/study_results.h"
+
+#include <filesystem>
+
+namespace plumbline::app
+{
+  /// What a static study found, in at most 25 lines of 120 columns with the answer last; the report
+  /// has the rest. Warnings go to standard error.
+  void print_summary(const study::StudyResults &results, const std::filesystem::path &folder);
+} // namespace plumbline::app
