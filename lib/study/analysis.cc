@@ -132,7 +132,8 @@ namespace plumbline::study
       StudyResults run()
       {
         for (const problem::Series &series : scene_.study.series)
-          n_all_ += n_levels(series) * methods_.size();
+          for (unsigned int level = 0; level < n_levels(series); ++level)
+            work_of_all_ += work_of(series.levels[level]) * static_cast<double>(methods_.size());
         for (const problem::Series &series : scene_.study.series)
           for (unsigned int level = 0; level < n_levels(series) && !is_stopped_; ++level)
             run_level({scene_, series, level, level + 1 == n_levels(series), common_});
@@ -163,7 +164,7 @@ namespace plumbline::study
       void run_level(const Place &place)
       {
         bool is_begun = false;
-        for (std::size_t i = 0; i < methods_.size(); ++i, ++n_done_)
+        for (std::size_t i = 0; i < methods_.size(); ++i, work_done_ += work_of(place.level()))
         {
           if (control_.should_stop && control_.should_stop())
           {
@@ -175,7 +176,7 @@ namespace plumbline::study
           const bool is_due = own.empty() ? is_affordable(place, method) : analysis_.has_parts;
           if (is_due && analysis_.begin && !std::exchange(is_begun, true))
           {
-            show_progress(place.record(analysis_.name, method).key, "what methods share");
+            show_progress(place.record(analysis_.name, method).key, "problem and reference");
             analysis_.begin(place);
           }
           if (is_due)
@@ -229,12 +230,18 @@ namespace plumbline::study
         return false;
       }
 
+      /// Of one method at a level, for progress: cells in a unit of Ω.
+      double work_of(const problem::Level &level) const
+      {
+        return std::pow(level.h, -static_cast<double>(scene_.domain.dimension));
+      }
+
       void show_progress(const Key &key, const std::string &what) const
       {
         if (control_.on_progress)
           control_.on_progress(analysis_.name + ", " + key.series +
                                    ", h = " + base::to_text(key.h, 4) + ": " + what,
-                               static_cast<double>(n_done_) / static_cast<double>(n_all_));
+                               work_done_ / work_of_all_);
       }
 
       void fill_record(Record &record, const Common::Fill &fill) const
@@ -308,8 +315,8 @@ namespace plumbline::study
       const base::SeparateCommunicator ranks_{control_.ranks};
       Common common_;
       StudyResults &results_ = common_.results;
-      Records parts_; ///< of the present method and place
-      std::size_t n_done_ = 0, n_all_ = 0;
+      Records parts_;                          ///< of the present method and place
+      double work_done_ = 0, work_of_all_ = 0; ///< see work_of
       bool is_stopped_ = false;
     };
   } // namespace
