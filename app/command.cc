@@ -30,6 +30,8 @@
 
 namespace
 {
+  constexpr unsigned int most_levels = 1000; ///< more than any study has
+
   std::vector<plumbline::scene::Override> to_overrides(const std::vector<std::string> &settings)
   {
     std::vector<plumbline::scene::Override> overrides;
@@ -110,7 +112,8 @@ namespace
     run.add_option("--methods", options->methods,
                    "Methods, comma separated; overrides Methods/names");
     run.add_option("--model", options->model, "smallest (only what the scene needs) or full");
-    run.add_option("--levels", options->n_levels, "Only the first N levels of each sweep");
+    run.add_option("--levels", options->n_levels, "Only the first N levels of each sweep")
+        ->check(CLI::Range(1u, most_levels));
     run.add_option(
         "--budget", options->budget,
         "Leave out what is expected to take more CPU seconds, of one method at one level");
@@ -151,7 +154,8 @@ namespace
     command.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
     command.add_option("--methods", options.methods,
                        "Methods, comma separated; overrides Methods/names");
-    command.add_option("--levels", options.n_levels, "Only the first N levels of each sweep");
+    command.add_option("--levels", options.n_levels, "Only the first N levels of each sweep")
+        ->check(CLI::Range(1u, most_levels));
     command.add_flag("--quiet", options.quiet, "Print nothing but errors");
     command.add_flag("--json", options.json, "Print " + name + ".json instead of the table");
     return command;

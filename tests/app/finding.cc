@@ -114,6 +114,18 @@ TEST(Finding, new_writes_a_scene_that_runs_and_overwrites_none)
   expect_found(run("new " + name.string() + "2 --kind fluid").err, "model 'fluid' is not known");
 }
 
+TEST(Finding, a_number_of_levels_is_at_least_1)
+{
+  const std::string scene = (fs::path(PLUMBLINE_SCENES) / "three_d/wave_rates.prm").string();
+  for (const std::string command : {"run ", "stability "})
+  {
+    const Outcome outcome = run(command + scene + " --levels 0");
+    EXPECT_EQ(outcome.exit_code, 2);
+    expect_found(outcome.err, "--levels");
+    expect_found(outcome.err, "1 to 1000");
+  }
+}
+
 TEST(Finding, help_has_commands_lists_and_keys)
 {
   expect_found(run("help").out, "dispersion");
