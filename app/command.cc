@@ -13,6 +13,7 @@
 #include "run.h"
 #include "sample.h"
 #include "unexpected.h"
+#include "weights.h"
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
@@ -234,6 +235,20 @@ namespace
     set_action(command, request, options, moduli);
   }
 
+  void add_weights(CLI::App &app, Request &request)
+  {
+    const auto options = std::make_shared<WeightsOptions>();
+    auto &command =
+        *app.add_subcommand("weights", "Weights of a rule on a square or cubic lattice, as CSV");
+    command.add_option("RULE", options->rule, "Rule, see 'plumbline list methods'")->required();
+    command.add_option("--m", options->m, "Horizon over mesh size (default: 3)");
+    command.add_option("--h", options->h, "Mesh size (default: 1)");
+    command.add_option("--kernel", options->kernel,
+                       "Kernel type (default: linear-decay), see 'plumbline list kernels'");
+    command.add_option("--dimension", options->dimension, "2 (default) or 3");
+    set_action(command, request, options, weights);
+  }
+
   int print(const std::string &text)
   {
     std::cout << text;
@@ -345,6 +360,7 @@ namespace
         "Expected/strip fails, or a strip is too short", [](const auto &) { return strip_row(); });
     add_sample(app, request);
     add_moduli(app, request);
+    add_weights(app, request);
     add_words(app, request);
     add_new(app, request);
     add_own(app, request);

@@ -81,3 +81,42 @@ TEST(ModuliCommand, refuses_what_it_cannot_take)
   expect("--state solid", "choose 'plane stress', 'plane strain' or 3D");
   expect("--E 0", "give a number above 0");
 }
+
+TEST(WeightsCommand, prints_the_family_of_a_rule)
+{
+  const auto rows_of = [](const std::string &text)
+  {
+    std::vector<std::vector<double>> rows;
+    std::istringstream lines(text);
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line))
+    {
+      std::istringstream row(line);
+      rows.emplace_back();
+      for (std::string value; std::getline(row, value, ',');)
+        rows.back().push_back(std::stod(value));
+    }
+    return rows;
+  };
+  const Outcome plane = run("weights FA --m 2 --h 0.5");
+  EXPECT_EQ(plane.exit_code, 0) << plane.err;
+  expect_found(plane.out, "x,y,weight,qx,qy,area\n");
+  EXPECT_EQ(rows_of(plane.out).size(), 12u); // lattice points within 2 h
+  for (const auto &row : rows_of(plane.out))
+    EXPECT_EQ(row.at(2), .25);
+  // linear decay, c = 45 / (2 pi delta^5) for diffusion 1/2: sum of w C x^2 is 1
+  const Outcome space = run("weights IPA-AC-R2 --m 2.5 --dimension 3");
+  expect_found(space.out, "x,y,z,weight,qx,qy,qz,volume\n");
+  double moment = 0;
+  for (const auto &row : rows_of(space.out))
+  {
+    const double r = std::hypot(row.at(4), row.at(5), row.at(6)) / 2.5;
+    moment +=
+        row.at(3) * 45 / (2 * M_PI * std::pow(2.5, 5)) * std::max(0., 1 - r) * row[0] * row[0];
+  }
+  EXPECT_NEAR(moment, 1, 1e-12);
+  for (const std::string bad : {"weights FB", "weights FA --m 0.5", "weights FA --dimension 4",
+                                "weights FA --h 0", "weights FA --kernel table"})
+    EXPECT_EQ(run(bad).exit_code, 2) << bad;
+}

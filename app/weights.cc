@@ -1,0 +1,90 @@
+#include "weights.h"
+
+#include "base/error.h"
+#include "base/number_text.h"
+#include "base/similar_words.h"
+#include "meshfree/rules/rules.h"
+#include "scene/values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+namespace plumbline::app
+{
+  namespace
+  {
+    meshfree::Rule find_rule(const std::string &given)
+    {
+      const std::string name = scene::method_name(given);
+      std::vector<std::string> known;
+      for (const auto &table : {meshfree::rules(), meshfree::counterexamples()})
+        for (const meshfree::Rule &rule : table)
+        {
+          if (rule.name == name)
+            return rule;
+          known.push_back(rule.name);
+        }
+      throw InputError("rule '" + given + "' is not known; choose of " + scene::join(known, ", ") +
+                       base::did_you_mean(given, known));
+    }
+
+    /// Weights do not depend on its constant.
+    template <int dim>
+    physics::Kernel<dim> kernel_of(const WeightsOptions &options)
+    {
+      const physics::KernelType &type = physics::kernel_type(options.kernel);
+      if (type.make != nullptr)
+        throw InputError("--kernel: the profile of '" + options.kernel +
+                         "' takes keys of a scene; choose another one ('plumbline list kernels')");
+      const double horizon = options.m * options.h;
+      return type.structure == physics::Structure::tensor
+                 ? physics::Kernel<dim>::with_bulk_modulus(type.profile, horizon, 1)
+                 : physics::Kernel<dim>::with_diffusion(type.profile, horizon, 1);
+    }
+
+    template <int dim>
+    void print(const WeightsOptions &options, const meshfree::NeighbourhoodQuadrature<dim> &rule,
+               const physics::Kernel<dim> &kernel)
+    {
+      constexpr int digits = 17;
+      const auto bonds = lattice_bonds(rule, kernel, options.h, geometry::Backend::fast);
+      const auto point = [&](const dealii::Point<dim> &x)
+      {
+        std::string text;
+        for (unsigned int d = 0; d < dim; ++d)
+          text += (d == 0 ? "" : ",") + base::to_text(x[d], digits);
+        return text;
+      };
+      std::cout << (dim == 2 ? "x,y,weight,qx,qy,area\n" : "x,y,z,weight,qx,qy,qz,volume\n");
+      for (const meshfree::Bond<dim> &bond : bonds.family)
+        std::cout << point(bond.xi) << ',' << base::to_text(bond.weight, digits) << ','
+                  << point(bond.kernel_point) << ',' << base::to_text(bond.area, digits) << '\n';
+    }
+  } // namespace
+
+  int weights(const WeightsOptions &options)
+  {
+    constexpr double most_ratio = 50;
+    if (!(options.m >= 1 && options.m <= most_ratio))
+      throw InputError("--m: horizon / h = " + base::to_text(options.m, 4) +
+                       " is not between 1, where a node has its first neighbours, and 50");
+    if (!(options.h > 0) || !std::isfinite(options.h))
+      throw InputError("--h: the mesh size is " + base::to_text(options.h, 4) +
+                       "; give a positive length");
+    const meshfree::Rule rule = find_rule(options.rule);
+    if (options.dimension == 2)
+    {
+      const auto kernel = kernel_of<2>(options);
+      print<2>(options, rule.in_plane(kernel), kernel);
+    }
+    else if (options.dimension == 3)
+    {
+      const auto kernel = kernel_of<3>(options);
+      print<3>(options, rule.in_space(kernel), kernel);
+    }
+    else
+      throw InputError("--dimension: " + std::to_string(options.dimension) + " is neither 2 nor 3");
+    return 0;
+  }
+} // namespace plumbline::app
