@@ -1,10 +1,12 @@
 // The command as a user meets it: exit codes, messages on stderr, files.
 
 #include "command.h"
+#include "app/summary.h"
 
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <iostream>
 #include <sstream>
 #include <thread>
 
@@ -278,6 +280,30 @@ TEST(Command, a_summary_is_short_and_ends_in_the_answer)
   EXPECT_EQ(all[all.size() - 2],
             "Stall, however fine the mesh: FA, LAMMPS, QWJ, PA-AC, IPA-AC, DGQ0");
   EXPECT_EQ(all.back().rfind("Cheapest to a relative error of 0.01: ", 0), 0u) << all.back();
+}
+
+TEST(Command, a_summary_puts_methods_into_the_worst_of_their_classes)
+{
+  plumbline::study::StudyResults results;
+  results.decisive_error = "nodal Linf | exact";
+  using plumbline::study::Outcome;
+  for (const auto &[problem, outcome] :
+       {std::pair("u", Outcome::converges), std::pair("v", Outcome::stalls),
+        std::pair("w", Outcome::converges)})
+  {
+    plumbline::study::Trend trend;
+    trend.method = "FA";
+    trend.problem = problem;
+    trend.error = results.decisive_error;
+    trend.outcome = outcome;
+    results.trends.push_back(trend);
+  }
+  std::ostringstream said;
+  std::streambuf *const before = std::cout.rdbuf(said.rdbuf());
+  print_summary(results, "out");
+  std::cout.rdbuf(before);
+  expect_found(said.str(), "Stall, however fine the mesh: FA (in 1 of 3 cases)\n");
+  EXPECT_EQ(said.str().find("Converge:"), std::string::npos);
 }
 
 TEST(Command, json_on_standard_output_is_the_results_file)
