@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iostream>
 #include <map>
 
@@ -39,6 +40,21 @@ namespace plumbline::app
       std::cout << fitted(line) << '\n';
     }
 
+    /// Why there is this verdict: in short where a proof stands beside the errors.
+    std::string reason_of(const study::Trend &trend)
+    {
+      constexpr int n_digits = 3;
+      if (trend.proof.reason.empty() || trend.outcome == Outcome::undecided ||
+          trend.outcome == Outcome::failed || trend.values.empty())
+        return trend.reason;
+      std::string text = "last error " + base::to_text(trend.values.back(), n_digits);
+      if (trend.values.back() <= trend.round_off)
+        text += " (round-off)";
+      else if (!trend.rates.empty() && std::isfinite(trend.rates.back()))
+        text += ", rate " + base::to_text(trend.rates.back(), n_digits);
+      return text + "; " + trend.proof.reason;
+    }
+
     /// A row for each method, problem and series.
     void print_trends(const StudyResults &results)
     {
@@ -47,7 +63,8 @@ namespace plumbline::app
       std::vector<std::array<std::string, 5>> rows;
       for (const study::Trend &trend : results.trends)
         if (trend.error == results.decisive_error)
-          rows.push_back({trend.method, trend.problem, trend.series, trend.verdict, trend.reason});
+          rows.push_back(
+              {trend.method, trend.problem, trend.series, trend.verdict, reason_of(trend)});
       const std::size_t n = std::min(most, rows.size());
       for (std::size_t row = 0; row < n; ++row)
         for (unsigned int c = 0; c < width.size(); ++c)

@@ -94,8 +94,8 @@ namespace plumbline::study
       const auto &n = problem.lattice.n_cells();
       const int layer = n[2] / 2, per_block = cells_per_block({n[0], n[1]});
       ErrorMap map;
-      map.quantity = "averages at z = " +
-                     base::to_text(problem.lattice.coordinate(2, layer + .5), n_digits);
+      map.quantity =
+          "averages at z = " + base::to_text(problem.lattice.coordinate(2, layer + .5), n_digits);
       map.h = problem.h();
       map.horizon = problem.horizon();
       map.n_x = (n[0] + per_block - 1) / per_block;
