@@ -12,24 +12,33 @@ namespace plumbline::python
     return text + ")";
   }
 
-  std::vector<Point<2>> to_points(const Doubles &array, const std::string &name)
+  template <int dim>
+  std::vector<Point<dim>> to_points(const Doubles &array, const std::string &name)
   {
-    if (array.ndim() != 2 || array.shape(1) != 2)
-      throw InputError(name + " has the shape " + shape_text(array) +
-                       "; give one row (x, y) for each point, shape (n, 2)");
+    if (array.ndim() != 2 || array.shape(1) != dim)
+      throw InputError(name + " has the shape " + shape_text(array) + "; give one row " +
+                       (dim == 2 ? "(x, y)" : "(x, y, z)") + " for each point, shape (n, " +
+                       std::to_string(dim) + ")");
     const auto view = array.unchecked<2>();
-    std::vector<Point<2>> points;
-    points.reserve(static_cast<std::size_t>(view.shape(0)));
+    std::vector<Point<dim>> points(static_cast<std::size_t>(view.shape(0)));
     for (py::ssize_t k = 0; k < view.shape(0); ++k)
-    {
-      points.emplace_back(view(k, 0), view(k, 1));
-      if (!std::isfinite(view(k, 0)) || !std::isfinite(view(k, 1)))
-        throw InputError(name + "[" + std::to_string(k) + "] = (" + std::to_string(view(k, 0)) +
-                         ", " + std::to_string(view(k, 1)) +
-                         ") is not a point; give finite numbers");
-    }
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        points[static_cast<std::size_t>(k)][d] = view(k, d);
+        if (!std::isfinite(view(k, d)))
+        {
+          std::string text;
+          for (unsigned int c = 0; c < dim; ++c)
+            text += (c == 0 ? "" : ", ") + std::to_string(view(k, c));
+          throw InputError(name + "[" + std::to_string(k) + "] = (" + text +
+                           ") is not a point; give finite numbers");
+        }
+      }
     return points;
   }
+
+  template std::vector<Point<2>> to_points(const Doubles &, const std::string &);
+  template std::vector<Point<3>> to_points(const Doubles &, const std::string &);
 
   namespace
   {
@@ -67,14 +76,19 @@ namespace plumbline::python
                        "; give one number for each " + of + ", shape (" + std::to_string(n) + ",)");
   }
 
-  py::array to_array(const std::vector<Point<2>> &points)
+  template <int dim>
+  py::array to_array(const std::vector<Point<dim>> &points)
   {
     std::vector<double> values;
-    values.reserve(2 * points.size());
-    for (const Point<2> &x : points)
-      values.insert(values.end(), {x[0], x[1]});
-    return to_array(std::move(values), {static_cast<py::ssize_t>(points.size()), 2});
+    values.reserve(dim * points.size());
+    for (const Point<dim> &x : points)
+      for (unsigned int d = 0; d < dim; ++d)
+        values.push_back(x[d]);
+    return to_array(std::move(values), {static_cast<py::ssize_t>(points.size()), dim});
   }
+
+  template py::array to_array(const std::vector<Point<2>> &);
+  template py::array to_array(const std::vector<Point<3>> &);
 
   py::array to_components(std::vector<double> values, unsigned int n_components)
   {

@@ -26,8 +26,9 @@ namespace plumbline::python
   /// "(10, 2)"
   std::string shape_text(const py::array &array);
 
-  /// @throws InputError  another shape than (n, 2), a number that is not finite
-  std::vector<Point<2>> to_points(const Doubles &array, const std::string &name);
+  /// @throws InputError  another shape than (n, dim), a number that is not finite
+  template <int dim = 2>
+  std::vector<Point<dim>> to_points(const Doubles &array, const std::string &name);
 
   /// Boxes minus other boxes, each ((x0, y0), (x1, y1)): shapes (2, 2) or (n, 2, 2).
   /// @throws InputError  another shape
@@ -53,8 +54,9 @@ namespace plumbline::python
     return to_array(std::move(values), {n});
   }
 
-  /// Shape (n, 2).
-  py::array to_array(const std::vector<Point<2>> &points);
+  /// Shape (n, dim).
+  template <int dim>
+  py::array to_array(const std::vector<Point<dim>> &points);
 
   /// Of one component shape (n), else (n, n_components).
   py::array to_components(std::vector<double> values, unsigned int n_components);

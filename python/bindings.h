@@ -10,5 +10,6 @@ namespace plumbline::python
   void add_problem(pybind11::module_ &module);
   void add_check(pybind11::module_ &module);
   void add_moduli(pybind11::module_ &module);
+  void add_space(pybind11::module_ &module);
   void add_studies(pybind11::module_ &module);
 } // namespace plumbline::python

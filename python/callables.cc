@@ -21,25 +21,29 @@ namespace plumbline::python
 
     /// The values of a function at points, by one call.
     /// @return  shape (n_points, n_components)
+    template <int dim>
     std::vector<double> call(const std::string &name, const py::function &function,
-                             const std::vector<Point<2>> &points, unsigned int n_components)
+                             const std::vector<Point<dim>> &points, unsigned int n_components)
     {
       const py::gil_scoped_acquire lock;
       const auto n = static_cast<py::ssize_t>(points.size());
-      std::vector<double> x, y;
-      for (const Point<2> &point : points)
+      py::tuple coordinates(dim);
+      for (unsigned int d = 0; d < dim; ++d)
       {
-        x.push_back(point[0]);
-        y.push_back(point[1]);
+        std::vector<double> along;
+        for (const Point<dim> &point : points)
+          along.push_back(point[d]);
+        coordinates[d] = to_array(std::move(along));
       }
-      const py::object given = function(to_array(std::move(x)), to_array(std::move(y)));
+      const py::object given = function(*coordinates);
       const auto refuse = [&](const std::string &found)
       {
-        throw InputError(
-            name + ": the function returned " + found + " for " + std::to_string(n) +
-            " points; return " +
-            (n_components == 1 ? "an array of shape (n,)" : "a pair of arrays of shape (n,)") +
-            ", or numbers where they are the same everywhere");
+        throw InputError(name + ": the function returned " + found + " for " + std::to_string(n) +
+                         " points; return " +
+                         (n_components == 1   ? "an array of shape (n,)"
+                          : n_components == 2 ? "a pair of arrays of shape (n,)"
+                                              : "three arrays of shape (n,)") +
+                         ", or numbers where they are the same everywhere");
       };
       std::vector<double> values(points.size() * n_components);
       if (n_components > 1 &&
@@ -77,7 +81,7 @@ namespace plumbline::python
       {
         if (const auto node = index_.find({x[0], x[1]}); node != index_.end())
           return at_nodes_[node->second * n_components_ + component];
-        return call(name_, *function_, {x}, n_components_)[component];
+        return call<2>(name_, *function_, {x}, n_components_)[component];
       }
 
     private:
@@ -115,20 +119,29 @@ namespace plumbline::python
                        "components), a function f(x, y) of arrays, or a number");
   }
 
+  physics::Expression GivenField::expression(unsigned int n_components, double horizon,
+                                             bool is_in_space) const
+  {
+    physics::Names names = {{"delta", horizon}};
+    names.is_in_space = is_in_space;
+    physics::Expression expression(name_, *text_, names);
+    if (expression.n_components() != n_components)
+      throw InputError(name_ + " = '" + *text_ + "' has " +
+                       std::to_string(expression.n_components()) +
+                       " components, but the kernel couples " + std::to_string(n_components) +
+                       "; give as many, separated by commas");
+    return expression;
+  }
+
   problem::Field<2> GivenField::field(unsigned int n_components, double horizon,
                                       const std::vector<Point<2>> &nodes) const
   {
     problem::Field<2> result;
     if (text_)
     {
-      const physics::Expression expression(name_, *text_, {{"delta", horizon}});
-      if (expression.n_components() != n_components)
-        throw InputError(name_ + " = '" + *text_ + "' has " +
-                         std::to_string(expression.n_components()) +
-                         " components, but the kernel couples " + std::to_string(n_components) +
-                         "; give as many, separated by commas");
-      result.value = expression;
-      result.is_piecewise = expression.is_piecewise();
+      const physics::Expression given = expression(n_components, horizon, false);
+      result.value = given;
+      result.is_piecewise = given.is_piecewise();
     }
     else if (function_)
     {
@@ -136,6 +149,23 @@ namespace plumbline::python
       result.value = [values](const Point<2> &x, unsigned int component)
       { return (*values)(x, component); };
     }
+    return result;
+  }
+
+  problem::Field<3> GivenField::field_in_space(unsigned int n_components, double horizon) const
+  {
+    problem::Field<3> result;
+    if (text_)
+    {
+      const physics::Expression given = expression(n_components, horizon, true);
+      result.value = [given](const Point<3> &x, unsigned int component)
+      { return given.at(x, component); };
+      result.is_piecewise = given.is_piecewise();
+    }
+    else if (function_)
+      result.value = [name = name_, function = function_, n_components](const Point<3> &x,
+                                                                        unsigned int component)
+      { return call<3>(name, *function, {x}, n_components)[component]; };
     return result;
   }
 

@@ -2,6 +2,7 @@
 
 #include "arrays.h"
 #include "physics/coefficient.h"
+#include "problem/in_space.h"
 #include "problem/problem.h"
 
 #include <memory>
@@ -31,11 +32,18 @@ namespace plumbline::python
     problem::Field<2> field(unsigned int n_components, double horizon,
                             const std::vector<Point<2>> &nodes) const;
 
+    /// In space: an expression in x, y and z, or f(x, y, z), which is called point by point.
+    problem::Field<3> field_in_space(unsigned int n_components, double horizon) const;
+
     /// @pre is_there()
     physics::Coefficient coefficient(double horizon, const std::vector<Point<2>> &nodes,
                                      physics::Mean mean) const;
 
   private:
+    /// @throws InputError  another number of components
+    physics::Expression expression(unsigned int n_components, double horizon,
+                                   bool is_in_space) const;
+
     std::string name_;
     std::optional<std::string> text_;
     Callable function_;

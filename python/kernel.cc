@@ -2,6 +2,7 @@
 #include "arrays.h"
 #include "bindings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -14,10 +15,12 @@ namespace plumbline::python
   namespace
   {
     /// At most one of the three scales is given.
-    Kernel<2> make_kernel(const std::string &type, double horizon, std::optional<double> diffusion,
-                          std::optional<double> bulk_modulus, std::optional<double> constant,
-                          const std::vector<double> &coefficients, unsigned int singularity,
-                          double width, const std::vector<std::array<double, 2>> &table)
+    template <int dim>
+    Kernel<dim> make_kernel(const std::string &type, double horizon,
+                            std::optional<double> diffusion, std::optional<double> bulk_modulus,
+                            std::optional<double> constant, const std::vector<double> &coefficients,
+                            unsigned int singularity, double width,
+                            const std::vector<std::array<double, 2>> &table)
     {
       const physics::KernelType &row = physics::kernel_type(type);
       const physics::RadialProfile profile =
@@ -34,14 +37,15 @@ namespace plumbline::python
                                       "give diffusion"));
       if (constant)
         return {row.structure, profile, horizon, *constant};
-      return is_tensor ? Kernel<2>::with_bulk_modulus(profile, horizon, bulk_modulus.value_or(1))
-                       : Kernel<2>::with_diffusion(profile, horizon, diffusion.value_or(1));
+      return is_tensor ? Kernel<dim>::with_bulk_modulus(profile, horizon, bulk_modulus.value_or(1))
+                       : Kernel<dim>::with_diffusion(profile, horizon, diffusion.value_or(1));
     }
 
     /// C(ξ) of bonds, 0 beyond the horizon.
-    py::array values(const Kernel<2> &kernel, const Doubles &bonds)
+    template <int dim>
+    py::array values(const Kernel<dim> &kernel, const Doubles &bonds)
     {
-      const std::vector<Point<2>> xi = to_points(bonds, "xi");
+      const std::vector<Point<dim>> xi = to_points<dim>(bonds, "xi");
       const unsigned int n = kernel.n_components();
       std::vector<double> result;
       for (std::size_t k = 0; k < xi.size(); ++k)
@@ -59,10 +63,12 @@ namespace plumbline::python
       return n == 1 ? to_array(std::move(result)) : to_array(std::move(result), {size, n, n});
     }
 
-    double moment(const Kernel<2> &kernel, const std::array<int, 2> &alpha, unsigned int a,
+    template <int dim>
+    double moment(const Kernel<dim> &kernel, const std::array<int, dim> &alpha, unsigned int a,
                   unsigned int b)
     {
-      if (alpha[0] < 0 || alpha[1] < 0 || a >= kernel.n_components() || b >= kernel.n_components())
+      if (*std::min_element(alpha.begin(), alpha.end()) < 0 || a >= kernel.n_components() ||
+          b >= kernel.n_components())
         throw InputError("moment: alpha must not be negative, and a and b must be below " +
                          std::to_string(kernel.n_components()));
       return kernel.moment(alpha, a, b);
@@ -77,11 +83,50 @@ namespace plumbline::python
                                "source"_a = row.source));
       return result;
     }
+
+    template <int dim>
+    void bind_kernel(py::module_ &module, const char *name, const char *documentation)
+    {
+      const std::string n = std::to_string(dim);
+      py::class_<Kernel<dim>>(module, name, documentation)
+          .def(py::init(&make_kernel<dim>), "type"_a, "horizon"_a, py::kw_only(),
+               "diffusion"_a = py::none(), "bulk_modulus"_a = py::none(), "constant"_a = py::none(),
+               "coefficients"_a = std::vector<double>(), "singularity"_a = 0, "width"_a = 0.,
+               "table"_a = std::vector<std::array<double, 2>>())
+          .def_property_readonly("horizon", &Kernel<dim>::horizon, "[length]")
+          .def_property_readonly("constant", &Kernel<dim>::constant)
+          .def_property_readonly("n_components", &Kernel<dim>::n_components,
+                                 ("1 for scalar kernels, " + n + " for tensors").c_str())
+          .def_property_readonly("is_tensor", [](const Kernel<dim> &kernel)
+                                 { return kernel.structure() == Structure::tensor; })
+          .def("__call__", values<dim>, "xi"_a,
+               ("C(xi) of bonds, xi of shape (n, " + n + ") [length]: shape (n,), of tensors (n, " +
+                n + ", " + n + "); 0 beyond the horizon.")
+                   .c_str())
+          .def("moment", moment<dim>, "alpha"_a, "a"_a = 0, "b"_a = 0,
+               "The integral of C_ab(xi) times the product of xi_d^alpha[d] over the ball; exact.")
+          .def_property_readonly(
+              "limit",
+              [](const Kernel<dim> &kernel)
+              {
+                const auto limit = kernel.limit();
+                return kernel.n_components() == 1
+                           ? py::dict("diffusion"_a = limit.diffusion)
+                           : py::dict("lambda"_a = limit.lambda, "mu"_a = limit.mu);
+              },
+              "Constants of the local operator that L tends to.")
+          .def("__repr__",
+               [name = std::string(name)](const Kernel<dim> &kernel)
+               {
+                 return "<plumbline." + name + ", horizon " + std::to_string(kernel.horizon()) +
+                        (kernel.n_components() == 1 ? ", scalar>" : ", tensor>");
+               });
+    }
   } // namespace
 
   void add_kernel(py::module_ &module)
   {
-    py::class_<Kernel<2>>(
+    bind_kernel<2>(
         module, "Kernel",
         R"(The kernel C(xi) of L u(x) = -int C(xi) (u(x+xi) - u(x)) dxi over |xi| < horizon.
 
@@ -92,38 +137,12 @@ horizon       > 0 [length]
 diffusion     D of scalar kernels: L tends to -D Laplace as the horizon tends to 0; default 1
 bulk_modulus  of tensor kernels: lambda = mu = 3/5 of it, plane strain [force/length^2]; default 1
 constant      c itself instead of either
-coefficients, singularity, width, table   of the types that have a profile of one's own)")
-        .def(py::init(&make_kernel), "type"_a, "horizon"_a, py::kw_only(),
-             "diffusion"_a = py::none(), "bulk_modulus"_a = py::none(), "constant"_a = py::none(),
-             "coefficients"_a = std::vector<double>(), "singularity"_a = 0, "width"_a = 0.,
-             "table"_a = std::vector<std::array<double, 2>>())
-        .def_property_readonly("horizon", &Kernel<2>::horizon, "[length]")
-        .def_property_readonly("constant", &Kernel<2>::constant)
-        .def_property_readonly("n_components", &Kernel<2>::n_components,
-                               "1 for scalar kernels, 2 for tensors")
-        .def_property_readonly("is_tensor", [](const Kernel<2> &kernel)
-                               { return kernel.structure() == Structure::tensor; })
-        .def("__call__", values, "xi"_a,
-             "C(xi) of bonds, xi of shape (n, 2) [length]: shape (n,), of tensors (n, 2, 2); 0 "
-             "beyond the horizon.")
-        .def("moment", moment, "alpha"_a, "a"_a = 0, "b"_a = 0,
-             "The integral of C_ab(xi) xi_1^alpha[0] xi_2^alpha[1] over the ball; exact.")
-        .def_property_readonly(
-            "limit",
-            [](const Kernel<2> &kernel)
-            {
-              const auto limit = kernel.limit();
-              return kernel.n_components() == 1
-                         ? py::dict("diffusion"_a = limit.diffusion)
-                         : py::dict("lambda"_a = limit.lambda, "mu"_a = limit.mu);
-            },
-            "Constants of the local operator that L tends to.")
-        .def("__repr__",
-             [](const Kernel<2> &kernel)
-             {
-               return "<plumbline.Kernel, horizon " + std::to_string(kernel.horizon()) +
-                      (kernel.n_components() == 1 ? ", scalar>" : ", tensor>");
-             });
+coefficients, singularity, width, table   of the types that have a profile of one's own)");
+    bind_kernel<3>(
+        module, "SpaceKernel",
+        R"(The kernel in three dimensions, see plumbline.Kernel, whose arguments it takes.
+
+bulk_modulus is that of a solid with nu = 1/4: lambda = mu = 3/5 of it [force/length^2])");
     module.def("kernels", all_types,
                "All kernels: a list of dicts with type, formula, is_tensor "
                "and source.");

@@ -105,5 +105,6 @@ PYBIND11_MODULE(_core, module)
   add_problem(module);
   add_check(module);
   add_moduli(module);
+  add_space(module);
   add_studies(module);
 }

@@ -52,21 +52,12 @@ namespace plumbline::meshfree
       return index;
     }
 
-    std::optional<Point<3>> kernel_point(base::Csv &csv)
-    {
-      if (!csv.has("qx") || csv.is_empty("qx"))
-        return {};
-      const Point<3> q(csv.number("qx"), csv.number("qy"), csv.number("qz"));
-      if (!(q.square() > 0))
-        csv.fail("the kernel is taken at 0, where node i is; give its place relative to node i");
-      return q;
-    }
-
-    void read_bonds(const std::string &file, const Index &index,
-                    const std::vector<std::size_t> &family_of, WeightsInSpace &given)
+    /// @param sizes  the rounding errors of weights by their digits, relative
+    std::vector<BondInSpace> read_bonds(const std::string &file, const Index &index,
+                                        const WeightsInSpace &given, std::vector<double> &roundings)
     {
       base::Csv csv(file, {"i", "j", "weight"});
-      std::vector<double> roundings;
+      std::vector<BondInSpace> bonds;
       const auto node = [&](const std::string &column)
       {
         const auto found = index.find(csv.integer(column));
@@ -77,90 +68,21 @@ namespace plumbline::meshfree
       };
       while (csv.next())
       {
-        const std::size_t i = node("i"), j = node("j");
-        if (i == j)
-          csv.fail("node " + std::to_string(given.id[i]) +
-                   " has a bond with itself; leave its own volume out");
-        Bond<3> bond;
-        bond.xi = Point<3>(given.places[j] - given.places[i]);
+        BondInSpace bond;
+        bond.i = node("i");
+        bond.j = node("j");
         bond.weight = csv.number("weight");
-        bond.area = given.volumes[j];
-        bond.kernel_point = kernel_point(csv).value_or(bond.xi);
-        if (family_of[i] == given.free.size())
-          continue;
-        Family<3> &family = given.families[family_of[i]];
-        family.neighbours.push_back(static_cast<unsigned int>(j));
-        family.bonds.push_back(bond);
-        given.lines[family_of[i]].push_back(csv.line());
+        bond.kernel_point = Point<3>(given.places[bond.j] - given.places[bond.i]);
+        if (csv.has("qx") && !csv.is_empty("qx"))
+          bond.kernel_point = Point<3>(csv.number("qx"), csv.number("qy"), csv.number("qz"));
+        bond.line = csv.line();
+        bonds.push_back(bond);
         if (bond.weight != 0)
           roundings.push_back(csv.digits("weight").rounding(bond.weight) / std::abs(bond.weight));
       }
-      if (roundings.empty())
-        return;
-      const auto middle = roundings.begin() + static_cast<std::ptrdiff_t>(roundings.size() / 2);
-      std::nth_element(roundings.begin(), middle, roundings.end());
-      given.rounding = *middle;
+      return bonds;
     }
 
-    /// Bonds in the order of their neighbours.
-    void sort_bonds(const std::string &file, std::size_t node, const WeightsInSpace &given,
-                    Family<3> &family, std::vector<std::size_t> &lines)
-    {
-      std::vector<std::size_t> order(family.bonds.size());
-      for (std::size_t k = 0; k < order.size(); ++k)
-        order[k] = k;
-      std::sort(order.begin(), order.end(),
-                [&](std::size_t a, std::size_t b)
-                { return family.neighbours[a] < family.neighbours[b]; });
-      Family<3> sorted;
-      std::vector<std::size_t> sorted_lines;
-      for (const std::size_t k : order)
-      {
-        if (!sorted.neighbours.empty() && sorted.neighbours.back() == family.neighbours[k])
-          throw InputError("file '" + file + "', line " + std::to_string(lines[k]) +
-                           ": the bond from node " + std::to_string(given.id[node]) + " to node " +
-                           std::to_string(given.id[family.neighbours[k]]) +
-                           " is given already; give every bond once");
-        sorted.neighbours.push_back(family.neighbours[k]);
-        sorted.bonds.push_back(family.bonds[k]);
-        sorted_lines.push_back(lines[k]);
-      }
-      family = std::move(sorted);
-      lines = std::move(sorted_lines);
-    }
-  } // namespace
-
-  WeightsInSpace read_weights_in_space(const std::string &nodes_file, const std::string &bonds_file,
-                                       const geometry::Cuboid &omega)
-  {
-    WeightsInSpace given;
-    const Index index = read_nodes(nodes_file, given);
-    for (std::size_t node = 0; node < given.id.size(); ++node)
-      if (is_inside(omega, given.places[node]))
-        given.free.push_back(node);
-    if (given.free.empty())
-      throw InputError("file '" + nodes_file +
-                       "' has no node inside Domain/boxes; give the box of "
-                       "the nodes that are solved for");
-    std::vector<std::size_t> family_of(given.id.size(), given.free.size());
-    for (std::size_t f = 0; f < given.free.size(); ++f)
-      family_of[given.free[f]] = f;
-    given.families.resize(given.free.size());
-    given.lines.resize(given.free.size());
-    read_bonds(bonds_file, index, family_of, given);
-    for (std::size_t f = 0; f < given.free.size(); ++f)
-    {
-      if (given.families[f].bonds.empty())
-        throw InputError("file '" + bonds_file + "' has no bond of node " +
-                         std::to_string(given.id[given.free[f]]) +
-                         ", which lies in Domain/boxes; list the bonds of every node there");
-      sort_bonds(bonds_file, given.free[f], given, given.families[f], given.lines[f]);
-    }
-    return given;
-  }
-
-  namespace
-  {
     double median(std::vector<double> values)
     {
       if (values.empty())
@@ -169,7 +91,79 @@ namespace plumbline::meshfree
       std::nth_element(values.begin(), middle, values.end());
       return *middle;
     }
+  } // namespace
 
+  void set_families(WeightsInSpace &given, const std::vector<BondInSpace> &bonds,
+                    const geometry::Cuboid &omega, const std::string &nodes_name,
+                    const std::string &bonds_name)
+  {
+    const auto id = [&](std::size_t node) { return "node " + std::to_string(given.id[node]); };
+    const auto fail = [&](const BondInSpace &bond, const std::string &what)
+    { return InputError(bonds_name + ", line " + std::to_string(bond.line) + ": " + what); };
+    given.free.clear();
+    for (std::size_t node = 0; node < given.id.size(); ++node)
+      if (is_inside(omega, given.places[node]))
+        given.free.push_back(node);
+    if (given.free.empty())
+      throw InputError(nodes_name + ": no node lies inside the box; give the box of the nodes that "
+                                    "are solved for");
+    std::vector<const BondInSpace *> sorted;
+    for (const BondInSpace &bond : bonds)
+    {
+      if (bond.i == bond.j)
+        throw fail(bond, id(bond.i) + " has a bond with itself; leave its own volume out");
+      if (!(bond.kernel_point.square() > 0))
+        throw fail(bond, "the kernel is taken at 0, where " + id(bond.i) +
+                             " is; give its place relative to it");
+      sorted.push_back(&bond);
+    }
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const BondInSpace *a, const BondInSpace *b)
+                     { return std::pair(a->i, a->j) < std::pair(b->i, b->j); });
+    given.families.assign(given.free.size(), {});
+    given.lines.assign(given.free.size(), {});
+    auto next = sorted.begin();
+    for (std::size_t f = 0; f < given.free.size(); ++f)
+    {
+      Family<3> &family = given.families[f];
+      while (next != sorted.end() && (*next)->i < given.free[f])
+        ++next;
+      for (; next != sorted.end() && (*next)->i == given.free[f]; ++next)
+      {
+        const BondInSpace &one = **next;
+        if (!family.neighbours.empty() && family.neighbours.back() == one.j)
+          throw fail(one, "the bond from " + id(one.i) + " to " + id(one.j) +
+                              " is given already; give every bond once");
+        Bond<3> bond;
+        bond.xi = Point<3>(given.places[one.j] - given.places[one.i]);
+        bond.weight = one.weight;
+        bond.area = given.volumes[one.j];
+        bond.kernel_point = one.kernel_point;
+        family.neighbours.push_back(static_cast<unsigned int>(one.j));
+        family.bonds.push_back(bond);
+        given.lines[f].push_back(one.line);
+      }
+      if (family.bonds.empty())
+        throw InputError(bonds_name + ": " + id(given.free[f]) +
+                         ", which lies in the box, has no bond; list the bonds of every node "
+                         "there");
+    }
+  }
+
+  WeightsInSpace read_weights_in_space(const std::string &nodes_file, const std::string &bonds_file,
+                                       const geometry::Cuboid &omega)
+  {
+    WeightsInSpace given;
+    const Index index = read_nodes(nodes_file, given);
+    std::vector<double> roundings;
+    const auto bonds = read_bonds(bonds_file, index, given, roundings);
+    set_families(given, bonds, omega, "file '" + nodes_file + "'", "file '" + bonds_file + "'");
+    given.rounding = median(std::move(roundings));
+    return given;
+  }
+
+  namespace
+  {
     void check_moments(const WeightsInSpace &given, const Kernel<3> &kernel, FindingsInSpace &found)
     {
       const BallMoments<3> first(kernel, 1), both(kernel, 2);

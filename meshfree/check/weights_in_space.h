@@ -22,6 +22,24 @@ namespace plumbline::meshfree
     double rounding = 0; ///< of the weights by their digits, relative to most of them
   };
 
+  /// A bond as it is given.
+  struct BondInSpace
+  {
+    std::size_t i = 0, j = 0; ///< indices of nodes
+    double weight = 0;        ///< [length^3]
+    Point<3> kernel_point;    ///< relative to node i [length]
+    std::size_t line = 0;
+  };
+
+  /// The families of nodes in Ω. Bonds of other nodes are left out.
+  /// @param given  with nodes; its families are made
+  /// @param nodes_name, bonds_name  of what is given, for messages: "file 'bonds.csv'"
+  /// @throws InputError  a bond of a node with itself or given twice, a kernel point at 0, no node
+  /// in Ω, a node in Ω without bonds
+  void set_families(WeightsInSpace &given, const std::vector<BondInSpace> &bonds,
+                    const geometry::Cuboid &omega, const std::string &nodes_name,
+                    const std::string &bonds_name);
+
   /// Nodes from a CSV file with the columns id, x, y, z and volume, bonds from one with i, j (ids),
   /// weight [length^3] and, if they are there, qx, qy and qz: where the kernel is taken, relative
   /// to node i, else at node j. Bonds of nodes outside Ω are left out.

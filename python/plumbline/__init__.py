@@ -14,8 +14,10 @@ from ._core import (InputError, Kernel, NumericalError, Problem, Rule, Solution,
                     kernels, methods, reference, set_threads, solve)
 from ._checks import Findings, Weights, check, weights
 from ._moduli import moduli, moduli_of_weights
+from . import space
 from ._studies import Record, Records, Study, dispersion, run, stability
 
 __all__ = ["Findings", "InputError", "Kernel", "NumericalError", "Problem", "Record", "Records",
            "Rule", "Solution", "Study", "Weights", "check", "dispersion", "kernels", "methods",
-           "moduli", "moduli_of_weights", "reference", "run", "set_threads", "solve", "stability", "weights"]
+           "moduli", "moduli_of_weights", "reference", "run", "set_threads", "solve", "space",
+           "stability", "weights"]

@@ -8,7 +8,7 @@ import plumbline
 
 def test_the_example_of_the_readme_runs(root, capsys):
     text = (root / "python/README.md").read_text()
-    example, _ = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    example, *_ = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     exec(compile(example, "README.md", "exec"), {})
     printed = capsys.readouterr().out
     assert "the weights are those of IPA-AC-R2" in printed and "\nas required\n" in printed
@@ -22,10 +22,19 @@ def test_the_example_of_the_readme_runs(root, capsys):
 
 def test_the_example_of_moduli_runs(root, capsys):
     text = (root / "python/README.md").read_text()
-    _, example = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    _, example, _ = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     exec(compile(example, "README.md", "exec"), {})
     own, rule = map(float, capsys.readouterr().out.split())
     assert own == rule and abs(own - 209.7) < .05
+
+
+def test_the_example_in_space_runs(root, capsys):
+    text = (root / "python/README.md").read_text()
+    *_, example = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    exec(compile(example, "README.md", "exec"), {})
+    errors = {line.split()[0]: float(line.split()[1])
+              for line in capsys.readouterr().out.strip().split("\n")}
+    assert errors["IPA-AC-R2"] < errors["FA"] / 10 and errors["Q1"] < errors["FA"] / 10
 
 
 def test_all_names_have_docstrings():

@@ -1,0 +1,45 @@
+"""Three dimensions: kernels, weights of rules, problems on boxes of cubes, the check of weights."""
+from . import _core
+from ._checks import Weights
+from ._core import SpaceKernel as Kernel, SpaceProblem as Problem, SpaceSolution as Solution
+
+__all__ = ["Kernel", "Problem", "Solution", "check", "solve", "weights"]
+
+
+def weights(rule, kernel, h):
+    """The bonds that a rule gives to every node of a lattice of cubes.
+
+    rule    a name ("FA", "LAMMPS", "QWJ", "PA-AC", "IPA-AC", "IPA-AC-R2", ...)
+    kernel  a space.Kernel
+    h       spacing of the nodes [length]
+
+    Returns Weights: w of shape (n,) [length^3], points and xi of shape (n, 3) [length], area (here
+    the volume of the neighbour's cell or of its part in the ball), offsets = xi / h.
+    """
+    made = _core.lattice_weights_in_space(rule, kernel, h)
+    return Weights(None, None, made["w"], made["points"], made["xi"], made["area"], made["offsets"])
+
+
+def solve(problem, method):
+    """Solve a space.Problem by a meshfree rule, "Q1" or "DGQ0": a space.Solution."""
+    return _core.solve_in_space(problem, method)
+
+
+def check(nodes, volumes, i, j, w, kernel, *, box, points=None, meant=()):
+    """Check weights of L u_i = -sum C(points) (u_j - u_i) w over the bonds of node i.
+
+    nodes    shape (n, 3), in the box (free) and within a horizon around it [length]
+    volumes  of the nodes' cells, shape (n,) [length^3]
+    i, j     indices of node and neighbour, shape (n_bonds,); each pair from both ends
+    w        weights, shape (n_bonds,) [length^3]
+    kernel   a space.Kernel
+    box      ((x0, y0, z0), (x1, y1, z1)), whose nodes are solved for
+    points   where the kernel is taken, relative to node i, shape (n_bonds, 3); default: node j
+    meant    names of the rules that the weights are meant to be
+
+    Returns a dict: "is_ac" (moments up to the second are exact), "rule" and "rule_factor" (on a
+    lattice of cubes), "causes" and "outliers" (sentences), "first_moments" and "second_moments"
+    (largest defect and its node), "median_moments", "imbalance" of pairs, "n_unpaired", "n_bonds",
+    "n_negative", "spacing", "elastic" (least, median and largest of C1111, C1122, C1212, E, nu).
+    """
+    return _core.check_in_space(nodes, volumes, i, j, w, kernel, box, points, list(meant))

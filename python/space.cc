@@ -1,0 +1,273 @@
+#include "analysis/statics.h"
+#include "arrays.h"
+#include "bindings.h"
+#include "callables.h"
+#include "meshfree/check/weights_in_space.h"
+#include "meshfree/rules/stiffness.h"
+#include "method/method.h"
+#include "problem/in_space.h"
+#include "rule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+// Three dimensions: rules on lattices of cubes, problems on boxes, the check of weights.
+namespace plumbline::python
+{
+  using namespace py::literals;
+  using physics::Kernel;
+  using ProblemInSpace = problem::Problem<3>;
+
+  namespace
+  {
+    geometry::Cuboid to_cuboid(const py::object &given)
+    {
+      const Doubles array = Doubles::ensure(given);
+      if (!array)
+        PyErr_Clear();
+      if (!array || array.ndim() != 2 || array.shape(0) != 2 || array.shape(1) != 3)
+        throw InputError(
+            "box" + (array ? " has the shape " + shape_text(array) : std::string(" is no array")) +
+            "; give its corners ((x0, y0, z0), (x1, y1, z1))");
+      geometry::Cuboid box;
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        box.lower[d] = array.at(0, d);
+        box.upper[d] = array.at(1, d);
+        if (!(box.lower[d] < box.upper[d]))
+          throw InputError("box is empty along its axis " + std::to_string(d) +
+                           "; give the lower corner first");
+      }
+      return box;
+    }
+
+    py::dict lattice_weights(const std::string &name, const Kernel<3> &kernel, double h)
+    {
+      const auto all = meshfree::rules();
+      const auto rule =
+          std::find_if(all.begin(), all.end(), [&](const auto &one) { return one.name == name; });
+      if (rule == all.end())
+        throw InputError("rule '" + name + "' is not known; see plumbline.methods()");
+      if (!(h > 0) || !std::isfinite(h))
+        throw InputError("h = " + std::to_string(h) + "; give the spacing of the nodes, above 0");
+      meshfree::Bonds<3> bonds;
+      {
+        const py::gil_scoped_release others;
+        bonds = lattice_bonds(rule->in_space(kernel), kernel, h, geometry::Backend::fast);
+      }
+      std::vector<std::int64_t> offsets;
+      std::vector<double> weights, volumes;
+      std::vector<Point<3>> xi, points;
+      for (const meshfree::Bond<3> &bond : bonds.family)
+      {
+        for (unsigned int d = 0; d < 3; ++d)
+          offsets.push_back(std::llround(bond.xi[d] / h));
+        weights.push_back(bond.weight);
+        volumes.push_back(bond.area);
+        xi.push_back(bond.xi);
+        points.push_back(bond.kernel_point);
+      }
+      const auto n = static_cast<py::ssize_t>(weights.size());
+      return py::dict("offsets"_a = to_array(std::move(offsets), {n, 3}),
+                      "w"_a = to_array(std::move(weights)), "points"_a = to_array(points),
+                      "xi"_a = to_array(xi), "area"_a = to_array(std::move(volumes)));
+    }
+
+    struct SolvedInSpace
+    {
+      std::shared_ptr<const ProblemInSpace> of;
+      std::string method;
+      analysis::SolutionInSpace solution;
+    };
+
+    std::shared_ptr<const ProblemInSpace> pose(const Kernel<3> &kernel, const py::object &box,
+                                               double h, const py::object &load,
+                                               const py::object &constraint,
+                                               const py::object &solution)
+    {
+      const GivenField given_load("load", load), given_constraint("constraint", constraint),
+          given_solution("solution", solution);
+      const geometry::CubeLattice lattice(to_cuboid(box), h);
+      const py::gil_scoped_release others;
+      ProblemInSpace problem{lattice, kernel};
+      const auto field = [&](const GivenField &one)
+      { return one.field_in_space(problem.n_components, kernel.horizon()); };
+      problem.load = field(given_load);
+      problem.constraint = field(given_constraint);
+      if (given_solution.is_there())
+        problem.solution = field(given_solution);
+      return std::make_shared<const ProblemInSpace>(problem::complete(std::move(problem)));
+    }
+
+    SolvedInSpace solve(std::shared_ptr<const ProblemInSpace> of, const std::string &name)
+    {
+      const auto method = to_method(py::str(name));
+      if (method->can().count(method::Capability::space) == 0)
+        throw InputError("method '" + name +
+                         "' is for the plane; choose a meshfree rule, Q1 or DGQ0");
+      const py::gil_scoped_release others;
+      return {of, name, analysis::solve(*method, *of)};
+    }
+
+    std::vector<Point<3>> centres(const ProblemInSpace &problem)
+    {
+      std::vector<Point<3>> points;
+      const auto &n = problem.lattice.n_cells();
+      for (int k = 0; k < n[2]; ++k)
+        for (int j = 0; j < n[1]; ++j)
+          for (int i = 0; i < n[0]; ++i)
+            points.emplace_back(problem.lattice.coordinate(0, i + .5),
+                                problem.lattice.coordinate(1, j + .5),
+                                problem.lattice.coordinate(2, k + .5));
+      return points;
+    }
+
+    /// Given as arrays; ids and lines are indices.
+    meshfree::WeightsInSpace to_weights(const Doubles &nodes, const Doubles &volumes,
+                                        const Integers &i, const Integers &j, const Doubles &w,
+                                        const py::object &points, const geometry::Cuboid &box)
+    {
+      meshfree::WeightsInSpace given;
+      given.places = to_points<3>(nodes, "nodes");
+      require_length(volumes, given.places.size(), "volumes", "node");
+      for (std::size_t k = 0; k < given.places.size(); ++k)
+      {
+        given.id.push_back(static_cast<std::int64_t>(k));
+        given.volumes.push_back(volumes.data()[k]);
+        if (!(volumes.data()[k] > 0) || !std::isfinite(volumes.data()[k]))
+          throw InputError("volumes[" + std::to_string(k) +
+                           "] = " + std::to_string(volumes.data()[k]) +
+                           " is not positive; give the volume of the node's cell");
+      }
+      const auto n = static_cast<std::size_t>(w.size());
+      require_length(w, n, "w", "bond");
+      require_length(i, n, "i", "bond");
+      require_length(j, n, "j", "bond");
+      std::vector<Point<3>> at;
+      if (!points.is_none())
+      {
+        at = to_points<3>(points.cast<Doubles>(), "points");
+        if (at.size() != n)
+          throw InputError("points has " + std::to_string(at.size()) + " rows for " +
+                           std::to_string(n) + " bonds; give one for each, relative to node i");
+      }
+      std::vector<meshfree::BondInSpace> bonds(n);
+      for (std::size_t k = 0; k < n; ++k)
+      {
+        for (const auto &[name, index] : {std::pair("i", i.data()[k]), std::pair("j", j.data()[k])})
+          if (index < 0 || index >= static_cast<std::int64_t>(given.places.size()))
+            throw InputError(std::string(name) + "[" + std::to_string(k) +
+                             "] = " + std::to_string(index) + " is no node; there are " +
+                             std::to_string(given.places.size()) + ", counted from 0");
+        if (!std::isfinite(w.data()[k]))
+          throw InputError("w[" + std::to_string(k) + "] is no weight; give finite numbers");
+        bonds[k].i = static_cast<std::size_t>(i.data()[k]);
+        bonds[k].j = static_cast<std::size_t>(j.data()[k]);
+        bonds[k].weight = w.data()[k];
+        bonds[k].kernel_point =
+            at.empty() ? Point<3>(given.places[bonds[k].j] - given.places[bonds[k].i]) : at[k];
+        bonds[k].line = k;
+      }
+      const py::gil_scoped_release others;
+      set_families(given, bonds, box, "nodes", "bonds");
+      given.rounding = std::numeric_limits<double>::epsilon();
+      return given;
+    }
+
+    py::dict check(const Doubles &nodes, const Doubles &volumes, const Integers &i,
+                   const Integers &j, const Doubles &w, const Kernel<3> &kernel,
+                   const py::object &box, const py::object &points,
+                   const std::vector<std::string> &meant)
+    {
+      const geometry::Cuboid omega = to_cuboid(box);
+      const meshfree::WeightsInSpace given = to_weights(nodes, volumes, i, j, w, points, omega);
+      meshfree::FindingsInSpace found;
+      {
+        const py::gil_scoped_release others;
+        found = meshfree::find_defects(given, kernel, omega, meant);
+      }
+      py::dict elastic;
+      for (const meshfree::ElasticRange &one : found.elastic)
+        elastic[one.name.c_str()] = py::make_tuple(one.least, one.median, one.largest);
+      const auto worst = [&](const meshfree::Worst &one)
+      { return py::make_tuple(one.value, one.node); };
+      return py::dict("is_ac"_a = found.second.value <= meshfree::MomentCheck::tolerance,
+                      "rule"_a = found.rule, "rule_factor"_a = found.rule_factor,
+                      "causes"_a = found.causes, "outliers"_a = found.outliers,
+                      "first_moments"_a = worst(found.first),
+                      "second_moments"_a = worst(found.second), "median_moments"_a = found.typical,
+                      "imbalance"_a = found.imbalance, "n_unpaired"_a = found.n_unpaired,
+                      "n_bonds"_a = found.n_bonds, "n_negative"_a = found.n_negative,
+                      "spacing"_a = found.spacing, "elastic"_a = elastic);
+    }
+  } // namespace
+
+  void add_space(py::module_ &module)
+  {
+    py::class_<ProblemInSpace, std::shared_ptr<ProblemInSpace>>(
+        module, "SpaceProblem",
+        R"doc(One boundary-value problem on a box of cubes: L u = load in it, u = constraint around it.
+
+Problem(kernel, *, box, h, load=None, constraint=None, solution=None)
+
+box         corners ((x0, y0, z0), (x1, y1, z1)) [length]
+h           side of the cubes, which divides the sides of the box [length]
+load, constraint, solution
+            each an expression in x, y and z ("sin(3*x)*z"; three components separated by commas), a
+            number, or a function f(x, y, z) of arrays, which is called point by point and slower.
+            Without a load: that of the solution; without a constraint: the solution)doc")
+        .def(
+            py::init(
+                [](const Kernel<3> &kernel, const py::object &box, double h, const py::object &load,
+                   const py::object &constraint, const py::object &solution)
+                {
+                  return std::const_pointer_cast<ProblemInSpace>(
+                      pose(kernel, box, h, load, constraint, solution));
+                }),
+            "kernel"_a, py::kw_only(), "box"_a, "h"_a, "load"_a = py::none(),
+            "constraint"_a = py::none(), "solution"_a = py::none())
+        .def_property_readonly("h", &ProblemInSpace::h, "[length]")
+        .def_property_readonly("horizon", &ProblemInSpace::horizon, "[length]");
+    py::class_<SolvedInSpace>(module, "SpaceSolution",
+                              "What space.solve() returns. Of three components all values have a "
+                              "last axis of length 3.")
+        .def_readonly("method", &SolvedInSpace::method)
+        .def_property_readonly(
+            "nodes", [](const SolvedInSpace &one) { return to_array(one.solution.nodes); },
+            "The method's own free nodes, shape (n, 3) [length].")
+        .def_property_readonly(
+            "values",
+            [](const SolvedInSpace &one)
+            { return to_components(one.solution.nodal, one.of->n_components); },
+            "u at the nodes, shape (n,).")
+        .def_property_readonly(
+            "cells", [](const SolvedInSpace &one) { return to_array(centres(*one.of)); },
+            "Centres of the cells, x fastest, shape (n_cells, 3) [length].")
+        .def_property_readonly(
+            "averages",
+            [](const SolvedInSpace &one)
+            { return to_components(one.solution.averages, one.of->n_components); },
+            "u averaged over the cells, shape (n_cells,).")
+        .def_property_readonly(
+            "cost",
+            [](const SolvedInSpace &one)
+            {
+              const base::Cost &cost = one.solution.cost;
+              return py::dict("setup_seconds"_a = cost.setup_seconds,
+                              "solve_seconds"_a = cost.solve_seconds,
+                              "peak_bytes"_a = cost.peak_bytes, "n_unknowns"_a = cost.n_unknowns,
+                              "n_bonds"_a = cost.n_bonds, "n_iterations"_a = cost.n_iterations);
+            },
+            "setup_seconds, solve_seconds [CPU s], peak_bytes, n_unknowns, n_bonds, n_iterations.");
+    module.def(
+        "solve_in_space",
+        [](std::shared_ptr<ProblemInSpace> problem, const std::string &method)
+        { return solve(std::move(problem), method); },
+        "problem"_a, "method"_a);
+    module.def("lattice_weights_in_space", lattice_weights, "rule"_a, "kernel"_a, "h"_a);
+    module.def("check_in_space", check, "nodes"_a, "volumes"_a, "i"_a, "j"_a, "w"_a, "kernel"_a,
+               "box"_a, "points"_a, "meant"_a);
+  }
+} // namespace plumbline::python

@@ -1,0 +1,108 @@
+"""Three dimensions: the same numbers as the command, from arrays."""
+import itertools
+import json
+import os
+import subprocess
+
+import numpy as np
+import pytest
+
+from plumbline import space
+
+n, m = 5, 2
+h = 1 / n
+
+
+def nodes_and_bonds(rule, kernel):
+    """The unit cube's nodes and those around it, with the rule's bonds of those in it."""
+    family = space.weights(rule, kernel, h)
+    reach = int(abs(family.offsets).max())
+    k = np.arange(-reach, n + reach)
+    at = np.array(list(itertools.product(k, k, k)))
+    index = {tuple(one): place for place, one in enumerate(at)}
+    free = [place for place, one in enumerate(at) if one.min() >= 0 and one.max() < n]
+    i = np.repeat(free, len(family.w))
+    j = [index[tuple(at[one] + offset)] for one in free for offset in family.offsets]
+    w = np.tile(family.w, len(free))
+    points = np.tile(family.points, (len(free), 1))
+    return (at + .5) * h, np.full(len(at), h**3), i, np.array(j), w, points
+
+
+def check(rule, kernel, change=lambda w: w, **options):
+    nodes, volumes, i, j, w, points = nodes_and_bonds(rule, kernel)
+    return space.check(nodes, volumes, i, j, change(w), kernel, box=((0, 0, 0), (1, 1, 1)),
+                       points=points, **options)
+
+
+def test_right_weights_are_recognised_and_have_their_moduli():
+    kernel = space.Kernel("bond-tensor", m * h, bulk_modulus=1)
+    found = check("IPA-AC-R2", kernel)
+    assert found["is_ac"] and found["rule"] == "IPA-AC-R2" and not found["causes"]
+    assert found["elastic"]["C1111"] == pytest.approx([1.8] * 3)
+    assert found["elastic"]["nu"] == pytest.approx([.25] * 3)
+    assert not check("FA", kernel)["is_ac"]
+
+
+def test_wrong_weights_are_named():
+    kernel = space.Kernel("linear-decay", m * h, diffusion=.5)
+    assert check("IPA-AC-R2", kernel, lambda w: 2 * w)["causes"] == ["all weights are doubled"]
+
+    def one_off(w):
+        w = w.copy()
+        w[17] *= 1.5
+        return w
+    assert len(check("IPA-AC-R2", kernel, one_off)["outliers"]) == 1
+    assert "ramp of LAMMPS" in check("FA", kernel, meant=["LAMMPS"])["causes"][0]
+
+
+def test_solutions_are_those_of_the_command(root, tmp_path):
+    kernel = space.Kernel("linear-decay", 3 / 8, diffusion=.5)
+    u = "x^3*y^2 + z^4 + x*y*z^2"
+    problem = space.Problem(kernel, box=((0, 0, 0), (1, 1, 1)), h=1 / 8, solution=u)
+    ended = subprocess.run([os.environ["PLUMBLINE_COMMAND"], "run", "--json", "--levels", "1",
+                            "scenes/three_d/scalar_delta_convergence.prm", "-o", str(tmp_path / "o")],
+                           cwd=root, capture_output=True, text=True)
+    records = {one["key"]["method"]: one for one in json.loads(ended.stdout)["records"]}
+    for method in ("FA", "IPA-AC-R2", "Q1"):
+        solved = space.solve(problem, method)
+        x, y, z = solved.nodes.T
+        error = abs(solved.values - (x**3 * y**2 + z**4 + x * y * z**2)).max()
+        assert error == pytest.approx(records[method]["scalars"]["nodal Linf | exact"]["value"],
+                                      rel=1e-12)
+        assert solved.averages.shape == (512,) and solved.cells.shape == (512, 3)
+
+
+def test_functions_are_taken_as_expressions_are():
+    kernel = space.Kernel("bond-tensor", .5, bulk_modulus=2)
+    box = ((0, 0, 0), (1, 1, 1))
+    by_text = space.Problem(kernel, box=box, h=.25, load="0, 0, -1", constraint="0, x*z, 0")
+    by_function = space.Problem(kernel, box=box, h=.25, load=lambda x, y, z: (0, 0, -1),
+                                constraint=lambda x, y, z: (0 * x, x * z, 0 * x))
+    one, other = (space.solve(problem, "IPA-AC-R2") for problem in (by_text, by_function))
+    assert one.values.shape == (64, 3)
+    np.testing.assert_allclose(one.values, other.values, rtol=0, atol=1e-14)
+
+
+def test_kernels_have_their_moments():
+    kernel = space.Kernel("linear-decay", .3, diffusion=.5)
+    assert kernel.moment((2, 0, 0)) == pytest.approx(1)
+    assert kernel.moment((2, 2, 0)) == pytest.approx(3 * .09 / 28)
+    assert kernel.limit == pytest.approx({"diffusion": .5})
+    assert kernel(np.array([[.1, .1, .1], [.3, .3, 0]]))[1] == 0
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda k: space.Problem(k, box=((0, 0), (1, 1)), h=.5, solution="x"), "shape"),
+    (lambda k: space.Problem(k, box=((0, 0, 0), (1, 1, 1)), h=.3, solution="x"), "whole cells"),
+    (lambda k: space.Problem(k, box=((0, 0, 0), (1, 1, 1)), h=.5), "neither a load nor a solution"),
+    (lambda k: space.Problem(k, box=((0, 0, 0), (1, 1, 1)), h=.5, solution="x, y"), "components"),
+    (lambda k: space.weights("FB", k, .5), "FB"),
+    (lambda k: space.weights("FA", k, 0), "above 0"),
+    (lambda k: space.solve(space.Problem(k, box=((0, 0, 0), (1, 1, 1)), h=.25, solution="x"), "Q2"),
+     "for the plane"),
+    (lambda k: space.check(np.zeros((4, 2)), np.ones(4), [0], [1], [1.], k,
+                           box=((0, 0, 0), (1, 1, 1))), "shape"),
+])
+def test_bad_input_is_refused(call, words):
+    with pytest.raises(ValueError, match=words):
+        call(space.Kernel("linear-decay", .5))
