@@ -146,6 +146,15 @@ namespace plumbline::app
                  : explain_missing_command(app);
     if (is(static_cast<const CLI::ConversionError *>(nullptr)))
       return "the value of " + behind(": ") + " is not of the right kind" + help;
+    const std::string out_of_range = " not in range ";
+    if (const std::size_t at = said.find(out_of_range);
+        is(static_cast<const CLI::ValidationError *>(nullptr)) && at != std::string::npos)
+    {
+      const std::string value = behind(": Value ");
+      return "the value of " + said.substr(0, said.find(':')) + " = " +
+             value.substr(0, value.find(out_of_range)) +
+             " is not of the right kind; give a whole number from " + behind(out_of_range) + help;
+    }
     if (is(static_cast<const CLI::ArgumentMismatch *>(nullptr)))
       return said.substr(0, said.find(':')) + " has no value, or too many" + help;
     return "the arguments cannot be used (" + said + ")" + help;
