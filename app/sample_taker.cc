@@ -5,9 +5,9 @@
 #include "study/crack_analysis.h"
 #include "study/dispersion.h"
 #include "study/growth_analysis.h"
-#include "study/preflight.h"
 #include "study/sample_sweep.h"
 #include "study/stability.h"
+#include "study/statics.h"
 #include "study/stationary_crack.h"
 #include "study/transient.h"
 
@@ -19,24 +19,9 @@ namespace plumbline::app
 
   namespace
   {
-    SampleTaker statics_taker()
-    {
-      return {[](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
-              {
-                const method::Methods available = all_methods();
-                study::check_memory(scene, study::choose_methods(scene, available), available, 0,
-                                    n_jobs);
-                study::check_data(scene);
-              },
-              [](const scene::Scene &sample, const fs::path &)
-              {
-                const method::Methods available = all_methods();
-                return study::sweep_sample(sample, study::choose_methods(sample, available),
-                                           available);
-              }};
-    }
-
-    SampleTaker study_taker(const study::Analysis &analysis)
+    /// @param ranks  that run a sample together
+    SampleTaker study_taker(const study::Analysis &analysis,
+                            const base::Communicator &ranks = base::Communicator::alone())
     {
       return {[analysis](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
               {
@@ -45,8 +30,8 @@ namespace plumbline::app
                 if (analysis.check)
                   analysis.check(scene, methods, 0);
               },
-              [analysis](const scene::Scene &sample, const fs::path &)
-              { return study::sample_study(analysis, sample, all_methods()); }};
+              [analysis, ranks](const scene::Scene &sample, const fs::path &)
+              { return study::sample_study(analysis, sample, all_methods(), ranks); }};
     }
 
     /// Of an analysis that keeps checkpoints.
@@ -106,8 +91,10 @@ namespace plumbline::app
           long_taker([](const study::Checkpoints &own) { return study::crack_analysis(own); }));
     if (scene.strip.is_there())
       return study_taker(study::strip_analysis());
-    return scene.time.is_dynamic()
-               ? study_taker(study::transient_analysis(all_methods(), {true, {}}))
-               : statics_taker();
+    if (scene.time.is_dynamic())
+      return study_taker(study::transient_analysis(all_methods(), {true, {}}));
+    study::StaticsOptions options;
+    options.has_fields = true;
+    return study_taker(study::statics_analysis(all_methods(), options), base::Communicator::all());
   }
 } // namespace plumbline::app

@@ -26,6 +26,7 @@ namespace plumbline::study
   namespace
   {
     constexpr auto own_finest = "own finest level"; ///< what the study keeps of it
+    constexpr auto field_name = "solution";         ///< of records
 
     /// A case of a level, and what its solutions are held against.
     struct OpenCase : scene::Case
@@ -175,6 +176,8 @@ namespace plumbline::study
           run.set(error, value);
         if (options_.on_solution)
           options_.on_solution(problem, solution, run);
+        if (options_.has_fields)
+          run.fields[field_name] = field_of(problem, solution);
         if (scene_.study.decisive_error.target == scene::Target::finest)
           place_.kept<OwnFinest>(own_finest).keep(run, problem, solution.averages);
         for (const auto &[error, value] : found)
@@ -189,6 +192,20 @@ namespace plumbline::study
         if (place_.is_finest())
           finish_series(solution, run, problem,
                         one.targets.reference.empty() ? one.targets.local : one.targets.reference);
+      }
+
+      analysis::PointField field_of(const problem::Problem<2> &problem,
+                                    const Solution &solution) const
+      {
+        const bool is_nodal =
+            scene::quantity(scene_.study.decisive_error.norm) == scene::Quantity::nodal;
+        analysis::PointField field{problem.n_components,
+                                   is_nodal ? solution.nodes : comparison_points(problem),
+                                   is_nodal ? solution.nodal : solution.averages};
+        const double of_node = node_area(problem, solution);
+        for (std::size_t i = 0; i < field.points.size(); ++i)
+          field.areas.push_back(is_nodal ? of_node : cell_area(problem, i));
+        return field;
       }
 
       /// Averages of the local limit, by classical finite elements on the mesh refined once.
@@ -302,6 +319,8 @@ namespace plumbline::study
       sort_by_case(scene, results);
       study::conclude(scene, results);
     };
+    // of errors to the own finest level samples have none: fields are compared
+    analysis.sampled = {field_name, " | exact", " | local", " | reference"};
     analysis.has_decisive_error = true;
     analysis.are_failures_findings = false;
     return analysis;

@@ -19,6 +19,9 @@ namespace plumbline::study
     /// Of every level, their records with errors.
     std::function<void(const problem::Problem<2> &, const Solution &, const Record &)> on_solution =
         {};
+    /// Records have the field that the decisive error is about: nodal values, or averages over the
+    /// comparison cells.
+    bool has_fields = false;
     /// How cases are solved; empty: analysis::solve.
     std::function<std::vector<analysis::Outcome>(const Method &,
                                                  const std::vector<const problem::Problem<2> *> &)>
