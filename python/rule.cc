@@ -92,22 +92,39 @@ namespace plumbline::python
       return bond;
     }
 
-    py::dict lattice_weights(const py::object &rule, const Kernel<2> &kernel, double h)
+    template <int dim>
+    meshfree::NeighbourhoodQuadrature<dim> quadrature(const meshfree::Rule &rule,
+                                                      const Kernel<dim> &kernel)
+    {
+      if constexpr (dim == 2)
+        return rule.in_plane(kernel);
+      else
+      {
+        if (!rule.in_space)
+          throw InputError("rule '" + rule.name +
+                           "' is made for the plane; choose one of the library's rules");
+        return rule.in_space(kernel);
+      }
+    }
+
+    template <int dim>
+    py::dict lattice_weights(const py::object &rule, const Kernel<dim> &kernel, double h)
     {
       const meshfree::Rule found = to_rule(rule);
       if (!(h > 0) || !std::isfinite(h))
         throw InputError("h = " + std::to_string(h) + "; give the spacing of the nodes, above 0");
-      meshfree::Bonds<2> bonds;
+      meshfree::Bonds<dim> bonds;
       {
         const py::gil_scoped_release others;
-        bonds = meshfree::lattice_bonds(found.in_plane(kernel), kernel, h, geometry::Backend::fast);
+        bonds =
+            meshfree::lattice_bonds(quadrature(found, kernel), kernel, h, geometry::Backend::fast);
       }
       std::vector<std::int64_t> offsets;
       std::vector<double> weights, areas;
-      std::vector<Point<2>> xi, points;
-      for (const Bond<2> &bond : bonds.family)
+      std::vector<Point<dim>> xi, points;
+      for (const meshfree::Bond<dim> &bond : bonds.family)
       {
-        for (const unsigned int d : {0U, 1U})
+        for (unsigned int d = 0; d < dim; ++d)
           offsets.push_back(std::llround(bond.xi[d] / h));
         weights.push_back(bond.weight);
         areas.push_back(bond.area);
@@ -115,7 +132,7 @@ namespace plumbline::python
         points.push_back(bond.kernel_point);
       }
       const auto n = static_cast<py::ssize_t>(weights.size());
-      return py::dict("offsets"_a = to_array(std::move(offsets), {n, 2}),
+      return py::dict("offsets"_a = to_array(std::move(offsets), {n, dim}),
                       "w"_a = to_array(std::move(weights)), "points"_a = to_array(points),
                       "xi"_a = to_array(xi), "area"_a = to_array(std::move(areas)),
                       "notes"_a = bonds.notes);
@@ -246,7 +263,8 @@ solve(), weights() and run() take it wherever they take the name of a rule.)")
         .def_readonly("name", &PythonRule::name)
         .def_readonly("help", &PythonRule::help)
         .def("__repr__", [](const PythonRule &rule) { return "Rule('" + rule.name + "')"; });
-    module.def("lattice_weights", lattice_weights, "rule"_a, "kernel"_a, "h"_a);
+    module.def("lattice_weights", lattice_weights<2>, "rule"_a, "kernel"_a, "h"_a);
+    module.def("lattice_weights", lattice_weights<3>, "rule"_a, "kernel"_a, "h"_a);
     module.def("node_weights", node_weights, "rule"_a, "kernel"_a, "nodes"_a, "volumes"_a,
                "boxes"_a, "exclude"_a, "h"_a);
     module.def("methods", all_methods_as_dicts,

@@ -3,7 +3,6 @@
 #include "bindings.h"
 #include "callables.h"
 #include "meshfree/check/weights_in_space.h"
-#include "meshfree/rules/stiffness.h"
 #include "method/method.h"
 #include "problem/in_space.h"
 #include "rule.h"
@@ -41,38 +40,6 @@ namespace plumbline::python
                            "; give the lower corner first");
       }
       return box;
-    }
-
-    py::dict lattice_weights(const std::string &name, const Kernel<3> &kernel, double h)
-    {
-      const auto all = meshfree::rules();
-      const auto rule =
-          std::find_if(all.begin(), all.end(), [&](const auto &one) { return one.name == name; });
-      if (rule == all.end())
-        throw InputError("rule '" + name + "' is not known; see plumbline.methods()");
-      if (!(h > 0) || !std::isfinite(h))
-        throw InputError("h = " + std::to_string(h) + "; give the spacing of the nodes, above 0");
-      meshfree::Bonds<3> bonds;
-      {
-        const py::gil_scoped_release others;
-        bonds = lattice_bonds(rule->in_space(kernel), kernel, h, geometry::Backend::fast);
-      }
-      std::vector<std::int64_t> offsets;
-      std::vector<double> weights, volumes;
-      std::vector<Point<3>> xi, points;
-      for (const meshfree::Bond<3> &bond : bonds.family)
-      {
-        for (unsigned int d = 0; d < 3; ++d)
-          offsets.push_back(std::llround(bond.xi[d] / h));
-        weights.push_back(bond.weight);
-        volumes.push_back(bond.area);
-        xi.push_back(bond.xi);
-        points.push_back(bond.kernel_point);
-      }
-      const auto n = static_cast<py::ssize_t>(weights.size());
-      return py::dict("offsets"_a = to_array(std::move(offsets), {n, 3}),
-                      "w"_a = to_array(std::move(weights)), "points"_a = to_array(points),
-                      "xi"_a = to_array(xi), "area"_a = to_array(std::move(volumes)));
     }
 
     struct SolvedInSpace
@@ -266,7 +233,6 @@ load, constraint, solution
         [](std::shared_ptr<ProblemInSpace> problem, const std::string &method)
         { return solve(std::move(problem), method); },
         "problem"_a, "method"_a);
-    module.def("lattice_weights_in_space", lattice_weights, "rule"_a, "kernel"_a, "h"_a);
     module.def("check_in_space", check, "nodes"_a, "volumes"_a, "i"_a, "j"_a, "w"_a, "kernel"_a,
                "box"_a, "points"_a, "meant"_a);
   }

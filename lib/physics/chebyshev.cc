@@ -1,6 +1,7 @@
 #include "physics/chebyshev.h"
 
 #include "base/control_points.h"
+#include "physics/chebyshev_basis.h"
 
 #include <Eigen/Core>
 
@@ -13,17 +14,10 @@ namespace plumbline::physics
   {
     using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-    /// Values at the n Chebyshev points cos(π (i + ½) / n) to coefficients.
     Matrix values_to_coefficients(unsigned int n)
     {
-      Matrix transform(n, n);
-      for (unsigned int k = 0; k < n; ++k)
-        for (unsigned int i = 0; i < n; ++i)
-          // the angle in its first turn: after sixty of them its rounding would look like noise of
-          // f
-          transform(k, i) =
-              (k == 0 ? 1. : 2.) / n * std::cos(M_PI * ((k * (2 * i + 1)) % (4 * n)) / (2. * n));
-      return transform;
+      const std::vector<double> transform = chebyshev_transform(n);
+      return Eigen::Map<const Matrix>(transform.data(), n, n);
     }
 
     /// Leading rows up to the last one with an entry above the tolerance, at least one.
@@ -142,10 +136,7 @@ namespace plumbline::physics
   std::vector<double> ChebyshevField::basis(unsigned int axis, double coordinate) const
   {
     const double s = (2 * coordinate - lower_[axis] - upper_[axis]) / (upper_[axis] - lower_[axis]);
-    std::vector<double> values(n_terms_);
-    for (unsigned int k = 0; k < n_terms_; ++k)
-      values[k] = k == 0 ? 1 : k == 1 ? s : 2 * s * values[k - 1] - values[k - 2];
-    return values;
+    return chebyshev_polynomials(s, n_terms_);
   }
 
   double ChebyshevField::operator()(const Point<2> &x, unsigned int component) const

@@ -1,6 +1,7 @@
 #include "physics/chebyshev_in_space.h"
 
 #include "base/control_points.h"
+#include "physics/chebyshev_basis.h"
 
 #include <Eigen/Core>
 
@@ -36,24 +37,10 @@ namespace plumbline::physics
       return values;
     }
 
-    /// Values at the n Chebyshev points cos(π (i + ½) / n) to coefficients.
     Matrix values_to_coefficients(unsigned int n)
     {
-      Matrix transform(n, n);
-      for (unsigned int k = 0; k < n; ++k)
-        for (unsigned int i = 0; i < n; ++i)
-          transform(k, i) =
-              (k == 0 ? 1. : 2.) / n * std::cos(M_PI * ((k * (2 * i + 1)) % (4 * n)) / (2. * n));
-      return transform;
-    }
-
-    /// T_k at a place of [-1, 1].
-    std::vector<double> chebyshev(double s, unsigned int n)
-    {
-      std::vector<double> values(n);
-      for (unsigned int k = 0; k < n; ++k)
-        values[k] = k == 0 ? 1 : k == 1 ? s : 2 * s * values[k - 1] - values[k - 2];
-      return values;
+      const std::vector<double> transform = chebyshev_transform(n);
+      return Eigen::Map<const Matrix>(transform.data(), n, n);
     }
 
     /// The part of shape `kept` of values of shape `all`, lowest indices first.
@@ -194,7 +181,8 @@ namespace plumbline::physics
       for (std::size_t i = 0; i < functionals[d].size(); ++i)
         for (const auto &[x, weight] : functionals[d][i])
         {
-          const auto basis = chebyshev((2 * x - lower - upper) / (upper - lower), n_terms_[d]);
+          const auto basis =
+              chebyshev_polynomials((2 * x - lower - upper) / (upper - lower), n_terms_[d]);
           for (unsigned int k = 0; k < n_terms_[d]; ++k)
             rows[d](static_cast<Eigen::Index>(i), k) += weight * basis[k];
         }

@@ -2,9 +2,7 @@
 #include "meshfree/lattice/double_well_motion.h"
 #include "meshfree/lattice/nodal_field.h"
 #include "meshfree/lattice/stencil.h"
-#include "meshfree/rules/family_statistics.h"
 #include "method/lattice_discretisation.h"
-#include "method/limit_proof.h"
 #include "method/line_discretisation.h"
 
 #include <deal.II/lac/vector.h>
@@ -73,17 +71,8 @@ namespace plumbline::meshfree
                           [&problem, bonds](double largest, const dealii::Tensor<2, 2> &gradient)
                           { return move_double_well(problem, bonds, largest, gradient); })
                     : MoveWell()),
-            is_torus_(problem.is_periodic())
+            is_torus_(problem.is_periodic()), diagnostics_(describe(problem, bonds, stencil()))
       {
-        describe_weights(bonds.family, bonds.fit, diagnostics_);
-        diagnostics_.notes = bonds.notes;
-        diagnostics_.limit = method::prove_by_moments(problem, stencil(), 1);
-        if (problem.settings.ball_order > 0)
-        {
-          const BallMoments ball(problem.kernel, problem.settings.ball_order);
-          diagnostics_.limit.ball_defect = ball.worst_defect(bonds.family);
-          diagnostics_.limit.area_defect = ball.area_defect(bonds.family);
-        }
       }
 
       method::Diagnostics diagnostics() const override { return diagnostics_; }

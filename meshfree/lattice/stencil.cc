@@ -1,5 +1,9 @@
 #include "meshfree/lattice/stencil.h"
 
+#include "meshfree/rules/family_moments.h"
+#include "meshfree/rules/family_statistics.h"
+#include "method/limit_proof.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -62,4 +66,26 @@ namespace plumbline::meshfree
       }
     return add(deviatoric, stencil);
   }
+
+  template <int dim>
+  method::Diagnostics describe(const problem::Problem<dim> &problem, const Bonds<dim> &bonds,
+                               const algebra::Stencil &stencil)
+  {
+    method::Diagnostics diagnostics;
+    describe_weights(bonds.family, bonds.fit, diagnostics);
+    diagnostics.notes = bonds.notes;
+    diagnostics.limit = method::prove_by_moments(problem, stencil, 1);
+    if (problem.settings.ball_order > 0)
+    {
+      const BallMoments ball(problem.kernel, problem.settings.ball_order);
+      diagnostics.limit.ball_defect = ball.worst_defect(bonds.family);
+      diagnostics.limit.area_defect = ball.area_defect(bonds.family);
+    }
+    return diagnostics;
+  }
+
+  template method::Diagnostics describe(const problem::Problem<2> &, const Bonds<2> &,
+                                        const algebra::Stencil &);
+  template method::Diagnostics describe(const problem::Problem<3> &, const Bonds<3> &,
+                                        const algebra::Stencil &);
 } // namespace plumbline::meshfree

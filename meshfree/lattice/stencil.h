@@ -2,7 +2,9 @@
 
 #include "algebra/stencil.h"
 #include "meshfree/rules/bonds.h"
+#include "method/diagnostics.h"
 #include "physics/state_based.h"
+#include "problem/in_space.h"
 
 namespace plumbline::meshfree
 {
@@ -19,4 +21,10 @@ namespace plumbline::meshfree
   /// @param bonds  of its deviatoric kernel
   algebra::Stencil state_based_stencil(const physics::Dilatation &dilatation,
                                        const Bonds<2> &bonds);
+
+  /// Diagnostics of a rule's weights and of its limit. Instantiated for dim = 2 and 3.
+  /// @param stencil  its operator for the problem
+  template <int dim>
+  method::Diagnostics describe(const problem::Problem<dim> &problem, const Bonds<dim> &bonds,
+                               const algebra::Stencil &stencil);
 } // namespace plumbline::meshfree

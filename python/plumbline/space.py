@@ -16,7 +16,7 @@ def weights(rule, kernel, h):
     Returns Weights: w of shape (n,) [length^3], points and xi of shape (n, 3) [length], area (here
     the volume of the neighbour's cell or of its part in the ball), offsets = xi / h.
     """
-    made = _core.lattice_weights_in_space(rule, kernel, h)
+    made = _core.lattice_weights(rule, kernel, h)
     return Weights(None, None, made["w"], made["points"], made["xi"], made["area"], made["offsets"])
 
 
