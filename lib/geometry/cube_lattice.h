@@ -23,6 +23,10 @@ namespace plumbline::geometry
     double h() const { return h_; }
     const dealii::Point<3> &origin() const { return origin_; } ///< lower corner of cell (0,0,0)
     const std::array<int, 3> &n_cells() const { return n_; }
+    Cuboid cuboid() const
+    {
+      return {origin_, {coordinate(0, n_[0]), coordinate(1, n_[1]), coordinate(2, n_[2])}};
+    }
     std::size_t size() const { return static_cast<std::size_t>(n_[0]) * n_[1] * n_[2]; }
 
     /// The coordinate of an axis that is so many cells from the origin.

@@ -28,22 +28,23 @@ namespace plumbline::method
   void write_vti(const problem::Problem<3> &problem, const std::vector<double> &averages,
                  const std::string &file);
 
-  /// Nodes that are alike, n of them along each axis, all free: node (i, j, k) is `offset` + (i, j,
-  /// k) cells from the origin of the lattice. The constraint holds at all other nodes around them.
-  struct BoxNodes
+  /// Where the nodes of a lattice are: at the centres of its cells, or at the vertices inside it.
+  enum class NodePlace
   {
-    std::array<int, 3> n{};
-    double offset = 0; ///< along each axis [cells]
+    centres, ///< u is constant on each cell
+    vertices ///< u is trilinear on each cell
   };
 
-  /// A problem on a box in space, as both families of methods have it: one stencil for all nodes. A
-  /// state has shape (n_components, n[2], n[1], n[0]).
+  /// A problem on a box in space, as both families of methods have it: one stencil for all nodes,
+  /// which are all free; the constraint holds at the nodes around them. A state has shape
+  /// (n_components, n[2], n[1], n[0]), n nodes along each axis.
   class BoxDiscretisation
   {
   public:
     using Vector = algebra::Vector;
 
-    BoxDiscretisation(const problem::Problem<3> &problem, const BoxNodes &nodes,
+    /// @throws NumericalError  no vertex is free
+    BoxDiscretisation(const problem::Problem<3> &problem, NodePlace nodes,
                       algebra::Stencil stencil);
     virtual ~BoxDiscretisation() = default;
 
@@ -64,20 +65,24 @@ namespace plumbline::method
 
   protected:
     const geometry::CubeLattice &lattice() const { return lattice_; }
-    const BoxNodes &nodes() const { return nodes_; }
     const algebra::Stencil &stencil() const { return stencil_; }
 
   private:
-    /// What tests a load at the nodes of an axis: its value there, or a shape function.
-    virtual std::vector<physics::AxisFunctional> load_functionals(unsigned int axis) const = 0;
+    /// Along an axis: what tests a load at the node with this coordinate, the load's value there or
+    /// a shape function.
+    virtual physics::AxisFunctional load_functional(double coordinate) const = 0;
+
+    double coordinate(unsigned int axis, int position) const;
+    dealii::Point<3> place(const std::array<int, 3> &position) const;
 
     /// Over the cells of Ω.
     /// @param values  solution and, around it, the constraint at positions -1 ... n of each axis:
     /// shape (n_components, n[2] + 2, n[1] + 2, n[0] + 2)
-    virtual std::vector<double> averages(const std::vector<double> &values) const = 0;
+    std::vector<double> averages(const std::vector<double> &values) const;
 
     geometry::CubeLattice lattice_;
-    BoxNodes nodes_;
+    NodePlace nodes_;
+    std::array<int, 3> n_; ///< nodes along each axis
     unsigned int n_components_;
     algebra::Stencil stencil_;
     algebra::OperatorBackend backend_;

@@ -15,24 +15,20 @@ namespace plumbline::problem
   {
     using Point = dealii::Point<3>;
 
-    struct Corners
-    {
-      Point lower, upper;
-    };
+    using geometry::Cuboid;
 
-    /// Ω, or more by a margin on all sides.
-    Corners corners(const Problem<3> &problem, double margin = 0)
+    /// Ω and a margin on all sides.
+    Cuboid with_margin(Cuboid box, double margin)
     {
-      Corners result;
       for (unsigned int d = 0; d < 3; ++d)
       {
-        result.lower[d] = problem.lattice.origin()[d] - margin;
-        result.upper[d] = problem.lattice.coordinate(d, problem.lattice.n_cells()[d]) + margin;
+        box.lower[d] -= margin;
+        box.upper[d] += margin;
       }
-      return result;
+      return box;
     }
 
-    std::vector<Point> samples(const Corners &box, unsigned int n)
+    std::vector<Point> samples(const Cuboid &box, unsigned int n)
     {
       const auto along = base::control_points(n);
       std::vector<Point> points;
@@ -49,7 +45,7 @@ namespace plumbline::problem
       return points;
     }
 
-    bool is_inside(const Corners &box, const Point &x)
+    bool is_inside(const Cuboid &box, const Point &x)
     {
       for (unsigned int d = 0; d < 3; ++d)
         if (!(x[d] >= box.lower[d] && x[d] <= box.upper[d]))
@@ -73,7 +69,7 @@ namespace plumbline::problem
     void complete_field(const std::string &name, Field<3> &field, const Problem<3> &problem)
     {
       constexpr unsigned int n_samples = 8;
-      const Corners box = corners(problem);
+      const Cuboid box = problem.lattice.cuboid();
       for (const Point &x : samples(box, n_samples))
         check_finite(name, field, problem.n_components, x);
       if (!field.is_piecewise && !field.series)
@@ -84,8 +80,8 @@ namespace plumbline::problem
     void check_constraint(const Problem<3> &problem)
     {
       constexpr unsigned int n_samples = 16;
-      const Corners omega = corners(problem);
-      for (const Point &x : samples(corners(problem, problem.horizon()), n_samples))
+      const Cuboid omega = problem.lattice.cuboid();
+      for (const Point &x : samples(with_margin(omega, problem.horizon()), n_samples))
         if (!is_inside(omega, x))
           check_finite("constraint", problem.constraint, problem.n_components, x);
     }
@@ -93,7 +89,7 @@ namespace plumbline::problem
     Field<3> manufactured_load(const Problem<3> &problem)
     {
       constexpr unsigned int n_samples = 3;
-      const Corners box = corners(problem);
+      const Cuboid box = problem.lattice.cuboid();
       const physics::LoadInSpace load(problem.kernel, problem.solution->value,
                                       samples(box, n_samples));
       Field<3> field{load};
@@ -143,6 +139,12 @@ namespace plumbline::problem
       complete_field("load", problem.load, problem);
     else
       problem.load = manufactured_load(problem);
+    return problem;
+  }
+
+  Problem<3> at_spacing(Problem<3> problem, double h)
+  {
+    problem.lattice = geometry::CubeLattice(problem.lattice.cuboid(), h);
     return problem;
   }
 } // namespace plumbline::problem

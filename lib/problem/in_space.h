@@ -49,4 +49,8 @@ namespace plumbline::problem
   /// within the horizon around it
   /// @throws NumericalError  a load that cannot be manufactured, see physics::LoadInSpace
   Problem<3> complete(Problem<3> problem);
+
+  /// The problem on cubes of another size, with the same fields.
+  /// @throws InputError  sides that are not multiples of h
+  Problem<3> at_spacing(Problem<3> problem, double h);
 } // namespace plumbline::problem

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 // What a reader can rely on: the reference's own error, what was left out of the model, what the
@@ -38,6 +39,9 @@ namespace plumbline::report::page
             {"is_of_polygon",
              std::any_of(explained.begin(), explained.end(),
                          [](const study::ErrorEstimate &e) { return e.is_of_polygon; })},
+            {"is_of_averages", std::any_of(explained.begin(), explained.end(),
+                                           [](const study::ErrorEstimate &e)
+                                           { return std::isnan(e.field_estimate); })},
             {"of_reference", with_fold(estimate_table(results.references))},
             {"of_others", with_fold(estimate_table(results.estimates))},
             {"is_trusted", has_reference && !has_doubt && is_estimated},

@@ -294,9 +294,12 @@ namespace plumbline::study
         return;
       }
       if (!scene.is_vector())
-        results.omissions.push_back({"the second component",
-                                     "the kernel is scalar, so components do not couple",
-                                     "half the unknowns, a quarter of the entries"});
+        results.omissions.push_back(
+            {scene.domain.is_in_space() ? "the second and the third component"
+                                        : "the second component",
+             "the kernel is scalar, so components do not couple",
+             scene.domain.is_in_space() ? "two thirds of the unknowns, 8/9 of the entries"
+                                        : "half the unknowns, 3/4 of the entries"});
       else if (!scene.has_dilatation())
         results.omissions.push_back(
             {"the dilatation", "lambda = mu: the bonds are all",

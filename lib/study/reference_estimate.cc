@@ -47,6 +47,21 @@ namespace plumbline::study
         std::clamp(static_cast<int>(std::floor(-std::log10(estimate / size))), 0, most));
   }
 
+  double contraction(double before, double now, double expected)
+  {
+    return std::clamp(before > 0 ? now / before : unknown, expected, slowest);
+  }
+
+  double error_of_change(double change, double contraction)
+  {
+    return safety * change / (1 - contraction);
+  }
+
+  double solver_error(double tolerance, double size)
+  {
+    return solver_share * tolerance * size;
+  }
+
   namespace
   {
     /// Estimates the error of one solution.
@@ -83,11 +98,12 @@ namespace plumbline::study
         else
           from_fine(on_coarse);
         const Norms size = distance(problem_, solution_, zero());
-        const double solver = solver_share * problem_.settings.solver.tolerance;
+        const double tolerance = problem_.settings.solver.tolerance;
         estimate_.estimate = std::max(by_h_.averages, safety * estimate_.p_change) +
-                             estimate_.outer_change + solver * size.averages;
+                             estimate_.outer_change + solver_error(tolerance, size.averages);
         estimate_.field_estimate = std::max(by_h_.field, safety * estimate_.field_p_change) +
-                                   (diagnostics.outer_change + solver) * size.field;
+                                   diagnostics.outer_change * size.field +
+                                   solver_error(tolerance, size.field);
         if (diagnostics.is_outer_error_known)
           estimate_.certified_digits = certified_digits(estimate_.estimate, size.averages);
         return estimate_;
@@ -143,10 +159,9 @@ namespace plumbline::study
       Norms contraction(const Norms &before, const Norms &now) const
       {
         const double expected = expected_contraction();
-        const auto ratio = [&](double one, double next)
-        { return std::clamp(one > 0 ? next / one : unknown, expected, slowest); };
-        const double field = ratio(before.field, now.field);
-        return {std::max(field, ratio(before.averages, now.averages)), field};
+        const double field = study::contraction(before.field, now.field, expected);
+        return {std::max(field, study::contraction(before.averages, now.averages, expected)),
+                field};
       }
 
       void enter_rates(const Norms &q)
@@ -179,8 +194,8 @@ namespace plumbline::study
         const Norms q = contraction(before, change);
         enter_changes(change, before);
         enter_rates(q);
-        by_h_ = {safety * change.averages / (1 - q.averages),
-                 safety * change.field / (1 - q.field)};
+        by_h_ = {error_of_change(change.averages, q.averages),
+                 error_of_change(change.field, q.field)};
         estimate_.is_of_polygon = fine.is_cut && geometry_order(problem_) > 0;
         if (const auto higher = higher_degree())
         {

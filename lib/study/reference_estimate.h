@@ -12,6 +12,16 @@ namespace plumbline::study
   /// Decimal digits of a solution of a given size that an estimate of its error leaves certain.
   unsigned int certified_digits(double estimate, double size);
 
+  /// By how much an error falls as h is halved, as far as two changes show: `now` to h/2, `before`
+  /// from 2 h (0: not known), but no less than is expected of the method and no more than 3/4.
+  double contraction(double before, double now, double expected);
+
+  /// The estimate that follows from the change to h/2.
+  double error_of_change(double change, double contraction);
+
+  /// What the linear solver leaves of a solution of a given size.
+  double solver_error(double tolerance, double size);
+
   /// How far a Galerkin solution may be wrong, its averages and its field, in L2: a bound in
   /// practice. Changes d to h/2 and d' from 2 h to h give Richardson's e = d / (1 - q) with q the
   /// largest of 2^-(p+1), of 1/4 where sides stand for a curve (1/2 where cells are chosen by their

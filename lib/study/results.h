@@ -67,7 +67,8 @@ namespace plumbline::study
   };
 
   /// How far a Galerkin solution of one level may be wrong: bounds in practice, see
-  /// `estimate_error`. L2 norms; averages are those over the comparison cells.
+  /// `estimate_error`. L2 norms; averages are those over the comparison cells. NaN: not estimated,
+  /// as the field and the change to degree p + 1 in three dimensions.
   struct ErrorEstimate
   {
     std::string problem, series, method; ///< method: e.g. "Q2"

@@ -125,15 +125,11 @@ namespace plumbline::study
     };
     using CasesInSpace = std::vector<CaseInSpace>;
 
-    /// How far a reference may be wrong, as estimate_error() says in the plane: with the changes d
-    /// to h/2 and d' from 2 h, 3/2 d / (1 - q), q the larger of 2^-(p+1) and d / d', at most 3/4.
-    ErrorEstimate estimate_of(const scene::Scene &scene, unsigned int index, const Method &method,
-                              const ProblemInSpace &problem, const SolutionInSpace &solution)
+    /// How far the averages of a reference may be wrong, by the changes to h/2 and from 2 h, as
+    /// estimate_error() has them in the plane. Of the field and of degree p + 1 nothing is known.
+    ErrorEstimate estimate_of(const Method &method, const ProblemInSpace &problem,
+                              const SolutionInSpace &solution)
     {
-      constexpr double safety = 1.5, slowest = .75, unknown = .7071, solver_share = 10;
-      const auto solved_at = [&](double h) {
-        return analysis::solve(method, make_problem_in_space(scene, index, {h, problem.horizon()}));
-      };
       auto doubled = problem.lattice.n_cells();
       for (int &n : doubled)
         n *= 2;
@@ -144,24 +140,26 @@ namespace plumbline::study
       estimate.horizon = problem.horizon();
       estimate.h_change = averages_l2(
           problem, solution.averages,
-          coarsened(solved_at(problem.h() / 2).averages, doubled, problem.n_components));
+          coarsened(analysis::solve(method, at_spacing(problem, problem.h() / 2)).averages, doubled,
+                    problem.n_components));
       const bool has_coarse =
           std::all_of(n.begin(), n.end(), [](int one) { return one % 2 == 0 && one > 2; }) &&
           problem.horizon() >= 2 * problem.h();
       if (has_coarse)
       {
-        const ProblemInSpace coarse =
-            make_problem_in_space(scene, index, {2 * problem.h(), problem.horizon()});
+        const ProblemInSpace coarse = at_spacing(problem, 2 * problem.h());
         estimate.coarse_change = averages_l2(coarse, analysis::solve(method, coarse).averages,
                                              coarsened(solution.averages, n, problem.n_components));
       }
-      const double q = std::clamp(
-          estimate.coarse_change > 0 ? estimate.h_change / estimate.coarse_change : unknown,
-          std::pow(.5, method.order()), slowest);
-      const double size = averages_l2(problem, solution.averages);
+      const double q = contraction(estimate.coarse_change, estimate.h_change,
+                                   std::pow(.5, method.order())),
+                   size = averages_l2(problem, solution.averages);
       estimate.rate = -std::log2(q);
-      estimate.estimate = safety * estimate.h_change / (1 - q) +
-                          solver_share * problem.settings.solver.tolerance * size;
+      estimate.estimate = error_of_change(estimate.h_change, q) +
+                          solver_error(problem.settings.solver.tolerance, size);
+      estimate.p_change = estimate.field_p_change = not_fitted;
+      estimate.field_h_change = estimate.field_coarse_change = not_fitted;
+      estimate.field_rate = estimate.field_estimate = not_fitted;
       estimate.certified_digits = certified_digits(estimate.estimate, size);
       return estimate;
     }
@@ -202,19 +200,19 @@ namespace plumbline::study
           if (one.problem.local_solution)
             one.local = cell_averages(*one.problem.local_solution, one.problem);
           if (scene_.reference.method)
-            one.reference = solve_reference(one, c);
+            one.reference = solve_reference(one);
           cases.push_back(std::move(one));
         }
         return cases;
       }
 
-      std::vector<double> solve_reference(const CaseInSpace &one, unsigned int index) const
+      std::vector<double> solve_reference(const CaseInSpace &one) const
       {
         const auto method = find_method(available_, *scene_.reference.method, "Reference/method");
         const SolutionInSpace solution = analysis::solve(*method, one.problem);
         if (scene_.reference.estimate == scene::Estimate::none)
           return solution.averages;
-        ErrorEstimate estimate = estimate_of(scene_, index, *method, one.problem, solution);
+        ErrorEstimate estimate = estimate_of(*method, one.problem, solution);
         estimate.problem = one.name;
         estimate.series = place_.series().name;
         estimate.level = place_.number();

@@ -56,12 +56,8 @@ TEST(ChebyshevInSpace, does_not_miss_what_lies_between_its_points)
   const double place = base::control_points(10)[2], width = .015;
   const auto f = [&](const Point<3> &x, unsigned int)
   { return x[0] + std::exp(-(x - Point<3>(place, place, place)).norm_square() / (width * width)); };
-  const auto series = ChebyshevInSpace::resolve(f, 1, {0, 0, 0}, {1, 1, 1});
-  if (series) // else the field is not smooth enough, which is right, too
-  {
-    const AxisFunctional here = {{place, 1}};
-    EXPECT_NEAR(series->apply(0, {{{here}, {here}, {here}}})[0], place + 1, 1e-6);
-  }
+  // without its peak it would be resolved by two terms; with it no 65 points do
+  EXPECT_FALSE(ChebyshevInSpace::resolve(f, 1, {0, 0, 0}, {1, 1, 1}).has_value());
 }
 
 TEST(LoadInSpace, of_a_plane_wave_is_the_symbol_of_the_constant_kernel_times_it)
