@@ -20,6 +20,7 @@ namespace plumbline::report
       return quantity_table(
           record,
           {{"advance", "of the tip, from the notch to the end of the time [length]"},
+           {"speed", "of the tip [length/time]; in SI units m/s"},
            {"speed / c_R", "the line fitted to the tip where it has gone 1/5 to 4/5 of its way"},
            {"fastest / c_R", "over any tenth of the time for which the tip moves"},
            {"c_R", "Rayleigh waves, which no crack overtakes [length/time]"},
@@ -72,8 +73,9 @@ namespace plumbline::report
       else if (outcome == base::word(scene::CrackOutcome::arrests))
         text += " after " + rounded(record["advance"]) + ", " + horizons + ", of its notch's tip";
       else
-        text += " at " + rounded(record["speed / c_R"]) +
-                " of the speed of Rayleigh waves, at most " + rounded(record["fastest / c_R"]);
+        text += " at a speed of " + rounded(record["speed"]) + ", " +
+                rounded(record["speed / c_R"]) + " of that of Rayleigh waves, at most " +
+                rounded(record["fastest / c_R"]);
       text += "; the picture is " + (record["asymmetry"] == 0
                                          ? std::string("symmetric to the last bit")
                                          : "asymmetric by " + rounded(record["asymmetry"]));

@@ -130,6 +130,7 @@ namespace plumbline::scene
   {
     void check_kernel(const Scene &scene)
     {
+      scene.material.model->check_constants(scene);
       const KernelSection &kernel = scene.kernel;
       const bool is_navier = kernel.limit == Limit::navier;
       require(

@@ -126,12 +126,18 @@ namespace plumbline::scene
     physics::Names names = {};                       ///< in them, of what is random
     bool has_collar_dilatation = true; ///< else θ counts as 0 there: wrong, to be shown
     SurfaceTerms surface_terms = SurfaceTerms::automatic; ///< never uncorrected
-    double c = 1, beta = 1; ///< of double wells, > 0, see physics::DoubleWell
+    double c = 1, beta = 1;          ///< of double wells, > 0, see physics::DoubleWell
+    std::optional<double> toughness; ///< G_c of double wells, which with E replaces c and beta
     BoundaryFunction boundary_function = BoundaryFunction::one; ///< ω of double wells
 
     /// λ and μ as a function of the place. Copies share nothing: give each thread its own.
     /// @throws InputError  (the function) constants of no solid, naming keys and place
     std::function<physics::Lame(const dealii::Point<2> &)> lame() const;
+
+    /// λ = μ of a solid of bonds with Young's modulus E, in one dimension E itself; empty: E is not
+    /// given.
+    /// @throws InputError  E is not positive or depends on the place, nu is not that of bonds
+    std::optional<double> modulus_of_bonds(unsigned int dimension) const;
 
     void declare(Keys &keys);
     void complete();

@@ -9,7 +9,7 @@ namespace plumbline::scene
 {
   namespace
   {
-    const std::string of_polynomials = "coefficients", youngs_modulus = "E";
+    const std::string of_polynomials = "coefficients";
 
     struct Use
     {
@@ -44,20 +44,22 @@ namespace plumbline::scene
       const bool is_double_well = material.model == &double_well(),
                  is_bonds = !material.model->takes_influence();
       const std::string of_wells = "Material/model = " + double_well().name();
-      return {{"Kernel/bulk modulus", kernel.limit == Limit::navier && is_bonds,
-               "a bond tensor (Kernel/type) with Kernel/limit = Navier; other models take their "
-               "constants from Material"},
-              {"Kernel/constant", kernel.limit == Limit::none, "Kernel/limit = none"},
-              {"Kernel/singularity", physics::kernel_type(kernel.type).key == of_polynomials,
-               "a polynomial Kernel/type"},
-              {"Kernel/symmetrisation", !kernel.coefficient.empty() || !kernel.materials.empty(),
-               "Kernel/coefficient or Kernel/materials"},
-              {"Material/plane",
-               material.model->is_state_based() && material.keys[0] == youngs_modulus,
-               "Material/E and nu: other constants are two-dimensional"},
-              {"Material/c", is_double_well, of_wells},
-              {"Material/beta", is_double_well, of_wells},
-              {"Material/boundary function", is_double_well, of_wells}};
+      return {
+          {"Kernel/bulk modulus", kernel.limit == Limit::navier && is_bonds,
+           "a bond tensor (Kernel/type) with Kernel/limit = Navier; other models take their "
+           "constants from Material"},
+          {"Kernel/constant", kernel.limit == Limit::none, "Kernel/limit = none"},
+          {"Kernel/singularity", physics::kernel_type(kernel.type).key == of_polynomials,
+           "a polynomial Kernel/type"},
+          {"Kernel/symmetrisation", !kernel.coefficient.empty() || !kernel.materials.empty(),
+           "Kernel/coefficient or Kernel/materials"},
+          {"Material/plane", !material.given[0][0].empty() && scene.domain.dimension == 2,
+           "Material/E in a scene of two dimensions; lambda, mu, k and l are those of the plane"},
+          {"Material/c", is_double_well, of_wells},
+          {"Material/beta", is_double_well, of_wells},
+          {"Material/toughness", is_double_well,
+           of_wells + "; 'plumbline grow' has Fracture/toughness"},
+          {"Material/boundary function", is_double_well, of_wells}};
     }
 
     std::vector<Use> uses_of_field(const Scene &scene)

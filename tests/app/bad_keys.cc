@@ -113,7 +113,7 @@ TEST_F(BadKeys, without_effect_are_refused_with_what_they_need)
        unused("Kernel/constant", "2", "Kernel/limit = none"),
        unused("Kernel/singularity", "1", "a polynomial"),
        unused("Kernel/symmetrisation", "harmonic", "Kernel/coefficient or Kernel/materials"),
-       unused("Material/plane", "stress", "Material/E and nu"),
+       unused("Material/plane", "stress", "Material/E in a scene of two dimensions"),
        unused("Material/beta", "2", "Material/model = double well"),
        unused("Random/smoothness", "2", "Random/field = Matern"),
        unused("Random/overlap", "no", "Random/field = ellipses"),

@@ -76,9 +76,31 @@ TEST_F(BadSolids, constants_of_no_solid_are_refused)
        {variational("-1", "8"), {"Material/k and l: the bulk constant k = -1", "be positive"}},
        {variational("1", "-8"), {"Material/k and l: the shear constant l = -8", "be positive"}},
        {no_E, {"Material/model = LPS needs one pair of constants: E and nu, lambda and mu, or k"}},
-       {set("Material/model", "bond-based") + set("Kernel/type", "bond-tensor"),
-        {"Material/model = bond-based takes its constants from section Kernel; clear "
-         "Material/E"}}});
+       {set("Material/model", "bond-based"),
+        {"Material/nu = 0.3: forces along bonds alone make a solid of nu = 1/4 (1/3 in plane "
+         "stress)",
+         "clear Material/nu, or choose Material/model = LPS"}},
+       {set("Material/model", "bond-based") + set("Material/nu", "") +
+            set("Kernel/limit", "-Laplace"),
+        {"Material/E = 1 is for bond tensors", "write Kernel/type = bond-tensor"}},
+       {set("Material/model", "bond-based") + set("Material/nu", "") +
+            set("Kernel/type", "bond-tensor") + set("Kernel/bulk modulus", "2"),
+        {"Material/E and Kernel/bulk modulus set the same constant; clear one of them"}},
+       {set("Material/model", "bond-based") + set("Material/nu", "") + set("Material/E", "1 + x") +
+            set("Kernel/type", "bond-tensor"),
+        {"Material/E = '1 + x' must be one number for Material/model = bond-based"}},
+       {set("Material/model", "bond-based") + no_E + set("Material/mu", "1"),
+        {"Material/mu with Material/model = bond-based", "Kernel/bulk modulus or Material/E"}},
+       {set("Material/model", "double well") + set("Material/nu", "0.25"),
+        {"Material/E needs Material/toughness", "give both, or c and beta"}},
+       {set("Material/model", "double well") + no_E + set("Material/toughness", "1"),
+        {"Material/toughness needs Material/E", "give both, or c and beta"}},
+       {set("Material/model", "double well") + set("Material/nu", "") +
+            set("Material/toughness", "8") + set("Material/beta", "2"),
+        {"Material/E and toughness replace Material/c and beta; clear one of these pairs"}},
+       {set("Material/model", "double well") + set("Material/nu", "") +
+            set("Material/toughness", "-8"),
+        {"Material/toughness = -8 must be positive and finite"}}});
 }
 
 TEST_F(BadSolids, material_that_is_none_somewhere_is_refused_with_its_place)

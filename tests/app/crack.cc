@@ -5,6 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <sys/resource.h>
 
 namespace
@@ -56,6 +59,34 @@ TEST(CrackCommand, finds_threshold_and_speed_and_draws_them)
   expect_found(read(folder / "frames/frame_00003.vtu"), "damage");
   EXPECT_FALSE(fs::exists(folder / "checkpoint.h5"));
   fs::remove_all(folder);
+}
+
+TEST(CrackCommand, finds_the_same_crack_in_other_units)
+{
+  const double length = .01, shear = 72e9 / 2.5, density = 2440; // of glass.prm; speed.prm: 1
+  const double time = length * std::sqrt(density / shear / 6);
+  const auto crack = [](const std::string &name, const std::string &settings)
+  {
+    const fs::path folder = temporary("crack_" + name);
+    EXPECT_EQ(run("crack " + scene(name) + " --levels 1 " + settings + " -o " + folder.string())
+                  .exit_code,
+              0);
+    const auto record = records(folder)[0];
+    fs::remove_all(folder);
+    return record;
+  };
+  std::ostringstream final_time;
+  final_time << std::setprecision(16) << "'Time/final time=" << 3 * time << "'";
+  const auto glass = crack("glass", "--set " + final_time.str()),
+             unit = crack("speed", "--set 'Time/final time=3'");
+  for (const std::string name : {"speed / c_R", "fastest / c_R", "soft energy / G_c,h"})
+    EXPECT_NEAR(scalar(glass, name), scalar(unit, name), 1e-6 * scalar(unit, name)) << name;
+  EXPECT_GT(scalar(unit, "advance"), .2);
+  EXPECT_NEAR(scalar(glass, "advance"), length * scalar(unit, "advance"), 1e-6 * length);
+  EXPECT_NEAR(scalar(glass, "c_T"), std::sqrt(shear / density), 1e-6);
+  EXPECT_NEAR(scalar(glass, "G_c"), 8, 1e-12 * 8);
+  EXPECT_NEAR(scalar(glass, "speed"), length / time * scalar(unit, "speed"),
+              1e-6 * scalar(glass, "speed"));
 }
 
 TEST(CrackCommand, says_when_a_crack_does_not_do_what_is_expected)

@@ -112,8 +112,59 @@ TEST(Material, ConstantsOfNoSolidAreRefusedByName)
   expect_solid_error({{"Material/E", ""}, {"Material/nu", ""}}, "needs one pair of constants");
   expect_solid_error({{"Material/k", "1"}, {"Material/l", "8"}}, "needs one pair of constants");
   expect_solid_error({{"Material/nu", ""}}, "Material/E needs Material/nu");
-  expect_solid_error({{"Material/model", "bond-based"}}, "clear Material/E");
+  expect_solid_error({{"Material/model", "bond-based"}}, "make a solid of nu = 1/4");
   expect_solid_error({{"Material/E", "1, 2"}}, "must be one expression");
+}
+
+TEST(Material, OfBondsHasTheYoungsModulusThatIsGiven)
+{
+  const double E = 200e9, horizon = .003;
+  const Settings tensor = {{"Kernel/type", "bond-tensor"},
+                           {"Kernel/limit", "Navier"},
+                           {"Problem/solution", "x, y"},
+                           {"Study/h", "0.1"},
+                           {"Methods/names", "FA"}};
+  const auto with = [&](Settings settings)
+  {
+    settings.insert(settings.begin(), tensor.begin(), tensor.end());
+    settings.push_back({"Material/E", "200e9"});
+    return parse_scene("t.prm", "", settings);
+  };
+  const auto mu = [&](const Settings &settings)
+  { return make_kernel(with(settings), horizon).limit().mu; };
+  EXPECT_NEAR(mu({}), E / 2.5, 1e-12 * E);
+  EXPECT_NEAR(mu({{"Material/nu", "0.25"}}), E / 2.5, 1e-12 * E);
+  EXPECT_NEAR(mu({{"Material/plane", "stress"}, {"Material/nu", ".333"}}), E * 3 / 8, 1e-12 * E);
+  expect_error(
+      [&] {
+        mu({{"Material/plane", "stress"}, {"Material/nu", "0.25"}});
+      },
+      "make a solid of nu = 1/3 in plane stress");
+  Settings in_space = {{"Domain/dimension", "3"},
+                       {"Domain/boxes", "0,0,0 : 1,1,1"},
+                       {"Problem/solution", "x, y, z"}};
+  EXPECT_NEAR(make_kernel_in_space(with(in_space), horizon).limit().mu, E / 2.5, 1e-12 * E);
+  in_space.push_back({"Material/plane", "stress"});
+  expect_error([&] { with(in_space); }, "Material/plane = stress has no effect here");
+}
+
+TEST(Material, OfDoubleWellsHasTheModulusAndTheToughnessThatAreGiven)
+{
+  const auto law = [](const Settings &settings, double horizon)
+  {
+    return make_double_well(parse_scene("t.prm", scene_template("double-well"), settings), horizon);
+  };
+  const Settings glass = {{"Material/E", "72e9"}, {"Material/toughness", "8"}};
+  for (const double horizon : {.001, .2})
+    for (const std::string influence : {"constant", "linear-decay"})
+    {
+      Settings settings = glass;
+      settings.push_back({"Kernel/type", influence});
+      EXPECT_NEAR(law(settings, horizon).modulus(), 72e9 / 2.5, 1e-12 * 72e9);
+      EXPECT_NEAR(law(settings, horizon).toughness(), 8, 1e-12 * 8);
+      settings.push_back({"Material/plane", "stress"});
+      EXPECT_NEAR(law(settings, horizon).modulus(), 72e9 * 3 / 8, 1e-12 * 72e9);
+    }
 }
 
 TEST(Material, FieldsAreCheckedEverywhere)

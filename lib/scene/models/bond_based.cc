@@ -1,5 +1,6 @@
 #include "base/number_text.h"
 #include "scene/models/model.h"
+#include "scene/values.h"
 
 #include <cmath>
 
@@ -12,8 +13,11 @@ namespace plumbline::scene
     {
       const KernelSection &kernel = scene.kernel;
       if (kernel.limit == Limit::navier)
-        return physics::Kernel<dim>::with_bulk_modulus(kernel.profile, horizon,
-                                                       kernel.bulk_modulus);
+      {
+        const auto modulus = scene.material.modulus_of_bonds(scene.domain.dimension);
+        return physics::Kernel<dim>::with_bulk_modulus(
+            kernel.profile, horizon, modulus ? 5. / 3 * *modulus : kernel.bulk_modulus);
+      }
       if (kernel.limit == Limit::none)
         return {kernel.structure, kernel.profile, horizon, kernel.constant};
       return physics::Kernel<dim>::with_diffusion(kernel.profile, horizon,
@@ -49,10 +53,20 @@ namespace plumbline::scene
 
       std::string constants() const override
       {
-        return " takes its constants from section Kernel; clear Material/E, nu, lambda, mu, k and "
-               "l, "
-               "or "
+        return ": the constants of bonds are Kernel/bulk modulus or Material/E; clear this key, or "
                "choose LPS or variational";
+      }
+
+      void check_constants(const Scene &scene) const override
+      {
+        if (!scene.material.modulus_of_bonds(scene.domain.dimension))
+          return;
+        require(scene.kernel.limit == Limit::navier,
+                "Material/E = " + scene.material.given[0][0] +
+                    " is for bond tensors; write Kernel/type = bond-tensor and Kernel/limit = "
+                    "Navier, or clear Material/E");
+        require(scene.kernel.bulk_modulus == 1,
+                "Material/E and Kernel/bulk modulus set the same constant; clear one of them");
       }
 
       physics::Kernel<2> kernel(const Scene &scene, double horizon) const override

@@ -81,6 +81,16 @@ namespace plumbline::scene
                  "broken bond. [force/length]");
         keys.add("beta", material.beta, any_number(),
                  "beta > 0 of the double-well potential. [1/length]");
+        keys.add(
+            "toughness", "", any_text(),
+            [&material](const std::string &text)
+            {
+              material.toughness.reset();
+              if (!text.empty())
+                material.toughness = to_number(text);
+            },
+            "Fracture toughness G_c > 0 of double wells, given with E instead of c and beta "
+            "('plumbline grow' has Fracture/toughness). [force/length]");
         keys.add("boundary function", material.boundary_function,
                  "omega of double wells: one, or smoothstep, t^2 (3 - 2t) with t = min(1, distance "
                  "to the boundary / horizon), which weakens bonds near the boundary.");
@@ -90,7 +100,23 @@ namespace plumbline::scene
 
       std::string constants() const override
       {
-        return " has the constants c and beta; clear Material/E, nu, lambda, mu, k and l";
+        return ": its constants are E and toughness, or c and beta; clear this key";
+      }
+
+      void check_constants(const Scene &scene) const override
+      {
+        const MaterialSection &material = scene.material;
+        const bool has_modulus = material.modulus_of_bonds(scene.domain.dimension).has_value();
+        require(has_modulus == material.toughness.has_value(),
+                std::string("Material/") + (has_modulus ? "E" : "toughness") + " needs Material/" +
+                    (has_modulus ? "toughness" : "E") +
+                    " with Material/model = double well; give both, or c and beta");
+        require(!has_modulus || (material.c == 1 && material.beta == 1),
+                "Material/E and toughness replace Material/c and beta; clear one of these pairs");
+        require(!material.toughness ||
+                    (*material.toughness > 0 && std::isfinite(*material.toughness)),
+                "Material/toughness = " + short_number(material.toughness.value_or(0)) +
+                    " must be positive and finite");
       }
 
       void check_motion(const Scene &scene) const override
@@ -177,8 +203,19 @@ namespace plumbline::scene
 
   physics::DoubleWell make_double_well(const Scene &scene, double horizon)
   {
-    return {static_cast<int>(scene.domain.dimension), scene.kernel.profile, scene.material.c,
-            scene.material.beta, horizon};
+    const MaterialSection &material = scene.material;
+    const auto with = [&](double c, double beta)
+    {
+      return physics::DoubleWell(static_cast<int>(scene.domain.dimension), scene.kernel.profile, c,
+                                 beta, horizon);
+    };
+    const auto modulus = material.modulus_of_bonds(scene.domain.dimension);
+    if (!modulus)
+      return with(material.c, material.beta);
+    // the toughness is proportional to c, the modulus to c β
+    const physics::DoubleWell unit = with(1, 1);
+    const double c = material.toughness.value() / unit.toughness();
+    return with(c, *modulus / (c * unit.modulus()));
   }
 
   const Model &double_well()

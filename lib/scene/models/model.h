@@ -45,8 +45,8 @@ namespace plumbline::scene
 
     virtual bool is_linear() const { return true; } ///< its force depends linearly on u
 
-    /// Ends the message "Material/model = NAME..." if λ and μ are given or missing contrary to
-    /// is_state_based().
+    /// Ends the message "Material/model = NAME..." where constants are missing, or given that it
+    /// does not take.
     virtual std::string constants() const = 0;
 
     /// Mean of λ and μ at the two ends of a bond.
@@ -54,6 +54,9 @@ namespace plumbline::scene
 
     /// @throws InputError  constants that this model does not admit
     virtual void check(const physics::Lame &, bool /*is_homogeneous*/) const {}
+
+    /// @throws InputError  constants of section Material that do not fit the others of the scene
+    virtual void check_constants(const Scene &) const {}
 
     /// @throws InputError  keys that are inconsistent in a transient analysis
     virtual void check_motion(const Scene &) const {}

@@ -101,9 +101,13 @@ namespace plumbline::scene
       {
         auto &given = material.given;
         keys.add("plane", material.plane, "Plane strain or plane stress, for E and nu.");
-        keys.add("E", given[0][0],
-                 "Young's modulus > 0, an expression in x and y. [force/length^2]");
-        keys.add("nu", given[0][1], "Poisson's ratio, -1 < nu < 1/2, given with E.");
+        keys.add(
+            "E", given[0][0],
+            "Young's modulus > 0, an expression in x and y; a number for bond tensors and double "
+            "wells. [force/length^2]");
+        keys.add("nu", given[0][1],
+                 "Poisson's ratio, -1 < nu < 1/2, given with E. Bond tensors and double wells have "
+                 "1/4, and 1/3 in plane stress.");
         keys.add("lambda", given[1][0],
                  "Lame's first constant in the plane, instead of E and nu. [force/length^2]");
         keys.add("mu", given[1][1],

@@ -1,9 +1,11 @@
 #include "base/error.h"
+#include "physics/elastic_constants.h"
 #include "physics/expression.h"
 #include "scene/keys.h"
 #include "scene/models/model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace plumbline::scene
@@ -72,6 +74,36 @@ namespace plumbline::scene
     return at;
   }
 
+  std::optional<double> MaterialSection::modulus_of_bonds(unsigned int dimension) const
+  {
+    constexpr double tolerance = 1e-3; // .333 is 1/3
+    const auto &[E, nu] = given[0];
+    if (E.empty())
+      return {};
+    const auto value_of = [this](const std::string &key, const std::string &text)
+    {
+      const Expression expression(key, text, names);
+      if (expression.n_components() != 1 || !expression.is_constant())
+        throw InputError(key + " = '" + text +
+                         "' must be one number for Material/model = " + model->name());
+      return expression(dealii::Point<2>());
+    };
+    const double modulus = value_of("Material/E", E);
+    if (!(modulus > 0) || !std::isfinite(modulus))
+      throw InputError("Material/E = " + E + " must be positive and finite");
+    const bool is_stress = dimension == 2 && plane == physics::PlaneState::stress;
+    const double nu_of_bonds = is_stress ? 1. / 3 : 1. / 4;
+    if (!nu.empty() && !(std::abs(value_of("Material/nu", nu) - nu_of_bonds) <= tolerance))
+      throw InputError("Material/nu = " + nu + ": forces along bonds alone make a solid of nu = " +
+                       (is_stress ? "1/3 in plane stress" : "1/4 (1/3 in plane stress)") +
+                       "; clear Material/nu, or choose Material/model = LPS");
+    if (dimension == 1)
+      return modulus;
+    return 3. / 5 *
+           physics::bulk_modulus_of_bonds(modulus, is_stress ? physics::ElasticState::plane_stress
+                                                             : physics::ElasticState::solid);
+  }
+
   void MaterialSection::declare(Keys &by_name)
   {
     std::vector<std::string> names_of_models;
@@ -96,6 +128,15 @@ namespace plumbline::scene
 
   void MaterialSection::complete()
   {
+    if (!model->is_state_based())
+    {
+      for (unsigned int i = 0; i < pairs.size(); ++i)
+        for (unsigned int j = 0; j < 2; ++j)
+          if (!given[i][j].empty() && (i > 0 || (j > 0 && given[i][0].empty())))
+            throw InputError("Material/" + pairs[i][j] + " with Material/model = " + model->name() +
+                             model->constants());
+      return;
+    }
     unsigned int n_pairs = 0;
     for (unsigned int i = 0; i < pairs.size(); ++i)
     {
@@ -109,10 +150,8 @@ namespace plumbline::scene
       keys = pairs[i];
       expressions = given[i];
     }
-    if (n_pairs != (model->is_state_based() ? 1 : 0))
+    if (n_pairs != 1)
       throw InputError("Material/model = " + model->name() + model->constants());
-    if (!model->is_state_based())
-      return;
     for (unsigned int i = 0; i < 2; ++i)
     {
       const Expression expression("Material/" + keys[i], expressions[i], names);
