@@ -184,8 +184,8 @@ namespace plumbline::app
     if (options.json)
       std::cout << io::to_json(results);
     else if (!options.quiet)
-      std::cout << report::study_text(view, results)
-                << "\nwritten: " << (folder / (analysis.name + ".html")).string() << '\n';
+      std::cout << report::study_summary(view, results,
+                                         (folder / (analysis.name + ".html")).string());
     return exit_code(row, options, results);
   }
 } // namespace plumbline::app

@@ -70,7 +70,7 @@ namespace plumbline::app
     void list_methods()
     {
       for (const auto &method : all_methods())
-        std::cout << std::left << std::setw(11) << method->name() << std::setw(11)
+        std::cout << std::left << std::setw(16) << method->name() << std::setw(11)
                   << base::word(method->family()) << method->help() << '\n';
     }
 

@@ -1,6 +1,7 @@
 #include "summary.h"
 
 #include "base/number_text.h"
+#include "report/text_table.h"
 #include "study/cheapest.h"
 #include "study/target_words.h"
 
@@ -19,25 +20,9 @@ namespace plumbline::app
 
     constexpr std::size_t n_columns = 120;
 
-    /// So much of it as fits into a line.
-    std::string fitted(const std::string &line)
-    {
-      const std::string more = " ...";
-      // continuation bytes of UTF-8 take no column
-      std::size_t n = 0, end = 0;
-      for (std::size_t i = 0; i < line.size(); ++i)
-        if ((static_cast<unsigned char>(line[i]) & 0xC0U) != 0x80U &&
-            ++n == n_columns - more.size())
-          end = i;
-      if (n <= n_columns)
-        return line;
-      const std::size_t blank = line.rfind(' ', end);
-      return line.substr(0, blank == std::string::npos ? end : blank) + more;
-    }
-
     void print(const std::string &line)
     {
-      std::cout << fitted(line) << '\n';
+      std::cout << report::fitted(line, n_columns) << '\n';
     }
 
     /// Why there is this verdict: in short where a proof stands beside the errors.

@@ -11,11 +11,12 @@
 
     {source} FILE           a file of the source tree, which a test compiles
         :from: TEXT         from this text on
-    {results} FILE          tables of a Markdown file that a command before has written
+    {results} FILE          tables of a Markdown or CSV file that a command before has written
         :columns: NAMES     only these columns, separated by ';'
 
 'python3 FILE' is a command, too. The working folder has the folder scenes of the source tree.
 """
+import csv
 import re
 import shlex
 import subprocess
@@ -163,13 +164,22 @@ class Source(Base):
         return self.block(text, "cmake" if self.arguments[0].endswith("CMakeLists.txt") else "cpp", self.arguments[0])
 
 
+def in_short(cell):
+    """A number of many digits, rounded to four."""
+    return f"{float(cell):.4g}" if re.fullmatch(r"-?[0-9]*\.[0-9]{5,}(e-?[0-9]+)?", cell) else cell
+
+
 class ResultTable(Base):
     option_spec = {"columns": directives.unchanged_required}
 
     def show(self):
         folder, _ = self.place()
         lines = (folder / self.arguments[0]).read_text(encoding="utf-8").splitlines()
-        rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in lines if line.startswith("|")]
+        if self.arguments[0].endswith(".csv"):
+            rows = [[in_short(cell) for cell in row] for row in csv.reader(lines)]
+            rows.insert(1, ["---"] * len(rows[0]))
+        else:
+            rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in lines if line.startswith("|")]
         if "columns" in self.options:
             wanted = [name.strip() for name in self.options["columns"].split(";")]
             if not set(wanted) <= set(rows[0]):

@@ -6,8 +6,6 @@ namespace plumbline::report
 {
   namespace
   {
-    constexpr std::size_t terminal = 160; // columns
-
     /// Characters of a text in UTF-8.
     std::size_t length(const std::string &text)
     {
@@ -53,7 +51,21 @@ namespace plumbline::report
     return text;
   }
 
-  std::string to_text(const Table &table)
+  std::string fitted(const std::string &line, std::size_t n_columns)
+  {
+    const std::string more = " ...";
+    // continuation bytes of UTF-8 take no column
+    std::size_t n = 0, end = 0;
+    for (std::size_t i = 0; i < line.size(); ++i)
+      if ((static_cast<unsigned char>(line[i]) & 0xC0U) != 0x80U && ++n == n_columns - more.size())
+        end = i;
+    if (n <= n_columns)
+      return line;
+    const std::size_t blank = line.rfind(' ', end);
+    return line.substr(0, blank == std::string::npos ? end : blank) + more;
+  }
+
+  std::string to_text(const Table &table, std::size_t terminal)
   {
     std::vector<std::size_t> width;
     for (std::size_t j = 0; j < table.columns.size(); ++j)

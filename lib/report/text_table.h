@@ -20,6 +20,9 @@ namespace plumbline::report
   /// Words in lines of at most so many characters, all but the first behind blanks.
   std::string wrapped(const std::string &words, std::size_t width, std::size_t indent = 0);
 
-  /// In columns that line up, for a terminal of 160 columns.
-  std::string to_text(const Table &table);
+  /// So much of a line as fits into so many columns, and " ..." if that is not all.
+  std::string fitted(const std::string &line, std::size_t n_columns);
+
+  /// In columns that line up; the last one is wrapped at the end of the terminal.
+  std::string to_text(const Table &table, std::size_t terminal = 160);
 } // namespace plumbline::report

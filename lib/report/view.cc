@@ -452,33 +452,6 @@ namespace plumbline::report
     }
   } // namespace
 
-  std::string study_text(const View &view, const StudyResults &results)
-  {
-    constexpr std::size_t width = 120;
-    std::string text = results.scene_name + "\n";
-    for (const Part &part : page::with_rows(view.parts))
-      if (!part.is_detail)
-        text += "\n" + part.head + "\n" + to_text(part.table) +
-                (part.words.empty() ? "" : wrapped(part.words, width) + "\n");
-    for (const std::string &what : results.left_out)
-      text += "\nleft out by the budget: " + what + "\n";
-    for (const std::string &words : {view.model, view.answer})
-      text += words.empty() ? "" : "\n" + wrapped(words, width) + "\n";
-    if (!view.verdicts.rows.empty())
-      text += "\n" + to_text(view.verdicts);
-    std::size_t n_hold = 0;
-    for (const study::Expectation &one : results.expectations)
-      if (one.holds)
-        ++n_hold;
-      else
-        text += "\nnot as expected: " + one.subject + ": expected " + one.expected + ", found " +
-                one.found + "\n";
-    if (!results.expectations.empty())
-      text += "\nexpectations: " + std::to_string(n_hold) + " of " +
-              std::to_string(results.expectations.size()) + " hold\n";
-    return text;
-  }
-
   void write_study(const View &view, const StudyResults &results,
                    const std::filesystem::path &folder)
   {

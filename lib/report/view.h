@@ -122,8 +122,14 @@ namespace plumbline::report
   /// Those of a series, in the order of the records.
   std::vector<std::string> series_of(const StudyResults &results);
 
-  /// What the terminal shows: tables but for details, verdicts, expectations.
+  /// All tables but for details, with their words.
   std::string study_text(const View &view, const StudyResults &results);
+
+  /// What the terminal shows: 25 lines of 120 columns at most. Tables, of the finest levels alone
+  /// and cut short where they are long, verdicts, expectations, and the answer last.
+  /// @param files  where the report is
+  std::string study_summary(const View &view, const StudyResults &results,
+                            const std::string &files);
 
   /// Write ANALYSIS.json, .md and .html, and ANALYSIS/ with tables, charts and pictures.
   /// @throws InputError  the folder cannot be written

@@ -335,7 +335,7 @@ TEST(SampleCommand, charts_the_variance_that_modes_hold)
                           "--set Random/cell=10 --set Random/realisations=40 -o " +
                           folder.string());
   ASSERT_EQ(one.exit_code, 0) << one.err;
-  expect_found(one.out, "20 modes hold");
+  expect_found(read(folder / "grow.html"), "20 modes hold");
   expect_found(read(folder / "grow.html"), "Variance that modes hold");
   expect_found(read(folder / "grow.html"), "40 realisations of the field: Random/seed = 1");
   EXPECT_EQ(Json::parse(read(folder / "grow.json"))["records"][0]["scalars"]["field seed"]["value"],

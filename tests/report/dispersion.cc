@@ -153,7 +153,7 @@ namespace plumbline::report
   TEST(DispersionReport, says_what_waves_tend_to_beside_what_is_proven)
   {
     const View view = dispersion_view(results());
-    const std::string text = study_text(view, results());
+    const std::string text = study_summary(view, results(), "dispersion.html");
     EXPECT_NE(text.find("good    m = 3   AC"), std::string::npos) << text;
     EXPECT_NE(text.find("second moments are off by 5 %"), std::string::npos);
     EXPECT_EQ(view.verdicts.rows[0][3].text, "AC");

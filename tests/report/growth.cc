@@ -75,7 +75,8 @@ namespace plumbline::report
 
     std::string text_of(const study::StudyResults &results)
     {
-      return study_text(growth_view(results), results);
+      const View view = growth_view(results);
+      return view.model + "\n" + study_summary(view, results, "grow.html");
     }
 
     std::string in_one_line(std::string text)

@@ -1,0 +1,185 @@
+#include "report/text_table.h"
+#include "report/view.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    constexpr std::size_t n_columns = 120;
+    using Lines = std::vector<std::string>;
+
+    Lines lines_of(const std::string &text)
+    {
+      Lines lines;
+      for (std::size_t start = 0; start < text.size();)
+      {
+        const std::size_t end = std::min(text.find('\n', start), text.size());
+        lines.push_back(text.substr(start, end - start));
+        start = end + 1;
+      }
+      return lines;
+    }
+
+    /// The number of a column; that of columns if none is called so.
+    std::size_t column(const Table &table, const std::string &head)
+    {
+      return std::find_if(table.columns.begin(), table.columns.end(),
+                          [&](const Column &one) { return one.head == head; }) -
+             table.columns.begin();
+    }
+
+    /// Of rows that have a method and h, those of the finest levels: a row is left out if the next
+    /// one is of the same method and of a smaller h.
+    Table of_finest_levels(const Table &table)
+    {
+      const std::size_t method = column(table, "method"), h = column(table, "h");
+      if (std::max(method, h) == table.columns.size())
+        return table;
+      const auto size = [&](std::size_t row)
+      { return std::strtod(table.rows[row][h].text.c_str(), nullptr); };
+      Table result;
+      result.columns = table.columns;
+      for (std::size_t row = 0; row < table.rows.size(); ++row)
+        if (row + 1 == table.rows.size() ||
+            table.rows[row][method].text != table.rows[row + 1][method].text ||
+            size(row + 1) >= size(row))
+          result.rows.push_back(table.rows[row]);
+      return result;
+    }
+
+    /// Head and rows, each in a line, and as many of them as there is room for.
+    void add_table(const std::string &head, const Table &table, std::size_t room, Lines &lines)
+    {
+      constexpr std::size_t unlimited = 10000; // columns: rows are cut, not wrapped
+      Lines block = {""};
+      if (!head.empty())
+        block.push_back(head);
+      for (const std::string &row : lines_of(to_text(table, unlimited)))
+        block.push_back(fitted(row, n_columns));
+      const std::size_t n_rows = table.rows.size(), n_heads = block.size() - n_rows;
+      if (n_heads + std::min<std::size_t>(n_rows, 2) > room)
+        return;
+      if (block.size() > room)
+      {
+        block.resize(room - 1);
+        block.push_back("... " + std::to_string(n_heads + n_rows + 1 - room) +
+                        " more rows in the report");
+      }
+      lines.insert(lines.end(), block.begin(), block.end());
+    }
+
+    /// "stable: FA, Q1; unstable: OPT", with series or quantities where there are several.
+    std::string answer_of(const Table &verdicts)
+    {
+      const std::size_t method = column(verdicts, "method"), verdict = column(verdicts, "verdict"),
+                        n = verdicts.columns.size(),
+                        series = std::min(column(verdicts, "series"), column(verdicts, "of"));
+      if (std::max(method, verdict) == n)
+        return {};
+      const bool has_series =
+          series < n && std::any_of(verdicts.rows.begin(), verdicts.rows.end(),
+                                    [&](const auto &row)
+                                    { return row[series].text != verdicts.rows[0][series].text; });
+      std::vector<std::pair<std::string, std::string>> found;
+      for (const auto &row : verdicts.rows)
+      {
+        const std::string name =
+            row[method].text + (has_series ? " (" + row[series].text + ")" : "");
+        const auto same =
+            std::find_if(found.begin(), found.end(),
+                         [&](const auto &one) { return one.first == row[verdict].text; });
+        if (same == found.end())
+          found.emplace_back(row[verdict].text, name);
+        else
+          same->second += ", " + name;
+      }
+      std::string text;
+      for (const auto &[outcome, names] : found)
+        text += (text.empty() ? "" : "; ") + outcome + ": " + names;
+      return text;
+    }
+
+    Lines missed(const StudyResults &results, std::size_t most)
+    {
+      Lines lines;
+      std::size_t n_missed = 0;
+      for (const study::Expectation &one : results.expectations)
+        if (!one.holds && ++n_missed <= most)
+          lines.push_back("not as expected: " + one.subject + ": expected " + one.expected +
+                          ", found " + one.found);
+      if (n_missed > most)
+        lines.push_back("not as expected: " + std::to_string(n_missed - most) +
+                        " more in the report");
+      if (!results.expectations.empty())
+        lines.push_back("expectations: " + std::to_string(results.expectations.size() - n_missed) +
+                        " of " + std::to_string(results.expectations.size()) + " hold");
+      return lines;
+    }
+
+    std::string joined(const Lines &lines)
+    {
+      std::string text;
+      for (const std::string &line : lines)
+        text += line + "\n";
+      return text;
+    }
+  } // namespace
+
+  std::string study_text(const View &view, const StudyResults &results)
+  {
+    std::string text = results.scene_name + "\n";
+    for (const Part &part : page::with_rows(view.parts))
+      if (!part.is_detail)
+        text += "\n" + part.head + "\n" + to_text(part.table) +
+                (part.words.empty() ? "" : wrapped(part.words, n_columns) + "\n");
+    return text;
+  }
+
+  std::string study_summary(const View &view, const StudyResults &results, const std::string &files)
+  {
+    constexpr std::size_t n_lines = 25, most_verdicts = 9, most_words = 7, most_missed = 2,
+                          least_share = 9;
+    Lines end;
+    if (!view.verdicts.rows.empty())
+      add_table("", view.verdicts, most_verdicts, end);
+    end.emplace_back();
+    if (const std::size_t n = results.left_out.size(); n > 0)
+      end.push_back(fitted("left out by the budget: " + results.left_out.front() +
+                               (n > 1 ? " and " + std::to_string(n - 1) + " more" : ""),
+                           n_columns));
+    for (const std::string &line : missed(results, most_missed))
+      end.push_back(fitted(line, n_columns));
+    end.push_back("report: " + files);
+    std::string answer = view.answer.empty() ? answer_of(view.verdicts) : view.answer;
+    for (const Part &part : view.parts)
+      if (answer.empty())
+        answer = answer_of(part.table);
+    if (!answer.empty())
+    {
+      Lines words = lines_of(wrapped(answer, n_columns));
+      if (words.size() > most_words)
+      {
+        words.resize(most_words);
+        words.back() += " ...";
+      }
+      end.emplace_back();
+      end.insert(end.end(), words.begin(), words.end());
+    }
+    Lines lines = {fitted(results.scene_name + ": " + results.purpose, n_columns)};
+    std::vector<Part> parts;
+    for (const Part &part : page::with_rows(view.parts))
+      if (!part.is_detail)
+        parts.push_back(part);
+    for (std::size_t i = 0; i < parts.size() && lines.size() + end.size() < n_lines; ++i)
+    {
+      const std::size_t room = n_lines - lines.size() - end.size();
+      add_table(parts[i].head, of_finest_levels(parts[i].table),
+                std::min(room, std::max(least_share, room / (parts.size() - i))), lines);
+    }
+    return joined(lines) + joined(end);
+  }
+} // namespace plumbline::report

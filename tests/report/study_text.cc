@@ -1,0 +1,103 @@
+#include "report/view.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace
+{
+  using namespace plumbline;
+  using namespace plumbline::report;
+
+  /// Methods at three levels each, with tables wider and longer than a terminal.
+  View long_view(unsigned int n_methods)
+  {
+    View view{"Stability"};
+    Part part;
+    part.id = "measures";
+    part.head = "Measures";
+    part.words = "words of the table";
+    part.table.columns = {{"method"}, {"h"}};
+    for (unsigned int k = 0; k < 30; ++k)
+      part.table.columns.push_back({"column " + std::to_string(k)});
+    view.verdicts.columns = {{"method"}, {"series"}, {"verdict"}, {"explanation"}};
+    for (unsigned int i = 0; i < n_methods; ++i)
+    {
+      const std::string name = "method" + std::to_string(i);
+      for (const std::string h : {"0.1", "0.05", "0.025"})
+      {
+        part.table.rows.push_back({text_cell(name), text_cell(h)});
+        for (unsigned int k = 0; k < 30; ++k)
+          part.table.rows.back().push_back(text_cell("δ" + std::to_string(k)));
+      }
+      view.verdicts.rows.push_back({text_cell(name), text_cell("m = 3"),
+                                    text_cell(i % 2 == 0 ? "stable" : "unstable"),
+                                    text_cell(std::string(300, 'w'))});
+    }
+    view.parts = {part, part, part};
+    return view;
+  }
+
+  StudyResults many_expectations()
+  {
+    StudyResults results;
+    results.scene_name = "scene";
+    results.purpose = std::string(200, 'p');
+    results.left_out = {"Q1 at h = 0.01", "Q1 at h = 0.005"};
+    results.expectations.resize(9);
+    for (auto &one : results.expectations)
+      one.subject = std::string(200, 's');
+    return results;
+  }
+
+  std::vector<std::string> lines_of(const std::string &text)
+  {
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);)
+      lines.push_back(line);
+    return lines;
+  }
+
+  std::size_t width(const std::string &line)
+  {
+    return std::count_if(line.begin(), line.end(),
+                         [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+  }
+} // namespace
+
+TEST(StudySummary, has_at_most_25_lines_of_120_columns)
+{
+  for (const unsigned int n : {1, 2, 4, 30})
+  {
+    const auto lines =
+        lines_of(study_summary(long_view(n), many_expectations(), "results/stability.html"));
+    EXPECT_LE(lines.size(), 25u) << n;
+    for (const std::string &line : lines)
+      EXPECT_LE(width(line), 120u) << line;
+  }
+}
+
+TEST(StudySummary, shows_the_finest_levels_and_ends_in_the_answer)
+{
+  const std::string text = study_summary(long_view(4), {}, "results/stability.html");
+  EXPECT_EQ(text.find("0.05"), std::string::npos) << text;
+  EXPECT_NE(text.find("method3  0.025"), std::string::npos);
+  const auto lines = lines_of(text);
+  ASSERT_GE(lines.size(), 3u);
+  EXPECT_EQ(lines.back(), "stable: method0, method2; unstable: method1, method3");
+  EXPECT_EQ(lines[lines.size() - 3], "report: results/stability.html");
+  View answered = long_view(4);
+  answered.answer = "The crack runs.";
+  EXPECT_EQ(lines_of(study_summary(answered, {}, "")).back(), "The crack runs.");
+}
+
+TEST(StudySummary, tells_what_it_leaves_out)
+{
+  const std::string text = study_summary(long_view(30), many_expectations(), "");
+  EXPECT_NE(text.find("more rows in the report"), std::string::npos);
+  EXPECT_NE(text.find("not as expected: 7 more in the report"), std::string::npos) << text;
+  EXPECT_NE(text.find("expectations: 0 of 9 hold"), std::string::npos);
+  EXPECT_NE(text.find("left out by the budget: Q1 at h = 0.01 and 1 more"), std::string::npos);
+}
