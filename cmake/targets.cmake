@@ -78,9 +78,9 @@ plumbline_precompile(plumbline_precompiled_vectors <deal.II/base/parallel.h> <de
 
 # plumbline_templates(<folder> <namespace>): its templates as templates.cc in the binary folder
 function(plumbline_templates folder namespace)
-  file(GLOB files CONFIGURE_DEPENDS ${folder}/*.mustache ${folder}/*.css)
+  file(GLOB files CONFIGURE_DEPENDS ${folder}/*.mustache ${folder}/*.css ${folder}/*.js)
   set(script ${PROJECT_SOURCE_DIR}/cmake/templates.cmake)
   add_custom_command(OUTPUT templates.cc DEPENDS ${files} ${script}
     COMMAND ${CMAKE_COMMAND} -D FOLDER=${CMAKE_CURRENT_SOURCE_DIR}/${folder} -D NAMESPACE=${namespace}
-            -D OUT=${CMAKE_CURRENT_BINARY_DIR}/templates.cc -P ${script})
+            -D DYGRAPHS=${DYGRAPHS} -D OUT=${CMAKE_CURRENT_BINARY_DIR}/templates.cc -P ${script})
 endfunction()

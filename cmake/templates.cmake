@@ -1,12 +1,25 @@
-# FOLDER/NAME.mustache and FOLDER/NAME.css as C++, a map by their names in a namespace:
-# cmake -D FOLDER=... -D NAMESPACE=... -D OUT=... -P templates.cmake
-file(GLOB files ${FOLDER}/*.mustache ${FOLDER}/*.css)
+# FOLDER/NAME.mustache, NAME.css and NAME.js as C++, a map by their names (scripts: NAME_js) in a namespace. DYGRAPHS, if
+# given, is the folder of dygraphs, whose script and style come in as dygraph_js and dygraph_css.
+# cmake -D FOLDER=... -D NAMESPACE=... -D OUT=... [-D DYGRAPHS=...] -P templates.cmake
 set(text "#include <map>\n#include <string>\n\nnamespace ${NAMESPACE}\n{\n")
 string(APPEND text "const std::map<std::string, std::string> &templates()\n{\n")
 string(APPEND text "static const std::map<std::string, std::string> all = {\n")
-foreach(file ${files})
-  get_filename_component(name ${file} NAME_WE)
+macro(add name file)
   file(READ ${file} content)
   string(APPEND text "{\"${name}\", R\"template(${content})template\"},\n")
+endmacro()
+file(GLOB files ${FOLDER}/*.mustache ${FOLDER}/*.css)
+foreach(file ${files})
+  get_filename_component(name ${file} NAME_WE)
+  add(${name} ${file})
 endforeach()
+file(GLOB files ${FOLDER}/*.js)
+foreach(file ${files})
+  get_filename_component(name ${file} NAME_WE)
+  add(${name}_js ${file})
+endforeach()
+if(DYGRAPHS)
+  add(dygraph_js ${DYGRAPHS}/dygraph.min.js)
+  add(dygraph_css ${DYGRAPHS}/dygraph.min.css)
+endif()
 file(WRITE ${OUT} "${text}};\nreturn all;\n}\n}\n")

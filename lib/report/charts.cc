@@ -2,6 +2,7 @@
 
 #include "report/formats.h"
 #include "report/maps.h"
+#include "report/page_script.h"
 
 #include <algorithm>
 #include <cmath>
@@ -376,6 +377,7 @@ namespace plumbline::report
     }
     if (charts.empty())
       return charts;
+    write_chart_data(plots, folder);
     write_file(folder / "charts.gp", gnuplot_script(plots) + script);
     run_gnuplot(folder, "charts.gp", pictures);
     if (!results.maps.empty())

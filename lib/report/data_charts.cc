@@ -1,5 +1,7 @@
 #include "report/data_charts.h"
 
+#include "report/page_script.h"
+
 #include <algorithm>
 
 namespace plumbline::report
@@ -62,6 +64,7 @@ namespace plumbline::report
       plots.push_back(chart.plot);
       pictures.push_back(chart.plot.file);
     }
+    write_chart_data(plots, folder);
     write_file(folder / "charts.gp", gnuplot_script(plots));
     run_gnuplot(folder, "charts.gp", pictures);
   }

@@ -1,5 +1,7 @@
 #include "report/page_parts.h"
 
+#include "report/page_script.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -103,6 +105,7 @@ namespace plumbline::report::page
   Data figure(const Figure &figure)
   {
     return {{"svg", inline_svg(figure.picture, figure.prefix, figure.title)},
+            {"data", chart_data(figure.picture)},
             {"title", figure.title},
             {"caption", figure.caption},
             {"source", figure.source},

@@ -1,6 +1,7 @@
 #include "report/template.h"
 
 #include "report/formats.h"
+#include "report/page_script.h"
 #include "report/templates.h"
 
 #include <kainjow/mustache.hpp>
@@ -76,7 +77,7 @@ namespace plumbline::report
 
   std::string fill(const std::string &name, const Data &data)
   {
-    return fill_text(template_text(name), data);
+    return with_script(fill_text(template_text(name), data));
   }
 
   std::string fill_text(const std::string &text, const Data &data)

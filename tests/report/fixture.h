@@ -138,6 +138,7 @@ namespace plumbline::report::fixture
                           {2, 1},
                           4,
                           3,
+                          1,
                           {}};
       for (unsigned int i = 0; i < 12; ++i)
         map.values.push_back(model.factor * std::pow(.1, i));

@@ -27,12 +27,12 @@ namespace plumbline::report
       results.regime = scene::Regime::variable;
       results.variable = "q";
       results.decisive_error = "nodal L2 | exact";
-      study::Trend trend{"FA",
-                         study::MethodFamily::meshfree,
-                         "case1",
-                         "h = 0.1, m = 3",
-                         results.decisive_error,
-                         study::Axis::variable};
+      study::Trend trend;
+      trend.method = "FA";
+      trend.problem = "case1";
+      trend.series = "h = 0.1, m = 3";
+      trend.error = results.decisive_error;
+      trend.axis = study::Axis::variable;
       for (const double q : {-.5, .5})
       {
         study::Record run;
