@@ -28,6 +28,8 @@ install(FILES ${PROJECT_BINARY_DIR}/plumblineConfig.cmake
               ${PROJECT_BINARY_DIR}/plumblineConfigVersion.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/plumbline)
 
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/plumbline RENAME copyright)
+
 # 'cpack -G DEB' in the build folder makes a package for Debian 12
 set(CPACK_PACKAGE_NAME plumbline)
 set(CPACK_PACKAGE_CONTACT "The Plumbline developers <plumbline@invalid>")

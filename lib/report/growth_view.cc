@@ -54,6 +54,7 @@ namespace plumbline::report
           {"apart", "sides that separated elsewhere, not connected to the notch"},
           {"connected", "paths of bonds join the grips at the end"},
           {"reaction left", "at the end, over its largest"},
+          {"s0", "critical stretch of bonds, the smallest of all materials"},
           {"G_h / G", "all bonds across a straight line of the lattice at their limits"},
           {"G_peak / G",
            "at which a crack goes on in a strip of this lattice; G was divided by it"},

@@ -266,9 +266,12 @@ namespace plumbline::study
       const scene::Scene &scene = place.scene();
       Record record = place.record("crack", method);
       const method::StripThreshold threshold = find_threshold(scene, method, place.level());
-      const double law = scene::make_double_well(scene, record.key.horizon).toughness();
-      record.set("G_c", law, "energy/length");
-      record.set("G_c,h / G_c", threshold.toughness / law);
+      const physics::DoubleWell law = scene::make_double_well(scene, record.key.horizon);
+      record.set("G_c", law.toughness(), "energy/length");
+      record.set("c", law.c(), "energy/length");
+      record.set("beta", law.beta(), "1/length");
+      record.set("softening strain", law.softening_strain(law.horizon()));
+      record.set("G_c,h / G_c", threshold.toughness / law.toughness());
       if (threshold.failure.empty())
         record.set("W H / G_c,h", threshold.energy / threshold.toughness);
       else

@@ -299,6 +299,21 @@ namespace plumbline::study
       record.set("bonds", static_cast<double>(model.body->n_bonds()));
     }
 
+    /// At which a bond breaks whose ends are both like one node, the smallest of all nodes.
+    double critical_stretch(const scene::Scene &scene, const GrowthModel &model, double horizon,
+                            double trapping)
+    {
+      const auto lame = scene.material.lame();
+      double smallest = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < model.nodes.size(); ++i)
+      {
+        const physics::Lame here = lame(model.nodes[i]);
+        smallest = std::min(smallest, M_PI * model.toughness[i] /
+                                          (3 * horizon * trapping * (here.lambda + here.mu)));
+      }
+      return std::sqrt(smallest);
+    }
+
     void describe_field(const scene::RandomSection &random, Record &record)
     {
       record.texts["seeds"] = seed_words(random);
@@ -366,6 +381,7 @@ namespace plumbline::study
       GrowthModel model = make_body(scene, method, influence, trapping, solver);
       model.toughness = toughness_of_nodes(scene, model.nodes, level.horizon);
       describe(scene, model, solver, record);
+      record.set("s0", critical_stretch(scene, model, level.horizon, trapping));
       describe_field(scene.random, record);
       record.set("G_h / G", method.fracture_solver()->lattice_toughness(influence, level.h,
                                                                         scene.geometry.backend));

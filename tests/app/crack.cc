@@ -85,6 +85,11 @@ TEST(CrackCommand, finds_the_same_crack_in_other_units)
   EXPECT_NEAR(scalar(glass, "advance"), length * scalar(unit, "advance"), 1e-6 * length);
   EXPECT_NEAR(scalar(glass, "c_T"), std::sqrt(shear / density), 1e-6);
   EXPECT_NEAR(scalar(glass, "G_c"), 8, 1e-12 * 8);
+  // constant influence: M_2 = 1/3, G_c = 4 c M_2 / pi, mu = c beta M_2 / 2
+  EXPECT_NEAR(scalar(glass, "c"), 6 * M_PI, 1e-12 * 6 * M_PI);
+  EXPECT_NEAR(scalar(glass, "beta"), shear / M_PI, 1e-12 * shear);
+  EXPECT_NEAR(scalar(glass, "softening strain"),
+              1 / std::sqrt(2 * shear / M_PI * 4 * .025 * length), 1e-12);
   EXPECT_NEAR(scalar(glass, "speed"), length / time * scalar(unit, "speed"),
               1e-6 * scalar(glass, "speed"));
 }

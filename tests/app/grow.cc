@@ -59,6 +59,9 @@ TEST(GrowCommand, tells_what_breaks_and_draws_it)
   EXPECT_EQ(json["texts"]["connected"], "yes"); // the reaction ended it
   EXPECT_LE(scalar(json, "reaction left"), .05);
   EXPECT_GT(scalar(json, "reaction left"), 0);
+  // E = 1, nu = 1/4: lambda + mu = .8
+  EXPECT_NEAR(scalar(json, "s0"), std::sqrt(M_PI / (3 * json["key"]["horizon"].get<double>() * .8)),
+              1e-12);
   expect_found(results(folder)["scene_text"], "set toughness");
   EXPECT_FALSE(json["scalars"].contains("field seed")); // nothing is random
   EXPECT_LT(scalar(json, "factorisations"), .2 * events(json, "load").size());

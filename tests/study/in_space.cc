@@ -118,7 +118,9 @@ TEST(StaticsInSpace, are_judged_by_moments_as_in_the_plane)
                                                           {"DGQ0", "not AC"}}));
   for (const Record &record : results.records)
     if (record.key.method == "FA")
+    {
       EXPECT_NEAR(record["moment defect"], .0441, 1e-4); // C(3) - 1 of FA, linear decay
+    }
 }
 
 TEST(StaticsInSpace, have_exact_averages_where_the_space_holds_the_field)
