@@ -33,7 +33,8 @@ namespace plumbline::app
       return name + (n_components == 1 ? "" : std::to_string(component + 1));
     }
 
-    void write_header(std::ostream &out, unsigned int n_components, bool has_exact, bool has_change)
+    void write_header(std::ostream &out, unsigned int n_components, bool has_exact, bool has_change,
+                      bool has_estimate)
     {
       out << "x,y";
       const auto name = [&](const std::string &one)
@@ -49,7 +50,7 @@ namespace plumbline::app
       }
       if (has_change)
         name("change");
-      out << '\n';
+      out << (has_estimate ? ",estimate\n" : "\n");
     }
   } // namespace
 
@@ -71,18 +72,28 @@ namespace plumbline::app
     }
   }
 
+  std::vector<Point<2>> PointValues::of(const problem::Problem<2> &problem) const
+  {
+    std::vector<Point<2>> points;
+    for (const Point<2> &x : points_)
+      points.push_back(Point<2>() + (x - problem.origin));
+    return points;
+  }
+
   void PointValues::require_inside(const problem::Problem<2> &problem) const
   {
     const auto is_inside = problem::inside(problem);
-    for (std::size_t k = 0; k < points_.size(); ++k)
-      if (!is_inside(Point<2>() + (points_[k] - problem.origin)))
+    const std::vector<Point<2>> points = of(problem);
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (!is_inside(points[k]))
         throw InputError("'" + file_ + "', line " + std::to_string(lines_[k]) + ": (" +
                          std::to_string(points_[k][0]) + ", " + std::to_string(points_[k][1]) +
                          ") lies outside of the domain; take it out");
   }
 
   void PointValues::write(const problem::Problem<2> &problem, const analysis::Solution &solution,
-                          const analysis::Record &run, const fs::path &folder)
+                          const analysis::Record &run, const std::vector<double> &estimate,
+                          const fs::path &folder)
   {
     require_inside(problem);
     const unsigned int n = problem.n_components;
@@ -92,11 +103,12 @@ namespace plumbline::app
     const fs::path file = folder / (name + "_level" + std::to_string(run.key.level + 1) + ".csv");
     std::ofstream out(file);
     out.precision(std::numeric_limits<double>::max_digits10);
-    write_header(out, n, problem.solution.has_value(), !before.empty());
+    write_header(out, n, problem.solution.has_value(), !before.empty(), !estimate.empty());
+    const std::vector<Point<2>> points = of(problem);
     std::vector<double> values;
     for (std::size_t k = 0; k < points_.size(); ++k)
     {
-      const Point<2> x = Point<2>() + (points_[k] - problem.origin);
+      const Point<2> &x = points[k];
       out << points_[k][0] << ',' << points_[k][1];
       for (unsigned int c = 0; c < n; ++c)
       {
@@ -117,6 +129,8 @@ namespace plumbline::app
       }
       for (unsigned int c = 0; c < n && !before.empty(); ++c)
         out << ',' << u[c] - before[k * n + c];
+      if (!estimate.empty())
+        out << ',' << estimate[k];
       out << '\n';
     }
     if (!out.flush())

@@ -21,13 +21,19 @@ namespace plumbline::app
 
     bool is_wanted() const { return !points_.empty(); }
 
-    /// x, y, u, the exact solution and the error where the former is known, and how far u is from
-    /// that of the level before, if this object has written it; numbers read back to the same bits.
+    /// In the problem's coordinates.
+    std::vector<dealii::Point<2>> of(const problem::Problem<2> &problem) const;
+
+    /// x, y, u, the exact solution and the error where the former is known, how far u is from that
+    /// of the level before, if this object has written it, and an estimate of the error where there
+    /// is one; numbers read back to the same bits.
+    /// @param estimate  at each point, or empty
     /// @param folder  of the files, made if it is not there
     /// @throws InputError  a point outside of the domain of the level; a file that cannot be
     /// written
     void write(const problem::Problem<2> &problem, const analysis::Solution &solution,
-               const analysis::Record &run, const std::filesystem::path &folder);
+               const analysis::Record &run, const std::vector<double> &estimate,
+               const std::filesystem::path &folder);
 
   private:
     void require_inside(const problem::Problem<2> &problem) const;

@@ -155,10 +155,18 @@ namespace plumbline::app
     {
       study::StaticsOptions options;
       if (points.is_wanted())
+      {
+        options.points = [&points](const problem::Problem<2> &problem)
+        { return points.of(problem); };
         options.on_solution = [communicator, folder, &points](const problem::Problem<2> &problem,
                                                               const analysis::Solution &solution,
-                                                              const study::Record &run)
-        { write(communicator, [&] { points.write(problem, solution, run, folder / "points"); }); };
+                                                              const study::Record &run,
+                                                              const std::vector<double> &estimate)
+        {
+          write(communicator,
+                [&] { points.write(problem, solution, run, estimate, folder / "points"); });
+        };
+      }
       if (scene.output.fields)
         options.on_finest =
             [communicator, folder](const std::function<void(const std::string &)> &write_field,

@@ -156,7 +156,7 @@ namespace plumbline::app
 
   void print_summary(const StudyResults &results, const std::filesystem::path &folder)
   {
-    print(results.scene_name + ": " + results.purpose);
+    print(report::heading(results.scene_name, results.purpose));
     std::cout << '\n';
     print(results.decisive_error + " (compared with " + study::target_words(results) + ")");
     print_trends(results);

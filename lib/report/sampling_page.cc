@@ -179,9 +179,9 @@ namespace plumbline::report
 
   std::string sampling_text(const SamplingResults &r)
   {
-    std::string text = r.scene_name + ": " + r.purpose + "\n\n" + to_text(sampling_field_table(r)) +
-                       "\n" + to_text(sampling_quantity_table(r)) + "\n" +
-                       wrapped(rule_words(r), 120) + "\n";
+    std::string text =
+        heading(r.scene_name, r.purpose) + "\n\n" + to_text(sampling_field_table(r)) + "\n" +
+        to_text(sampling_quantity_table(r)) + "\n" + wrapped(rule_words(r), 120) + "\n";
     if (is_own(r))
       text += wrapped(words_of_own, 120) + "\n";
     for (const auto &sentences : {r.findings, balance(r)})

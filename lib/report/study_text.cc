@@ -169,7 +169,7 @@ namespace plumbline::report
       end.emplace_back();
       end.insert(end.end(), words.begin(), words.end());
     }
-    Lines lines = {fitted(results.scene_name + ": " + results.purpose, n_columns)};
+    Lines lines = {fitted(heading(results.scene_name, results.purpose), n_columns)};
     std::vector<Part> parts;
     for (const Part &part : page::with_rows(view.parts))
       if (!part.is_detail)

@@ -51,6 +51,11 @@ namespace plumbline::report
     return text;
   }
 
+  std::string heading(const std::string &scene, const std::string &purpose)
+  {
+    return purpose.empty() ? scene : scene + ": " + purpose;
+  }
+
   std::string fitted(const std::string &line, std::size_t n_columns)
   {
     const std::string more = " ...";

@@ -20,6 +20,9 @@ namespace plumbline::report
   /// Words in lines of at most so many characters, all but the first behind blanks.
   std::string wrapped(const std::string &words, std::size_t width, std::size_t indent = 0);
 
+  /// "scene: purpose", or the scene alone.
+  std::string heading(const std::string &scene, const std::string &purpose);
+
   /// So much of a line as fits into so many columns, and " ..." if that is not all.
   std::string fitted(const std::string &line, std::size_t n_columns);
 

@@ -68,10 +68,13 @@ namespace plumbline::study
     class Estimator
     {
     public:
-      Estimator(const scene::Case &one, const Method &method, const Solution &solution)
+      Estimator(const scene::Case &one, const Method &method, const Solution &solution,
+                std::vector<dealii::Point<2>> points)
           : case_(one), problem_(one.problem),
-            method_(method), solution_{solution.averages, solution.value}
+            method_(method), solution_{solution.averages, solution.value},
+            points_(std::move(points))
       {
+        estimate_.at_points.assign(points_.size(), 0);
         estimate_.method = method.name();
         estimate_.h = problem_.h;
         estimate_.horizon = problem_.horizon();
@@ -104,6 +107,7 @@ namespace plumbline::study
         estimate_.field_estimate = std::max(by_h_.field, safety * estimate_.field_p_change) +
                                    diagnostics.outer_change * size.field +
                                    solver_error(tolerance, size.field);
+        finish_points(diagnostics.outer_change);
         if (diagnostics.is_outer_error_known)
           estimate_.certified_digits = certified_digits(estimate_.estimate, size.averages);
         return estimate_;
@@ -178,6 +182,31 @@ namespace plumbline::study
         estimate_.field_coarse_change = before.field;
       }
 
+      /// At points: the change from another solution, times a factor.
+      void enter_points(const ResizedSolution &other, double factor)
+      {
+        for (std::size_t i = 0; i < points_.size(); ++i)
+          for (unsigned int c = 0; c < problem_.n_components; ++c)
+            estimate_.at_points[i] =
+                std::max(estimate_.at_points[i], factor * std::abs(solution_.value(points_[i], c) -
+                                                                   other.value(points_[i], c)));
+      }
+
+      /// No less than twice their root mean square, and what is not from changes.
+      void finish_points(double outer_change)
+      {
+        constexpr double least = 2;
+        double squares = 0, size = 0;
+        for (const double e : estimate_.at_points)
+          squares += e * e / static_cast<double>(points_.size());
+        for (const dealii::Point<2> &x : points_)
+          for (unsigned int c = 0; c < problem_.n_components; ++c)
+            size = std::max(size, std::abs(solution_.value(x, c)));
+        for (double &e : estimate_.at_points)
+          e = std::max(e, least * std::sqrt(squares)) + outer_change * size +
+              solver_error(problem_.settings.solver.tolerance, size);
+      }
+
       /// By h/2: the error is the change over 1 - q.
       void from_fine(const std::optional<ResizedSolution> &on_coarse)
       {
@@ -189,18 +218,20 @@ namespace plumbline::study
         else
           cells.on_mesh()->mesh =
               std::make_shared<const geometry::Mesh>(geometry::refine(*problem_.mesh()));
-        const Norms change = distance(cells, solution_, solve_resized(fine, problem_, method_));
+        const ResizedSolution on_fine = solve_resized(fine, problem_, method_);
+        const Norms change = distance(cells, solution_, on_fine);
         const Norms before = on_coarse ? distance(problem_, solution_, *on_coarse) : Norms{};
         const Norms q = contraction(before, change);
         enter_changes(change, before);
         enter_rates(q);
         by_h_ = {error_of_change(change.averages, q.averages),
                  error_of_change(change.field, q.field)};
+        enter_points(on_fine, error_of_change(1, q.field));
         estimate_.is_of_polygon = fine.is_cut && geometry_order(problem_) > 0;
         if (const auto higher = higher_degree())
         {
           const Solution other = analysis::solve(*higher, problem_);
-          enter_p_change(distance(problem_, solution_, {other.averages, other.value}));
+          enter_p_change({other.averages, other.value});
         }
       }
 
@@ -215,9 +246,10 @@ namespace plumbline::study
         enter_rates(q);
         by_h_ = {safety_of_coarse * change.averages * q.averages / (1 - q.averages),
                  safety_of_coarse * change.field * q.field / (1 - q.field)};
+        enter_points(on_coarse, safety_of_coarse * q.field / (1 - q.field));
         estimate_.is_of_polygon = false; // the mesh of 2 h was made anew
         if (const auto higher = higher_degree())
-          enter_p_change(distance(problem_, solution_, solve_resized(coarse, problem_, *higher)));
+          enter_p_change(solve_resized(coarse, problem_, *higher));
       }
 
       /// Nothing where cells do not take it.
@@ -227,8 +259,10 @@ namespace plumbline::study
         return higher && higher->why_not(problem_).empty() ? higher : nullptr;
       }
 
-      void enter_p_change(const Norms &change)
+      void enter_p_change(const ResizedSolution &higher)
       {
+        enter_points(higher, safety);
+        const Norms change = distance(problem_, solution_, higher);
         estimate_.p_change = change.averages;
         estimate_.field_p_change = change.field;
       }
@@ -237,15 +271,17 @@ namespace plumbline::study
       const problem::Problem<2> &problem_;
       const Method &method_;
       ResizedSolution solution_;
+      std::vector<dealii::Point<2>> points_;
       Norms by_h_;
       ErrorEstimate estimate_;
     };
   } // namespace
 
   ErrorEstimate estimate_error(const scene::Case &one, const Method &method,
-                               const Solution &solution, bool is_cheap)
+                               const Solution &solution, bool is_cheap,
+                               const std::vector<dealii::Point<2>> &points)
   {
-    return Estimator(one, method, solution).by_changes(is_cheap, solution.diagnostics);
+    return Estimator(one, method, solution, points).by_changes(is_cheap, solution.diagnostics);
   }
 
   ReferenceAverages solve_reference(const scene::Case &one, const Method &method,
@@ -255,7 +291,7 @@ namespace plumbline::study
     const Solution solution = analysis::solve(method, problem);
     ReferenceAverages result{solution.averages, {}};
     result.estimate = wanted.estimate == scene::Estimate::none
-                          ? Estimator(one, method, solution).outer()
+                          ? Estimator(one, method, solution, {}).outer()
                           : estimate_error(one, method, solution, false);
     result.estimate.n_geometry_checks = solution.diagnostics.n_geometry_checks;
     result.estimate.geometry_difference = solution.diagnostics.geometry_difference;

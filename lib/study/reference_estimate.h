@@ -33,8 +33,11 @@ namespace plumbline::study
   /// @param is_cheap  on meshes of 500 cells or more, compare with degrees p and p + 1 on a mesh of
   /// 2 h and with 4 h instead, where the scene has these: e = d' q / (1 - q), and 2 of that for
   /// 3/2. Cost: about that of the solution itself; else 17 times as much and more.
+  /// @param points  where the error is estimated, too, by the same changes there; as a change may
+  /// pass through zero, by no less than twice the root mean square of these over all points
   ErrorEstimate estimate_error(const scene::Case &one, const Method &method,
-                               const Solution &solution, bool is_cheap);
+                               const Solution &solution, bool is_cheap,
+                               const std::vector<dealii::Point<2>> &points = {});
 
   /// A reference solution's averages with their estimate.
   struct ReferenceAverages

@@ -89,6 +89,8 @@ namespace plumbline::study
     /// Cells of h/2 or 2 h fill the same polygon: a curved boundary that it stands for is in no
     /// estimate.
     bool is_of_polygon = false;
+    /// Of the largest component at each point that estimate_error was given; in no file of results.
+    std::vector<double> at_points = {};
   };
 
   /// Something the scene did not need.

@@ -52,8 +52,8 @@ namespace plumbline::study
     unsigned int level = 0;
     double h = 0, horizon = 0; ///< [length]
     double seconds = 0;        ///< CPU time
-    std::map<std::string, double> quantities;
-    SampleField field;
+    std::map<std::string, double> quantities = {};
+    SampleField field = {};
 
     bool is_same_method(const SampleCase &other) const; ///< at whatever level
     bool is_same(const SampleCase &other) const;

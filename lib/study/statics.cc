@@ -174,8 +174,6 @@ namespace plumbline::study
         const auto found = errors(scene_.study.norms, problem, solution, one.targets);
         for (const auto &[error, value] : found)
           run.set(error, value);
-        if (options_.on_solution)
-          options_.on_solution(problem, solution, run);
         if (options_.has_fields)
           run.fields[field_name] = field_of(problem, solution);
         if (scene_.study.decisive_error.target == scene::Target::finest)
@@ -183,15 +181,33 @@ namespace plumbline::study
         for (const auto &[error, value] : found)
           if (!std::isfinite(value))
             throw NumericalError("the error " + error + " is not a finite number");
-        if (is_estimated(method, problem))
-          results_.estimates.push_back(
-              placed(estimate_error(one, method, solution, true), one.name));
+        const std::vector<double> at_points = estimate(method, one, solution);
+        if (options_.on_solution)
+          options_.on_solution(problem, solution, run, at_points);
         if (is_saving_due(method, one, run))
           if (const auto saving = measure_saving(one, method, solution))
             results_.savings.push_back(*saving);
         if (place_.is_finest())
           finish_series(solution, run, problem,
                         one.targets.reference.empty() ? one.targets.local : one.targets.reference);
+      }
+
+      /// Enter the estimate that the scene asks for.
+      /// @return that at points
+      std::vector<double> estimate(const Method &method, const OpenCase &one,
+                                   const Solution &solution) const
+      {
+        const bool is_shown = is_estimated(method, one.problem),
+                   is_at_points = options_.points && method.family() == MethodFamily::reference &&
+                                  scene_.reference.estimate != scene::Estimate::none;
+        if (!is_shown && !is_at_points)
+          return {};
+        const ErrorEstimate found = estimate_error(one, method, solution, true,
+                                                   is_at_points ? options_.points(one.problem)
+                                                                : std::vector<dealii::Point<2>>{});
+        if (is_shown)
+          results_.estimates.push_back(placed(found, one.name));
+        return found.at_points;
       }
 
       analysis::PointField field_of(const problem::Problem<2> &problem,

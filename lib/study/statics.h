@@ -16,9 +16,13 @@ namespace plumbline::study
     /// Of finest levels: what writes the solution to a VTK file, whose name it ends.
     std::function<void(const std::function<void(const std::string &stem)> &write, const Record &)>
         on_finest = {};
-    /// Of every level, their records with errors.
-    std::function<void(const problem::Problem<2> &, const Solution &, const Record &)> on_solution =
-        {};
+    /// Of every level, their records with errors, and estimates of the error at `points`: of
+    /// Galerkin methods, else empty.
+    std::function<void(const problem::Problem<2> &, const Solution &, const Record &,
+                       const std::vector<double> &estimate)>
+        on_solution = {};
+    /// Where errors are estimated for on_solution.
+    std::function<std::vector<dealii::Point<2>>(const problem::Problem<2> &)> points = {};
     /// Records have the field that the decisive error is about: nodal values, or averages over the
     /// comparison cells.
     bool has_fields = false;

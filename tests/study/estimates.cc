@@ -331,6 +331,54 @@ TEST(Estimates, include_what_outer_quadrature_errs_whatever_the_size_of_the_solu
   }
 }
 
+TEST(Estimates, bound_the_errors_at_points)
+{
+  constexpr double factor = 200; // of the largest error
+  std::vector<dealii::Point<2>> points;
+  for (unsigned int i = 0; i < 5; ++i)
+    for (unsigned int j = 0; j < 5; ++j)
+      points.emplace_back(.03 + .23 * i, .06 + .22 * j);
+  Settings wave = {{"Problem/solution", "sin(7*x + 5*y)"}},
+           tensor = {{"Kernel/type", "bond-tensor"},
+                     {"Kernel/limit", "Navier"},
+                     {"Problem/solution", "exp(x*y), cos(3*x + y)"}};
+  for (const Settings &posed : {smooth, wave, tensor, rough})
+    for (const std::string mesh : {"lattice", "triangles"})
+      for (const std::string degree : {"1", "2"})
+        for (const bool is_cheap : {false, true})
+        {
+          Settings settings = posed;
+          settings.push_back({"Domain/mesh", mesh});
+          const auto scene = make_scene(settings);
+          const auto method = galerkin((mesh == "lattice" ? "Q" : "P") + degree);
+          const auto problem = make_problem(scene, 0, {1. / 16, 1. / 8});
+          const Solution solution = analysis::solve(*method, problem);
+          study::Values exact;
+          std::optional<Solution> fine;
+          if (problem.solution)
+            exact = problem.solution->value;
+          else
+          {
+            fine = analysis::solve(*method, make_problem(scene, 0, {1. / 64, 1. / 8}));
+            exact = fine->value;
+          }
+          const auto found =
+              estimate_error(make_case(scene, 0, problem), *method, solution, is_cheap, points);
+          ASSERT_EQ(found.at_points.size(), points.size());
+          double largest_error = 0, largest = 0;
+          for (std::size_t i = 0; i < points.size(); ++i)
+            for (unsigned int c = 0; c < problem.n_components; ++c)
+            {
+              const double error = std::abs(solution.value(points[i], c) - exact(points[i], c));
+              EXPECT_LE(error, found.at_points[i])
+                  << posed.back().value << " " << method->name() << " " << is_cheap << " " << i;
+              largest_error = std::max(largest_error, error);
+              largest = std::max(largest, found.at_points[i]);
+            }
+          EXPECT_LE(largest, factor * largest_error) << posed.back().value << method->name();
+        }
+}
+
 TEST(Estimates, leave_no_digit_certain_that_they_reach)
 {
   EXPECT_EQ(certified_digits(9e-4, 1), 3u);

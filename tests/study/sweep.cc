@@ -248,7 +248,9 @@ TEST(SweepOverAVariable, is_that_of_scenes_at_its_values)
     value << run.key.value;
     for (const study::Record &other : sweep(with(of_nu, {{"Random/values", value.str()}})).records)
       if (other.key.method == run.key.method)
+      {
         EXPECT_EQ(errors_of(run), errors_of(other)) << run.key.method << ", nu = " << run.key.value;
+      }
   }
   for (const Trend &trend : results.trends)
   {

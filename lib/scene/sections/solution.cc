@@ -89,9 +89,11 @@ namespace plumbline::scene
     keys.add(
         "fields", fields, yes_or_no(),
         "Write the solutions of the finest levels as VTK files (.vtu, in three dimensions .vti).");
-    keys.add("points", points, any_text(),
-             "CSV file with columns x and y: points in the domain, where 'run' writes each static "
-             "solution, its error and its change from the level before (points/*.csv). Relative to "
-             "the scene; empty: none.");
+    keys.add(
+        "points", points, any_text(),
+        "CSV file with columns x and y: points in the domain, where 'run' writes each static "
+        "solution, its error, its change from the level before and, for Galerkin methods, an "
+        "estimate of its error (points/*.csv; none with Reference/estimate = none). Relative to "
+        "the scene; empty: none.");
   }
 } // namespace plumbline::scene
