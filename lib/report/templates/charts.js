@@ -25,6 +25,22 @@
     });
   }
 
+  // The range of x with a margin; what dygraphs itself adds may pass zero on a logarithmic axis.
+  function range(data) {
+    const x = data.lines.flatMap(function (line) { return line.points.map(function (p) { return p[0]; }); }),
+      low = Math.min.apply(null, x), high = Math.max.apply(null, x), margin = .03;
+    if (data.xLog) {
+      const factor = Math.max(Math.pow(high / low, margin), 1.01);
+      return [low / factor, high * factor];
+    }
+    return [low - margin * (high - low), high + margin * (high - low)];
+  }
+
+  function tick(value) {
+    const short = Number(value.toPrecision(3)), size = Math.abs(short);
+    return size !== 0 && (size < 1e-3 || size >= 1e5) ? short.toExponential() : String(short);
+  }
+
   function text(value) { return value === null || value === undefined ? "" : Number(value).toPrecision(4); }
 
   function draw(figure, data) {
@@ -38,11 +54,11 @@
     data.lines.forEach(function (line, i) {
       series[labels[i]] = { color: line.colour, strokePattern: line.dashed ? Dygraph.DASHED_LINE : null };
     });
-    const number = { valueFormatter: text, axisLabelFormatter: function (value) { return Number(value.toPrecision(3)); } };
+    const number = { valueFormatter: text, axisLabelFormatter: tick };
     figure.chart = new Dygraph(place, columns(data.lines), {
       labels: [data.x].concat(labels), series: series, xlabel: data.x, ylabel: data.y, labelsDiv: legend,
-      legend: "always", connectSeparatedPoints: true, xRangePad: 12, yRangePad: 12, yLabelWidth: 24, drawPoints: true, pointSize: 3, strokeWidth: 1.6,
-      highlightCircleSize: 6, highlightSeriesOpts: { strokeWidth: 3 }, logscale: data.yLog,
+      legend: "always", connectSeparatedPoints: true, dateWindow: range(data), yRangePad: 12, yLabelWidth: 24,
+      drawPoints: true, pointSize: 3, strokeWidth: 1.6, highlightCircleSize: 6, highlightSeriesOpts: { strokeWidth: 3 }, logscale: data.yLog,
       axes: { x: Object.assign({ logscale: data.xLog }, number), y: Object.assign({ axisLabelWidth: 70 }, number) }
     });
   }
