@@ -4,9 +4,12 @@
 #include "base/error.h"
 #include "check_files.h"
 #include "check_in_space.h"
+#include "check_series.h"
 #include "check_text.h"
+#include "methods.h"
 #include "output_folder.h"
 #include "scene/scene_keys.h"
+#include "study/method_names.h"
 
 #include <csignal>
 #include <iostream>
@@ -52,19 +55,26 @@ namespace plumbline::app
     const Requirements required = parse_requirements(options.required);
     obey_interrupts();
     refuse_other_bodies(options);
-    const scene::Scene scene = scene::read_scene(options.scene_file, options.overrides);
+    const scene::Scene scene = study::with_names_of(
+        scene::read_scene(options.scene_file, options.overrides), all_methods());
     if (scene.study.regime == scene::Regime::variable)
       throw InputError("Study/regime = variable: weights are those of one value of " +
                        scene.study.variable +
                        "; give it as Random/values, with another regime (and no Study/variable)");
+    const bool has_series = is_series(options);
+    if (has_series && scene.domain.is_in_space())
+      throw InputError("series of files are checked in the plane alone; give the files of one "
+                       "level");
+    if (has_series)
+      return check_series(scene, options, required);
     if (scene.domain.is_in_space())
       return check_in_space(scene, options, required);
     const Findings found = find(scene, options);
     const bool is_wrong = !complaints(found, required).empty();
     if (!is_wrong)
       for (const CaseCheck &one : found.cases)
-        if (!one.failure.empty())
-          throw NumericalError("no solution of " + one.name + ": " + one.failure);
+        if (!one.weights.failure.empty())
+          throw NumericalError("no solution of " + one.name() + ": " + one.weights.failure);
     const int exit_code = is_wrong ? 1 : 0;
     if (base::Communicator::all().rank() != 0)
       return exit_code;

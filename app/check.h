@@ -6,7 +6,8 @@ namespace plumbline::app
 {
   struct CheckOptions
   {
-    std::string nodes_file, bonds_file, scene_file;
+    std::string nodes_file, bonds_file, scene_file; ///< {h} in names: a series of levels
+    std::string bonds_are = "weights";              ///< or what else, see meshfree::BondValues
     std::string output;                ///< folder; empty: results/check_NAME of the scene
     std::vector<std::string> required; ///< see requirements.h; empty: ac
     std::vector<scene::Override> overrides;

@@ -3,6 +3,8 @@
 #include "check_text.h"
 #include "meshfree/check/cells_vtu.h"
 #include "report/check_page.h"
+#include "report/text_table.h"
+#include "study/solution_record.h"
 
 #include <cmath>
 
@@ -117,14 +119,10 @@ namespace plumbline::app
       Table table;
       table.columns = {"case", "norm and target", "by the weights", "by the reference"};
       for (const CaseCheck &one : found.cases)
-        for (const auto &[name, value] : one.errors)
-        {
-          const auto reference = one.reference_errors.find(name);
+        for (const auto &[name, value] : study::errors_of(one.weights))
           table.rows.push_back(
-              {report::text_cell(one.name), report::text_cell(name), report::error_cell(value),
-               reference == one.reference_errors.end() ? report::empty_cell()
-                                                       : report::error_cell(reference->second)});
-        }
+              {report::text_cell(one.name()), report::text_cell(name), report::error_cell(value),
+               report::known(one.reference.has(name), report::error_cell(one.reference[name]))});
       return table;
     }
   } // namespace

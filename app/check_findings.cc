@@ -2,11 +2,15 @@
 
 #include "base/error.h"
 #include "geometry/local_coordinates.h"
+#include "meshfree/check/bond_values.h"
 #include "meshfree/discretisations.h"
 #include "reference/method.h"
 #include "scene/mesh.h"
 #include "study/comparison.h"
+#include "study/motion_norms.h"
 #include "study/refusal.h"
+#include "study/round_off.h"
+#include "study/solution_record.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,7 +89,7 @@ namespace plumbline::app
     {
     public:
       explicit WeightsOfAFile(const FamilySource &families) : families_(families) {}
-      std::string name() const override { return "given"; }
+      std::string name() const override { return "given weights"; }
       method::MethodFamily family() const override { return method::MethodFamily::meshfree; }
       std::string help() const override { return "weights of a file"; }
       std::unique_ptr<method::Discretisation>
@@ -101,24 +105,52 @@ namespace plumbline::app
       const FamilySource &families_;
     };
 
-    /// @param place  the case and the level, for messages
-    CaseCheck check_case(const scene::Scene &scene, const scene::Case &one,
-                         const std::string &place, const FamilySource &families)
+    study::Record record_of(const method::Method &method, const std::string &problem,
+                            const ChosenLevel &chosen)
+    {
+      study::Record record;
+      record.key.analysis = "check";
+      record.key.method = method.name();
+      record.key.family = method.family();
+      record.key.problem = problem;
+      record.key.series = chosen.series;
+      record.key.h = chosen.level.h;
+      record.key.horizon = chosen.level.horizon;
+      return record;
+    }
+
+    void enter(const scene::Scene &scene, const problem::Problem<2> &problem,
+               const analysis::Solution &solution, const study::Targets &targets,
+               study::Record &record)
+    {
+      record.cost = solution.cost;
+      record.set("variation", study::variation(problem.n_components, solution.averages));
+      record.set("round-off", study::round_off_error(problem, solution));
+      record.set("area", study::area_of(problem), "length^2");
+      study::set_diagnostics(record, solution.diagnostics);
+      for (const auto &[error, value] :
+           study::errors(scene.study.norms, problem, solution, targets))
+        record.set(error, value);
+    }
+
+    CaseCheck check_case(const scene::Scene &scene, const scene::Case &one, const std::string &name,
+                         const ChosenLevel &chosen, const FamilySource &families)
     {
       const problem::Problem<2> &problem = one.problem;
-      const auto &norms = scene.study.norms;
+      const WeightsOfAFile given(families);
       const auto method = reference_method(scene, problem);
-      const analysis::Solution reference = reference_solution(problem, *method, place);
-      CaseCheck result{
-          one.name, method->name(), {}, {}, study::errors(norms, problem, reference, {})};
+      CaseCheck result{record_of(given, name, chosen), record_of(*method, name, chosen)};
+      const analysis::Solution reference =
+          reference_solution(problem, *method, name + ", " + chosen.text());
+      enter(scene, problem, reference, {}, result.reference);
       try
       {
-        const analysis::Solution solution = analysis::solve(WeightsOfAFile(families), problem);
-        result.errors = study::errors(norms, problem, solution, {reference.averages, {}});
+        enter(scene, problem, analysis::solve(given, problem), {reference.averages, {}},
+              result.weights);
       }
       catch (const NumericalError &error)
       {
-        result.failure = error.what();
+        result.weights.failure = error.what();
       }
       return result;
     }
@@ -169,6 +201,7 @@ namespace plumbline::app
       found.ids.push_back(weights.nodes.id[i]);
       weights.volumes.push_back(weights.nodes.volume[i]);
     }
+    to_weights(to_bond_values(options.bonds_are, "--bonds-are"), first.problem.kernel, weights);
     static_cast<meshfree::Findings &>(found) =
         find_defects(std::move(weights), first.problem, cells.uncut_areas, found.level.node_size,
                      scene.methods.names);
@@ -177,8 +210,7 @@ namespace plumbline::app
     { family = found.given.families[i]; };
     const auto names = scene.problem.case_names();
     for (unsigned int c = 0; c < names.size(); ++c)
-      found.cases.push_back(
-          check_case(scene, case_of(c), names[c] + ", " + found.level.text(), source));
+      found.cases.push_back(check_case(scene, case_of(c), names[c], found.level, source));
     return found;
   }
 } // namespace plumbline::app

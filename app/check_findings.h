@@ -3,8 +3,8 @@
 #include "check.h"
 #include "meshfree/check/findings.h"
 #include "scene/scene.h"
+#include "study/study_results.h"
 
-#include <map>
 #include <memory>
 
 namespace plumbline::app
@@ -19,13 +19,13 @@ namespace plumbline::app
     std::string text() const;
   };
 
-  /// What one case of the scene shows.
+  /// What one case of the scene shows, in the records of a study: of its solution by the weights,
+  /// which may have failed, and of that by the reference.
   struct CaseCheck
   {
-    std::string name, reference;
-    std::string failure;                  ///< empty: there is a solution
-    std::map<std::string, double> errors; ///< by "norm | target"
-    std::map<std::string, double> reference_errors;
+    study::Record weights, reference;
+
+    const std::string &name() const { return weights.key.problem; }
   };
 
   /// All that is found of the weights of another code on a scene.

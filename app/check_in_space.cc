@@ -3,8 +3,9 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "io/results_json.h"
-#include "meshfree/check/weights_in_space.h"
+#include "meshfree/check/bond_values.h"
 #include "output_folder.h"
+#include "report/text_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -144,10 +145,11 @@ namespace plumbline::app
                      const Requirements &required)
   {
     const geometry::Cuboid &omega = scene.domain.cuboids.front();
-    const WeightsInSpace given =
+    WeightsInSpace given =
         meshfree::read_weights_in_space(options.nodes_file, options.bonds_file, omega);
     const problem::Level level = level_of(scene, meshfree::node_spacing(given, omega));
     const auto kernel = make_kernel_in_space(scene, level.horizon);
+    to_weights(meshfree::to_bond_values(options.bonds_are, "--bonds-are"), kernel, given);
     const FindingsInSpace found = meshfree::find_defects(given, kernel, omega, scene.methods.names);
     const auto wrong = complaints(found, given, required, level);
     const std::string json = io::to_json(results_of(scene, found, given, level, wrong));
@@ -155,10 +157,10 @@ namespace plumbline::app
       std::cout << json;
     else if (!options.quiet)
     {
-      for (const std::string &line : words_of(found, given))
-        std::cout << line << '\n';
-      for (const std::string &line : wrong)
-        std::cout << line << '\n';
+      constexpr std::size_t n_columns = 120, indent = 2;
+      for (const std::vector<std::string> &lines : {words_of(found, given), wrong})
+        for (const std::string &line : lines)
+          std::cout << report::wrapped(line, n_columns, indent) << '\n';
       if (wrong.empty())
         std::cout << "the weights have the properties that are required\n";
       std::cout << "left out in three dimensions: Voronoi cells, the matrix, solutions, maps\n";

@@ -1,6 +1,8 @@
 #include "check_text.h"
 
 #include "base/number_text.h"
+#include "report/text_table.h"
+#include "study/solution_record.h"
 
 #include <nlohmann/json.hpp>
 
@@ -15,12 +17,14 @@ namespace plumbline::app
 
   namespace
   {
+    constexpr std::size_t n_columns = 120;
+
     void tell_nodes(std::ostream &out, const Findings &found, const CheckOptions &options)
     {
       out << "nodes     " << options.nodes_file << ": " << found.cells->n_free << " free, "
           << found.ids.size() - found.cells->n_free
-          << " in the collar; volumes of the free ones off "
-          << "their cells' area by " << base::to_percent(found.volume_defect) << '\n'
+          << " in the collar; volumes are off the cells' areas by "
+          << base::to_percent(found.volume_defect) << '\n'
           << "bonds     " << options.bonds_file << ": " << found.weights.n_bonds << ", at most "
           << found.weights.largest_family << " of a node";
       if (found.given.n_ignored > 0)
@@ -29,7 +33,6 @@ namespace plumbline::app
           << found.level.node_size << '\n';
       for (const std::string &note : found.notes)
         out << "read      " << note << '\n';
-      out << '\n';
     }
 
     void tell_moments(std::ostream &out, const Findings &found)
@@ -58,7 +61,8 @@ namespace plumbline::app
       const auto id = [&](std::size_t node) { return found.ids[node]; };
       out << "weights   " << found.weights.n_negative << " negative, "
           << found.weights.smallest_ratio << " to " << found.weights.largest_ratio
-          << " of the neighbour's volume; their sum is off the ball without the node's own cell by "
+          << " of the neighbour's volume\n"
+          << "          sum off the ball without the node's own cell by "
           << base::to_percent(found.weights.area.value) << " at worst, at node "
           << id(found.weights.area.node) << '\n'
           << "symmetry  w C of a pair differs from end to end by "
@@ -66,26 +70,29 @@ namespace plumbline::app
       if (found.symmetry.asymmetry > 0)
         out << ", between nodes " << id(found.symmetry.nodes[0]) << " and "
             << id(found.symmetry.nodes[1]);
-      out << "; " << found.symmetry.n_unpaired
-          << " bonds without a partner; V_i w_ij C and V_j w_ji C by "
-          << base::to_percent(found.symmetry.imbalance) << '\n'
+      out << "\n          V_i w_ij C and V_j w_ji C by "
+          << base::to_percent(found.symmetry.imbalance) << "; " << found.symmetry.n_unpaired
+          << " bonds without a partner\n"
           << "matrix    " << found.matrix.n_positive
           << " rows with positive off-diagonal entries (no M-matrix if any), "
-          << found.matrix.n_weak
-          << " not diagonally dominant; symmetric part: " << found.matrix.n_negative_eigenvalues
+          << found.matrix.n_weak << " not diagonally dominant\n"
+          << "          symmetric part: " << found.matrix.n_negative_eigenvalues
           << " negative eigenvalues, the smallest is " << found.matrix.smallest_eigenvalue << '\n';
     }
 
     void tell_solution(std::ostream &out, const CaseCheck &one)
     {
-      out << "solution  " << one.name << '\n';
-      if (!one.failure.empty())
-        out << "          none: " << one.failure << '\n';
-      for (const auto &[name, value] : one.errors)
-        out << "          " << std::setw(26) << name << value << '\n';
-      for (const auto &[name, value] : one.reference_errors)
-        out << "          " << std::setw(26) << name << value << "  by the reference, "
-            << one.reference << '\n';
+      std::string head = "solution  " + one.name() + ": ";
+      if (!one.weights.failure.empty())
+        out << report::wrapped(head + "none, " + one.weights.failure, n_columns, 10) << '\n';
+      for (const auto &[name, value] : study::errors_of(one.weights))
+      {
+        out << head << name << ' ' << value;
+        if (one.reference.has(name))
+          out << ", by " << one.reference.key.method << ' ' << one.reference[name];
+        out << '\n';
+        head = std::string(10, ' ');
+      }
     }
   } // namespace
 
@@ -101,11 +108,11 @@ namespace plumbline::app
     for (const CaseCheck &one : found.cases)
       tell_solution(out, one);
     out << '\n';
-    for (const std::string &verdict : verdicts(found))
-      out << verdict << '\n';
+    constexpr std::size_t indent = 2;
     const auto wrong = complaints(found, required);
-    for (const std::string &complaint : wrong)
-      out << complaint << '\n';
+    for (const std::vector<std::string> &sentences : {verdicts(found), wrong})
+      for (const std::string &sentence : sentences)
+        out << report::wrapped(sentence, n_columns, indent) << '\n';
     out << (wrong.empty() ? "as required\n" : "NOT as required\n");
     return out.str();
   }
@@ -194,11 +201,11 @@ namespace plumbline::app
     void add_solutions(Json &json, const Findings &found)
     {
       for (const CaseCheck &one : found.cases)
-        json["solutions"].push_back({{"case", one.name},
-                                     {"failure", one.failure},
-                                     {"errors", one.errors},
-                                     {"reference", one.reference},
-                                     {"reference_errors", one.reference_errors}});
+        json["solutions"].push_back({{"case", one.name()},
+                                     {"failure", one.weights.failure},
+                                     {"errors", study::errors_of(one.weights)},
+                                     {"reference", one.reference.key.method},
+                                     {"reference_errors", study::errors_of(one.reference)}});
     }
   } // namespace
 

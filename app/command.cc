@@ -130,13 +130,20 @@ namespace
     const auto options = std::make_shared<CheckOptions>();
     auto &check =
         *app.add_subcommand("check", "Check the weights of another code: a page of their defects");
-    check.add_option("NODES", options->nodes_file, "Its nodes: CSV with id,x,y,volume")->required();
+    check
+        .add_option(
+            "NODES", options->nodes_file,
+            "Its nodes: CSV with id,x,y,volume; with {h} in the name, a file for each level")
+        ->required();
     check.add_option("BONDS", options->bonds_file, "Its bonds: CSV with i,j,weight[,qx,qy]")
         ->required();
     check.add_option("--scene", options->scene_file, "Scene file (.prm or .json)")->required();
     check.add_option(
         "-o,--output", options->output,
         "Output folder (default: results/check_<scene>; with --json or --quiet: none)");
+    check.add_option("--bonds-are", options->bonds_are,
+                     "What the column weight holds: weights (default), stiffness (C weight: force "
+                     "density per length) or 'force constants' (V_i C weight: force per length)");
     check.add_option("--require", options->required, requirements_help)->allow_extra_args(false);
     check.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
     check.add_option("--threads", request.n_threads, "Threads (default: all cores)");

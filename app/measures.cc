@@ -1,6 +1,8 @@
 #include "measures.h"
 
 #include "base/error.h"
+#include "methods.h"
+#include "study/method_names.h"
 
 #include <algorithm>
 
@@ -11,7 +13,8 @@ namespace plumbline::app
     auto overrides = options.overrides;
     if (!options.methods.empty())
       overrides.push_back({"Methods/names", options.methods});
-    scene::Scene scene = scene::read_scene(options.scene_file, overrides);
+    scene::Scene scene =
+        study::with_names_of(scene::read_scene(options.scene_file, overrides), all_methods());
     scene.reference.method.reset();
     scene.reference.estimate = scene::Estimate::none;
     return scene;

@@ -12,6 +12,7 @@
 #include "run_parts.h"
 #include "scene/capabilities.h"
 #include "study/conclusions.h"
+#include "study/method_names.h"
 #include "study/sampling.h"
 #include "study/statics.h"
 #include "summary.h"
@@ -97,7 +98,8 @@ namespace plumbline::app
         overrides.push_back({"Methods/names", options.methods});
       if (!options.model.empty())
         overrides.push_back({"Solver/model", options.model});
-      scene::Scene scene = scene::read_scene(options.scene_file, overrides);
+      scene::Scene scene =
+          study::with_names_of(scene::read_scene(options.scene_file, overrides), all_methods());
       if (scene.fracture.is_there())
         throw InputError("scene '" + scene.name +
                          "': Fracture/toughness is for 'plumbline grow', which breaks bonds; write "

@@ -4,6 +4,7 @@
 #include "base/cost.h"
 #include "base/error.h"
 #include "base/number_text.h"
+#include "methods.h"
 #include "output_folder.h"
 #include "report/formats.h"
 #include "report/sample_files.h"
@@ -11,6 +12,7 @@
 #include "run_parts.h"
 #include "sample_taker.h"
 #include "study/growth_analysis.h"
+#include "study/method_names.h"
 #include "workers.h"
 
 #include <algorithm>
@@ -34,7 +36,8 @@ namespace plumbline::app
       auto overrides = options.overrides;
       if (!options.methods.empty())
         overrides.push_back({"Methods/names", options.methods});
-      scene::Scene scene = scene::read_scene(options.scene_file, overrides);
+      scene::Scene scene =
+          study::with_names_of(scene::read_scene(options.scene_file, overrides), all_methods());
       if (!scene.sampling.is_there())
         throw InputError("scene '" + scene.name +
                          "': Sampling/rule = none, so that there are no samples; write tensor, "
@@ -244,8 +247,7 @@ namespace plumbline::app
     if (options.json)
       std::cout << report::sampling_json(results);
     else if (!options.quiet)
-      std::cout << report::sampling_text(results)
-                << "\nreport: " << (folder / "sample.html").string() << '\n';
+      std::cout << report::sampling_summary(results, (folder / "sample.html").string());
     for (const study::SampleFailure &failure : results.failures)
       std::cerr << "sample " << failure.sample << " failed: " << failure.reason << '\n';
     if (is_interrupted())

@@ -2,11 +2,9 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
-#include "base/similar_words.h"
 #include "meshfree/rules/rules.h"
 #include "scene/values.h"
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -14,21 +12,6 @@ namespace plumbline::app
 {
   namespace
   {
-    meshfree::Rule find_rule(const std::string &given)
-    {
-      const std::string name = scene::method_name(given);
-      std::vector<std::string> known;
-      for (const auto &table : {meshfree::rules(), meshfree::counterexamples()})
-        for (const meshfree::Rule &rule : table)
-        {
-          if (rule.name == name)
-            return rule;
-          known.push_back(rule.name);
-        }
-      throw InputError("rule '" + given + "' is not known; choose of " + scene::join(known, ", ") +
-                       base::did_you_mean(given, known));
-    }
-
     /// Weights do not depend on its constant.
     template <int dim>
     physics::Kernel<dim> kernel_of(const WeightsOptions &options)
@@ -72,7 +55,7 @@ namespace plumbline::app
     if (!(options.h > 0) || !std::isfinite(options.h))
       throw InputError("--h: the mesh size is " + base::to_text(options.h, 4) +
                        "; give a positive length");
-    const meshfree::Rule rule = find_rule(options.rule);
+    const meshfree::Rule rule = meshfree::find_rule(scene::method_name(options.rule), "rule");
     if (options.dimension == 2)
     {
       const auto kernel = kernel_of<2>(options);

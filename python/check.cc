@@ -2,6 +2,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "geometry/mesh_input.h"
+#include "meshfree/check/bond_values.h"
 #include "meshfree/check/row_families.h"
 #include "problem/builder.h"
 
@@ -77,7 +78,8 @@ namespace plumbline::python
 
     app::Findings find(meshfree::GivenNodes nodes, const std::vector<meshfree::GivenRow> &rows,
                        const physics::Kernel<2> &kernel, const geometry::Domain &domain, double h,
-                       bool boundary_is_data, const std::vector<std::string> &meant)
+                       bool boundary_is_data, const std::vector<std::string> &meant,
+                       meshfree::BondValues values)
     {
       const geometry::Mesh mesh = geometry::lattice_mesh(domain, h, kernel.horizon(), false);
       meshfree::check_places(nodes, mesh, "h = " + std::to_string(h));
@@ -100,6 +102,7 @@ namespace plumbline::python
       on.cells = weights.cells;
       on.reach = kernel.horizon();
       const problem::Problem<2> problem = problem::ProblemBuilder(std::move(on), kernel, h).build();
+      meshfree::to_weights(values, kernel, weights);
       static_cast<meshfree::Findings &>(found) = meshfree::find_defects(
           std::move(weights), problem, cells.uncut_areas, found.level.node_size, meant);
       return found;
@@ -203,9 +206,10 @@ namespace plumbline::python
                    const Integers &j, const Doubles &w, const physics::Kernel<2> &kernel,
                    const py::object &boxes, const py::object &exclude, const py::object &points,
                    double h, bool boundary_is_data, const std::vector<std::string> &meant,
-                   const std::vector<std::string> &require)
+                   const std::vector<std::string> &require, const std::string &bonds_are)
     {
       const app::Requirements required = app::parse_requirements(require);
+      const auto values = meshfree::to_bond_values(bonds_are, "bonds_are");
       std::vector<Point<2>> places = to_points(nodes, "nodes");
       require_length(volumes, places.size(), "volumes", "node");
       const auto n = static_cast<std::size_t>(w.size());
@@ -228,7 +232,7 @@ namespace plumbline::python
         meshfree::GivenNodes given = to_nodes(std::move(places), volumes.data());
         const double size = h > 0 ? h : usual_h(domain, given.volume);
         found = find(std::move(given), to_rows(i, j, w, kernel_points), kernel, domain, size,
-                     boundary_is_data, meant);
+                     boundary_is_data, meant, values);
       }
       return to_dict(found, required);
     }
@@ -238,6 +242,6 @@ namespace plumbline::python
   {
     module.def("check_arrays", check, "nodes"_a, "volumes"_a, "i"_a, "j"_a, "w"_a, "kernel"_a,
                "boxes"_a, "exclude"_a, "points"_a, "h"_a, "boundary_is_data"_a, "meant"_a,
-               "require"_a);
+               "require"_a, "bonds_are"_a);
   }
 } // namespace plumbline::python

@@ -213,16 +213,7 @@ namespace plumbline::python
     if (!py::isinstance<py::str>(given))
       throw InputError("rule = " + py::repr(given).cast<std::string>() +
                        " is no rule; give a name (plumbline.methods()) or a plumbline.Rule");
-    const std::string name = scene::method_name(given.cast<std::string>());
-    std::string names;
-    for (const auto &table : {meshfree::rules(), meshfree::counterexamples()})
-      for (const meshfree::Rule &rule : table)
-      {
-        if (rule.name == name)
-          return rule;
-        names += (names.empty() ? "" : ", ") + rule.name;
-      }
-    throw InputError("rule = '" + name + "' is not known; choose of " + names);
+    return meshfree::find_rule(scene::method_name(given.cast<std::string>()), "rule =");
   }
 
   std::shared_ptr<const method::Method> to_method(const py::object &given)

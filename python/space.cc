@@ -2,7 +2,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "callables.h"
-#include "meshfree/check/weights_in_space.h"
+#include "meshfree/check/bond_values.h"
 #include "method/method.h"
 #include "problem/in_space.h"
 #include "rule.h"
@@ -92,9 +92,9 @@ namespace plumbline::python
     }
 
     /// Given as arrays; ids and lines are indices.
-    meshfree::WeightsInSpace to_weights(const Doubles &nodes, const Doubles &volumes,
-                                        const Integers &i, const Integers &j, const Doubles &w,
-                                        const py::object &points, const geometry::Cuboid &box)
+    meshfree::WeightsInSpace to_given(const Doubles &nodes, const Doubles &volumes,
+                                      const Integers &i, const Integers &j, const Doubles &w,
+                                      const py::object &points, const geometry::Cuboid &box)
     {
       meshfree::WeightsInSpace given;
       given.places = to_points<3>(nodes, "nodes");
@@ -146,13 +146,15 @@ namespace plumbline::python
     py::dict check(const Doubles &nodes, const Doubles &volumes, const Integers &i,
                    const Integers &j, const Doubles &w, const Kernel<3> &kernel,
                    const py::object &box, const py::object &points,
-                   const std::vector<std::string> &meant)
+                   const std::vector<std::string> &meant, const std::string &bonds_are)
     {
       const geometry::Cuboid omega = to_cuboid(box);
-      const meshfree::WeightsInSpace given = to_weights(nodes, volumes, i, j, w, points, omega);
+      const auto values = meshfree::to_bond_values(bonds_are, "bonds_are");
+      meshfree::WeightsInSpace given = to_given(nodes, volumes, i, j, w, points, omega);
       meshfree::FindingsInSpace found;
       {
         const py::gil_scoped_release others;
+        meshfree::to_weights(values, kernel, given);
         found = meshfree::find_defects(given, kernel, omega, meant);
       }
       py::dict elastic;
@@ -234,6 +236,6 @@ load, constraint, solution
         { return solve(std::move(problem), method); },
         "problem"_a, "method"_a);
     module.def("check_in_space", check, "nodes"_a, "volumes"_a, "i"_a, "j"_a, "w"_a, "kernel"_a,
-               "box"_a, "points"_a, "meant"_a);
+               "box"_a, "points"_a, "meant"_a, "bonds_are"_a);
   }
 } // namespace plumbline::python

@@ -5,6 +5,7 @@
 #include "rule.h"
 #include "scene/capabilities.h"
 #include "study/dispersion.h"
+#include "study/method_names.h"
 #include "study/stability.h"
 #include "study/statics.h"
 #include "study/transient.h"
@@ -73,7 +74,7 @@ namespace plumbline::python
       const std::vector<scene::Override> overrides = to_overrides(set);
       const py::gil_scoped_release others;
       const method::Methods available = available_with(rules);
-      const scene::Scene scene = scene_of(text, overrides);
+      const scene::Scene scene = study::with_names_of(scene_of(text, overrides), available);
       if (scene.fracture.is_there())
         throw InputError("scene '" + scene.name +
                          "': Fracture/toughness is for 'plumbline grow', which breaks bonds; clear "
@@ -89,10 +90,11 @@ namespace plumbline::python
     {
       const std::vector<scene::Override> overrides = to_overrides(set);
       const py::gil_scoped_release others;
-      scene::Scene scene = scene_of(text, overrides);
+      const method::Methods available = available_with(rules);
+      scene::Scene scene = study::with_names_of(scene_of(text, overrides), available);
       scene.reference.method.reset();
       scene.reference.estimate = scene::Estimate::none;
-      return analyse(analysis, scene, available_with(rules), n_levels);
+      return analyse(analysis, scene, available, n_levels);
     }
   } // namespace
 

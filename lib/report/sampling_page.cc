@@ -2,6 +2,7 @@
 
 #include "report/page_parts.h"
 #include "report/text_table.h"
+#include "report/view.h"
 #include "study/sampling_balance.h"
 #include "study/seeds.h"
 
@@ -177,17 +178,31 @@ namespace plumbline::report
     }
   } // namespace
 
-  std::string sampling_text(const SamplingResults &r)
+  std::string sampling_summary(const SamplingResults &r, const std::string &files)
   {
-    std::string text =
-        heading(r.scene_name, r.purpose) + "\n\n" + to_text(sampling_field_table(r)) + "\n" +
-        to_text(sampling_quantity_table(r)) + "\n" + wrapped(rule_words(r), 120) + "\n";
+    constexpr std::size_t most_of_rule = 4, most_of_one = 2, most_sentences = 3;
+    std::vector<std::string> end = {""}, sentences = r.findings;
+    const auto add = [&](const std::string &words, std::size_t most, std::size_t indent = 0)
+    {
+      const std::vector<std::string> lines = short_lines(words, most, indent);
+      end.insert(end.end(), lines.begin(), lines.end());
+    };
+    add(rule_words(r), most_of_rule);
+    for (const std::string &one : balance(r))
+      sentences.push_back(one);
     if (is_own(r))
-      text += wrapped(words_of_own, 120) + "\n";
-    for (const auto &sentences : {r.findings, balance(r)})
-      for (const std::string &one : sentences)
-        text += "- " + wrapped(one, 120, 2) + "\n";
-    return text + "\n" + wrapped(verdict(r, {}), 120) + "\n";
+      sentences.insert(sentences.begin(), words_of_own);
+    for (std::size_t i = 0; i < std::min(most_sentences, sentences.size()); ++i)
+      add("- " + sentences[i], most_of_one, 2);
+    if (sentences.size() > most_sentences)
+      end.push_back("  and " + std::to_string(sentences.size() - most_sentences) +
+                    " more findings in the report");
+    end.push_back("report: " + files);
+    end.emplace_back();
+    add(verdict(r, {}), most_of_one);
+    return summary(
+        heading(r.scene_name, r.purpose),
+        {{"", "", "", sampling_quantity_table(r)}, {"", "", "", sampling_field_table(r)}}, end);
   }
 
   namespace

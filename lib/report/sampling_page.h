@@ -41,8 +41,9 @@ namespace plumbline::report
   void write_damage_maps(const study::SamplingResults &results,
                          const std::filesystem::path &folder);
 
-  /// Tables and words, for a terminal.
-  std::string sampling_text(const study::SamplingResults &results);
+  /// What the terminal shows: 25 lines of 120 columns at most, with the answer last.
+  /// @param files  where the report is
+  std::string sampling_summary(const study::SamplingResults &results, const std::string &files);
 
   /// All numbers but fields.
   std::string sampling_json(const study::SamplingResults &results);

@@ -139,10 +139,38 @@ namespace plumbline::report
     return text;
   }
 
+  std::vector<std::string> short_lines(const std::string &words, std::size_t most,
+                                       std::size_t indent)
+  {
+    Lines lines = lines_of(wrapped(words, n_columns, indent));
+    if (lines.size() > most)
+    {
+      lines.resize(most);
+      lines.back() = fitted(lines.back() + " ...", n_columns);
+    }
+    return lines;
+  }
+
+  std::string summary(const std::string &title, const std::vector<Part> &parts, const Lines &end)
+  {
+    constexpr std::size_t n_lines = 25, least_share = 9;
+    Lines lines = {fitted(title, n_columns)};
+    std::vector<Part> shown;
+    for (const Part &part : page::with_rows(parts))
+      if (!part.is_detail)
+        shown.push_back(part);
+    for (std::size_t i = 0; i < shown.size() && lines.size() + end.size() < n_lines; ++i)
+    {
+      const std::size_t room = n_lines - lines.size() - end.size();
+      add_table(shown[i].head, of_finest_levels(shown[i].table),
+                std::min(room, std::max(least_share, room / (shown.size() - i))), lines);
+    }
+    return joined(lines) + joined(end);
+  }
+
   std::string study_summary(const View &view, const StudyResults &results, const std::string &files)
   {
-    constexpr std::size_t n_lines = 25, most_verdicts = 9, most_words = 7, most_missed = 2,
-                          least_share = 9;
+    constexpr std::size_t most_verdicts = 9, most_words = 7, most_missed = 2;
     Lines end;
     if (!view.verdicts.rows.empty())
       add_table("", view.verdicts, most_verdicts, end);
@@ -160,26 +188,10 @@ namespace plumbline::report
         answer = answer_of(part.table);
     if (!answer.empty())
     {
-      Lines words = lines_of(wrapped(answer, n_columns));
-      if (words.size() > most_words)
-      {
-        words.resize(most_words);
-        words.back() += " ...";
-      }
+      const Lines words = short_lines(answer, most_words);
       end.emplace_back();
       end.insert(end.end(), words.begin(), words.end());
     }
-    Lines lines = {fitted(heading(results.scene_name, results.purpose), n_columns)};
-    std::vector<Part> parts;
-    for (const Part &part : page::with_rows(view.parts))
-      if (!part.is_detail)
-        parts.push_back(part);
-    for (std::size_t i = 0; i < parts.size() && lines.size() + end.size() < n_lines; ++i)
-    {
-      const std::size_t room = n_lines - lines.size() - end.size();
-      add_table(parts[i].head, of_finest_levels(parts[i].table),
-                std::min(room, std::max(least_share, room / (parts.size() - i))), lines);
-    }
-    return joined(lines) + joined(end);
+    return summary(heading(results.scene_name, results.purpose), view.parts, end);
   }
 } // namespace plumbline::report

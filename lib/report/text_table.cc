@@ -42,11 +42,12 @@ namespace plumbline::report
     std::string text = words;
     for (std::size_t start = 0; text.size() - start > width;)
     {
-      const std::size_t blank = text.rfind(' ', start + width);
-      if (blank == std::string::npos || blank <= start)
+      const std::size_t blank = text.rfind(' ', start + width),
+                        first = start == 0 ? 0 : start + indent;
+      if (blank == std::string::npos || blank <= first)
         break;
       text.replace(blank, 1, "\n" + std::string(indent, ' '));
-      start = blank + 1 + indent;
+      start = blank + 1;
     }
     return text;
   }

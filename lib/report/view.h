@@ -125,6 +125,15 @@ namespace plumbline::report
   /// All tables but for details, with their words.
   std::string study_text(const View &view, const StudyResults &results);
 
+  /// Words in lines of 120 columns, no more than so many of them.
+  std::vector<std::string> short_lines(const std::string &words, std::size_t most,
+                                       std::size_t indent = 0);
+
+  /// A title, as much of the tables of the finest levels as there is room for in 25 lines of 120
+  /// columns, and last lines, which are no longer than that.
+  std::string summary(const std::string &title, const std::vector<Part> &parts,
+                      const std::vector<std::string> &end);
+
   /// What the terminal shows: 25 lines of 120 columns at most. Tables, of the finest levels alone
   /// and cut short where they are long, verdicts, expectations, and the answer last.
   /// @param files  where the report is

@@ -1,6 +1,7 @@
 #include "scene/values.h"
 
 #include "base/error.h"
+#include "base/similar_words.h"
 #include "base/text_file.h"
 #include "physics/expression.h"
 
@@ -82,8 +83,8 @@ namespace plumbline::scene
 
   std::string method_name(const std::string &given)
   {
-    static const std::map<std::string, std::string> ours = {{"HHB", "QWJ"}};
-    const auto found = ours.find(given);
+    static const std::map<std::string, std::string> ours = {{"hhb", "QWJ"}};
+    const auto found = ours.find(base::to_lower(given));
     return found == ours.end() ? given : found->second;
   }
 

@@ -7,6 +7,7 @@
 #include "scene/mesh.h"
 #include "scene/origin.h"
 #include "scene/values.h"
+#include "study/method_names.h"
 #include "study/refusal.h"
 
 #include <algorithm>
@@ -19,13 +20,11 @@ namespace plumbline::study
   std::shared_ptr<const Method> find_method(const Methods &available, const std::string &name,
                                             const std::string &key)
   {
+    if (const auto found = method_called(available, name))
+      return found;
     std::vector<std::string> names;
     for (const auto &method : available)
-    {
-      if (method->name() == name)
-        return method;
       names.push_back(method->name());
-    }
     throw InputError(key + ": method '" + name + "' is not known; choose of " +
                      scene::join(names, ", ") + base::did_you_mean(name, names));
   }

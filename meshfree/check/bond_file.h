@@ -64,6 +64,7 @@ namespace plumbline::meshfree
   {
     std::size_t node = 0, neighbour = 0; ///< numbered as the cells
     Bond<2> bond;
+    std::size_t line = 0; ///< in the file
   };
 
   /// Families of another code.

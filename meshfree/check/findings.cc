@@ -126,7 +126,8 @@ namespace plumbline::meshfree
                         const std::vector<double> &uncut_areas, double spacing,
                         const std::vector<std::string> &meant)
   {
-    Findings found{std::move(given)};
+    Findings found;
+    static_cast<GivenWeights &>(found) = std::move(given);
     find_volumes(found, problem, uncut_areas, spacing);
     const std::vector<Family<2>> &families = found.given.families;
     found.moments = check_moments(families, problem.kernel);

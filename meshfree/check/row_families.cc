@@ -100,7 +100,7 @@ namespace plumbline::meshfree
       {
         result.n_ignored += rows[i].size();
         for (const Row &row : rows[i])
-          result.of_collar.push_back({i, row.neighbour, row.bond});
+          result.of_collar.push_back({i, row.neighbour, row.bond, row.line});
         continue;
       }
       if (rows[i].empty() && !result.is_half_list)

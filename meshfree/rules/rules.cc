@@ -1,5 +1,8 @@
 #include "meshfree/rules/rules.h"
 
+#include "base/error.h"
+#include "base/similar_words.h"
+
 namespace plumbline::meshfree
 {
   namespace
@@ -39,5 +42,21 @@ namespace plumbline::meshfree
          recalibrated_at_centroid<2>, recalibrated_at_centroid<3>},
     };
     return table;
+  }
+
+  const Rule &find_rule(const std::string &name, const std::string &key)
+  {
+    std::vector<std::string> known;
+    std::string list;
+    for (const std::vector<Rule> *table : {&rules(), &counterexamples()})
+      for (const Rule &rule : *table)
+      {
+        if (base::to_lower(rule.name) == base::to_lower(name))
+          return rule;
+        known.push_back(rule.name);
+        list += (list.empty() ? "" : ", ") + rule.name;
+      }
+    throw InputError(key + " '" + name + "' is not known; choose of " + list +
+                     base::did_you_mean(name, known));
   }
 } // namespace plumbline::meshfree

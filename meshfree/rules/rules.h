@@ -73,4 +73,8 @@ namespace plumbline::meshfree
 
   /// Rules that are there to show how they fail; `all` does not take them.
   const std::vector<Rule> &counterexamples();
+
+  /// The rule or counterexample of a name, in any case.
+  /// @throws InputError  there is none; it begins with the key and names those that are there
+  const Rule &find_rule(const std::string &name, const std::string &key);
 } // namespace plumbline::meshfree

@@ -82,7 +82,7 @@ class Findings(dict):
 
 
 def check(nodes, volumes, i, j, w, kernel, *, boxes, exclude=None, points=None, h=None,
-          boundary_is_data=False, rule=(), require=("ac",)):
+          boundary_is_data=False, rule=(), require=("ac",), bonds_are="weights"):
     """Check the weights of another code, as `plumbline check` does, from arrays.
 
     nodes     shape (n, 2) [length], those in the boxes (free) and within a horizon around them
@@ -94,6 +94,8 @@ def check(nodes, volumes, i, j, w, kernel, *, boxes, exclude=None, points=None, 
     h         side of cells that fill the boxes; default: by the volumes
     boundary_is_data  nodes on the boundary of the domain are constrained
     rule      names of the rules that the weights are meant to be, if that is known
+    bonds_are  what w holds: "weights", "stiffness" (C w: force density per length) or
+              "force constants" (V_i C w: force per length)
     require   of "ac", "consistent", "symmetric", "m-matrix", "moments=TOL"
 
     Returns Findings; print() shows its sentences, where nodes are numbered from 0.
@@ -101,4 +103,4 @@ def check(nodes, volumes, i, j, w, kernel, *, boxes, exclude=None, points=None, 
     as_list = lambda names: [names] if isinstance(names, str) else list(names)
     return Findings(_core.check_arrays(nodes, volumes, i, j, w, kernel, boxes, exclude, points,
                                        h or 0., boundary_is_data, as_list(rule),
-                                       as_list(require)))
+                                       as_list(require), bonds_are))

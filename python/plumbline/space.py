@@ -25,7 +25,8 @@ def solve(problem, method):
     return _core.solve_in_space(problem, method)
 
 
-def check(nodes, volumes, i, j, w, kernel, *, box, points=None, meant=()):
+def check(nodes, volumes, i, j, w, kernel, *, box, points=None, meant=(),
+          bonds_are="weights"):
     """Check weights of L u_i = -sum C(points) (u_j - u_i) w over the bonds of node i.
 
     nodes    shape (n, 3), in the box (free) and within a horizon around it [length]
@@ -36,10 +37,12 @@ def check(nodes, volumes, i, j, w, kernel, *, box, points=None, meant=()):
     box      ((x0, y0, z0), (x1, y1, z1)), whose nodes are solved for
     points   where the kernel is taken, relative to node i, shape (n_bonds, 3); default: node j
     meant    names of the rules that the weights are meant to be
+    bonds_are  what w holds: "weights", "stiffness" (C w) or "force constants" (V_i C w)
 
     Returns a dict: "is_ac" (moments up to the second are exact), "rule" and "rule_factor" (on a
     lattice of cubes), "causes" and "outliers" (sentences), "first_moments" and "second_moments"
     (largest defect and its node), "median_moments", "imbalance" of pairs, "n_unpaired", "n_bonds",
     "n_negative", "spacing", "elastic" (least, median and largest of C1111, C1122, C1212, E, nu).
     """
-    return _core.check_in_space(nodes, volumes, i, j, w, kernel, box, points, list(meant))
+    return _core.check_in_space(nodes, volumes, i, j, w, kernel, box, points, list(meant),
+                                bonds_are)

@@ -240,7 +240,7 @@ TEST_F(CheckInSpace, names_what_is_wrong)
     write(one);
     const Outcome outcome = check(meant, is_tensor);
     EXPECT_EQ(outcome.exit_code, 1) << words << outcome.out << outcome.err;
-    EXPECT_NE(outcome.out.find(words), std::string::npos) << words << "\n" << outcome.out;
+    expect_found(outcome.out, words);
   }
 }
 

@@ -3,6 +3,8 @@
 #include "command.h"
 #include "app/summary.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -89,6 +91,24 @@ TEST(Command, expectations_take_the_other_name_of_a_method)
       expect_found(wrong.out, "expected AC, found not AC");
     }
   expect_refusal("--set 'Expected/verdicts=HBB: AC'", "Expected: method 'HBB' is not known");
+}
+
+TEST(Command, takes_names_of_methods_in_any_case)
+{
+  const fs::path out = temporary("any_case");
+  const Outcome outcome =
+      run("run " PLUMBLINE_SCENES "/check/check.prm --levels 1 --methods fa,hhb,Ipa-Ac-r2,q1 --set "
+          "'Expected/verdicts=ipa-ac-R2: undecided' --set Reference/method=q2 --json -o " +
+          out.string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  std::vector<std::string> names;
+  for (const auto &record : json["records"])
+    names.push_back(record["key"]["method"]);
+  EXPECT_EQ(names, (std::vector<std::string>{"FA", "QWJ", "IPA-AC-R2", "Q1"}));
+  ASSERT_EQ(json["expectations"].size(), 1u);
+  EXPECT_TRUE(json["expectations"][0]["holds"]);
+  EXPECT_EQ(json["references"][0]["method"], "Q2");
 }
 
 TEST(Command, refuses_bad_input_with_2_and_leaves_nothing)

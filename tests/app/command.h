@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -111,10 +112,14 @@ namespace plumbline::app
     return WEXITSTATUS(signal_at(arguments, file, SIGINT, later));
   }
 
+  /// A sentence may be wrapped in the text: its next lines begin with two blanks.
   inline void expect_found(const std::string &text, const std::string &part,
                            const std::string &where = "")
   {
-    EXPECT_NE(text.find(part), std::string::npos) << part << " is not in:\n" << text << where;
+    const std::string unwrapped = std::regex_replace(text, std::regex("\n  (?! )"), " ");
+    EXPECT_TRUE(text.find(part) != std::string::npos || unwrapped.find(part) != std::string::npos)
+        << part << " is not in:\n"
+        << text << where;
   }
 
   /// The words of a command as a shell tells them apart.

@@ -35,6 +35,18 @@ def test_right_weights_pass(square):
     assert np.array_equal(np.sort(found["moments"]["nodes"]), np.unique(made(square).i))
 
 
+def test_stiffnesses_are_made_into_weights(square):
+    w = made(square)
+    w.w[:] = w.w * KERNEL(w.points)
+    found = check(w, square, bonds_are="stiffness")
+    assert found.passed and found["rule"] == "IPA-AC-R2"
+    assert not check(w, square).passed
+    w.w[:] *= H * H
+    assert check(w, square, bonds_are="force constants").passed
+    with pytest.raises(plumbline.InputError, match="bonds_are = 'springs' is not known"):
+        check(w, square, bonds_are="springs")
+
+
 def test_a_doubled_weight_is_named(square):
     w = made(square)
     wrong = int(np.flatnonzero(w.i == NODES.shape[0] // 2 + 3)[5])

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace plumbline::report
 {
@@ -45,7 +46,7 @@ namespace plumbline::report
     write_sampling(results, {}, folder.path());
     for (const std::string &text :
          {fixture::read(folder.path() / "sample.html"), fixture::read(folder.path() / "sample.md"),
-          sampling_text(results)})
+          sampling_summary(results, "")})
       EXPECT_NE(text.find(interval), std::string::npos) << text;
     const auto confidence = [&]
     {
@@ -62,7 +63,8 @@ namespace plumbline::report
     results.cases[0].sets[0].quantities["K by bonds"] =
         uq::statistics({1, 2, 3, 6}, {.25, .25, .25, .25}, false);
     EXPECT_TRUE(confidence().is_null());
-    EXPECT_EQ(sampling_text(results).find("95 %"), std::string::npos) << sampling_text(results);
+    EXPECT_EQ(sampling_summary(results, "").find("95 %"), std::string::npos)
+        << sampling_summary(results, "");
   }
 
   TEST(SamplingReport, HasNoDeviationWhereAVarianceIsNegative)
@@ -141,8 +143,9 @@ namespace plumbline::report
                        {"OPT", "u", "m = 3", .25, 0, 8, .005, std::nullopt}};
     const fixture::Folder folder;
     write_sampling(results, {}, folder.path());
-    for (std::string text : {fixture::read(folder.path() / "sample.html"),
-                             fixture::read(folder.path() / "sample.md"), sampling_text(results)})
+    for (std::string text :
+         {fixture::read(folder.path() / "sample.html"), fixture::read(folder.path() / "sample.md"),
+          sampling_summary(results, "")})
     {
       std::replace(text.begin(), text.end(), '\n', ' '); // it may be wrapped
       text.erase(std::unique(text.begin(), text.end(),
@@ -213,10 +216,45 @@ namespace plumbline::report
     EXPECT_EQ(
         to_csv(charts[1].data),
         "method,case,series,h,nu,value\nOPT,,m = 3,0.25,0.5,0.75\nOPT,,m = 3,0.25,0.25,0.125\n");
-    EXPECT_NE(sampling_text(results).find("Nothing is by chance"), std::string::npos);
-    EXPECT_EQ(sampling_text(results).find("noise"), std::string::npos);
+    EXPECT_NE(sampling_summary(results, "").find("Nothing is by chance"), std::string::npos);
+    EXPECT_EQ(sampling_summary(results, "").find("noise"), std::string::npos);
     results.variables = {"nu", "a"}; // a chart has room for one
     EXPECT_TRUE(sampling_charts(results).empty());
+  }
+
+  TEST(SamplingReport, SummarisesIn25LinesOf120Columns)
+  {
+    study::SamplingResults results = sampled();
+    results.findings = {"a long finding " + std::string(60, 'a') + " " + std::string(90, 'b') +
+                            " " + std::string(100, 'c') + " " + std::string(100, 'd'),
+                        "one two", "three", "four", "five"};
+    for (unsigned int i = 0; i < 40; ++i)
+    {
+      study::CaseStatistics one;
+      one.of.method = "method with a long name " + std::to_string(i);
+      one.of.problem = std::string(50, 'u');
+      one.of.h = .25;
+      study::SetStatistics set;
+      for (const char *name : {"energy of the whole body", "reaction force", "K by bonds"})
+        set.quantities[name] = uq::statistics({1, 2, 3, 6}, {.25, .25, .25, .25}, true);
+      one.sets = {set};
+      results.cases.push_back(one);
+    }
+    std::istringstream text(sampling_summary(results, "results/x/sample.html"));
+    std::string line;
+    std::size_t n_lines = 0;
+    while (std::getline(text, line))
+    {
+      ++n_lines;
+      EXPECT_LE(std::count_if(line.begin(), line.end(),
+                              [](char c)
+                              { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }),
+                120)
+          << line;
+    }
+    EXPECT_LE(n_lines, 25u);
+    EXPECT_NE(text.str().find("2 more findings in the report"), std::string::npos) << text.str();
+    EXPECT_NE(text.str().find("more rows in the report"), std::string::npos) << text.str();
   }
 
   TEST(SamplingReport, TellsTheSeedsOfSamplesAndOfFields)
@@ -224,8 +262,9 @@ namespace plumbline::report
     const fixture::Folder folder;
     study::SamplingResults results = sampled();
     write_sampling(results, {}, folder.path());
-    for (std::string text : {fixture::read(folder.path() / "sample.html"),
-                             fixture::read(folder.path() / "sample.md"), sampling_text(results)})
+    for (std::string text :
+         {fixture::read(folder.path() / "sample.html"), fixture::read(folder.path() / "sample.md"),
+          sampling_summary(results, "")})
     {
       std::replace(text.begin(), text.end(), '\n', ' '); // it may be wrapped
       EXPECT_NE(text.find("Sampling/seed = 3"), std::string::npos) << text;
@@ -237,6 +276,6 @@ namespace plumbline::report
     results.random = {};
     json = nlohmann::json::parse(sampling_json(results));
     EXPECT_TRUE(json["field_seed"].is_null());
-    EXPECT_EQ(sampling_text(results).find("Random/seed"), std::string::npos);
+    EXPECT_EQ(sampling_summary(results, "").find("Random/seed"), std::string::npos);
   }
 } // namespace plumbline::report

@@ -1,0 +1,144 @@
+// `plumbline check` of a series of files, one pair for each mesh size, and of stiffnesses in place
+// of weights.
+
+#include "given_files.h"
+#include "scene/values.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace
+{
+  using namespace plumbline::app;
+
+  std::string text_of(double h)
+  {
+    return plumbline::scene::short_number(h);
+  }
+
+  /// nodes_{h}.csv and bonds_{h}.csv of a rule in a folder; the names with {h}.
+  class CheckSeries : public testing::Test
+  {
+  protected:
+    CheckSeries() : folder_(temporary("check_series")) { fs::create_directories(folder_); }
+    ~CheckSeries() override { fs::remove_all(folder_); }
+
+    void write_level(const std::string &rule, double h) const
+    {
+      const Files files = files_of(example_weights(rule, 0, {{"Study/h", text_of(h)}}));
+      fs::rename(files.nodes, folder_ / ("nodes_" + text_of(h) + ".csv"));
+      fs::rename(files.bonds, folder_ / ("bonds_" + text_of(h) + ".csv"));
+    }
+
+    Outcome check_all(const std::string &more) const
+    {
+      return check("'" + (folder_ / "nodes_{h}.csv").string() + "'",
+                   "'" + (folder_ / "bonds_{h}.csv").string() + "'", more);
+    }
+
+    fs::path folder_;
+    const std::vector<double> sizes_ = {.125, .0625, .03125, .015625};
+  };
+} // namespace
+
+TEST_F(CheckSeries, gives_rates_and_the_verdict_of_compatible_weights)
+{
+  for (const double h : sizes_)
+    write_level("IPA-AC-R2", h);
+  const fs::path out = folder_ / "out";
+  const Outcome outcome = check_all("-o " + out.string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  expect_found(outcome.out, "wave, nodal Linf | exact: AC; ");
+  expect_found(outcome.out, "\nas required\n");
+  const auto json = nlohmann::json::parse(read(out / "check.json"));
+  ASSERT_EQ(json["levels"].size(), sizes_.size());
+  EXPECT_EQ(json["complaints"].size(), 0u);
+  for (const auto &level : json["levels"])
+    EXPECT_EQ(level["rule"]["name"], "IPA-AC-R2");
+  for (const auto &trend : json["study"]["trends"])
+    if (trend["method"] == "given weights" && trend["error"] == "nodal Linf | exact")
+    {
+      EXPECT_NEAR(trend["rate"], 2, .1); // of the paper, with moments of degree 2 exact
+      EXPECT_EQ(trend["verdict"], "AC");
+    }
+  EXPECT_TRUE(fs::exists(out / "report.html"));
+  EXPECT_TRUE(fs::exists(out / "levels.csv"));
+  for (const double h : sizes_)
+    EXPECT_TRUE(fs::exists(out / ("h_" + text_of(h)) / "report.html")) << h;
+}
+
+TEST_F(CheckSeries, says_that_errors_stall)
+{
+  for (const double h : sizes_)
+    write_level("FA", h);
+  const Outcome outcome = check_all("");
+  EXPECT_EQ(outcome.exit_code, 1);
+  expect_found(outcome.out, "h = 0.125: required ac: second moments are off by ");
+  expect_found(outcome.out, "wave, nodal Linf | exact: not AC; ");
+  // where moments may be off by so much, the errors still stall
+  const Outcome loose = check_all("--json --require moments=0.2");
+  EXPECT_EQ(loose.exit_code, 0) << loose.out;
+  EXPECT_EQ(nlohmann::json::parse(loose.out)["complaints"].size(), 0u);
+  const auto json = nlohmann::json::parse(check_all("--json").out);
+  EXPECT_EQ(json["complaints"].size(), sizes_.size() + 1);
+  expect_found(json["complaints"].back(), "required ac: wave, nodal Linf | exact: ");
+}
+
+TEST_F(CheckSeries, names_what_is_missing)
+{
+  const auto expect_refusal = [](const Outcome &outcome, const std::string &words)
+  {
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    expect_found(outcome.err, words);
+  };
+  write_level("FA", .125);
+  expect_refusal(check_all(""), "two levels of Study/h at least, but there is no '" +
+                                    (folder_ / "nodes_0.0625.csv").string());
+  expect_refusal(check("'" + (folder_ / "nodes_{h}.csv").string() + "'", bonds_file),
+                 "write {h} in both names");
+  write_level("FA", .0625);
+  expect_refusal(check_all("--set Study/m=2,3"), "give one value of Study/m");
+  const Outcome outcome = check_all("");
+  EXPECT_EQ(outcome.exit_code, 1);
+  expect_found(outcome.err, "levels without files are left out: there is no '" +
+                                (folder_ / "nodes_0.03125.csv").string());
+  expect_found(outcome.out, "undecided"); // of two levels
+}
+
+TEST(Check, takes_stiffnesses_and_force_constants)
+{
+  for (const std::string rule : {"IPA-AC-R2", "FA", "PA-AC"})
+    for (const double perturbation : {0., .1})
+      for (const bool are_forces : {false, true})
+      {
+        Weights weights = example_weights(rule, perturbation, {{"Kernel/type", "constant"}});
+        for (std::size_t i = 0; i < weights.families.size(); ++i)
+          for (Bond<2> &bond : weights.families[i].bonds)
+            bond.weight *= plumbline::meshfree::radial_value(weights.problem.kernel, bond) *
+                           (are_forces ? weights.volumes[i] : 1);
+        const Files files = files_of(weights);
+        const std::string kind = are_forces ? "'force constants'" : "stiffness";
+        const Outcome right =
+            check(files.nodes, files.bonds,
+                  "--set Kernel/type=constant --require moments=0.3 --json --bonds-are " + kind);
+        EXPECT_EQ(right.exit_code, 0) << rule << perturbation << kind << right.out << right.err;
+        const auto json = nlohmann::json::parse(right.out);
+        EXPECT_EQ(json["rule"]["name"], rule) << perturbation << kind;
+        if (are_forces) // which are of the size of weights here: 4 / (81 pi h^2) times them
+          continue;
+        const Outcome plain = check(files.nodes, files.bonds,
+                                    "--set Kernel/type=constant --require moments=0.3 --quiet");
+        EXPECT_EQ(plain.exit_code, 1) << rule << perturbation;
+      }
+  const Outcome word = check(nodes_file, bonds_file, "--bonds-are forces");
+  EXPECT_EQ(word.exit_code, 2);
+  expect_found(word.err, "--bonds-are = 'forces' is not known; choose of 'weights', 'stiffness'");
+  Weights wide = example_weights("PA-AC", 0); // has bonds where the kernel is 0
+  const Files files = files_of(wide);
+  const Outcome beyond = check(files.nodes, files.bonds, "--bonds-are stiffness");
+  EXPECT_EQ(beyond.exit_code, 2) << beyond.out;
+  expect_found(beyond.err, "the kernel is 0 at a bond (line ");
+}
