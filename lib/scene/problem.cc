@@ -109,7 +109,8 @@ namespace plumbline::scene
     const auto field = [&](const std::string &key, const std::string &text)
     {
       const Expression expression(key, text, scene.names(level.horizon, t));
-      Field result{expression};
+      Field result;
+      result.value = expression;
       result.is_piecewise = expression.is_piecewise();
       return result;
     };

@@ -285,7 +285,8 @@ namespace plumbline::meshfree
     {
       constexpr double least = 1e-6; // of h³, for weights to differ; of h, for kernel points
       constexpr std::size_t most_named = 5;
-      Match match{name};
+      Match match;
+      match.rule = name;
       std::vector<double> ratios;
       for (const Family<3> &family : given.families)
         for (const Bond<3> &bond : family.bonds)

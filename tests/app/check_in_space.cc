@@ -4,10 +4,12 @@
 #include "base/number_text.h"
 #include "meshfree/rules/rules.h"
 
+#include <deal.II/base/numbers.h>
 #include <deal.II/base/point.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <random>
@@ -184,6 +186,27 @@ TEST_F(CheckInSpace, passes_right_weights_however_they_are_written)
     EXPECT_NE(outcome.out.find("the weights are those of " + rule + "\n"), std::string::npos)
         << outcome.out;
   }
+}
+
+TEST_F(CheckInSpace, takes_stiffnesses_and_force_constants)
+{
+  constexpr double delta = m * h;
+  const double c = 45 / (2 * dealii::numbers::PI * std::pow(delta, 5)); // integral of C x^2: 1
+  for (const std::string rule : {"IPA-AC-R2", "IPA-AC-R4"})
+    for (const bool are_forces : {false, true})
+    {
+      Dump one = dump(rule, false);
+      for (Row &row : one.rows)
+        row.weight *=
+            c * (1 - row.kernel_point.norm() / delta) * (are_forces ? one.volumes[row.i] : 1);
+      write(one);
+      const std::string kind = are_forces ? "'force constants'" : "stiffness";
+      const Outcome right = check(rule, false, "--bonds-are " + kind);
+      EXPECT_EQ(right.exit_code, 0) << rule << kind << right.out << right.err;
+      EXPECT_NE(right.out.find("the weights are those of " + rule + "\n"), std::string::npos)
+          << kind << right.out;
+      EXPECT_EQ(check(rule, false).exit_code, 1) << rule << kind; // they are no weights
+    }
 }
 
 TEST_F(CheckInSpace, names_what_is_wrong)

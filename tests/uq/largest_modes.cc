@@ -65,7 +65,9 @@ namespace
       const bool is_alone = (k == 0 || eigenvalues[k - 1] > eigenvalues[k]) &&
                             (k + 1 == search.n_modes || eigenvalues[k + 1] < eigenvalues[k]);
       if (is_alone)
+      {
         EXPECT_LT(modes.residual[k] - residual, 1e-13 * eigenvalues[0]) << k;
+      }
       EXPECT_LT(modes.residual[k], 5e-12 * eigenvalues[0]) << k;
     }
     const MatrixXd identity = MatrixXd::Identity(search.n_modes, search.n_modes);
@@ -176,7 +178,9 @@ TEST(LargestModes, of_one_eigenspace_do_not_depend_on_rounding)
     {
       EXPECT_NEAR(a.vector[k][i], b.vector[k][i], 1e-9) << k << ' ' << i;
       if (k < 3)
+      {
         EXPECT_NEAR(a.vector[k][i], few.vector[k][i], 1e-9) << k << ' ' << i;
+      }
     }
   for (std::size_t row = 0; row < 300; ++row)
   {
