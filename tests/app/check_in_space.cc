@@ -205,7 +205,7 @@ TEST_F(CheckInSpace, takes_stiffnesses_and_force_constants)
       EXPECT_EQ(right.exit_code, 0) << rule << kind << right.out << right.err;
       EXPECT_NE(right.out.find("the weights are those of " + rule + "\n"), std::string::npos)
           << kind << right.out;
-      EXPECT_EQ(check(rule, false).exit_code, 1) << rule << kind; // they are no weights
+      EXPECT_EQ(check(rule, false).exit_code, 1) << rule << kind; // they are not weights
     }
 }
 

@@ -57,14 +57,31 @@ TEST_F(CheckSeries, gives_rates_and_the_verdict_of_compatible_weights)
   EXPECT_EQ(json["complaints"].size(), 0u);
   for (const auto &level : json["levels"])
     EXPECT_EQ(level["rule"]["name"], "IPA-AC-R2");
+  EXPECT_EQ(json["study"]["advice"].size(), 0u); // costs of other programs are not known
+  std::size_t n_trends = 0;
   for (const auto &trend : json["study"]["trends"])
     if (trend["method"] == "given weights" && trend["error"] == "nodal Linf | exact")
     {
+      ++n_trends;
       EXPECT_NEAR(trend["rate"], 2, .1); // of the paper, with moments of degree 2 exact
       EXPECT_EQ(trend["verdict"], "AC");
     }
+  EXPECT_EQ(n_trends, 1u);
   EXPECT_TRUE(fs::exists(out / "report.html"));
-  EXPECT_TRUE(fs::exists(out / "levels.csv"));
+  std::vector<double> errors, rates; // the last two columns of each level
+  std::istringstream table(read(out / "levels.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line.substr(line.rfind("rule")), "rule,error of wave,rate of wave");
+  while (std::getline(table, line))
+  {
+    const auto last = line.rfind(','), before = line.rfind(',', last - 1);
+    errors.push_back(std::stod(line.substr(before + 1)));
+    rates.push_back(last + 1 < line.size() ? std::stod(line.substr(last + 1)) : 0);
+  }
+  ASSERT_EQ(errors.size(), sizes_.size());
+  for (std::size_t k = 1; k < errors.size(); ++k)
+    EXPECT_NEAR(rates[k], std::log2(errors[k - 1] / errors[k]), 1e-12) << k;
   for (const double h : sizes_)
     EXPECT_TRUE(fs::exists(out / ("h_" + text_of(h)) / "report.html")) << h;
 }

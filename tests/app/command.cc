@@ -109,6 +109,14 @@ TEST(Command, takes_names_of_methods_in_any_case)
   ASSERT_EQ(json["expectations"].size(), 1u);
   EXPECT_TRUE(json["expectations"][0]["holds"]);
   EXPECT_EQ(json["references"][0]["method"], "Q2");
+  // a reference that is one of the methods is not estimated a second time
+  const Outcome twice =
+      run("run " PLUMBLINE_SCENES "/check/check.prm --levels 1 --methods q1 --set "
+          "Expected/verdicts= --set Reference/method=q1 --set Reference/estimate=every --json -o " +
+          out.string());
+  EXPECT_EQ(twice.exit_code, 0) << twice.err;
+  EXPECT_EQ(nlohmann::json::parse(twice.out)["references"].size(), 1u);
+  EXPECT_EQ(nlohmann::json::parse(twice.out)["estimates"].size(), 0u);
 }
 
 TEST(Command, refuses_bad_input_with_2_and_leaves_nothing)
