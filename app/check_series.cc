@@ -109,10 +109,13 @@ namespace plumbline::app
           {
             record.key.analysis = results.analysis;
             record.key.level = static_cast<unsigned int>(k);
+            // the time of this program's solver, not of the code that made the weights
+            record.cost.setup_seconds = record.cost.solve_seconds = 0;
+            record.cost.peak_bytes = 0;
             results.records.push_back(std::move(record));
           }
       study::conclude(scene, results);
-      results.advice.clear(); // costs are those of this program, not of the user's
+      results.advice.clear(); // on costs
       results.expectations.clear();
       return results;
     }
@@ -174,7 +177,7 @@ namespace plumbline::app
         if (required.ac &&
             (trend.outcome == study::Outcome::stalls || trend.outcome == study::Outcome::failed))
           wrong.push_back("required ac: " + trend.problem + ", " + trend.error + ": " +
-                          trend.reason);
+                          trend.verdict);
       return wrong;
     }
 

@@ -1,5 +1,6 @@
 #include "report/tables.h"
 
+#include "report/text_table.h"
 #include "study/solution_record.h"
 
 #include <algorithm>
@@ -156,14 +157,18 @@ namespace plumbline::report
                      "solve CPU s", "peak MB", "iterations"};
     for (const study::Record &run : results.records)
       if (run.failure.empty())
+      {
+        const bool is_timed = run.cost.seconds() > 0;
         table.rows.push_back(
             {text_cell(run.key.method), text_cell(run.key.problem), text_cell(run.key.series),
              number_cell(run.key.h), count_cell(run.cost.n_unknowns), count_cell(run.cost.n_bonds),
-             number_cell(study::geometry_seconds(run)), number_cell(run.cost.setup_seconds),
-             number_cell(run.cost.solve_seconds),
-             number_cell(1e-6 * static_cast<double>(run.cost.peak_bytes)),
+             known(is_timed, number_cell(study::geometry_seconds(run))),
+             known(is_timed, number_cell(run.cost.setup_seconds)),
+             known(is_timed, number_cell(run.cost.solve_seconds)),
+             known(is_timed, number_cell(1e-6 * static_cast<double>(run.cost.peak_bytes))),
              count_cell(run.cost.n_iterations)});
-    return table;
+      }
+    return without_empty_columns(table);
   }
 
   Table other_errors_table(const study::StudyResults &results)

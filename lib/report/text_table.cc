@@ -18,6 +18,7 @@ namespace plumbline::report
   Table without_empty_columns(const Table &table)
   {
     Table result;
+    result.caption = table.caption;
     result.rows.resize(table.rows.size());
     const std::string empty = empty_cell().text;
     for (std::size_t j = 0; j < table.columns.size(); ++j)

@@ -57,7 +57,7 @@ TEST_F(CheckSeries, gives_rates_and_the_verdict_of_compatible_weights)
   EXPECT_EQ(json["complaints"].size(), 0u);
   for (const auto &level : json["levels"])
     EXPECT_EQ(level["rule"]["name"], "IPA-AC-R2");
-  EXPECT_EQ(json["study"]["advice"].size(), 0u); // costs of other programs are not known
+  EXPECT_EQ(json["study"]["advice"].size(), 0u);
   std::size_t n_trends = 0;
   for (const auto &trend : json["study"]["trends"])
     if (trend["method"] == "given weights" && trend["error"] == "nodal Linf | exact")
@@ -67,7 +67,11 @@ TEST_F(CheckSeries, gives_rates_and_the_verdict_of_compatible_weights)
       EXPECT_EQ(trend["verdict"], "AC");
     }
   EXPECT_EQ(n_trends, 1u);
-  EXPECT_TRUE(fs::exists(out / "report.html"));
+  const std::string page = read(out / "report.html");
+  expect_found(page, "id=\"convergence\"");
+  for (const std::string cost :
+       {"Work and precision", "setup CPU s"}) // of this program, not of theirs
+    EXPECT_EQ(page.find(cost), std::string::npos) << cost;
   std::vector<double> errors, rates; // the last two columns of each level
   std::istringstream table(read(out / "levels.csv"));
   std::string line;
