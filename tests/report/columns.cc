@@ -74,6 +74,13 @@ namespace plumbline::report
     EXPECT_EQ(value(table, 0, "solve CPU s"), 14);
     EXPECT_DOUBLE_EQ(value(table, 0, "peak MB"), 15);
     EXPECT_EQ(value(table, 0, "iterations"), 16);
+    // a run that was not timed has no times, instead of 0
+    results.records[0].cost.setup_seconds = results.records[0].cost.solve_seconds = 0;
+    const Table untimed = cost_table(results);
+    EXPECT_FALSE(table.caption.empty());
+    EXPECT_EQ(untimed.caption, table.caption);
+    EXPECT_EQ(untimed.columns.size() + 4, table.columns.size());
+    EXPECT_EQ(value(untimed, 0, "iterations"), 16);
   }
 
   TEST(ReportColumns, OfEstimatesTellWhichChangeIsWhich)
