@@ -85,9 +85,9 @@ namespace plumbline::app
     return {study::strip_analysis(), report::strip_view};
   }
 
-  AnalysisRow dispersion_row(const std::vector<double> &angles)
+  AnalysisRow dispersion_row(const study::AskedDirections &directions)
   {
-    return {study::dispersion_analysis(angles), report::dispersion_view};
+    return {study::dispersion_analysis(directions), report::dispersion_view};
   }
 
   AnalysisRow crack_row(const study::Checkpoints &checkpoints)

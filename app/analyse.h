@@ -29,7 +29,7 @@ namespace plumbline::app
 
   AnalysisRow stability_row();
   AnalysisRow strip_row();
-  AnalysisRow dispersion_row(const std::vector<double> &angles);
+  AnalysisRow dispersion_row(const study::AskedDirections &directions);
   AnalysisRow crack_row(const study::Checkpoints &checkpoints);
   AnalysisRow growth_row(const study::Checkpoints &checkpoints);
 

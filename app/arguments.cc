@@ -52,7 +52,22 @@ namespace plumbline::app
           throw InputError(option + ": '" + word +
                            "' is no number; give numbers separated by commas, semicolons or "
                            "blanks");
+    if (numbers.empty())
+      throw InputError(option + " has no numbers; give one or more, or leave it out");
     return numbers;
+  }
+
+  std::vector<std::array<double, 3>> to_vectors(const std::string &option,
+                                                const std::vector<std::string> &given)
+  {
+    const std::vector<double> numbers = to_numbers(option, given);
+    if (numbers.size() % 3 != 0)
+      throw InputError(option + " has " + std::to_string(numbers.size()) +
+                       " numbers; give three for each direction, e.g. 1,0,0 1,1,0");
+    std::vector<std::array<double, 3>> vectors;
+    for (std::size_t i = 0; i < numbers.size(); i += 3)
+      vectors.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+    return vectors;
   }
 
   std::vector<std::string> join_numbers(const std::vector<std::string> &arguments,

@@ -169,7 +169,7 @@ namespace
     return command;
   }
 
-  constexpr auto angles_option = "--angles";
+  constexpr auto angles_option = "--angles", directions_option = "--directions";
 
   /// An analysis that returns records.
   /// @param expected  what --check checks
@@ -190,18 +190,30 @@ namespace
 
   void add_dispersion(CLI::App &app, Request &request)
   {
-    const auto angles = std::make_shared<std::vector<std::string>>();
-    add_analysis(app, request, "dispersion",
-                 "Dispersion analysis: wave speeds and critical time steps of each method",
-                 "Expected/values fails",
-                 [angles](const auto &)
-                 {
-                   return dispersion_row(angles->empty() ? plumbline::study::usual_angles
-                                                         : to_numbers(angles_option, *angles));
-                 })
+    const auto angles = std::make_shared<std::vector<std::string>>(),
+               directions = std::make_shared<std::vector<std::string>>();
+    auto &command =
+        add_analysis(app, request, "dispersion",
+                     "Dispersion analysis: wave speeds and critical time steps of each method",
+                     "Expected/values fails",
+                     [angles, directions](const auto &)
+                     {
+                       plumbline::study::AskedDirections asked;
+                       if (!angles->empty())
+                         asked.angles = to_numbers(angles_option, *angles);
+                       if (!directions->empty())
+                         asked.vectors = to_vectors(directions_option, *directions);
+                       return dispersion_row(asked);
+                     });
+    command
         .add_option(angles_option, *angles,
-                    "Directions in degrees, separated by commas, semicolons or blanks (default: "
-                    "0,22.5,45); may be repeated")
+                    "In the plane: directions in degrees, separated by commas, semicolons or "
+                    "blanks (default: 0,22.5,45); may be repeated")
+        ->allow_extra_args(false);
+    command
+        .add_option(directions_option, *directions,
+                    "In space: directions, three numbers for each (default: 1,0,0 1,1,0 1,1,1); "
+                    "may be repeated")
         ->allow_extra_args(false);
   }
 
@@ -415,7 +427,8 @@ int plumbline::app::command(int argc, char **argv)
   {
     // CLI11 takes the last argument first, and no name with them
     app.name(argv[0]);
-    std::vector<std::string> arguments = join_numbers({argv + 1, argv + argc}, angles_option);
+    std::vector<std::string> arguments =
+        join_numbers(join_numbers({argv + 1, argv + argc}, angles_option), directions_option);
     std::reverse(arguments.begin(), arguments.end());
     app.parse(std::move(arguments));
   }

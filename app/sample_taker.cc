@@ -83,7 +83,7 @@ namespace plumbline::app
     if (scene.sampling.analysis == SampledAnalysis::stability)
       return study_taker(study::stability_analysis());
     if (scene.sampling.analysis == SampledAnalysis::dispersion)
-      return study_taker(study::dispersion_analysis(study::usual_angles));
+      return study_taker(study::dispersion_analysis());
     if (is_growth(scene))
       return clean(long_taker(study::growth_analysis));
     if (scene.crack.is_there())

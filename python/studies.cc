@@ -110,11 +110,11 @@ namespace plumbline::python
     module.def(
         "dispersion_json",
         [](const std::string &scene, const py::dict &set, const std::vector<PythonRule> &rules,
-           unsigned int levels, const std::vector<double> &angles)
-        {
-          return analyse(study::dispersion_analysis(angles.empty() ? study::usual_angles : angles),
-                         scene, set, rules, levels);
+           unsigned int levels, const std::vector<double> &angles,
+           const std::vector<std::array<double, 3>> &directions) {
+          return analyse(study::dispersion_analysis({angles, directions}), scene, set, rules,
+                         levels);
         },
-        "scene"_a, "set"_a, "rules"_a, "levels"_a, "angles"_a);
+        "scene"_a, "set"_a, "rules"_a, "levels"_a, "angles"_a, "directions"_a);
   }
 } // namespace plumbline::python

@@ -17,45 +17,59 @@ namespace plumbline::algebra
     using Matrix = Eigen::MatrixXcd;
     using Real = Eigen::MatrixXd;
     using Eigen::Index;
-    using Direction = std::array<double, 2>;
 
     /// Sums over a stencil's offsets d [cells] along a direction n: Σ A f(n·d), block by block.
     template <typename Factor>
-    Matrix sum_over(const WaveOperator &waves, const Stencil &stencil, const Direction &n,
+    Matrix sum_over(const WaveOperator &waves, const Stencil &stencil, const Vector3 &n,
                     const Factor &factor)
     {
       const auto n_blocks = stencil.n_blocks();
-      const int reach = stencil.reach();
+      const auto &reach = stencil.reaches();
       Matrix result = Matrix::Zero(n_blocks, n_blocks);
       for (unsigned int s = 0; s < n_blocks; ++s)
         for (unsigned int t = 0; t < n_blocks; ++t)
         {
-          const auto apart =
-              waves.places[t % waves.n_families()] - waves.places[s % waves.n_families()];
-          for (int j2 = -reach; j2 <= reach; ++j2)
-            for (int j1 = -reach; j1 <= reach; ++j1)
-              if (const double a = stencil(s, t, j1, j2); a != 0)
-                result(s, t) += a * factor(n[0] * (j1 + apart[0]) + n[1] * (j2 + apart[1]));
+          const Vector3 &from = waves.places[s % waves.n_families()],
+                        &to = waves.places[t % waves.n_families()];
+          for (int j3 = -reach[2]; j3 <= reach[2]; ++j3)
+            for (int j2 = -reach[1]; j2 <= reach[1]; ++j2)
+              for (int j1 = -reach[0]; j1 <= reach[0]; ++j1)
+                if (const double a = stencil(s, t, j1, j2, j3); a != 0)
+                  result(s, t) +=
+                      a * factor(n[0] * (j1 + (to[0] - from[0])) + n[1] * (j2 + (to[1] - from[1])) +
+                                 n[2] * (j3 + (to[2] - from[2])));
         }
       return result;
     }
 
-    /// Values at the nodes of plane waves, along the direction and across it: (n_blocks, n_waves).
-    Matrix polarisations(const WaveOperator &waves, const Direction &n)
+    /// Of waves in direction n.
+    std::vector<Vector3> polarisations(const Vector3 &n, unsigned int n_components)
+    {
+      if (n_components == 1)
+        return {{1}};
+      const Vector3 across{-n[1], n[0]};
+      if (n_components == 2)
+        return {n, across};
+      const double size = std::hypot(n[0], n[1]);
+      const Vector3 level =
+          size > 0 ? Vector3{across[0] / size, across[1] / size} : Vector3{1, 0, 0};
+      return {n, level,
+              Vector3{-n[2] * level[1], n[2] * level[0], n[0] * level[1] - n[1] * level[0]}};
+    }
+
+    /// Values at the nodes of plane waves, polarisation by polarisation: (n_blocks, n_waves).
+    Matrix plane_waves(const WaveOperator &waves, const Vector3 &n)
     {
       const auto n_families = waves.n_families();
       Matrix result = Matrix::Zero(waves.n_components * n_families, waves.n_components);
-      const bool is_scalar = waves.n_components == 1;
-      for (unsigned int s = 0; s < n_families; ++s)
-        if (is_scalar)
-          result(s, 0) = 1;
-        else
-        {
-          result(s, 0) = n[0];
-          result(n_families + s, 0) = n[1];
-          result(s, 1) = -n[1];
-          result(n_families + s, 1) = n[0];
-        }
+      Index wave = 0;
+      for (const Vector3 &polarisation : polarisations(n, waves.n_components))
+      {
+        for (unsigned int c = 0; c < waves.n_components; ++c)
+          for (unsigned int s = 0; s < n_families; ++s)
+            result(c * n_families + s, wave) = polarisation[c];
+        ++wave;
+      }
       return result;
     }
 
@@ -98,9 +112,8 @@ namespace plumbline::algebra
                              "one weight for both ends of a bond");
   }
 
-  std::vector<PlaneWave> Symbol::waves(double k, double angle) const
+  std::vector<PlaneWave> Symbol::waves(double k, const Vector3 &n) const
   {
-    const Direction n{std::cos(angle), std::sin(angle)};
     const double kh = k * waves_.h;
     const auto value = [kh](double d) { return Complex(std::cos(kh * d), std::sin(kh * d)); };
     const auto slope = [&](double d) { return Complex(0, waves_.h * d) * value(d); };
@@ -112,7 +125,7 @@ namespace plumbline::algebra
                  mass_slope = sum(waves_.mass, slope);
     const auto &vectors = solver.eigenvectors();
     std::vector<PlaneWave> result;
-    for (const Index i : nearest((vectors.adjoint() * mass * polarisations(waves_, n)).cwiseAbs()))
+    for (const Index i : nearest((vectors.adjoint() * mass * plane_waves(waves_, n)).cwiseAbs()))
     {
       const double squared = solver.eigenvalues()[i];
       const Matrix change = stiffness_slope - squared * mass_slope;
@@ -121,15 +134,14 @@ namespace plumbline::algebra
     return result;
   }
 
-  std::vector<double> Symbol::long_waves(double angle) const
+  std::vector<double> Symbol::long_waves(const Vector3 &n) const
   {
     // below this part of the largest entry an eigenvalue of A(0) is that of a constant
     constexpr double zero = 1e-10;
-    const Direction n{std::cos(angle), std::sin(angle)};
     const auto sum = [&](const Stencil &stencil, const auto &factor)
     { return sum_over(waves_, stencil, n, factor); };
     const auto one = [](double) { return 1.; };
-    const Matrix constants = polarisations(waves_, n);
+    const Matrix constants = plane_waves(waves_, n);
     const Matrix at_zero = sum(waves_.stiffness, one);
     // A(k) = A(0) + i kh X - (kh)²/2 Y
     const Matrix x = sum(waves_.stiffness, [](double d) { return d; }) * constants,
@@ -156,14 +168,16 @@ namespace plumbline::algebra
 
   Stencil lump(const Stencil &mass, unsigned int n_families)
   {
+    const auto &reach = mass.reaches();
     double total = 0, diagonal = 0;
     for (unsigned int s = 0; s < n_families; ++s)
     {
       diagonal += mass(s, s, 0, 0);
       for (unsigned int t = 0; t < n_families; ++t)
-        for (int j2 = -mass.reach(); j2 <= mass.reach(); ++j2)
-          for (int j1 = -mass.reach(); j1 <= mass.reach(); ++j1)
-            total += mass(s, t, j1, j2);
+        for (int j3 = -reach[2]; j3 <= reach[2]; ++j3)
+          for (int j2 = -reach[1]; j2 <= reach[1]; ++j2)
+            for (int j1 = -reach[0]; j1 <= reach[0]; ++j1)
+              total += mass(s, t, j1, j2, j3);
     }
     Stencil lumped(mass.n_blocks(), 0);
     for (unsigned int s = 0; s < mass.n_blocks(); ++s)
@@ -173,12 +187,14 @@ namespace plumbline::algebra
 
   bool couples_cells(const Stencil &mass)
   {
+    const auto &reach = mass.reaches();
     for (unsigned int s = 0; s < mass.n_blocks(); ++s)
       for (unsigned int t = 0; t < mass.n_blocks(); ++t)
-        for (int j2 = -mass.reach(); j2 <= mass.reach(); ++j2)
-          for (int j1 = -mass.reach(); j1 <= mass.reach(); ++j1)
-            if ((j1 != 0 || j2 != 0) && mass(s, t, j1, j2) != 0)
-              return true;
+        for (int j3 = -reach[2]; j3 <= reach[2]; ++j3)
+          for (int j2 = -reach[1]; j2 <= reach[1]; ++j2)
+            for (int j1 = -reach[0]; j1 <= reach[0]; ++j1)
+              if ((j1 != 0 || j2 != 0 || j3 != 0) && mass(s, t, j1, j2, j3) != 0)
+                return true;
     return false;
   }
 } // namespace plumbline::algebra

@@ -2,10 +2,21 @@
 
 #include "algebra/stencil.h"
 
+#include <array>
+#include <cmath>
 #include <vector>
 
 namespace plumbline::algebra
 {
+  /// A vector of length 1, or a place [cells]; in the plane its third coordinate is 0.
+  using Vector3 = std::array<double, 3>;
+
+  /// The direction in the plane at an angle from the first axis [radian].
+  inline Vector3 in_plane(double angle)
+  {
+    return {std::cos(angle), std::sin(angle), 0};
+  }
+
   /// M ü = -A u on an unbounded lattice, A and M translation-invariant and symmetric.
   struct WaveOperator
   {
@@ -13,7 +24,7 @@ namespace plumbline::algebra
     Stencil stiffness; ///< A; its blocks are component · n_families + family
     Stencil mass;      ///< M, the same blocks, positive definite
     unsigned int n_components = 1;
-    std::vector<geometry::Point<2>> places; ///< of each family in its cell [cells]
+    std::vector<Vector3> places; ///< of each family in its cell [cells]
 
     unsigned int n_families() const { return static_cast<unsigned int>(places.size()); }
   };
@@ -43,18 +54,18 @@ namespace plumbline::algebra
     /// @throws NumericalError  A or M is not symmetric to 1e-10
     explicit Symbol(WaveOperator waves);
 
-    /// One wave for each component, along the direction first and across it second.
-    /// @param k      wave number > 0 [1/length]
-    /// @param angle  of k from the first axis [radian]
+    /// One wave for each component: along the direction n first, then across it; in space first
+    /// across the third axis, too, e_3 × n, then n × (e_3 × n).
+    /// @param k  wave number > 0 [1/length]
     /// @throws NumericalError  M is not positive definite
-    std::vector<PlaneWave> waves(double k, double angle) const;
+    std::vector<PlaneWave> waves(double k, const Vector3 &n) const;
 
     /// ω²/k² as k → 0, squares of the speeds of long waves, in the same order: second moments where
     /// there is one family, and by second-order perturbation of A(0)'s constants with several.
     /// Accuracy: 1e-13 of the largest.
-    std::vector<double> long_waves(double angle) const;
+    std::vector<double> long_waves(const Vector3 &n) const;
 
-    /// Over the Brillouin zone |k_1|, |k_2| <= π/h: on a grid with eight points or more on the
+    /// Over the Brillouin zone |k_d| <= π/h: on a grid with eight points or more on the
     /// shortest oscillation of the symbol, whose degree is the stencil's reach, and by Newton's
     /// method in a trust region from each local maximum of the grid that may lead to the largest.
     /// Never larger than the true one.

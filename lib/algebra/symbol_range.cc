@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <optional>
 
 namespace plumbline::algebra
 {
@@ -15,7 +16,15 @@ namespace plumbline::algebra
     using Complex = std::complex<double>;
     using Matrix = Eigen::MatrixXcd;
     using Eigen::Index;
-    using Point = Eigen::Vector2d; ///< κ = k h
+    // κ = k h has two or three coordinates, and so have the Hessians' axes
+    using Point = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
+    using Hessian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+
+    /// 2 in the plane.
+    int dimension(const WaveOperator &waves)
+    {
+      return waves.stiffness.reaches()[2] > 0 || waves.mass.reaches()[2] > 0 ? 3 : 2;
+    }
 
     /// e^{iκ j}, -reach <= j <= reach.
     std::vector<Complex> phases(double kappa, int reach)
@@ -26,70 +35,101 @@ namespace plumbline::algebra
       return result;
     }
 
-    /// Σ_j A(j) e^{iκ·j} for many κ_1 at the same κ_2. Without the families' places, which change
-    /// no eigenvalue.
+    /// Σ_j A(j) e^{iκ·j} for many κ_1 at the same κ_2, of a stencil in the plane, or in space at
+    /// the same κ_3, too. Without the families' places, which change no eigenvalue.
     class Slice
     {
     public:
-      Slice(const Stencil &stencil, double kappa2)
-          : n_blocks_(stencil.n_blocks()), reach_(stencil.reach()),
-            columns_(static_cast<std::size_t>(2 * reach_ + 1) * n_blocks_ * n_blocks_)
+      /// @param phase3  `phases` of κ_3
+      Slice(const Stencil &stencil, const std::vector<Complex> &phase3)
+          : n_blocks_(stencil.n_blocks()), reaches_(stencil.reaches())
       {
-        const auto phase = phases(kappa2, reach_);
-        auto column = columns_.begin();
-        for (int j1 = -reach_; j1 <= reach_; ++j1)
+        for (int j1 = -reaches_[0]; j1 <= reaches_[0]; ++j1)
           for (unsigned int t = 0; t < n_blocks_; ++t)
-            for (unsigned int s = 0; s < n_blocks_; ++s, ++column)
-              for (int j2 = -reach_; j2 <= reach_; ++j2)
-                if (const double a = stencil(s, t, j1, j2); a != 0)
-                  *column += a * phase[j2 + reach_];
+            for (unsigned int s = 0; s < n_blocks_; ++s)
+              for (int j2 = -reaches_[1]; j2 <= reaches_[1]; ++j2)
+              {
+                Complex sum = 0;
+                for (int j3 = -reaches_[2]; j3 <= reaches_[2]; ++j3)
+                  if (const double a = stencil(s, t, j1, j2, j3); a != 0)
+                    sum += a * phase3[skipped(phase3, reaches_[2]) + j3 + reaches_[2]];
+                layer_.push_back(sum);
+              }
       }
 
-      /// @param phase  `phases` of κ_1, of this reach or a larger one
-      Matrix at(const std::vector<Complex> &phase) const
+      /// @param phase2  `phases` of κ_2
+      void turn_to(const std::vector<Complex> &phase2)
+      {
+        const std::size_t n = 2 * reaches_[1] + 1, first = skipped(phase2, reaches_[1]);
+        columns_.assign(layer_.size() / n, 0);
+        for (std::size_t column = 0; column < columns_.size(); ++column)
+          for (std::size_t j2 = 0; j2 < n; ++j2)
+            columns_[column] += layer_[column * n + j2] * phase2[first + j2];
+      }
+
+      /// @param phase1  `phases` of κ_1
+      Matrix at(const std::vector<Complex> &phase1) const
       {
         Matrix sum = Matrix::Zero(n_blocks_, n_blocks_);
-        const std::size_t n = n_blocks_ * n_blocks_, skipped = phase.size() / 2 - reach_;
+        const std::size_t n = n_blocks_ * n_blocks_, first = skipped(phase1, reaches_[0]);
         for (std::size_t j = 0; j < columns_.size() / n; ++j)
           for (std::size_t k = 0; k < n; ++k)
-            sum.data()[k] += phase[skipped + j] * columns_[j * n + k];
+            sum.data()[k] += phase1[first + j] * columns_[j * n + k];
         return sum;
       }
 
     private:
+      /// Phases of a longer reach than this, at either end.
+      static std::size_t skipped(const std::vector<Complex> &phase, int reach)
+      {
+        return phase.size() / 2 - reach;
+      }
+
       unsigned int n_blocks_;
-      int reach_;
-      std::vector<Complex> columns_; ///< shape (2 reach + 1, n_blocks, n_blocks), by columns
+      std::array<int, 3> reaches_;
+      /// shape (2 reaches[0] + 1, n_blocks, n_blocks, 2 reaches[1] + 1), blocks by columns; and
+      /// summed over the last
+      std::vector<Complex> layer_, columns_;
     };
 
-    /// A matrix at κ and its derivatives in κ_1 and κ_2.
+    /// A matrix at κ and its derivatives.
     struct Jet
     {
       Matrix value;
-      std::array<Matrix, 2> first;
-      std::array<Matrix, 3> second; ///< 11, 12, 22
+      std::array<Matrix, 3> first;
+      std::array<std::array<Matrix, 3>, 3> second; ///< [d][e], d <= e
 
       Jet(const Stencil &stencil, const Point &kappa)
       {
         const unsigned int n = stencil.n_blocks();
-        const int reach = stencil.reach();
-        const auto e1 = phases(kappa[0], reach), e2 = phases(kappa[1], reach);
-        value = first[0] = first[1] = second[0] = second[1] = second[2] = Matrix::Zero(n, n);
+        const auto &reach = stencil.reaches();
+        std::array<std::vector<Complex>, 3> phase;
+        for (int d = 0; d < 3; ++d)
+          phase[d] = phases(d < kappa.size() ? kappa[d] : 0, reach[d]);
+        value = Matrix::Zero(n, n);
+        first.fill(value);
+        second.fill(first);
         for (unsigned int s = 0; s < n; ++s)
           for (unsigned int t = 0; t < n; ++t)
-            for (int j2 = -reach; j2 <= reach; ++j2)
-              for (int j1 = -reach; j1 <= reach; ++j1)
-                if (const double a = stencil(s, t, j1, j2); a != 0)
-                {
-                  const Complex term = a * e1[j1 + reach] * e2[j2 + reach], i(0, 1);
-                  const double x = j1, y = j2;
-                  value(s, t) += term;
-                  first[0](s, t) += i * x * term;
-                  first[1](s, t) += i * y * term;
-                  second[0](s, t) -= x * x * term;
-                  second[1](s, t) -= x * y * term;
-                  second[2](s, t) -= y * y * term;
-                }
+            for (int j3 = -reach[2]; j3 <= reach[2]; ++j3)
+              for (int j2 = -reach[1]; j2 <= reach[1]; ++j2)
+                for (int j1 = -reach[0]; j1 <= reach[0]; ++j1)
+                  if (const double a = stencil(s, t, j1, j2, j3); a != 0)
+                    add(s, t, {j1, j2, j3},
+                        a * phase[0][j1 + reach[0]] * phase[1][j2 + reach[1]] *
+                            phase[2][j3 + reach[2]]);
+      }
+
+    private:
+      void add(unsigned int s, unsigned int t, const std::array<int, 3> &j, const Complex &term)
+      {
+        value(s, t) += term;
+        for (int d = 0; d < 3; ++d)
+        {
+          first[d](s, t) += Complex(0, j[d]) * term;
+          for (int e = d; e < 3; ++e)
+            second[d][e](s, t) -= static_cast<double>(j[d] * j[e]) * term;
+        }
       }
     };
 
@@ -98,7 +138,7 @@ namespace plumbline::algebra
     {
       double value = 0;
       Point gradient;
-      Eigen::Matrix2d hessian;
+      Hessian hessian;
     };
 
     /// By perturbation: with v*Mv = 1 and F_a = A_a - λM_a, λ_a = v*F_a v and λ_ab = v*(A_ab -
@@ -115,17 +155,21 @@ namespace plumbline::algebra
       const Eigen::VectorXcd v = vectors.col(top);
       const auto form = [&](const Matrix &matrix) { return v.dot(matrix * v).real(); };
       Quadratic result;
+      const auto dim = static_cast<int>(kappa.size());
       result.value = values[top];
-      std::array<Eigen::VectorXcd, 2> moved; // w*F_a v for all w
-      for (int d = 0; d < 2; ++d)
+      result.gradient.resize(dim);
+      result.hessian.resize(dim, dim);
+      std::array<Eigen::VectorXcd, 3> moved; // w*F_a v for all w
+      for (int d = 0; d < dim; ++d)
       {
         moved[d] = vectors.adjoint() * ((a.first[d] - result.value * m.first[d]) * v);
         result.gradient[d] = moved[d][top].real();
       }
-      for (int d = 0; d < 2; ++d)
-        for (int e = 0; e < 2; ++e)
+      for (int d = 0; d < dim; ++d)
+        for (int e = 0; e < dim; ++e)
         {
-          double sum = form(a.second[d + e]) - result.value * form(m.second[d + e]) -
+          const auto [low, high] = std::minmax(d, e);
+          double sum = form(a.second[low][high]) - result.value * form(m.second[low][high]) -
                        result.gradient[d] * form(m.first[e]) -
                        result.gradient[e] * form(m.first[d]);
           for (Index j = 0; j < top; ++j)
@@ -140,10 +184,10 @@ namespace plumbline::algebra
     /// those that do not.
     Point step_up(const Quadratic &model, double radius)
     {
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(model.hessian);
+      const Eigen::SelfAdjointEigenSolver<Hessian> axes(model.hessian);
       const Point slope = axes.eigenvectors().transpose() * model.gradient;
-      Point step;
-      for (int d = 0; d < 2; ++d)
+      Point step(slope.size());
+      for (Index d = 0; d < slope.size(); ++d)
       {
         const double bend = -axes.eigenvalues()[d], size = std::abs(slope[d]);
         step[d] = std::copysign(size < bend * radius ? size / bend : radius, slope[d]);
@@ -181,54 +225,92 @@ namespace plumbline::algebra
       return here.value;
     }
 
-    /// An eigenvalue over a grid of the half zone 0 <= κ_1 <= π, 0 <= κ_2 < 2π, the other half
-    /// being the same turned by π.
+    /// Numbers of a point along the axes; in the plane the third is 0.
+    using Place = std::array<int, 3>;
+
+    /// An eigenvalue over a grid of the half zone 0 <= κ_1 <= π, 0 <= κ_d < 2π of the others, the
+    /// other half being the same turned by π.
     struct Grid
     {
-      int n;                      ///< intervals on π
-      std::vector<double> values; ///< shape (2 n, n + 1)
+      int n;                           ///< intervals on π
+      int dim;                         ///< 2 or 3
+      std::vector<double> values = {}; ///< shape (n_layers, 2 n, n + 1)
 
       double spacing() const { return M_PI / n; }
+      int n_layers() const { return dim == 3 ? 2 * n : 1; }
 
-      double at(int i1, int i2) const
+      double at(const Place &i) const
       {
-        const int folded = i1 > n ? 2 * n - i1 : std::abs(i1);
-        const int turned = folded == i1 ? i2 : -i2;
-        return values[static_cast<std::size_t>((turned + 4 * n) % (2 * n)) * (n + 1) + folded];
+        const int folded = i[0] > n ? 2 * n - i[0] : std::abs(i[0]);
+        const int sign = folded == i[0] ? 1 : -1;
+        const auto wrapped = [&](int j) { return (sign * j + 4 * n) % (2 * n); };
+        return values[(static_cast<std::size_t>(dim == 3 ? wrapped(i[2]) : 0) * 2 * n +
+                       wrapped(i[1])) *
+                          (n + 1) +
+                      folded];
+      }
+
+      Point kappa(const Place &i) const
+      {
+        Point result(dim);
+        for (int d = 0; d < dim; ++d)
+          result[d] = spacing() * i[d];
+        return result;
       }
     };
+
+    /// The neighbours of a point, one of each pair of opposite ones.
+    std::vector<Place> half_of_neighbours(int dim)
+    {
+      std::vector<Place> result;
+      for (int d3 = dim == 3 ? -1 : 0; d3 <= (dim == 3 ? 1 : 0); ++d3)
+        for (int d2 = -1; d2 <= 1; ++d2)
+          for (int d1 = -1; d1 <= 1; ++d1)
+            if (std::array{d3, d2, d1} > std::array{0, 0, 0})
+              result.push_back({d1, d2, d3});
+      return result;
+    }
 
     /// A point of a grid that is no lower than its neighbours.
     struct Top
     {
       double value;
       double bound; ///< of the local maximum near it
-      int i1, i2;
+      Place place;
     };
+
+    /// The top at a point of a grid, if there is one.
+    std::optional<Top> top_at(const Grid &grid, const std::vector<Place> &neighbours,
+                              const Place &i)
+    {
+      // between points a parabola rises by an eighth of its second difference at most: twice that
+      // along each of the axes and diagonals
+      constexpr double rise = 2. / 8;
+      const double value = grid.at(i);
+      double differences = 0;
+      for (const auto &[d1, d2, d3] : neighbours)
+      {
+        const double up = grid.at({i[0] + d1, i[1] + d2, i[2] + d3}),
+                     down = grid.at({i[0] - d1, i[1] - d2, i[2] - d3});
+        if (up > value || down > value)
+          return {};
+        differences += 2 * value - up - down;
+      }
+      return Top{value, value + rise * differences, i};
+    }
 
     /// The local maxima of a grid, highest bounds first, of equal ones one.
     std::vector<Top> tops(const Grid &grid)
     {
-      constexpr double equal = 1e-12; // symmetry makes up to eight of each, rounding parts them
-      // between points a parabola rises by an eighth of its second difference at most: twice that
-      // along each of the axes and diagonals
-      constexpr double rise = 2. / 8;
+      // symmetry makes up to eight (in space 48) of each, and rounding parts them
+      constexpr double equal = 1e-12;
+      const auto neighbours = half_of_neighbours(grid.dim);
       std::vector<Top> all, distinct;
-      for (int i2 = 0; i2 < 2 * grid.n; ++i2)
-        for (int i1 = 0; i1 <= grid.n; ++i1)
-        {
-          const double value = grid.at(i1, i2);
-          double differences = 0;
-          bool is_top = true;
-          for (const auto &[d1, d2] : {std::array{1, 0}, {0, 1}, {1, 1}, {1, -1}})
-          {
-            const double up = grid.at(i1 + d1, i2 + d2), down = grid.at(i1 - d1, i2 - d2);
-            is_top = is_top && up <= value && down <= value;
-            differences += 2 * value - up - down;
-          }
-          if (is_top)
-            all.push_back({value, value + rise * differences, i1, i2});
-        }
+      for (int i3 = 0; i3 < grid.n_layers(); ++i3)
+        for (int i2 = 0; i2 < 2 * grid.n; ++i2)
+          for (int i1 = 0; i1 <= grid.n; ++i1)
+            if (const auto top = top_at(grid, neighbours, {i1, i2, i3}))
+              all.push_back(*top);
       std::sort(all.begin(), all.end(),
                 [](const Top &a, const Top &b) { return a.bound > b.bound; });
       for (const Top &one : all)
@@ -242,12 +324,16 @@ namespace plumbline::algebra
     double maximum(const Grid &grid, const WaveOperator &waves)
     {
       // off the axes of symmetry, on which waves have equal eigenvalues and slopes along them only
-      const Point beside(1e-3 * grid.spacing(), .6e-3 * grid.spacing());
+      constexpr std::array<double, 3> beside = {1e-3, .6e-3, .3e-3};
       double largest = *std::max_element(grid.values.begin(), grid.values.end());
       for (const Top &one : tops(grid))
         if (one.bound > largest)
-          largest = std::max(largest, climb(waves, grid.spacing() * Point(one.i1, one.i2) + beside,
-                                            grid.spacing()));
+        {
+          Point start = grid.kappa(one.place);
+          for (int d = 0; d < grid.dim; ++d)
+            start[d] += beside[d] * grid.spacing();
+          largest = std::max(largest, climb(waves, start, grid.spacing()));
+        }
       return largest;
     }
   } // namespace
@@ -257,23 +343,27 @@ namespace plumbline::algebra
     // The symbol is a trigonometric polynomial whose degree is the reach. Along a line such a
     // polynomial p of degree N falls off from its largest |p| no faster than cos(N x) does (M.
     // Riesz), so that a point of a grid with eight points on the shortest oscillation keeps
-    // cos(π/4) of it in the plane, and each hill of the symbol shows as a top of the grid.
-    const int n = std::max(24, 4 * std::max(waves_.stiffness.reach(), waves_.mass.reach()));
-    Grid largest{n, {}};
-    double least = std::numeric_limits<double>::infinity();
+    // cos(π/4) of it along each axis, and each hill of the symbol shows as a top of the grid.
     const auto reach = std::max(waves_.stiffness.reach(), waves_.mass.reach());
-    std::vector<std::vector<Complex>> phase; // over κ_1
-    for (int i1 = 0; i1 <= n; ++i1)
-      phase.push_back(phases(i1 * largest.spacing(), reach));
-    for (int i2 = 0; i2 < 2 * n; ++i2)
+    Grid largest{std::max(24, 4 * reach), dimension(waves_)};
+    const int n = largest.n;
+    double least = std::numeric_limits<double>::infinity();
+    std::vector<std::vector<Complex>> phase;
+    for (int i = 0; i < 2 * n; ++i)
+      phase.push_back(phases(i * largest.spacing(), reach));
+    for (int i3 = 0; i3 < largest.n_layers(); ++i3)
     {
-      const double kappa2 = i2 * largest.spacing();
-      const Slice stiffness(waves_.stiffness, kappa2), mass(waves_.mass, kappa2);
-      for (int i1 = 0; i1 <= n; ++i1)
+      Slice stiffness(waves_.stiffness, phase[i3]), mass(waves_.mass, phase[i3]);
+      for (int i2 = 0; i2 < 2 * n; ++i2)
       {
-        const auto solver = solve_pencil(stiffness.at(phase[i1]), mass.at(phase[i1]), false);
-        largest.values.push_back(solver.eigenvalues()[solver.eigenvalues().size() - 1]);
-        least = std::min(least, solver.eigenvalues()[0]);
+        stiffness.turn_to(phase[i2]);
+        mass.turn_to(phase[i2]);
+        for (int i1 = 0; i1 <= n; ++i1)
+        {
+          const auto solver = solve_pencil(stiffness.at(phase[i1]), mass.at(phase[i1]), false);
+          largest.values.push_back(solver.eigenvalues()[solver.eigenvalues().size() - 1]);
+          least = std::min(least, solver.eigenvalues()[0]);
+        }
       }
     }
     return {least, maximum(largest, waves_)};

@@ -210,6 +210,11 @@ namespace plumbline::method
     return result;
   }
 
+  algebra::WaveOperator BoxDiscretisation::waves() const
+  {
+    return {lattice_.h(), stencil_, mass_stencil(), n_components_, {{}}};
+  }
+
   std::unique_ptr<algebra::LinearSystem> BoxDiscretisation::tangent() const
   {
     return std::make_unique<algebra::StencilSystem>(stencil_, n_, backend_);

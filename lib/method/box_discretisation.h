@@ -1,6 +1,7 @@
 #pragma once
 
 #include "algebra/linear_system.h"
+#include "algebra/symbol.h"
 #include "method/diagnostics.h"
 #include "problem/in_space.h"
 
@@ -61,6 +62,9 @@ namespace plumbline::method
     /// @throws NumericalError  the stencil is not symmetric
     std::unique_ptr<algebra::LinearSystem> tangent() const;
 
+    /// M ü = -A u on an unbounded lattice.
+    algebra::WaveOperator waves() const;
+
     virtual Diagnostics diagnostics() const = 0;
 
   protected:
@@ -68,6 +72,9 @@ namespace plumbline::method
     const algebra::Stencil &stencil() const { return stencil_; }
 
   private:
+    /// The mass matrix of density 1.
+    virtual algebra::Stencil mass_stencil() const = 0;
+
     /// Along an axis: what tests a load at the node with this coordinate, the load's value there or
     /// a shape function.
     virtual physics::AxisFunctional load_functional(double coordinate) const = 0;

@@ -112,10 +112,10 @@ namespace plumbline::method
 
   std::optional<algebra::WaveOperator> LatticeDiscretisation::waves() const
   {
-    std::vector<dealii::Point<2>> places;
+    std::vector<algebra::Vector3> places;
     for (const geometry::AxisSpecies &along_y : nodes_.axis)
       for (const geometry::AxisSpecies &along_x : nodes_.axis)
-        places.emplace_back(along_x.offset, along_y.offset);
+        places.push_back({along_x.offset, along_y.offset});
     return algebra::WaveOperator{lattice_.h(), stencil_, mass_stencil(), nodes_.n_components,
                                  places};
   }

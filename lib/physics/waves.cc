@@ -18,19 +18,21 @@ namespace plumbline::physics
       double one_minus_j0, j1, j2, j3;
     };
 
+    /// @tparam dim  2: Bessel's functions; 3: the spherical ones
+    template <int dim>
     Bessel bessel(double z)
     {
       constexpr double small = 1; // below it, 1 - J0 loses digits and its series has few terms
-      const double j0 = std::cyl_bessel_j(0, z);
-      Bessel result{1 - j0, std::cyl_bessel_j(1, z), std::cyl_bessel_j(2, z),
-                    std::cyl_bessel_j(3, z)};
+      const auto j = [z](unsigned int n)
+      { return dim == 2 ? std::cyl_bessel_j(n, z) : std::sph_bessel(n, z); };
+      Bessel result{1 - j(0), j(1), j(2), j(3)};
       if (z < small)
       {
         result.one_minus_j0 = 0;
         double term = 1;
         for (int n = 1; n <= 10; ++n)
         {
-          term *= -z * z / (4. * n * n);
+          term *= -z * z / (dim == 2 ? 4. * n * n : 2. * n * (2 * n + 1));
           result.one_minus_j0 -= term;
         }
       }
@@ -41,7 +43,8 @@ namespace plumbline::physics
     using Pair = std::array<double, 2>;
 
     /// ∫_0^δ f(r) dr with more and more Gauss points between breaks until it settles.
-    Pair integrate(const Kernel<2> &kernel, double k, const std::function<Pair(double r)> &f)
+    template <int dim>
+    Pair integrate(const Kernel<dim> &kernel, double k, const std::function<Pair(double r)> &f)
     {
       const double horizon = kernel.horizon();
       std::vector<double> ends = kernel.breaks();
@@ -94,10 +97,10 @@ namespace plumbline::physics
       return coarse;
     }
 
-    /// Of the bonds.
+    /// Of the bonds in the plane.
     Pair bonds(const Kernel<2> &kernel, Polarisation polarisation, double k, double r)
     {
-      const Bessel b = bessel(k * r);
+      const Bessel b = bessel<2>(k * r);
       const double weight = kernel.radial(r) * r;
       switch (polarisation)
       {
@@ -111,28 +114,51 @@ namespace plumbline::physics
                 M_PI * weight * r * (.5 * b.j1 + .5 * b.j3)};
       }
     }
+
+    /// Of those in space.
+    Pair bonds(const Kernel<3> &kernel, Polarisation polarisation, double k, double r)
+    {
+      const Bessel b = bessel<3>(k * r);
+      const double weight = 4 * M_PI * kernel.radial(r) * r * r;
+      switch (polarisation)
+      {
+      case Polarisation::scalar:
+        return {weight * b.one_minus_j0, weight * r * b.j1};
+      case Polarisation::longitudinal: // J2' = (2 J1 - 3 J3) / 5
+        return {weight / 3 * (b.one_minus_j0 + 2 * b.j2),
+                weight / 3 * r * (1.8 * b.j1 - 1.2 * b.j3)};
+      default:
+        return {weight / 3 * (b.one_minus_j0 - b.j2), weight / 3 * r * (.6 * b.j1 + .6 * b.j3)};
+      }
+    }
   } // namespace
 
-  std::vector<Polarisation> polarisations(Structure structure)
+  std::vector<Branch> branches(Structure structure, unsigned int dimension)
   {
     if (structure == Structure::scalar)
-      return {Polarisation::scalar};
-    return {Polarisation::longitudinal, Polarisation::transverse};
+      return {{Polarisation::scalar, ""}};
+    if (dimension == 2)
+      return {{Polarisation::longitudinal, "L"}, {Polarisation::transverse, "T"}};
+    return {{Polarisation::longitudinal, "L"},
+            {Polarisation::transverse, "T1"},
+            {Polarisation::transverse, "T2"}};
   }
 
-  std::string name(Polarisation polarisation)
+  template <int dim>
+  Frequency exact_wave(const Kernel<dim> &kernel, Polarisation polarisation, double k)
   {
-    return polarisation == Polarisation::scalar         ? ""
-           : polarisation == Polarisation::longitudinal ? "L"
-                                                        : "T";
+    const Pair of_bonds =
+        integrate(kernel, k, [&](double r) { return bonds(kernel, polarisation, k, r); });
+    return {of_bonds[0], of_bonds[1]};
   }
+
+  template Frequency exact_wave(const Kernel<2> &, Polarisation, double);
+  template Frequency exact_wave(const Kernel<3> &, Polarisation, double);
 
   Frequency exact_wave(const Kernel<2> &kernel, const std::optional<Dilatation> &dilatation,
                        Polarisation polarisation, double k)
   {
-    const Pair of_bonds =
-        integrate(kernel, k, [&](double r) { return bonds(kernel, polarisation, k, r); });
-    Frequency result{of_bonds[0], of_bonds[1]};
+    Frequency result = exact_wave(kernel, polarisation, k);
     if (dilatation && polarisation == Polarisation::longitudinal)
     {
       const Kernel<2> &influence = dilatation->influence;
@@ -140,7 +166,7 @@ namespace plumbline::physics
           integrate(influence, k,
                     [&](double r) -> Pair
                     {
-                      const Bessel b = bessel(k * r);
+                      const Bessel b = bessel<2>(k * r);
                       const double weight = 2 * M_PI * influence.radial(r) * r * r;
                       return {weight * b.j1, weight * r * .5 * (1 - b.one_minus_j0 - b.j2)};
                     });
@@ -151,10 +177,9 @@ namespace plumbline::physics
     return result;
   }
 
-  double squared_local_speed(const Kernel<2> &kernel, const std::optional<Dilatation> &dilatation,
+  double squared_local_speed(const LocalLimit &limit, const std::optional<Dilatation> &dilatation,
                              Polarisation polarisation)
   {
-    const LocalLimit limit = kernel.limit();
     if (polarisation == Polarisation::scalar)
       return limit.diffusion;
     if (polarisation == Polarisation::transverse)

@@ -18,10 +18,16 @@ namespace plumbline::physics
     transverse
   };
 
-  /// Those of a kernel, in the order of a symbol's waves.
-  std::vector<Polarisation> polarisations(Structure structure);
+  /// One sort of waves of a kernel.
+  struct Branch
+  {
+    Polarisation polarisation = Polarisation::scalar;
+    std::string name; ///< "", "L", "T", or in space, for the two across a direction, "T1" and "T2"
+  };
 
-  std::string name(Polarisation polarisation); ///< "", "L" or "T"
+  /// Those of a kernel, in the order of a symbol's waves.
+  /// @param dimension  2 or 3
+  std::vector<Branch> branches(Structure structure, unsigned int dimension);
 
   /// ω² of a wave of unit density, and its derivative.
   struct Frequency
@@ -30,24 +36,30 @@ namespace plumbline::physics
     double slope = 0;   ///< dω²/dk
   };
 
-  /// The nonlocal operator's own plane waves in an unbounded body of density 1, ü = -L_δ u, the
-  /// same in all directions: with z = kr
-  ///   scalar        ω² = 2π ∫ C (1 - J0(z)) r dr
-  ///   longitudinal  ω² = π ∫ C (1 - J0(z) + J2(z)) r dr + (λ - μ) g²
-  ///   transverse    ω² = π ∫ C (1 - J0(z) - J2(z)) r dr
-  /// over 0 < r < δ, C = radial(r); of the dilatation's influence K, g = 2π ∫ K J1(z) r² dr → k.
-  /// Source: Silling 2000, doi:10.1016/S0022-5096(99)00029-0, ω² = ∫ C (1 - cos k·ξ) dξ, its angle
-  /// integrated by Bessel's integrals.
-  /// @param dilatation  of a homogeneous solid, or empty
-  /// @param k           > 0 [1/length], at most 1e4 / δ
-  /// Accuracy: 1e-13 relative.
+  /// The plane waves of bonds in an unbounded body of density 1, ü = -L_δ u, the same in all
+  /// directions: with z = kr, |S| r^(d-1) the size of a circle (d = 2) or sphere (d = 3), and J_n
+  /// Bessel's functions, in space the spherical ones,
+  ///   scalar        ω² = |S| ∫ C (1 - J0(z)) r^(d-1) dr
+  ///   longitudinal  ω² = |S|/d ∫ C (1 - J0(z) + (d-1) J2(z)) r^(d-1) dr
+  ///   transverse    ω² = |S|/d ∫ C (1 - J0(z) - J2(z)) r^(d-1) dr
+  /// over 0 < r < δ, C = radial(r).
+  /// Source: Silling 2000, doi:10.1016/S0022-5096(99)00029-0, ω² = ∫ C (1 - cos k·ξ) dξ, its angles
+  /// integrated by Bessel's and Gegenbauer's integrals.
+  /// @param k  > 0 [1/length], at most 1e4 / δ
+  /// Accuracy: 1e-13 relative. Instantiated for dim = 2 and 3.
   /// @throws NumericalError  the quadrature does not settle to 1e-12
+  template <int dim>
+  Frequency exact_wave(const Kernel<dim> &kernel, Polarisation polarisation, double k);
+
+  /// The same with a dilatation, whose influence K adds (λ - μ) g² to ω² of longitudinal waves, g =
+  /// 2π ∫ K J1(z) r² dr → k.
+  /// @param dilatation  of a homogeneous solid, or empty
   Frequency exact_wave(const Kernel<2> &kernel, const std::optional<Dilatation> &dilatation,
                        Polarisation polarisation, double k);
 
   /// The square of the speed of all waves of the local limit, and of long ones here: diffusion,
   /// λ + 2μ or μ.
-  double squared_local_speed(const Kernel<2> &kernel, const std::optional<Dilatation> &dilatation,
+  double squared_local_speed(const LocalLimit &limit, const std::optional<Dilatation> &dilatation,
                              Polarisation polarisation);
 } // namespace plumbline::physics
 

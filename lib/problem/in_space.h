@@ -42,6 +42,7 @@ namespace plumbline::problem
 
     double h() const { return lattice.h(); }
     double horizon() const { return kernel.horizon(); }
+    Level level() const { return {h(), horizon()}; }
   };
 
   /// The problem with its fields as series where they are smooth, checked on samples.

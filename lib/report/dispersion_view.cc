@@ -71,14 +71,16 @@ namespace plumbline::report
       std::vector<RecordColumn> columns;
       for (const std::string &waves : waves_with(results, ": error of long waves"))
         columns.push_back(error_column(waves, waves + ": error of long waves"));
-      for (const char *const name : {"anisotropy", "anisotropy L", "anisotropy T"})
+      for (const char *const name :
+           {"anisotropy", "anisotropy L", "anisotropy T", "anisotropy T1", "anisotropy T2"})
         columns.push_back(error_column(name, name));
       return {"long", "Long waves",
               "Errors of the phase speed as the wave number tends to 0, relative to the local "
-              "limit's, in directions from the first axis: L waves move along their direction, T "
-              "waves across it. They are the defects of the second moments, and stay as h and "
-              "horizon go to 0 together. anisotropy: the speed along an axis less that along the "
-              "diagonal, over the local limit's.",
+              "limit's: L waves move along their direction, T waves across it (in space T1 waves "
+              "across the third axis, too, T2 waves across both others). They are the defects of "
+              "the second moments, and stay as h and horizon go to 0 together. anisotropy: the "
+              "speed along an axis less that along the diagonal (in space of a face or of the "
+              "cube, whichever differs more), over the local limit's.",
               table_of(results, with_place(results, columns),
                        [&](const Record &record) {
                          return std::find(finest.begin(), finest.end(), &record) != finest.end();
@@ -165,8 +167,7 @@ namespace plumbline::report
           results, is_there);
       const auto methods = methods_of(results, is_there);
       const std::vector<std::string> waves = waves_with(results, ": local speed");
-      const std::string &directions = results.facts.at("directions");
-      const std::string first = "at " + directions.substr(0, directions.find(','));
+      const std::string &first = results.facts.at("first direction");
       for (const std::string &series : series_of(results))
         for (const char *const which : {"phase", "group"})
           for (const std::string &one : waves)

@@ -86,8 +86,8 @@ namespace plumbline::scene
       case C::line:
         return {"Domain/dimension = 1, which is for transient analysis of double wells", "write 2"};
       case C::space:
-        return {"Domain/dimension = 3, which is for static problems and weights of bond-based "
-                "materials",
+        return {"Domain/dimension = 3, which is for static problems, waves and weights of "
+                "bond-based materials",
                 "write 2"};
       }
       return {};
@@ -122,7 +122,7 @@ namespace plumbline::scene
         {base::word(Analysis::strip), {C::lattice, C::nonlocal}},
         {base::word(Analysis::stability), all_but({C::line, C::space})},
         {base::word(Analysis::dispersion),
-         all_but(on_meshes_alone | Capabilities{C::free_boundary, C::floating, C::line, C::space})},
+         all_but(on_meshes_alone | Capabilities{C::free_boundary, C::floating, C::line})},
         {base::word(Analysis::check),
          all_but(of_damage() | Capabilities{C::line, C::free_boundary, C::floating, C::dilatation,
                                             C::zero_dilatation, C::mixed_dilatation})}};

@@ -2,7 +2,9 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "method/box_discretisation.h"
 #include "method/discretisation.h"
+#include "physics/waves.h"
 #include "scene/capabilities.h"
 #include "scene/problem.h"
 #include "study/preflight.h"
@@ -19,11 +21,6 @@ namespace plumbline::study
   namespace
   {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-    double radians(double degrees)
-    {
-      return degrees * M_PI / 180;
-    }
 
     /// NaN for a wave that grows.
     double root(double squared)
@@ -42,24 +39,56 @@ namespace plumbline::study
       return worst;
     }
 
+    // what the dimension changes
+    physics::Frequency exact_wave(const problem::Problem<2> &problem, physics::Polarisation p,
+                                  double k)
+    {
+      return physics::exact_wave(problem.kernel, problem.dilatation, p, k);
+    }
+
+    physics::Frequency exact_wave(const problem::Problem<3> &problem, physics::Polarisation p,
+                                  double k)
+    {
+      return physics::exact_wave(problem.kernel, p, k);
+    }
+
+    const std::optional<physics::Dilatation> &dilatation(const problem::Problem<2> &problem)
+    {
+      return problem.dilatation;
+    }
+
+    std::optional<physics::Dilatation> dilatation(const problem::Problem<3> &)
+    {
+      return {};
+    }
+
+    std::vector<algebra::Vector3> diagonals(unsigned int dimension)
+    {
+      if (dimension == 2)
+        return {algebra::in_plane(M_PI / 4)};
+      const double face = std::sqrt(1. / 2), cube = std::sqrt(1. / 3);
+      return {{face, face, 0}, {cube, cube, cube}};
+    }
+
     /// The waves of one symbol at one level.
+    template <int dim>
     class Measurement
     {
     public:
-      Measurement(const problem::Problem<2> &problem, const WaveStudy &study)
+      Measurement(const problem::Problem<dim> &problem, const WaveStudy &study)
           : problem_(problem), study_(study),
-            polarisations_(physics::polarisations(problem.n_components == 1
-                                                      ? physics::Structure::scalar
-                                                      : physics::Structure::tensor))
+            branches_(physics::branches(problem.n_components == 1 ? physics::Structure::scalar
+                                                                  : physics::Structure::tensor,
+                                        dim))
       {
       }
 
       /// Fill in curves, anisotropy, range and round-off.
       void measure(const algebra::Symbol &symbol, bool is_finest, DispersionRow &row) const
       {
-        for (const double angle : study_.angles)
-          for (std::size_t i = 0; i < polarisations_.size(); ++i)
-            row.curves.push_back(curve(symbol, i, angle));
+        for (const WaveDirection &direction : study_.directions)
+          for (std::size_t i = 0; i < branches_.size(); ++i)
+            row.curves.push_back(curve(symbol, i, direction));
         const double k = 2 * M_PI / study_.wavelength;
         sample(symbol, k, row,
                [](WaveCurve &curve, const WaveSample &one) { curve.longest = one; });
@@ -67,14 +96,13 @@ namespace plumbline::study
           for (const double cells : lengths())
             sample(symbol, 2 * M_PI / (cells * row.h), row,
                    [](WaveCurve &curve, const WaveSample &one) { curve.samples.push_back(one); });
-        const auto axis = symbol.long_waves(0), diagonal = symbol.long_waves(radians(45));
-        for (std::size_t i = 0; i < polarisations_.size(); ++i)
-          row.anisotropy.push_back((speed(axis[i]) - speed(diagonal[i])) / local_speed(i));
+        for (std::size_t i = 0; i < branches_.size(); ++i)
+          row.anisotropy.emplace_back(branches_[i].name, anisotropy(symbol, i));
         row.range = symbol.range();
         for (double *const squared : {&row.range.least, &row.range.largest})
           *squared /= study_.density;
         // sums of entries of the size of the largest ω² cancel down to that of the longest wave
-        for (std::size_t i = 0; i < polarisations_.size(); ++i)
+        for (std::size_t i = 0; i < branches_.size(); ++i)
           row.round_off =
               std::max(row.round_off, 8 * std::numeric_limits<double>::epsilon() *
                                           row.range.largest / std::pow(k * local_speed(i), 2));
@@ -97,18 +125,32 @@ namespace plumbline::study
 
       double local_speed(std::size_t i) const
       {
-        return speed(
-            physics::squared_local_speed(problem_.kernel, problem_.dilatation, polarisations_[i]));
+        return speed(physics::squared_local_speed(problem_.kernel.limit(), dilatation(problem_),
+                                                  branches_[i].polarisation));
       }
 
-      WaveCurve curve(const algebra::Symbol &symbol, std::size_t i, double angle) const
+      double anisotropy(const algebra::Symbol &symbol, std::size_t i) const
+      {
+        const double along_axis = speed(symbol.long_waves({1, 0, 0})[i]);
+        double result = 0;
+        for (const algebra::Vector3 &diagonal : diagonals(dim))
+        {
+          const double difference =
+              (along_axis - speed(symbol.long_waves(diagonal)[i])) / local_speed(i);
+          if (!(std::abs(difference) <= std::abs(result))) // NaN stays
+            result = difference;
+        }
+        return result;
+      }
+
+      WaveCurve curve(const algebra::Symbol &symbol, std::size_t i,
+                      const WaveDirection &direction) const
       {
         WaveCurve result;
-        result.polarisation = polarisations_[i];
-        result.angle = angle;
+        result.name =
+            (branches_[i].name.empty() ? "" : branches_[i].name + " ") + "waves " + direction.name;
         result.local_speed = local_speed(i);
-        result.long_wave_error =
-            speed(symbol.long_waves(radians(angle))[i]) / result.local_speed - 1;
+        result.long_wave_error = speed(symbol.long_waves(direction.n)[i]) / result.local_speed - 1;
         return result;
       }
 
@@ -118,13 +160,12 @@ namespace plumbline::study
                   const Take &take) const
       {
         std::vector<physics::Frequency> exact; // the same in all directions
-        for (const auto polarisation : polarisations_)
-          exact.push_back(
-              physics::exact_wave(problem_.kernel, problem_.dilatation, polarisation, k));
+        for (const physics::Branch &branch : branches_)
+          exact.push_back(exact_wave(problem_, branch.polarisation, k));
         auto curve = row.curves.begin();
-        for (const double angle : study_.angles)
+        for (const WaveDirection &direction : study_.directions)
         {
-          const auto waves = symbol.waves(k, radians(angle));
+          const auto waves = symbol.waves(k, direction.n);
           for (std::size_t i = 0; i < waves.size(); ++i, ++curve)
           {
             const double omega = speed(waves[i].squared), exact_omega = speed(exact[i].squared),
@@ -135,29 +176,34 @@ namespace plumbline::study
         }
       }
 
-      const problem::Problem<2> &problem_;
+      const problem::Problem<dim> &problem_;
       const WaveStudy &study_;
-      std::vector<physics::Polarisation> polarisations_;
+      std::vector<physics::Branch> branches_;
     };
 
-    double longer_side(const geometry::Domain &domain)
+    /// Of the bounding box of a scene's domain.
+    double longest_side(const scene::DomainSection &domain)
     {
+      constexpr double infinity = std::numeric_limits<double>::infinity();
       double side = 0;
-      for (unsigned int d = 0; d < 2; ++d)
+      const auto add_axis = [&](const auto &boxes, unsigned int axis)
       {
-        double lower = std::numeric_limits<double>::infinity(), upper = -lower;
-        for (const geometry::Box &box : domain.include)
+        double lower = infinity, upper = -infinity;
+        for (const auto &box : boxes)
         {
-          lower = std::min(lower, box.lower[d]);
-          upper = std::max(upper, box.upper[d]);
+          lower = std::min(lower, box.lower[axis]);
+          upper = std::max(upper, box.upper[axis]);
         }
         side = std::max(side, upper - lower);
-      }
+      };
+      for (unsigned int d = 0; d < domain.dimension; ++d)
+        domain.is_in_space() ? add_axis(domain.cuboids, d) : add_axis(domain.boxes.include, d);
       return side;
     }
 
     /// @param row  with method, family, series and level
-    DispersionRow measured(DispersionRow row, const Measurement &measurement,
+    template <int dim>
+    DispersionRow measured(DispersionRow row, const Measurement<dim> &measurement,
                            const algebra::WaveOperator &waves, bool is_finest)
     {
       const DispersionRow empty = row;
@@ -195,7 +241,66 @@ namespace plumbline::study
     return largest_size(curves, &WaveCurve::nonlocal_error);
   }
 
-  WaveStudy plan_waves(const scene::Scene &scene, const std::vector<double> &angles)
+  namespace
+  {
+    void check_number_of_directions(const std::string &option, std::size_t n)
+    {
+      constexpr std::size_t most = 16;
+      if (n > most)
+        throw InputError(option + " has " + std::to_string(n) + " directions; give 1 to " +
+                         std::to_string(most));
+    }
+
+    WaveDirection at_angle(double angle)
+    {
+      if (!std::isfinite(angle) || std::abs(angle) > 360)
+        throw InputError("--angles: " + base::to_text(angle, 4) +
+                         " is no direction; give degrees from -360 to 360");
+      return {"at " + base::to_text(angle, 4) + "°", algebra::in_plane(angle * M_PI / 180)};
+    }
+
+    WaveDirection along(const algebra::Vector3 &vector)
+    {
+      const double size = std::hypot(vector[0], vector[1], vector[2]);
+      WaveDirection result{"along (", vector};
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        result.name += base::to_text(vector[d], 4) + (d < 2 ? ", " : ")");
+        result.n[d] /= size;
+      }
+      if (!(size > 0 && std::isfinite(size)))
+        throw InputError("--directions: " + result.name.substr(6) +
+                         " is no direction; give three numbers that are not all 0, e.g. 1,1,0");
+      return result;
+    }
+  } // namespace
+
+  std::vector<WaveDirection> wave_directions(const AskedDirections &asked, unsigned int dimension)
+  {
+    std::vector<WaveDirection> result;
+    if (dimension == 3)
+    {
+      if (!asked.angles.empty())
+        throw InputError("--angles gives directions in the plane, but Domain/dimension = 3; write "
+                         "--directions and three numbers for each, e.g. 1,0,0 1,1,0");
+      check_number_of_directions("--directions", asked.vectors.size());
+      for (const auto &vector : asked.vectors.empty()
+                                    ? std::vector<algebra::Vector3>{{1}, {1, 1}, {1, 1, 1}}
+                                    : asked.vectors)
+        result.push_back(along(vector));
+      return result;
+    }
+    if (!asked.vectors.empty())
+      throw InputError("--directions gives directions in space, but Domain/dimension = " +
+                       std::to_string(dimension) + "; write --angles in degrees, e.g. 0,45");
+    check_number_of_directions("--angles", asked.angles.size());
+    for (const double angle :
+         asked.angles.empty() ? std::vector<double>{0, 22.5, 45} : asked.angles)
+      result.push_back(at_angle(angle));
+    return result;
+  }
+
+  WaveStudy plan_waves(const scene::Scene &scene, const AskedDirections &directions)
   {
     const auto needs = [&](bool is_good, const std::string &what)
     {
@@ -206,12 +311,15 @@ namespace plumbline::study
           "Solver/model = full puts the nodes on a mesh, but waves are those of nodes that are all "
           "alike; write smallest");
     check_analysis(scene, scene::Analysis::dispersion);
-    const physics::LocalLimit limit = make_kernel(scene, 1).limit();
+    const physics::LocalLimit limit = scene.domain.is_in_space()
+                                          ? make_kernel_in_space(scene, 1).limit()
+                                          : make_kernel(scene, 1).limit();
     needs(limit.diffusion > 0 || limit.mu > 0,
           "Kernel/coefficients and Kernel/constant make a local limit of " +
               base::to_text(scene.is_vector() ? limit.mu : limit.diffusion, 4) +
               " (diffusion, or mu), which has no waves; it must be positive: change their signs");
-    WaveStudy study{angles, longer_side(scene.domain.boxes), scene.time.density};
+    WaveStudy study{wave_directions(directions, scene.domain.dimension), longest_side(scene.domain),
+                    scene.time.density};
     for (const problem::Series &series : scene.study.series)
       for (const problem::Level &level : series.levels)
         needs(2 * level.h <= study.wavelength,
@@ -221,23 +329,42 @@ namespace plumbline::study
     return study;
   }
 
-  std::vector<DispersionRow> measure_waves(const Method &method, const problem::Problem<2> &problem,
-                                           const WaveStudy &study, const std::string &series,
-                                           bool is_finest)
+  namespace
   {
-    const Measurement measurement(problem, study);
+    /// @param row  given the proof of the method's limit
+    std::optional<algebra::WaveOperator>
+    waves_of(const Method &method, const problem::Problem<2> &problem, DispersionRow &row)
+    {
+      const auto discretisation = method.discretise(problem, base::Communicator::alone());
+      row.limit = discretisation->diagnostics().limit;
+      return discretisation->waves();
+    }
+
+    std::optional<algebra::WaveOperator>
+    waves_of(const Method &method, const problem::Problem<3> &problem, DispersionRow &row)
+    {
+      const auto discretisation = method.discretise_in_space(problem);
+      row.limit = discretisation->diagnostics().limit;
+      return discretisation->waves();
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<DispersionRow>
+  measure_waves(const Method &method, const problem::Problem<dim> &problem, const WaveStudy &study,
+                const std::string &series, bool is_finest)
+  {
+    const Measurement<dim> measurement(problem, study);
     DispersionRow row;
     row.method = method.name();
     row.family = method.family();
     row.series = series;
-    row.h = problem.h;
+    row.h = problem.level().h;
     row.horizon = problem.horizon();
     std::optional<algebra::WaveOperator> waves;
     try
     {
-      const auto discretisation = method.discretise(problem, base::Communicator::alone());
-      waves = discretisation->waves();
-      row.limit = discretisation->diagnostics().limit;
+      waves = waves_of(method, problem, row);
     }
     catch (const NumericalError &error)
     {
@@ -257,14 +384,10 @@ namespace plumbline::study
     return rows;
   }
 
-  namespace
-  {
-    std::string name_of(const WaveCurve &curve)
-    {
-      const std::string way = name(curve.polarisation);
-      return (way.empty() ? "" : way + " ") + "waves at " + base::to_text(curve.angle, 4) + "°";
-    }
-  } // namespace
+  template std::vector<DispersionRow> measure_waves(const Method &, const problem::Problem<2> &,
+                                                    const WaveStudy &, const std::string &, bool);
+  template std::vector<DispersionRow> measure_waves(const Method &, const problem::Problem<3> &,
+                                                    const WaveStudy &, const std::string &, bool);
 
   Record wave_record(Record record, const DispersionRow &row)
   {
@@ -277,7 +400,7 @@ namespace plumbline::study
     double fastest = 0;
     for (const WaveCurve &curve : row.curves)
     {
-      const std::string waves = name_of(curve);
+      const std::string &waves = curve.name;
       record.set(waves + ": error of long waves", curve.long_wave_error);
       record.set(waves + ": phase speed", curve.longest.phase, "length/time");
       record.set(waves + ": group speed", curve.longest.group, "length/time");
@@ -300,10 +423,8 @@ namespace plumbline::study
       }
       record.curves[waves] = std::move(samples);
     }
-    const auto names = physics::polarisations(
-        row.anisotropy.size() == 1 ? physics::Structure::scalar : physics::Structure::tensor);
-    for (std::size_t i = 0; i < names.size(); ++i)
-      record.set("anisotropy" + (names.size() == 1 ? "" : " " + name(names[i])), row.anisotropy[i]);
+    for (const auto &[branch, anisotropy] : row.anisotropy)
+      record.set("anisotropy" + (branch.empty() ? "" : " " + branch), anisotropy);
     record.set("error against the local limit", row.worst_local_error());
     record.set("error against the nonlocal operator", row.worst_nonlocal_error());
     record.set("round-off", row.round_off);
@@ -369,41 +490,49 @@ namespace plumbline::study
     return trends;
   }
 
-  const std::vector<double> usual_angles = {0, 22.5, 45};
-
   namespace
   {
-    void check_angles(const std::vector<double> &angles)
+    /// Of a record of several that one method makes: its waves by the place's problem.
+    std::vector<DispersionRow> measure_at(const Place &place, const Method &method,
+                                          const WaveStudy &waves)
     {
-      constexpr std::size_t most = 16;
-      if (angles.empty() || angles.size() > most)
-        throw InputError("--angles has " + std::to_string(angles.size()) +
-                         " directions; give 1 to " + std::to_string(most));
-      for (const double angle : angles)
-        if (!std::isfinite(angle) || std::abs(angle) > 360)
-          throw InputError("--angles: " + base::to_text(angle, 4) +
-                           " is no direction; give degrees from -360 to 360");
+      const std::string &series = place.series().name;
+      if (!place.scene().domain.is_in_space())
+        return measure_waves(method, place.problem(), waves, series, place.is_finest());
+      const auto &problem = place.shared<problem::Problem<3>>(
+          "problem in space",
+          [&] { return make_problem_in_space(place.scene(), 0, place.level()); });
+      return measure_waves(method, problem, waves, series, place.is_finest());
+    }
+
+    /// The numbers that were asked for, to tell studies apart.
+    std::string text_of(const AskedDirections &asked)
+    {
+      std::vector<double> numbers = asked.angles;
+      for (const algebra::Vector3 &vector : asked.vectors)
+        numbers.insert(numbers.end(), vector.begin(), vector.end());
+      std::string text;
+      for (const double number : numbers)
+        text += (text.empty() ? "" : " ") + base::to_text(number, 17);
+      return text;
     }
   } // namespace
 
-  Analysis dispersion_analysis(const std::vector<double> &angles)
+  Analysis dispersion_analysis(const AskedDirections &directions)
   {
-    check_angles(angles);
     Analysis analysis{"dispersion", "Dispersion"};
-    for (const double angle : angles)
-      analysis.options += (analysis.options.empty() ? "" : " ") + base::to_text(angle, 17);
-    analysis.choose_methods =
-        [angles](const scene::Scene &scene, const Methods &available, unsigned int, unsigned int)
+    analysis.options = text_of(directions);
+    analysis.choose_methods = [directions](const scene::Scene &scene, const Methods &available,
+                                           unsigned int, unsigned int)
     {
-      (void)plan_waves(scene, angles);
+      (void)plan_waves(scene, directions);
       return study::choose_methods(scene, available);
     };
-    analysis.analyse = [angles](const Place &place, const Method &method)
+    analysis.analyse = [directions](const Place &place, const Method &method)
     {
-      WaveStudy waves = plan_waves(place.scene(), angles);
       Records records;
       for (const DispersionRow &row :
-           measure_waves(method, place.problem(), waves, place.series().name, place.is_finest()))
+           measure_at(place, method, plan_waves(place.scene(), directions)))
       {
         Record record = place.record("dispersion", method);
         record.key.variant = row.method == method.name() ? "" : "lumped";
@@ -411,13 +540,15 @@ namespace plumbline::study
       }
       return records;
     };
-    analysis.conclude = [angles](const scene::Scene &scene, StudyResults &results)
+    analysis.conclude = [directions](const scene::Scene &scene, StudyResults &results)
     {
-      std::string directions;
-      for (const double angle : angles)
-        directions += (directions.empty() ? "" : ", ") + base::to_text(angle, 4) + "°";
-      results.facts = {{"longest wave", base::to_text(plan_waves(scene, angles).wavelength, 4)},
-                       {"directions", directions}};
+      const WaveStudy waves = plan_waves(scene, directions);
+      std::string names;
+      for (const WaveDirection &direction : waves.directions)
+        names += (names.empty() ? "" : ", ") + direction.name.substr(direction.name.find(' ') + 1);
+      results.facts = {{"longest wave", base::to_text(waves.wavelength, 4)},
+                       {"directions", names},
+                       {"first direction", waves.directions.front().name}};
       results.trends = wave_trends(scene, results.records);
     };
     analysis.sampled = {"critical step", ": phase speed"};

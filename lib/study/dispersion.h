@@ -2,8 +2,12 @@
 
 #include "algebra/symbol.h"
 #include "method/method.h"
-#include "physics/waves.h"
+#include "problem/in_space.h"
 #include "study/analysis.h"
+
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace plumbline::study
 {
@@ -15,11 +19,24 @@ namespace plumbline::study
     double exact_phase = 0, exact_group = 0; ///< of the nonlocal operator
   };
 
-  /// Waves of one polarisation in one direction.
+  /// A direction that waves run in.
+  struct WaveDirection
+  {
+    std::string name;   ///< "at 22.5°" from the first axis; in space "along (1, 1, 0)"
+    algebra::Vector3 n; ///< of length 1
+  };
+
+  /// Directions of a study as they are asked for; both empty: the usual ones.
+  struct AskedDirections
+  {
+    std::vector<double> angles;            ///< in the plane, from the first axis [degree]
+    std::vector<algebra::Vector3> vectors; ///< in space, of any length > 0
+  };
+
+  /// Waves of one branch in one direction.
   struct WaveCurve
   {
-    physics::Polarisation polarisation = physics::Polarisation::scalar;
-    double angle = 0;                ///< from the first axis [degree]
+    std::string name;                ///< e.g. "L waves at 22.5°"
     double local_speed = 0;          ///< c of the local limit [length/time]
     double long_wave_error = 0;      ///< lim ω/k as k → 0, over c, less 1; NaN where ω² < 0
     WaveSample longest;              ///< the longest wave of the domain
@@ -36,10 +53,10 @@ namespace plumbline::study
     MethodFamily family = MethodFamily::meshfree; ///< of the method
     std::string series;
     double h = 0, horizon = 0;     ///< [length]
-    std::vector<WaveCurve> curves; ///< for each direction one of each polarisation
-    /// For each polarisation the speed of long waves along an axis less that along the diagonal,
-    /// over c.
-    std::vector<double> anisotropy;
+    std::vector<WaveCurve> curves; ///< for each direction one of each branch
+    /// For each branch by name the speed of long waves along an axis less that along the diagonal,
+    /// over c; in space that of a face or of the cube, whichever differs more.
+    std::vector<std::pair<std::string, double>> anisotropy;
     algebra::SymbolRange range; ///< of ω² [1/time^2]
     double round_off = 0;       ///< of the longest wave's errors
     LimitProof limit;           ///< by moments, or for conforming spaces
@@ -57,14 +74,19 @@ namespace plumbline::study
   /// What is asked of a scene's waves.
   struct WaveStudy
   {
-    std::vector<double> angles; ///< [degree]
-    double wavelength = 0;      ///< the longest one of the domain: the longer side of its box
-    double density = 1;         ///< > 0, see scene::TimeSection
+    std::vector<WaveDirection> directions;
+    double wavelength = 0; ///< the longest one of the domain: the longest side of its box
+    double density = 1;    ///< > 0, see scene::TimeSection
   };
+
+  /// In the plane along an axis, along the diagonal and halfway; in space along an axis and along
+  /// the diagonals of a face and of the cube.
+  /// @throws InputError  directions of the other dimension, more than 16, or none
+  std::vector<WaveDirection> wave_directions(const AskedDirections &asked, unsigned int dimension);
 
   /// @throws InputError  a scene without one stencil for all nodes: a mesh, a free body, cracks,
   /// a material that varies; or an operator whose local limit has no waves, ω² <= 0
-  WaveStudy plan_waves(const scene::Scene &scene, const std::vector<double> &angles);
+  WaveStudy plan_waves(const scene::Scene &scene, const AskedDirections &directions = {});
 
   /// What a method is called with its mass matrix made diagonal.
   inline std::string lumped(const std::string &method)
@@ -74,11 +96,13 @@ namespace plumbline::study
 
   /// One row of a method's own mass matrix, and one more, lumped(NAME), where that couples cells.
   /// @param is_finest  of its series: sampled from 2 to 200 h
-  std::vector<DispersionRow> measure_waves(const Method &method, const problem::Problem<2> &problem,
-                                           const WaveStudy &study, const std::string &series,
-                                           bool is_finest);
+  /// Instantiated for dim = 2 and 3.
+  template <int dim>
+  std::vector<DispersionRow>
+  measure_waves(const Method &method, const problem::Problem<dim> &problem, const WaveStudy &study,
+                const std::string &series, bool is_finest);
 
-  /// Curve "waves at ANGLE°" ("L waves at ..." of a solid), of rows at a series' finest level: k,
+  /// Curve "waves at 22.5°" ("L waves at ..." of a solid), of rows at a series' finest level: k,
   /// phase and group speed, and both of the nonlocal operator. Scalars by the same names.
   Record wave_record(Record record, const DispersionRow &row);
 
@@ -89,10 +113,5 @@ namespace plumbline::study
   /// @param records  coarse to fine in each series
   std::vector<Trend> wave_trends(const scene::Scene &scene, const Records &records);
 
-  /// Waves in directions of a scene [degree].
-  /// @throws InputError  none, too many, or no angles
-  Analysis dispersion_analysis(const std::vector<double> &angles);
-
-  /// Along an axis, along the diagonal, and halfway.
-  extern const std::vector<double> usual_angles;
+  Analysis dispersion_analysis(const AskedDirections &directions = {});
 } // namespace plumbline::study

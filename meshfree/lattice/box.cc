@@ -19,6 +19,14 @@ namespace plumbline::meshfree
       method::Diagnostics diagnostics() const override { return diagnostics_; }
 
     private:
+      algebra::Stencil mass_stencil() const override
+      {
+        algebra::Stencil mass(stencil().n_blocks(), 0);
+        for (unsigned int c = 0; c < mass.n_blocks(); ++c)
+          mass(c, c, 0, 0) = 1; // equations at nodes
+        return mass;
+      }
+
       physics::AxisFunctional load_functional(double coordinate) const override
       {
         return {{coordinate, 1}};

@@ -124,12 +124,16 @@ def stability(scene, *, set=None, methods=None, levels=0):
     return _study(_core.stability_json(text, changed, rules, levels))
 
 
-def dispersion(scene, *, angles=(), set=None, methods=None, levels=0):
+def dispersion(scene, *, angles=(), directions=(), set=None, methods=None, levels=0):
     """Phase and group speeds of waves, as `plumbline dispersion` does.
 
-    angles  directions from the first axis [degree]; default: along an axis, the diagonal, halfway
+    angles      in the plane: directions from the first axis [degree]; default: along an axis, the
+                diagonal, halfway
+    directions  in space: vectors, shape (n, 3); default: along an axis, the diagonals of a face and
+                of the cube
 
     Other arguments as of run(). Returns a Study; curves of its records are columns over k.
     """
     text, changed, rules = _given(scene, set, methods)
-    return _study(_core.dispersion_json(text, changed, rules, levels, list(angles)))
+    return _study(_core.dispersion_json(text, changed, rules, levels, list(angles),
+                                        list(directions)))

@@ -1,6 +1,7 @@
 #include "method/limit_proof.h"
 #include "physics/gauss.h"
 #include "reference/lattice/discretisation.h"
+#include "reference/lattice/mass.h"
 #include "reference/lattice/solid_stencil.h"
 
 #include <cmath>
@@ -35,6 +36,11 @@ namespace plumbline::reference
       }
 
     private:
+      algebra::Stencil mass_stencil() const override
+      {
+        return reference::mass_stencil<3>(shapes_, stencil().n_blocks(), lattice().h());
+      }
+
       /// ∫ φ over the cells of its support, by Gauss's rule.
       physics::AxisFunctional load_functional(double coordinate) const override
       {

@@ -225,7 +225,7 @@ namespace plumbline::reference
 
       algebra::Stencil mass_stencil() const override
       {
-        return reference::mass_stencil(shapes_, nodes().n_components, lattice().h());
+        return reference::mass_stencil<2>(shapes_, nodes().n_components, lattice().h());
       }
 
       method::Field field(std::vector<double> values) const override

@@ -102,7 +102,7 @@ TEST(DispersionCommand, refuses_what_has_no_waves)
   expect_no_waves(diffusion + " --set Solver/model=full", "Solver/model = full");
   expect_no_waves(diffusion + " --angles x", "--angles: 'x' is no number");
   expect_no_waves(diffusion + " --angles 0,3o", "--angles: '3o' is no number");
-  expect_no_waves(diffusion + " --angles ''", "--angles has 0 directions");
+  expect_no_waves(diffusion + " --angles ''", "--angles has no numbers");
   expect_no_waves(std::string(PLUMBLINE_SCENES) + "/state_based/bar.prm", "Domain/boundary = free");
   expect_no_waves(std::string(PLUMBLINE_SCENES) + "/lps/interface_crack.prm", "Domain/mesh");
   expect_no_waves(diffusion + " --methods LOCAL", "Domain/mesh = lattice; take FA");
@@ -131,4 +131,46 @@ TEST(DispersionCommand, killed_goes_on_from_what_is_finished)
 {
   expect_to_go_on("dispersion " + scene("diffusion") + " --methods Q1,Q2,FA --levels 3",
                   "dispersion");
+}
+
+namespace
+{
+  const std::string in_space =
+      std::string(PLUMBLINE_SCENES) + "/three_d/tensor_delta_convergence.prm";
+}
+
+TEST(DispersionCommand, says_by_waves_in_space_what_is_proven_by_moments)
+{
+  const fs::path folder = temporary("dispersion");
+  const Outcome outcome = run("dispersion " + in_space + " --json -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["facts"]["directions"], "(1, 0, 0), (1, 1, 0), (1, 1, 1)");
+  std::size_t n = 0;
+  for (const auto &trend : json["trends"])
+  {
+    const std::string method = trend["method"];
+    const bool is_compatible =
+        method.find("-R") != std::string::npos || method.find("Q1") == 0 || method == "OPT";
+    EXPECT_EQ(trend["verdict"], is_compatible ? "AC" : "not AC") << method << trend["reason"];
+    EXPECT_EQ(is_compatible, trend["proof"]["answer"] == "compatible") << method;
+    ++n;
+  }
+  EXPECT_EQ(n, 11u); // ten methods, Q1 with a lumped mass, too
+  EXPECT_TRUE(fs::exists(folder / "dispersion/phase_m-3_t1-waves-along-1-1-0.svg"));
+  expect_found(read(folder / "dispersion.md"), "T2 waves along (1, 1, 1)");
+}
+
+TEST(DispersionCommand, takes_vectors_as_directions_in_space)
+{
+  const fs::path folder = temporary("dispersion");
+  const Outcome outcome = run("dispersion --directions 0,0,1 1 1 -1 " + in_space +
+                              " --methods FA --levels 1 --threads 1 --json -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["facts"]["directions"], "(0, 0, 1), (1, 1, -1)");
+  expect_no_waves(in_space + " --directions 1,0", "--directions has 2 numbers; give three");
+  expect_no_waves(in_space + " --directions 0,0,0", "(0, 0, 0) is no direction");
+  expect_no_waves(in_space + " --angles 45", "--angles gives directions in the plane");
+  expect_no_waves(scene("diffusion") + " --directions 1,0,0",
+                  "--directions gives directions in space");
 }

@@ -50,6 +50,18 @@ def test_analyses_give_the_commands_records(root, tmp_path, analysis):
                for one in study.records for curve in one["curves"].values() for column in curve)
 
 
+def test_dispersion_in_space_takes_directions(root, tmp_path):
+    scene = "scenes/three_d/tensor_delta_convergence.prm"
+    study = plumbline.dispersion(root / scene, directions=[(0, 0, 1), (1, 1, 0)], levels=1,
+                                 methods="FA")
+    said = command(root, tmp_path, "dispersion", scene, "--directions", "0,0,1,1,1,0", "--levels",
+                   "1", "--methods", "FA")
+    assert without_times(study["records"]) == without_times(said["records"])
+    assert "T2 waves along (0, 0, 1): phase speed" in study.records[0]["scalars"]
+    with pytest.raises(ValueError, match="--directions"):
+        plumbline.dispersion(root / scene, angles=[45], levels=1)
+
+
 def test_a_problem_of_a_scene_is_the_studys(root):
     u = plumbline.solve(plumbline.Problem.of_scene(str(root / SCENE), level=1), "IPA-AC")
     run, = plumbline.run(root / SCENE, levels=2, methods="IPA-AC").records[1:]

@@ -18,12 +18,10 @@ namespace plumbline::report
   {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-    study::WaveCurve curve(physics::Polarisation polarisation, double angle, double error,
-                           bool is_sampled)
+    study::WaveCurve curve(const std::string &name, double error, bool is_sampled)
     {
       study::WaveCurve result;
-      result.polarisation = polarisation;
-      result.angle = angle;
+      result.name = name;
       result.local_speed = 2;
       result.long_wave_error = error;
       result.longest = {6, 2 * (1 + error), 1.9, 1.98, 1.95};
@@ -35,19 +33,18 @@ namespace plumbline::report
 
     study::DispersionRow row(const std::string &method, double h, double error)
     {
-      using physics::Polarisation;
       study::DispersionRow result;
       result.method = method;
       result.family = study::MethodFamily::meshfree;
       result.series = "m = 3";
       result.h = h;
       result.horizon = 3 * h;
-      for (const double angle : {0., 22.5})
+      for (const std::string direction : {"at 0°", "at 22.5°"})
       {
-        result.curves.push_back(curve(Polarisation::longitudinal, angle, error, h < .06));
-        result.curves.push_back(curve(Polarisation::transverse, angle, -error / 2, h < .06));
+        result.curves.push_back(curve("L waves " + direction, error, h < .06));
+        result.curves.push_back(curve("T waves " + direction, -error / 2, h < .06));
       }
-      result.anisotropy = {.0125, -.03};
+      result.anisotropy = {{"L", .0125}, {"T", -.03}};
       result.range = {0, 4 / (h * h)};
       return result;
     }
@@ -90,7 +87,7 @@ namespace plumbline::report
       r.analysis = "dispersion";
       r.scene_name = "a <scene>";
       r.purpose = "What & why";
-      r.facts = {{"longest wave", "1"}, {"directions", "0°, 22.5°"}};
+      r.facts = {{"longest wave", "1"}, {"first direction", "at 0°"}, {"directions", "0°, 22.5°"}};
       for (const std::string method : {"good", "bad"})
         for (const double h : {.2, .1, .05})
           r.records.push_back(study::wave_record(record(method, h),
