@@ -1,11 +1,11 @@
 #include "geometry/lattice.h"
 
 #include "base/error.h"
+#include "geometry/maximal_boxes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <set>
 #include <sstream>
 #include <utility>
 
@@ -164,53 +164,14 @@ namespace plumbline::geometry
 
   std::vector<CellRange> maximal_rectangles(const Lattice &lattice)
   {
-    // Rows and columns where the shape of Ω changes; a maximal rectangle begins and ends
-    // there.
     const auto &n = lattice.n_cells();
-    std::array<std::set<int>, 2> breaks{std::set<int>{0, n[0]}, std::set<int>{0, n[1]}};
+    std::vector<char> is_inside;
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i)
-      {
-        if (lattice.is_inside(i, j) != lattice.is_inside(i - 1, j))
-          breaks[0].insert(i);
-        if (lattice.is_inside(i, j) != lattice.is_inside(i, j - 1))
-          breaks[1].insert(j);
-      }
-    const std::vector<int> x(breaks[0].begin(), breaks[0].end());
-    const std::vector<int> y(breaks[1].begin(), breaks[1].end());
-
-    std::vector<CellRange> filled;
-    for (std::size_t i0 = 0; i0 + 1 < x.size(); ++i0)
-      for (std::size_t j0 = 0; j0 + 1 < y.size(); ++j0)
-        for (std::size_t i1 = i0 + 1, j_end = y.size(); i1 < x.size(); ++i1)
-          for (std::size_t j1 = j0 + 1; j1 < j_end; ++j1)
-          {
-            // the block next to the upper right corner decides, the others were checked before
-            bool is_filled = true;
-            for (std::size_t a = i0; a < i1 && is_filled; ++a)
-              is_filled = lattice.is_inside(x[a], y[j1 - 1]);
-            if (!is_filled)
-            {
-              j_end = j1;
-              break;
-            }
-            filled.push_back({{x[i0], y[j0]}, {x[i1], y[j1]}});
-          }
-
-    const auto contains = [](const CellRange &big, const CellRange &small)
-    {
-      return big.lower[0] <= small.lower[0] && big.lower[1] <= small.lower[1] &&
-             big.upper[0] >= small.upper[0] && big.upper[1] >= small.upper[1];
-    };
-    std::vector<CellRange> maximal;
-    for (const CellRange &candidate : filled)
-    {
-      const auto n_containing =
-          std::count_if(filled.begin(), filled.end(),
-                        [&](const CellRange &other) { return contains(other, candidate); });
-      if (n_containing == 1)
-        maximal.push_back(candidate);
-    }
-    return maximal;
+        is_inside.push_back(lattice.is_inside(i, j) ? 1 : 0);
+    std::vector<CellRange> result;
+    for (const CubeRange &box : maximal_boxes(is_inside, {n[0], n[1], 1}))
+      result.push_back({{box.lower[0], box.lower[1]}, {box.upper[0], box.upper[1]}});
+    return result;
   }
 } // namespace plumbline::geometry
