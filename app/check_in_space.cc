@@ -144,7 +144,11 @@ namespace plumbline::app
   int check_in_space(const scene::Scene &scene, const CheckOptions &options,
                      const Requirements &required)
   {
-    const geometry::Cuboid &omega = scene.domain.cuboids.front();
+    const geometry::Solid &solid = scene.domain.solid;
+    if (solid.include.size() != 1 || !solid.exclude.empty())
+      throw InputError("in three dimensions weights are checked on one box; give Domain/boxes with "
+                       "one, and clear Domain/holes");
+    const geometry::Cuboid &omega = solid.include.front();
     WeightsInSpace given =
         meshfree::read_weights_in_space(options.nodes_file, options.bonds_file, omega);
     const problem::Level level = level_of(scene, meshfree::node_spacing(given, omega));

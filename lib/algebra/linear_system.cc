@@ -2,6 +2,7 @@
 
 #include "algebra/solve.h"
 #include "base/error.h"
+#include "geometry/maximal_boxes.h"
 
 #include <deal.II/lac/vector.h>
 
@@ -26,10 +27,14 @@ namespace plumbline::algebra
       return stencil;
     }
 
-    SchwarzPreconditioner on_box(const Stencil &stencil, const std::array<int, 3> &n)
+    SchwarzPreconditioner on_boxes(const Stencil &stencil, const geometry::BoxNodes &nodes)
     {
       std::vector<std::unique_ptr<RectangleSolver>> solvers;
-      solvers.push_back(make_box_sine_solver(stencil, n));
+      if (nodes.is_free.empty())
+        solvers.push_back(make_box_sine_solver(stencil, nodes.n, {{}, nodes.n}));
+      else
+        for (const geometry::CubeRange &box : geometry::maximal_boxes(nodes.is_free, nodes.n))
+          solvers.push_back(make_box_sine_solver(stencil, nodes.n, box));
       return SchwarzPreconditioner(std::move(solvers));
     }
   } // namespace
@@ -42,10 +47,10 @@ namespace plumbline::algebra
   {
   }
 
-  StencilSystem::StencilSystem(const Stencil &stencil, const std::array<int, 3> &n,
+  StencilSystem::StencilSystem(const Stencil &stencil, const geometry::BoxNodes &nodes,
                                OperatorBackend backend)
-      : operator_(make_operator(symmetric(stencil), n, backend)),
-        preconditioner_(on_box(stencil, n))
+      : operator_(make_operator(symmetric(stencil), nodes, backend)),
+        preconditioner_(on_boxes(stencil, nodes))
   {
   }
 

@@ -46,8 +46,8 @@ namespace plumbline::algebra
     StencilSystem(const Stencil &stencil, const geometry::NodeSet &nodes,
                   const std::vector<geometry::CellRange> &rectangles, OperatorBackend backend);
 
-    /// On a box of nodes in space that are all free, of one family.
-    StencilSystem(const Stencil &stencil, const std::array<int, 3> &n, OperatorBackend backend);
+    /// In space, of one family of nodes.
+    StencilSystem(const Stencil &stencil, const geometry::BoxNodes &nodes, OperatorBackend backend);
 
     void vmult(Vector &y, const Vector &x) const override { operator_->vmult(y, x); }
     LinearSolve solve(Vector &x, const Vector &b, const Stopping &stopping) const override;

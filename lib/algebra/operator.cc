@@ -8,18 +8,31 @@
 #include <deal.II/lac/vector.h>
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 namespace plumbline::algebra
 {
   namespace
   {
-    /// Set to zero what is not free.
-    void restrict_to_free(const geometry::NodeSet &nodes, double *values)
+    /// Which positions are free, the same for each component; empty: all.
+    struct Mask
     {
-      for (unsigned int c = 0; c < nodes.n_components; ++c)
-        for (const char is_free : nodes.is_free)
+      std::vector<char> is_free;
+      unsigned int n_components = 1;
+    };
+
+    Mask mask_of(const geometry::NodeSet &nodes)
+    {
+      const bool are_all_free = std::all_of(nodes.is_free.begin(), nodes.is_free.end(),
+                                            [](char is_free) { return is_free != 0; });
+      return {are_all_free ? std::vector<char>() : nodes.is_free, nodes.n_components};
+    }
+
+    /// Set to zero what is not free.
+    void restrict_to_free(const Mask &mask, double *values)
+    {
+      for (unsigned int c = 0; c < mask.n_components; ++c)
+        for (const char is_free : mask.is_free)
           *values++ *= is_free != 0 ? 1. : 0.;
     }
 
@@ -28,36 +41,32 @@ namespace plumbline::algebra
     class StencilOperator : public Operator
     {
     public:
-      /// @param nodes  none: all positions are free
-      StencilOperator(std::uint64_t n_bonds, std::optional<geometry::NodeSet> nodes,
-                      std::string backend, Application &&application)
-          : nodes_(std::move(nodes)), backend_(std::move(backend)),
-            application_(std::move(application)), n_bonds_(n_bonds),
-            is_masked_(nodes_ && std::any_of(nodes_->is_free.begin(), nodes_->is_free.end(),
-                                             [](char c) { return c == 0; }))
+      StencilOperator(std::uint64_t n_bonds, Mask mask, std::string backend,
+                      Application &&application)
+          : mask_(std::move(mask)), backend_(std::move(backend)),
+            application_(std::move(application)), n_bonds_(n_bonds)
       {
       }
       void vmult(Vector &result, const Vector &input) const override
       {
         application_.apply(input.begin(), result.begin());
-        if (is_masked_)
-          restrict_to_free(*nodes_, result.begin());
+        restrict_to_free(mask_, result.begin());
       }
       std::string backend() const override { return backend_; }
       std::uint64_t n_bonds() const override { return n_bonds_; }
 
     private:
-      std::optional<geometry::NodeSet> nodes_;
+      Mask mask_;
       std::string backend_;
       Application application_;
       std::uint64_t n_bonds_;
-      bool is_masked_;
     };
 
     /// By transforms or directly.
-    std::unique_ptr<Operator>
-    make_shared_operator(const Stencil &stencil, const std::array<int, 3> &n, std::uint64_t n_bonds,
-                         std::optional<geometry::NodeSet> nodes, OperatorBackend backend)
+    std::unique_ptr<Operator> make_shared_operator(const Stencil &stencil,
+                                                   const std::array<int, 3> &n,
+                                                   std::uint64_t n_bonds, Mask mask,
+                                                   OperatorBackend backend)
     {
       if (backend == OperatorBackend::automatic)
       {
@@ -68,12 +77,12 @@ namespace plumbline::algebra
         backend = direct_is_faster ? OperatorBackend::direct : OperatorBackend::fft;
       }
       if (backend == OperatorBackend::fft)
-        return std::make_unique<StencilOperator<Convolution>>(n_bonds, std::move(nodes), "fft",
+        return std::make_unique<StencilOperator<Convolution>>(n_bonds, std::move(mask), "fft",
                                                               Convolution(stencil, n, 0));
       if (!DirectStencil::fits(stencil))
         throw InputError("Solver/operator = direct needs one node family with one to three "
                          "components; choose automatic or fft");
-      return std::make_unique<StencilOperator<DirectStencil>>(n_bonds, std::move(nodes), "direct",
+      return std::make_unique<StencilOperator<DirectStencil>>(n_bonds, std::move(mask), "direct",
                                                               DirectStencil(stencil, n));
     }
   } // namespace
@@ -84,18 +93,18 @@ namespace plumbline::algebra
     if (backend == OperatorBackend::sparse)
       return std::make_unique<SparseOperator>(stencil, nodes);
     return make_shared_operator(stencil, {nodes.n[0], nodes.n[1], 1},
-                                stencil.n_entries() * nodes.n_unknowns() / nodes.n_blocks(), nodes,
-                                backend);
+                                stencil.n_entries() * nodes.n_unknowns() / nodes.n_blocks(),
+                                mask_of(nodes), backend);
   }
 
-  std::unique_ptr<Operator> make_operator(const Stencil &stencil, const std::array<int, 3> &n,
+  std::unique_ptr<Operator> make_operator(const Stencil &stencil, const geometry::BoxNodes &nodes,
                                           OperatorBackend backend)
   {
     if (backend == OperatorBackend::sparse)
       throw InputError("Solver/operator = sparse is for lattices in the plane; choose automatic, "
                        "direct or fft");
-    const std::uint64_t n_nodes = static_cast<std::uint64_t>(n[0]) * n[1] * n[2];
-    return make_shared_operator(stencil, n, stencil.n_entries() * n_nodes, {}, backend);
+    return make_shared_operator(stencil, nodes.n, stencil.n_entries() * nodes.n_free(),
+                                {nodes.is_free, stencil.n_blocks()}, backend);
   }
 
   Vector collar_action(const Stencil &stencil, const geometry::NodeSet &nodes,
@@ -103,15 +112,16 @@ namespace plumbline::algebra
   {
     Vector result(nodes.size());
     Convolution(stencil, nodes.n, stencil.reach()).apply(data.data(), result.begin());
-    restrict_to_free(nodes, result.begin());
+    restrict_to_free(mask_of(nodes), result.begin());
     return result;
   }
 
-  Vector collar_action(const Stencil &stencil, const std::array<int, 3> &n,
+  Vector collar_action(const Stencil &stencil, const geometry::BoxNodes &nodes,
                        const std::vector<double> &data)
   {
-    Vector result(static_cast<std::size_t>(stencil.n_blocks()) * n[0] * n[1] * n[2]);
-    Convolution(stencil, n, stencil.reach()).apply(data.data(), result.begin());
+    Vector result(stencil.n_blocks() * nodes.n_positions());
+    Convolution(stencil, nodes.n, stencil.reach()).apply(data.data(), result.begin());
+    restrict_to_free({nodes.is_free, stencil.n_blocks()}, result.begin());
     return result;
   }
 } // namespace plumbline::algebra

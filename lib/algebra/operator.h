@@ -2,6 +2,7 @@
 
 #include "algebra/stencil.h"
 #include "base/solver_choices.h"
+#include "geometry/cube_lattice.h"
 
 #include <memory>
 #include <string>
@@ -35,9 +36,8 @@ namespace plumbline::algebra
   std::unique_ptr<Operator> make_operator(const Stencil &stencil, const geometry::NodeSet &nodes,
                                           OperatorBackend backend = OperatorBackend::automatic);
 
-  /// The same on a box of nodes in space that are all free; vectors have shape (n_blocks, n[2],
-  /// n[1], n[0]). Not for: OperatorBackend::sparse.
-  std::unique_ptr<Operator> make_operator(const Stencil &stencil, const std::array<int, 3> &n,
+  /// The same in space for nodes of one family. Not for: OperatorBackend::sparse.
+  std::unique_ptr<Operator> make_operator(const Stencil &stencil, const geometry::BoxNodes &nodes,
                                           OperatorBackend backend = OperatorBackend::automatic);
 
   /// The action of given values outside the free nodes on the free nodes: Σ_k A(k) g(i + k).
@@ -45,9 +45,9 @@ namespace plumbline::algebra
   Vector collar_action(const Stencil &stencil, const geometry::NodeSet &nodes,
                        const std::vector<double> &data);
 
-  /// The same on a box of nodes in space.
+  /// The same in space.
   /// @param data  shape (n_blocks, n[2] + 2 reach, n[1] + 2 reach, n[0] + 2 reach)
   /// @pre the same reach along all axes
-  Vector collar_action(const Stencil &stencil, const std::array<int, 3> &n,
+  Vector collar_action(const Stencil &stencil, const geometry::BoxNodes &nodes,
                        const std::vector<double> &data);
 } // namespace plumbline::algebra

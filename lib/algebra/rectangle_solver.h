@@ -1,6 +1,7 @@
 #pragma once
 
 #include "algebra/operator.h"
+#include "geometry/cell_counts.h"
 
 #include <memory>
 
@@ -50,10 +51,13 @@ namespace plumbline::algebra
                                                     Zeros zeros = Zeros::next);
 
   /// The τ preconditioner on a box of nodes in space, or on a slab of one layer and reach 0 along
-  /// it. Vectors have shape (n_components, n[2], n[1], n[0]).
+  /// it.
+  /// @param n    vectors have shape (n_components, n[2], n[1], n[0])
+  /// @param box  of these positions
   /// @throws NumericalError  as above
   std::unique_ptr<RectangleSolver> make_box_sine_solver(const Stencil &stencil,
-                                                        const std::array<int, 3> &n);
+                                                        const std::array<int, 3> &n,
+                                                        const geometry::CubeRange &box);
 
   /// The same idea for several node families: reflect the rectangle, and as many cells around it as
   /// make that fast, oddly to twice its size, where the operator is block circulant, and invert its

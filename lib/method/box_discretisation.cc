@@ -1,10 +1,12 @@
 #include "method/box_discretisation.h"
 
 #include "base/error.h"
+#include "geometry/cell_counts.h"
 
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -26,26 +28,46 @@ namespace plumbline::method
               visit(c, std::array<int, 3>{i, j, k});
     }
 
-    bool is_free(const std::array<int, 3> &n, const std::array<int, 3> &position)
+    /// Whether a position is so near to Ω that a free node or the average of a cell needs its
+    /// value.
+    class Nearness
     {
-      for (unsigned int d = 0; d < 3; ++d)
-        if (position[d] < 0 || position[d] >= n[d])
-          return false;
-      return true;
-    }
+    public:
+      /// @param margin  the reach of the stencil, at least 1
+      Nearness(const geometry::CubeLattice &lattice, NodePlace nodes, int margin)
+          // vertex p has the cells p and p + 1 on its sides; a free one has vertices of Ω around it
+          : below_(nodes == NodePlace::vertices ? margin - 1 : margin), above_(margin + 1)
+      {
+        if (!lattice.is_box())
+          cells_.emplace(lattice.mask(), lattice.n_cells());
+      }
+
+      bool operator()(const std::array<int, 3> &at) const
+      {
+        return !cells_ || cells_->in({{at[0] - below_, at[1] - below_, at[2] - below_},
+                                      {at[0] + above_, at[1] + above_, at[2] + above_}}) > 0;
+      }
+
+    private:
+      int below_, above_;
+      std::optional<geometry::CellCounts> cells_; ///< none: Ω is a box, and all positions are near
+    };
 
     /// The constraint around the nodes, less the middle of its range: the operator does not see a
     /// constant, but the solver's tolerance and rounding would.
     struct Surroundings
     {
-      std::vector<double> values; ///< 0 where nodes are free
+      std::vector<double> values; ///< 0 where it is not needed
       std::vector<double> middle; ///< of each component
     };
 
-    /// @param place  of a position
+    /// @param place     of a position
+    /// @param is_given  the constraint is needed there
+    template <class IsGiven>
     Surroundings surroundings(const problem::Problem<3> &problem, const std::array<int, 3> &n,
                               int margin,
-                              const std::function<Point(const std::array<int, 3> &)> &place)
+                              const std::function<Point(const std::array<int, 3> &)> &place,
+                              const IsGiven &is_given)
     {
       constexpr double infinity = std::numeric_limits<double>::infinity();
       Surroundings around;
@@ -55,7 +77,7 @@ namespace plumbline::method
                         [&](unsigned int c, const std::array<int, 3> &at)
                         {
                           around.values.push_back(0);
-                          if (is_free(n, at))
+                          if (!is_given(at))
                             return;
                           around.values.back() = problem.constraint.value(place(at), c);
                           low[c] = std::min(low[c], around.values.back());
@@ -67,7 +89,7 @@ namespace plumbline::method
       for_each_position(n, problem.n_components, margin,
                         [&](unsigned int c, const std::array<int, 3> &at)
                         {
-                          if (!is_free(n, at))
+                          if (is_given(at))
                             *value -= around.middle[c];
                           ++value;
                         });
@@ -75,9 +97,10 @@ namespace plumbline::method
     }
 
     /// Solution and constraint at positions -1 ... n.
-    std::vector<double> merge(const std::array<int, 3> &n, const algebra::Vector &u,
+    std::vector<double> merge(const geometry::BoxNodes &nodes, const algebra::Vector &u,
                               const Surroundings &around, int margin)
     {
+      const std::array<int, 3> &n = nodes.n;
       const auto index = [&](unsigned int c, const std::array<int, 3> &at, int width)
       {
         std::size_t result = c;
@@ -90,10 +113,20 @@ namespace plumbline::method
                         [&](unsigned int c, const std::array<int, 3> &at)
                         {
                           values.push_back(around.middle[c] +
-                                           (is_free(n, at) ? u[index(c, at, 0)]
+                                           (nodes.free(at) ? u[index(c, at, 0)]
                                                            : around.values[index(c, at, margin)]));
                         });
       return values;
+    }
+
+    /// Cells outside of Ω are blanked: ParaView neither shows them nor takes them into a range.
+    void write_hidden_cells(const geometry::CubeLattice &lattice, std::ostream &out)
+    {
+      constexpr int hidden_cell = 32; // vtkDataSetAttributes::HIDDENCELL
+      out << "<DataArray type=\"UInt8\" Name=\"vtkGhostType\" format=\"ascii\">\n";
+      for (const char is_inside : lattice.mask())
+        out << (is_inside != 0 ? 0 : hidden_cell) << '\n';
+      out << "</DataArray>\n";
     }
   } // namespace
 
@@ -101,22 +134,33 @@ namespace plumbline::method
                  const std::string &file)
   {
     const geometry::CubeLattice &lattice = problem.lattice;
+    const auto &n = lattice.n_cells();
+    const unsigned int n_components = problem.n_components;
     std::ofstream out(file);
     if (!out)
       throw InputError("cannot write '" + file + "'; give a writable output folder (-o)");
     std::ostringstream extent;
-    for (const int n : lattice.n_cells())
-      extent << "0 " << n << ' ';
+    for (const int n_along : n)
+      extent << "0 " << n_along << ' ';
     out.precision(std::numeric_limits<double>::max_digits10);
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\">\n"
         << "<ImageData WholeExtent=\"" << extent.str() << "\" Origin=\"" << lattice.origin()
         << "\" Spacing=\"" << lattice.h() << ' ' << lattice.h() << ' ' << lattice.h()
         << "\">\n<Piece Extent=\"" << extent.str() << "\">\n<CellData>\n"
-        << "<DataArray type=\"Float64\" Name=\"u\" NumberOfComponents=\"" << problem.n_components
+        << "<DataArray type=\"Float64\" Name=\"u\" NumberOfComponents=\"" << n_components
         << "\" format=\"ascii\">\n";
-    for (std::size_t i = 0; i < averages.size(); ++i)
-      out << averages[i] << ((i + 1) % problem.n_components == 0 ? '\n' : ' ');
-    out << "</DataArray>\n</CellData>\n</Piece>\n</ImageData>\n</VTKFile>\n";
+    auto average = averages.begin();
+    for_each_position(n, 1, 0,
+                      [&](unsigned int, const std::array<int, 3> &cell)
+                      {
+                        for (unsigned int c = 0; c < n_components; ++c)
+                          out << (lattice.is_inside(cell) ? *average++ : 0.)
+                              << (c + 1 == n_components ? '\n' : ' ');
+                      });
+    out << "</DataArray>\n";
+    if (!lattice.is_box())
+      write_hidden_cells(lattice, out);
+    out << "</CellData>\n</Piece>\n</ImageData>\n</VTKFile>\n";
     if (!out.flush())
       throw InputError("cannot write all of '" + file +
                        "'; free some space, or give another output folder (-o)");
@@ -124,19 +168,20 @@ namespace plumbline::method
 
   BoxDiscretisation::BoxDiscretisation(const problem::Problem<3> &problem, NodePlace nodes,
                                        algebra::Stencil stencil)
-      : lattice_(problem.lattice), nodes_(nodes), n_(problem.lattice.n_cells()),
+      : lattice_(problem.lattice), node_place_(nodes),
+        nodes_(nodes == NodePlace::vertices ? geometry::inner_vertices(lattice_)
+                                            : geometry::cell_centres(lattice_)),
         n_components_(problem.n_components), stencil_(std::move(stencil)),
         backend_(problem.settings.solver.operator_backend)
   {
-    for (int &n : n_)
-      if (nodes == NodePlace::vertices && --n == 0)
-        throw NumericalError("the box is one cell thick, so that no vertex is free; choose a "
-                             "smaller h (Study/h)");
+    if (nodes_.n_free() == 0)
+      throw NumericalError("Domain is one cell thick everywhere, so that no vertex is free; choose "
+                           "a smaller h (Study/h)");
   }
 
   double BoxDiscretisation::coordinate(unsigned int axis, int position) const
   {
-    return lattice_.coordinate(axis, position + (nodes_ == NodePlace::vertices ? 1 : .5));
+    return lattice_.coordinate(axis, position + (node_place_ == NodePlace::vertices ? 1 : .5));
   }
 
   Point BoxDiscretisation::place(const std::array<int, 3> &position) const
@@ -146,39 +191,46 @@ namespace plumbline::method
 
   std::size_t BoxDiscretisation::n_unknowns() const
   {
-    return static_cast<std::size_t>(n_components_) * n_[0] * n_[1] * n_[2];
+    return n_components_ * nodes_.n_free();
   }
 
   BoxDiscretisation::Data BoxDiscretisation::data(const problem::Problem<3> &problem) const
   {
     const int margin = std::max(1, stencil_.reach());
+    const Nearness is_near(lattice_, node_place_, margin);
     const auto around = std::make_shared<const Surroundings>(surroundings(
-        problem, n_, margin, [this](const std::array<int, 3> &at) { return place(at); }));
+        problem, nodes_.n, margin, [this](const std::array<int, 3> &at) { return place(at); },
+        [&](const std::array<int, 3> &at) { return !nodes_.free(at) && is_near(at); }));
     physics::AxisFunctionals functionals;
     for (unsigned int d = 0; d < 3; ++d)
-      for (int i = 0; i < n_[d]; ++i)
+      for (int i = 0; i < nodes_.n[d]; ++i)
         functionals[d].push_back(load_functional(coordinate(d, i)));
     Data result;
-    result.load.reinit(static_cast<Vector::size_type>(n_unknowns()));
+    result.load.reinit(static_cast<Vector::size_type>(n_components_ * nodes_.n_positions()));
     auto value = result.load.begin();
     for (unsigned int c = 0; c < n_components_; ++c)
     {
-      const auto tested = problem.load.apply(c, functionals);
+      const auto tested = problem.load.apply(c, functionals, nodes_.is_free);
       value = std::copy(tested.begin(), tested.end(), value);
     }
-    result.load -= collar_action(stencil_, n_, around->values);
+    result.load -= collar_action(stencil_, nodes_, around->values);
     result.field = [this, around, margin](const Vector &u)
     {
       FieldInSpace field;
-      for_each_position(n_, 1, 0,
+      std::size_t i = 0;
+      for_each_position(nodes_.n, 1, 0,
                         [&](unsigned int, const std::array<int, 3> &at)
-                        { field.nodes.push_back(place(at)); });
-      const std::vector<double> values = merge(n_, u, *around, margin);
-      const std::size_t n = field.nodes.size();
-      for (std::size_t i = 0; i < n; ++i)
-        for (unsigned int c = 0; c < n_components_; ++c)
-          field.nodal.push_back(around->middle[c] + u[c * n + i]);
-      field.averages = averages(values);
+                        {
+                          if (nodes_.free(at))
+                          {
+                            field.nodes.push_back(place(at));
+                            for (unsigned int c = 0; c < n_components_; ++c)
+                              field.nodal.push_back(around->middle[c] +
+                                                    u[c * nodes_.n_positions() + i]);
+                          }
+                          ++i;
+                        });
+      field.averages = averages(merge(nodes_, u, *around, margin));
       return field;
     };
     return result;
@@ -187,14 +239,14 @@ namespace plumbline::method
   std::vector<double> BoxDiscretisation::averages(const std::vector<double> &values) const
   {
     // position p is at index p + 1: a cell's own node, or its vertices from its lower one on
-    const std::size_t first = nodes_ == NodePlace::vertices ? 0 : 1,
-                      n_along = nodes_ == NodePlace::vertices ? 2 : 1;
+    const std::size_t first = node_place_ == NodePlace::vertices ? 0 : 1,
+                      n_along = node_place_ == NodePlace::vertices ? 2 : 1;
     const double weight = 1. / static_cast<double>(n_along * n_along * n_along);
-    const std::size_t row = n_[0] + 2, layer = row * (n_[1] + 2), block = layer * (n_[2] + 2);
+    const std::size_t row = nodes_.n[0] + 2, layer = row * (nodes_.n[1] + 2),
+                      block = layer * (nodes_.n[2] + 2);
     std::vector<double> result;
-    for_each_position(
-        lattice_.n_cells(), 1, 0,
-        [&](unsigned int, const std::array<int, 3> &cell)
+    lattice_.for_each_cell(
+        [&](const std::array<int, 3> &cell)
         {
           for (unsigned int c = 0; c < n_components_; ++c)
           {
@@ -217,6 +269,6 @@ namespace plumbline::method
 
   std::unique_ptr<algebra::LinearSystem> BoxDiscretisation::tangent() const
   {
-    return std::make_unique<algebra::StencilSystem>(stencil_, n_, backend_);
+    return std::make_unique<algebra::StencilSystem>(stencil_, nodes_, backend_);
   }
 } // namespace plumbline::method

@@ -23,8 +23,9 @@ namespace plumbline::method
     std::vector<double> averages;        ///< over the cells of Ω, shape (n_cells, n_components)
   };
 
-  /// Averages over the cells as VTK image data in 64-bit floating point.
-  /// @param averages  shape (n_cells, n_components)
+  /// Averages over the cells as VTK image data in 64-bit floating point. Cells of the bounding box
+  /// outside of Ω are blanked (vtkGhostType) and have the value 0.
+  /// @param averages  over the cells of Ω, shape (n_cells, n_components)
   /// @throws InputError  the file cannot be written
   void write_vti(const problem::Problem<3> &problem, const std::vector<double> &averages,
                  const std::string &file);
@@ -36,15 +37,14 @@ namespace plumbline::method
     vertices ///< u is trilinear on each cell
   };
 
-  /// A problem on a box in space, as both families of methods have it: one stencil for all nodes,
-  /// which are all free; the constraint holds at the nodes around them. A state has shape
-  /// (n_components, n[2], n[1], n[0]), n nodes along each axis.
+  /// A problem on boxes of cubes in space, as both families of methods have it: one stencil for all
+  /// nodes, the constraint on those that are not free. A state has the shape of the BoxNodes.
   class BoxDiscretisation
   {
   public:
     using Vector = algebra::Vector;
 
-    /// @throws NumericalError  no vertex is free
+    /// @throws NumericalError  no node is free
     BoxDiscretisation(const problem::Problem<3> &problem, NodePlace nodes,
                       algebra::Stencil stencil);
     virtual ~BoxDiscretisation() = default;
@@ -88,8 +88,8 @@ namespace plumbline::method
     std::vector<double> averages(const std::vector<double> &values) const;
 
     geometry::CubeLattice lattice_;
-    NodePlace nodes_;
-    std::array<int, 3> n_; ///< nodes along each axis
+    NodePlace node_place_;
+    geometry::BoxNodes nodes_;
     unsigned int n_components_;
     algebra::Stencil stencil_;
     algebra::OperatorBackend backend_;

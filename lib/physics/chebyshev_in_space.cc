@@ -92,6 +92,12 @@ namespace plumbline::physics
       return values;
     }
 
+    bool are_finite(const std::vector<double> &values)
+    {
+      return std::all_of(values.begin(), values.end(),
+                         [](double value) { return std::isfinite(value); });
+    }
+
     double largest_of(const std::vector<double> &values)
     {
       double largest = 0;
@@ -123,6 +129,8 @@ namespace plumbline::physics
       for (unsigned int c = 0; c < n_components; ++c)
       {
         const auto values = values_at(f, c, on_box(field.box_, places));
+        if (!are_finite(values))
+          return std::nullopt;
         coefficients.push_back(turn_all(transforms, values));
         count_terms(coefficients[c], n, digits * largest_of(values) + noise, field.n_terms_);
       }
@@ -163,6 +171,8 @@ namespace plumbline::physics
     for (unsigned int c = 0; c < coefficients_.size(); ++c)
     {
       const auto values = values_at(f, c, at), found = apply(c, points);
+      if (!are_finite(values))
+        return false;
       largest = std::max(largest, largest_of(values));
       for (std::size_t i = 0; i < values.size(); ++i)
         worst = std::max(worst, std::abs(values[i] - found[i]));

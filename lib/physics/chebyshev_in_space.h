@@ -27,7 +27,7 @@ namespace plumbline::physics
     /// are round-off and the series is equal to f, to 1e-12 of its largest value, at 10 × 10 × 10
     /// control points too.
     /// @param noise  absolute error of f's own values; the series is cut there
-    /// @return       nothing if so many terms do not resolve f
+    /// @return       nothing if so many terms do not resolve f, or a value is not finite
     static std::optional<ChebyshevInSpace> resolve(const Function &f, unsigned int n_components,
                                                    const dealii::Point<3> &lower,
                                                    const dealii::Point<3> &upper, double noise = 0);

@@ -4,9 +4,11 @@
 #include "base/error.h"
 #include "physics/load_in_space.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 namespace plumbline::problem
@@ -28,20 +30,22 @@ namespace plumbline::problem
       return box;
     }
 
-    std::vector<Point> samples(const Cuboid &box, unsigned int n)
+    /// n points along each axis of each box.
+    std::vector<Point> samples(const std::vector<Cuboid> &boxes, unsigned int n)
     {
       const auto along = base::control_points(n);
       std::vector<Point> points;
-      for (const double r : along)
-        for (const double t : along)
-          for (const double s : along)
-          {
-            Point x;
-            for (unsigned int d = 0; d < 3; ++d)
-              x[d] =
-                  box.lower[d] + std::array<double, 3>{s, t, r}[d] * (box.upper[d] - box.lower[d]);
-            points.push_back(x);
-          }
+      for (const Cuboid &box : boxes)
+        for (const double r : along)
+          for (const double t : along)
+            for (const double s : along)
+            {
+              Point x;
+              for (unsigned int d = 0; d < 3; ++d)
+                x[d] = box.lower[d] +
+                       std::array<double, 3>{s, t, r}[d] * (box.upper[d] - box.lower[d]);
+              points.push_back(x);
+            }
       return points;
     }
 
@@ -51,6 +55,32 @@ namespace plumbline::problem
         if (!(x[d] >= box.lower[d] && x[d] <= box.upper[d]))
           return false;
       return true;
+    }
+
+    bool is_inside(const std::vector<Cuboid> &boxes, const Point &x)
+    {
+      return std::any_of(boxes.begin(), boxes.end(),
+                         [&](const Cuboid &box) { return is_inside(box, x); });
+    }
+
+    using Series = std::optional<physics::ChebyshevInSpace>;
+
+    /// On the bounding box of Ω; none where the field has no values in a part outside of Ω.
+    Series series_of(const physics::ChebyshevInSpace::Function &value, const Problem<3> &problem,
+                     double noise = 0)
+    {
+      const Cuboid box = problem.lattice.cuboid();
+      try
+      {
+        return physics::ChebyshevInSpace::resolve(value, problem.n_components, box.lower, box.upper,
+                                                  noise);
+      }
+      catch (const std::runtime_error &)
+      {
+        if (problem.lattice.is_box())
+          throw;
+        return {};
+      }
     }
 
     void check_finite(const std::string &name, const Field<3> &field, unsigned int n_components,
@@ -69,19 +99,20 @@ namespace plumbline::problem
     void complete_field(const std::string &name, Field<3> &field, const Problem<3> &problem)
     {
       constexpr unsigned int n_samples = 8;
-      const Cuboid box = problem.lattice.cuboid();
-      for (const Point &x : samples(box, n_samples))
+      for (const Point &x : samples(problem.lattice.boxes(), n_samples))
         check_finite(name, field, problem.n_components, x);
       if (!field.is_piecewise && !field.series)
-        field.series = physics::ChebyshevInSpace::resolve(field.value, problem.n_components,
-                                                          box.lower, box.upper);
+        field.series = series_of(field.value, problem);
     }
 
     void check_constraint(const Problem<3> &problem)
     {
       constexpr unsigned int n_samples = 16;
-      const Cuboid omega = problem.lattice.cuboid();
-      for (const Point &x : samples(with_margin(omega, problem.horizon()), n_samples))
+      const std::vector<Cuboid> omega = problem.lattice.boxes();
+      std::vector<Cuboid> around;
+      for (const Cuboid &box : omega)
+        around.push_back(with_margin(box, problem.horizon()));
+      for (const Point &x : samples(around, n_samples))
         if (!is_inside(omega, x))
           check_finite("constraint", problem.constraint, problem.n_components, x);
     }
@@ -89,26 +120,37 @@ namespace plumbline::problem
     Field<3> manufactured_load(const Problem<3> &problem)
     {
       constexpr unsigned int n_samples = 3;
-      const Cuboid box = problem.lattice.cuboid();
       const physics::LoadInSpace load(problem.kernel, problem.solution->value,
-                                      samples(box, n_samples));
+                                      samples(problem.lattice.boxes(), n_samples));
       Field<3> field{load};
-      field.series = physics::ChebyshevInSpace::resolve(load, problem.n_components, box.lower,
-                                                        box.upper, load.noise());
+      if (problem.lattice.is_box() || problem.solution->series) // else the load has none either
+        field.series = series_of(load, problem, load.noise());
       return field;
     }
   } // namespace
 
   std::vector<double> Field<3>::apply(unsigned int component,
-                                      const physics::AxisFunctionals &functionals) const
+                                      const physics::AxisFunctionals &functionals,
+                                      const std::vector<char> &is_wanted) const
   {
-    if (series)
-      return series->apply(component, functionals);
     std::vector<double> result;
+    if (series)
+    {
+      result = series->apply(component, functionals);
+      for (std::size_t i = 0; i < is_wanted.size(); ++i)
+        if (is_wanted[i] == 0)
+          result[i] = 0;
+      return result;
+    }
     for (const auto &along_z : functionals[2])
       for (const auto &along_y : functionals[1])
         for (const auto &along_x : functionals[0])
         {
+          if (!is_wanted.empty() && is_wanted[result.size()] == 0)
+          {
+            result.push_back(0);
+            continue;
+          }
           double sum = 0;
           for (const auto &[z, of_z] : along_z)
             for (const auto &[y, of_y] : along_y)
@@ -144,7 +186,7 @@ namespace plumbline::problem
 
   Problem<3> at_spacing(Problem<3> problem, double h)
   {
-    problem.lattice = geometry::CubeLattice(problem.lattice.cuboid(), h);
+    problem.lattice = problem.lattice.at_spacing(h);
     return problem;
   }
 } // namespace plumbline::problem

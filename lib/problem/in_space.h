@@ -16,17 +16,18 @@ namespace plumbline::problem
   struct Field<3>
   {
     std::function<double(const dealii::Point<3> &, unsigned int component)> value;
-    std::optional<physics::ChebyshevInSpace> series = {}; ///< on Ω
+    std::optional<physics::ChebyshevInSpace> series = {}; ///< on the bounding box of Ω
     bool is_piecewise = false; ///< no series is looked for: no number of points shows where pieces
                                ///< end
 
-    /// Products of functionals whose points are in Ω: shape (n_z, n_y, n_x).
-    std::vector<double> apply(unsigned int component,
-                              const physics::AxisFunctionals &functionals) const;
+    /// Products of functionals, shape (n_z, n_y, n_x).
+    /// @param is_wanted  of the same shape: whose points are in Ω, others give 0; empty: all
+    std::vector<double> apply(unsigned int component, const physics::AxisFunctionals &functionals,
+                              const std::vector<char> &is_wanted = {}) const;
   };
 
-  /// A boundary-value problem in space at one level: a homogeneous material on a box of cubes, with
-  /// u given all around it. Fill in what it has, then complete() it.
+  /// A boundary-value problem in space at one level: a homogeneous material on boxes of cubes, with
+  /// u given all around them. Fill in what it has, then complete() it.
   template <>
   struct Problem<3>
   {

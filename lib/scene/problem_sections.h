@@ -52,7 +52,7 @@ namespace plumbline::scene
     dealii::Point<2> origin;
     unsigned int dimension = 2; ///< 1: a line, the first axis of the boxes; 3: space
     geometry::Domain boxes;
-    std::vector<geometry::Cuboid> cuboids; ///< of boxes in space, whose corners have three numbers
+    geometry::Solid solid; ///< boxes in space, whose corners have three numbers
     MeshSource mesh;
     std::shared_ptr<MeshFiles> mesh_files; ///< those read so far; copies share them
     std::optional<double> collar;          ///< width; empty: as wide as the ball needs
@@ -71,7 +71,7 @@ namespace plumbline::scene
 
     /// @pre is_in_space()
     /// @throws InputError  as geometry::CubeLattice
-    geometry::CubeLattice cubes(double h) const { return {cuboids.front(), h}; }
+    geometry::CubeLattice cubes(double h) const { return {solid, h}; }
 
     /// The cells of size h: of a line one row of them, whatever the boxes say of y.
     /// @throws InputError  as geometry::Lattice

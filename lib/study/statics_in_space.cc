@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -25,8 +27,8 @@ namespace plumbline::study
     using scene::Quantity;
     using scene::Target;
 
-    /// Averages of a field over the cells, shape (n_cells, n_components): exact for polynomials of
-    /// degree 9 in each variable.
+    /// Averages of a field over the cells of Ω, shape (n_cells, n_components): exact for
+    /// polynomials of degree 9 in each variable.
     std::vector<double> cell_averages(const problem::Field<3> &field, const ProblemInSpace &problem)
     {
       constexpr unsigned int n_points = 5;
@@ -44,9 +46,14 @@ namespace plumbline::study
       std::vector<double> result(problem.lattice.size() * problem.n_components);
       for (unsigned int c = 0; c < problem.n_components; ++c)
       {
-        const auto of_component = field.apply(c, means);
-        for (std::size_t i = 0; i < of_component.size(); ++i)
-          result[i * problem.n_components + c] = of_component[i];
+        const auto of_component = field.apply(c, means, problem.lattice.mask());
+        std::size_t place = c;
+        problem.lattice.for_each_cell(
+            [&](const std::array<int, 3> &cell)
+            {
+              result[place] = of_component[problem.lattice.number(cell)];
+              place += problem.n_components;
+            });
       }
       return result;
     }
@@ -66,33 +73,56 @@ namespace plumbline::study
       return std::sqrt(cell_volume(problem) * squares);
     }
 
-    /// Over cells of 2 h, each of eight.
-    /// @param n  cells of h along each axis, even
-    std::vector<double> coarsened(const std::vector<double> &averages, const std::array<int, 3> &n,
-                                  unsigned int n_components)
+    /// Averages over the cells of a problem, each of eight cells of h / 2.
+    /// @param averages  over the cells of h / 2
+    std::vector<double> coarsened(const std::vector<double> &averages,
+                                  const ProblemInSpace &problem)
     {
       constexpr double part = 1. / 8;
-      std::vector<double> result(averages.size() / 8);
-      std::size_t place = 0;
-      for (int k = 0; k < n[2]; ++k)
-        for (int j = 0; j < n[1]; ++j)
-          for (int i = 0; i < n[0]; ++i)
-            for (unsigned int c = 0; c < n_components; ++c, ++place)
-            {
-              const std::size_t coarse =
-                  i / 2 + static_cast<std::size_t>(n[0] / 2) * (j / 2 + n[1] / 2 * (k / 2));
-              result[coarse * n_components + c] += part * averages[place];
-            }
+      const geometry::CubeLattice &coarse = problem.lattice;
+      const unsigned int n_components = problem.n_components;
+      const auto &n = coarse.n_cells();
+      std::vector<double> sums(static_cast<std::size_t>(n[0]) * n[1] * n[2] * n_components), result;
+      auto average = averages.begin();
+      coarse.at_spacing(problem.h() / 2)
+          .for_each_cell(
+              [&](const std::array<int, 3> &cell)
+              {
+                const std::size_t whole = coarse.number({cell[0] / 2, cell[1] / 2, cell[2] / 2});
+                for (unsigned int c = 0; c < n_components; ++c)
+                  sums[whole * n_components + c] += part * *average++;
+              });
+      coarse.for_each_cell(
+          [&](const std::array<int, 3> &cell)
+          {
+            const auto sum = sums.begin() + static_cast<std::ptrdiff_t>(coarse.number(cell)) *
+                                                static_cast<std::ptrdiff_t>(n_components);
+            result.insert(result.end(), sum, sum + n_components);
+          });
       return result;
     }
 
-    /// Errors of averages in the layer of cells in the middle: the largest in each block of cells.
+    /// The layer of cells nearest to the middle that has cells of Ω.
+    int middle_layer(const geometry::CubeLattice &lattice)
+    {
+      const int middle = lattice.n_cells()[2] / 2;
+      int nearest = -1;
+      lattice.for_each_cell(
+          [&](const std::array<int, 3> &cell)
+          {
+            if (nearest < 0 || std::abs(cell[2] - middle) < std::abs(nearest - middle))
+              nearest = cell[2];
+          });
+      return nearest;
+    }
+
+    /// Errors of averages in a layer of cells in the middle: the largest in each block of cells.
     ErrorMap map_of_layer(const ProblemInSpace &problem, const std::vector<double> &averages,
                           const std::vector<double> &target)
     {
       constexpr int n_digits = 4;
       const auto &n = problem.lattice.n_cells();
-      const int layer = n[2] / 2, per_block = cells_per_block({n[0], n[1]});
+      const int layer = middle_layer(problem.lattice), per_block = cells_per_block({n[0], n[1]});
       ErrorMap map;
       map.quantity =
           "averages at z = " + base::to_text(problem.lattice.coordinate(2, layer + .5), n_digits);
@@ -103,16 +133,18 @@ namespace plumbline::study
       map.lower = {problem.lattice.coordinate(0, 0), problem.lattice.coordinate(1, 0)};
       map.upper = {problem.lattice.coordinate(0, per_block * static_cast<double>(map.n_x)),
                    problem.lattice.coordinate(1, per_block * static_cast<double>(map.n_y))};
-      map.values.assign(static_cast<std::size_t>(map.n_x) * map.n_y, 0);
-      std::size_t place = static_cast<std::size_t>(layer) * n[0] * n[1] * problem.n_components;
-      for (int j = 0; j < n[1]; ++j)
-        for (int i = 0; i < n[0]; ++i)
-          for (unsigned int c = 0; c < problem.n_components; ++c, ++place)
+      map.values.assign(static_cast<std::size_t>(map.n_x) * map.n_y,
+                        std::numeric_limits<double>::quiet_NaN());
+      std::size_t place = 0;
+      problem.lattice.for_each_cell(
+          [&](const std::array<int, 3> &cell)
           {
-            double &value =
-                map.values[static_cast<std::size_t>(j / per_block) * map.n_x + i / per_block];
-            value = std::max(value, std::abs(averages[place] - target[place]));
-          }
+            double &value = map.values[static_cast<std::size_t>(cell[1] / per_block) * map.n_x +
+                                       cell[0] / per_block];
+            for (unsigned int c = 0; c < problem.n_components; ++c, ++place)
+              if (cell[2] == layer)
+                value = std::fmax(value, std::abs(averages[place] - target[place]));
+          });
       return map;
     }
 
@@ -125,31 +157,31 @@ namespace plumbline::study
     };
     using CasesInSpace = std::vector<CaseInSpace>;
 
+    /// It can be solved with cells of 2 h.
+    bool has_doubled(const ProblemInSpace &problem)
+    {
+      return problem.lattice.fits(2) && problem.horizon() >= 2 * problem.h() &&
+             inner_vertices(problem.lattice.at_spacing(2 * problem.h())).n_free() > 0;
+    }
+
     /// How far the averages of a reference may be wrong, by the changes to h/2 and from 2 h, as
     /// estimate_error() has them in the plane. Of the field and of degree p + 1 nothing is known.
     ErrorEstimate estimate_of(const Method &method, const ProblemInSpace &problem,
                               const SolutionInSpace &solution)
     {
-      auto doubled = problem.lattice.n_cells();
-      for (int &n : doubled)
-        n *= 2;
-      const auto &n = problem.lattice.n_cells();
       ErrorEstimate estimate;
       estimate.method = method.name();
       estimate.h = problem.h();
       estimate.horizon = problem.horizon();
       estimate.h_change = averages_l2(
           problem, solution.averages,
-          coarsened(analysis::solve(method, at_spacing(problem, problem.h() / 2)).averages, doubled,
-                    problem.n_components));
-      const bool has_coarse =
-          std::all_of(n.begin(), n.end(), [](int one) { return one % 2 == 0 && one > 2; }) &&
-          problem.horizon() >= 2 * problem.h();
-      if (has_coarse)
+          coarsened(analysis::solve(method, at_spacing(problem, problem.h() / 2)).averages,
+                    problem));
+      if (has_doubled(problem))
       {
         const ProblemInSpace coarse = at_spacing(problem, 2 * problem.h());
         estimate.coarse_change = averages_l2(coarse, analysis::solve(method, coarse).averages,
-                                             coarsened(solution.averages, n, problem.n_components));
+                                             coarsened(solution.averages, coarse));
       }
       const double q = contraction(estimate.coarse_change, estimate.h_change,
                                    std::pow(.5, method.order())),

@@ -49,12 +49,12 @@ namespace
             exact.push_back(u(x, c));
             load.push_back(b(x, c));
           }
-    const std::array<int, 3> extents = {n, n, n};
-    const auto action = algebra::collar_action(stencil, extents, around);
+    const geometry::BoxNodes nodes{{n, n, n}};
+    const auto action = algebra::collar_action(stencil, nodes, around);
     algebra::Vector solution(exact.size()), right_hand_side(load.begin(), load.end());
     for (std::size_t i = 0; i < load.size(); ++i)
       right_hand_side[i] -= action[i];
-    algebra::StencilSystem(stencil, extents, algebra::OperatorBackend::automatic)
+    algebra::StencilSystem(stencil, nodes, algebra::OperatorBackend::automatic)
         .solve(solution, right_hand_side, {1e-13, 200});
     solution -= algebra::Vector(exact.begin(), exact.end());
     return solution.linfty_norm();

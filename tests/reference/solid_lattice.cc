@@ -159,14 +159,14 @@ namespace
                const Load &load)
   {
     const unsigned int n_components = stencil.n_blocks();
-    const std::array<int, 3> n = {cube.n, cube.n, cube.n};
+    const geometry::BoxNodes nodes{{cube.n, cube.n, cube.n}};
     const auto loads = cube.values(0, n_components, true, load),
                exact = cube.values(0, n_components, true, field);
     algebra::Vector right_hand_side(loads.begin(), loads.end()), u(loads.size());
     right_hand_side *= std::pow(cube.h, 3);
     right_hand_side -=
-        collar_action(stencil, n, cube.values(stencil.reach(), n_components, false, field));
-    const algebra::StencilSystem system(stencil, n, algebra::OperatorBackend::automatic);
+        collar_action(stencil, nodes, cube.values(stencil.reach(), n_components, false, field));
+    const algebra::StencilSystem system(stencil, nodes, algebra::OperatorBackend::automatic);
     const auto solved = system.solve(u, right_hand_side, {});
     const algebra::Vector expected(exact.begin(), exact.end());
     u -= expected;

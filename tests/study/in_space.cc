@@ -1,14 +1,11 @@
 // Static problems in space, from the scene to verdicts: known errors, the limits that theory says,
 // and references with estimates that are bounds.
-#include "base/error.h"
 #include "io/record_journal.h"
 #include "method/box_discretisation.h"
 #include "report/report.h"
 #include "scene/problem.h"
-#include "study/preflight.h"
-#include "study/statics.h"
 #include "tests/report/fixture.h"
-#include "tests/study/operators.h"
+#include "tests/study/space_scene.h"
 
 #include <cmath>
 #include <map>
@@ -17,66 +14,8 @@ namespace
 {
   using namespace plumbline;
   using namespace plumbline::study;
+  using namespace plumbline::study::in_space;
   using report::fixture::Folder;
-  using Settings = std::vector<scene::Override>;
-
-  const std::string polynomial = "x^3*y^2 + z^4 + x*y*z^2";
-
-  scene::Scene make_scene(Settings settings)
-  {
-    settings.insert(settings.begin(),
-                    {{"Domain/dimension", "3"}, {"Domain/boxes", "0,0,0 : 1,1,1"}});
-    const auto is_given = [&](const std::string &key)
-    {
-      return std::any_of(settings.begin(), settings.end(),
-                         [&](const auto &one) { return one.key == key; });
-    };
-    for (const auto &[key, value] :
-         std::map<std::string, std::string>{{"Problem/solution", polynomial},
-                                            {"Methods/names", "FA"},
-                                            {"Study/h", "1/8, 1/16"},
-                                            {"Study/norms", "nodal Linf, averages L2"},
-                                            {"Study/decisive error", "nodal Linf | exact"}})
-      if (!is_given(key))
-        settings.push_back({key, value});
-    // the last of one key holds
-    Settings last;
-    for (const auto &one : settings)
-    {
-      last.erase(std::remove_if(last.begin(), last.end(),
-                                [&](const auto &other) { return other.key == one.key; }),
-                 last.end());
-      last.push_back(one);
-    }
-    return scene::parse_scene("space.prm", "", last);
-  }
-
-  Methods available()
-  {
-    Methods all = meshfree::methods();
-    for (const auto &method : reference::methods())
-      all.push_back(method);
-    return all;
-  }
-
-  StudyResults run(const scene::Scene &scene, const StaticsOptions &options = {})
-  {
-    const Methods all = available();
-    return run_study(statics_analysis(all, options), scene, choose_methods(scene, all));
-  }
-
-  std::string message_of(const Settings &settings)
-  {
-    try
-    {
-      (void)choose_methods(make_scene(settings), available());
-    }
-    catch (const InputError &error)
-    {
-      return error.what();
-    }
-    return "";
-  }
 } // namespace
 
 TEST(StaticsInSpace, have_the_errors_of_an_independent_program)
@@ -280,14 +219,13 @@ TEST(StaticsInSpace, have_the_memory_that_is_foretold)
 TEST(StaticsInSpace, refuse_what_is_for_the_plane)
 {
   const std::vector<std::pair<Settings, std::string>> refused = {
-      {{{"Domain/boxes", "0,0 : 1,1"}}, "one box with three coordinates a corner"},
+      {{{"Domain/boxes", "0,0 : 1,1"}}, "with three coordinates a corner"},
       {{{"Domain/boxes", "0,0,0 : 1,1"}}, "a corner without three coordinates"},
       {{{"Domain/boxes", "0,0,0 : 1,1,0"}}, "is empty"},
-      {{{"Domain/boxes", "0,0,0 : 1,1,1 ; 1,0,0 : 2,1,1"}}, "but it has 2"},
       {{{"Domain/dimension", "2"}}, "write Domain/dimension = 3, or two coordinates"},
       {{{"Domain/boxes", "0,0,0 : 1,1,.1"}}, "0.8 along z"},
       {{{"Domain/mesh", "squares"}}, "Domain/mesh = squares yet; write lattice"},
-      {{{"Domain/holes", "0,0 : .5,.5"}}, "Domain/holes yet; clear it"},
+      {{{"Domain/holes", "0,0 : .5,.5"}}, "with three coordinates a corner"},
       {{{"Kernel/coefficient", "1 + x"}}, "clear both"},
       {{{"Methods/nodes", "vertices"}}, "write centres"},
       {{{"Material/model", "LPS"}, {"Material/E", "1"}, {"Material/nu", ".3"}},

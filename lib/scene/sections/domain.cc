@@ -39,16 +39,20 @@ namespace plumbline::scene
         "boxes", "0, 0 : 1, 1", any_boxes(),
         [this](const std::string &text)
         {
-          cuboids = to_cuboids(text);
-          if (cuboids.empty())
+          solid.include = to_cuboids(text);
+          if (solid.include.empty())
             boxes.include = to_boxes(text);
         },
-        "The domain Omega: boxes 'x0, y0 : x1, y1' separated by ';'; in three dimensions one box "
-        "'x0, y0, z0 : x1, y1, z1'. Distances between parallel sides must be multiples of every "
-        "mesh size. [length]");
+        "The domain Omega: boxes 'x0, y0 : x1, y1' separated by ';'; in three dimensions 'x0, y0, "
+        "z0 : x1, y1, z1'. Distances between parallel sides must be multiples of every mesh size. "
+        "[length]");
     keys.add(
-        "holes", "", scene::boxes(),
-        [this](const std::string &text) { boxes.exclude = to_boxes(text); },
+        "holes", "", any_boxes(),
+        [this](const std::string &text)
+        {
+          solid.exclude = to_cuboids(text);
+          boxes.exclude = solid.exclude.empty() ? to_boxes(text) : std::vector<geometry::Box>();
+        },
         "Boxes removed from the domain, written like boxes. [length]");
     keys.add("mesh", mesh.name,
              "lattice: the boxes divided into uniform squares that share one stencil. squares, "
