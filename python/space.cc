@@ -21,25 +21,37 @@ namespace plumbline::python
 
   namespace
   {
-    geometry::Cuboid to_cuboid(const py::object &given)
+    /// Shape (2, 3) of one box, or (n, 2, 3).
+    std::vector<geometry::Cuboid> to_cuboids(const py::object &given, const std::string &name)
     {
+      if (given.is_none())
+        return {};
       const Doubles array = Doubles::ensure(given);
       if (!array)
         PyErr_Clear();
-      if (!array || array.ndim() != 2 || array.shape(0) != 2 || array.shape(1) != 3)
-        throw InputError(
-            "box" + (array ? " has the shape " + shape_text(array) : std::string(" is no array")) +
-            "; give its corners ((x0, y0, z0), (x1, y1, z1))");
-      geometry::Cuboid box;
-      for (unsigned int d = 0; d < 3; ++d)
+      const py::ssize_t n = array ? array.ndim() : 0;
+      if (n < 2 || n > 3 || array.shape(n - 2) != 2 || array.shape(n - 1) != 3)
+        throw InputError(name + (array ? " has the shape " + shape_text(array) : " is no array") +
+                         "; give the corners ((x0, y0, z0), (x1, y1, z1)) of one box or of a list "
+                         "of them");
+      std::vector<geometry::Cuboid> boxes;
+      for (const double *x = array.data(); x != array.data() + array.size(); x += 6)
       {
-        box.lower[d] = array.at(0, d);
-        box.upper[d] = array.at(1, d);
-        if (!(box.lower[d] < box.upper[d]))
-          throw InputError("box is empty along its axis " + std::to_string(d) +
-                           "; give the lower corner first");
+        boxes.push_back({{x[0], x[1], x[2]}, {x[3], x[4], x[5]}});
+        for (unsigned int d = 0; d < 3; ++d)
+          if (!(x[d] < x[d + 3]))
+            throw InputError(name + " is empty along its axis " + std::to_string(d) +
+                             "; give the lower corner first");
       }
-      return box;
+      return boxes;
+    }
+
+    geometry::Cuboid to_cuboid(const py::object &given)
+    {
+      const auto boxes = to_cuboids(given, "box");
+      if (boxes.size() != 1)
+        throw InputError("box holds " + std::to_string(boxes.size()) + " boxes; give one");
+      return boxes.front();
     }
 
     struct SolvedInSpace
@@ -50,13 +62,14 @@ namespace plumbline::python
     };
 
     std::shared_ptr<const ProblemInSpace> pose(const Kernel<3> &kernel, const py::object &box,
-                                               double h, const py::object &load,
-                                               const py::object &constraint,
+                                               const py::object &exclude, double h,
+                                               const py::object &load, const py::object &constraint,
                                                const py::object &solution)
     {
       const GivenField given_load("load", load), given_constraint("constraint", constraint),
           given_solution("solution", solution);
-      const geometry::CubeLattice lattice(to_cuboid(box), h);
+      const geometry::CubeLattice lattice({to_cuboids(box, "box"), to_cuboids(exclude, "exclude")},
+                                          h);
       const py::gil_scoped_release others;
       ProblemInSpace problem{lattice, kernel};
       const auto field = [&](const GivenField &one)
@@ -81,13 +94,14 @@ namespace plumbline::python
     std::vector<Point<3>> centres(const ProblemInSpace &problem)
     {
       std::vector<Point<3>> points;
-      const auto &n = problem.lattice.n_cells();
-      for (int k = 0; k < n[2]; ++k)
-        for (int j = 0; j < n[1]; ++j)
-          for (int i = 0; i < n[0]; ++i)
-            points.emplace_back(problem.lattice.coordinate(0, i + .5),
-                                problem.lattice.coordinate(1, j + .5),
-                                problem.lattice.coordinate(2, k + .5));
+      const geometry::CubeLattice &lattice = problem.lattice;
+      lattice.for_each_cell(
+          [&](const std::array<int, 3> &cell)
+          {
+            points.emplace_back(lattice.coordinate(0, cell[0] + .5),
+                                lattice.coordinate(1, cell[1] + .5),
+                                lattice.coordinate(2, cell[2] + .5));
+          });
       return points;
     }
 
@@ -177,26 +191,27 @@ namespace plumbline::python
   {
     py::class_<ProblemInSpace, std::shared_ptr<ProblemInSpace>>(
         module, "SpaceProblem",
-        R"doc(One boundary-value problem on a box of cubes: L u = load in it, u = constraint around it.
+        R"doc(One boundary-value problem on boxes of cubes: L u = load in them, u = constraint around them.
 
-Problem(kernel, *, box, h, load=None, constraint=None, solution=None)
+Problem(kernel, *, box, h, exclude=None, load=None, constraint=None, solution=None)
 
-box         corners ((x0, y0, z0), (x1, y1, z1)) [length]
-h           side of the cubes, which divides the sides of the box [length]
+box         corners ((x0, y0, z0), (x1, y1, z1)), or a list of them [length]; exclude: taken out of
+            these
+h           side of the cubes, which divides the distances between parallel sides [length]
 load, constraint, solution
             each an expression in x, y and z ("sin(3*x)*z"; three components separated by commas), a
             number, or a function f(x, y, z) of arrays, which is called point by point and slower.
             Without a load: that of the solution; without a constraint: the solution)doc")
-        .def(
-            py::init(
-                [](const Kernel<3> &kernel, const py::object &box, double h, const py::object &load,
-                   const py::object &constraint, const py::object &solution)
-                {
-                  return std::const_pointer_cast<ProblemInSpace>(
-                      pose(kernel, box, h, load, constraint, solution));
-                }),
-            "kernel"_a, py::kw_only(), "box"_a, "h"_a, "load"_a = py::none(),
-            "constraint"_a = py::none(), "solution"_a = py::none())
+        .def(py::init(
+                 [](const Kernel<3> &kernel, const py::object &box, double h,
+                    const py::object &exclude, const py::object &load, const py::object &constraint,
+                    const py::object &solution)
+                 {
+                   return std::const_pointer_cast<ProblemInSpace>(
+                       pose(kernel, box, exclude, h, load, constraint, solution));
+                 }),
+             "kernel"_a, py::kw_only(), "box"_a, "h"_a, "exclude"_a = py::none(),
+             "load"_a = py::none(), "constraint"_a = py::none(), "solution"_a = py::none())
         .def_property_readonly("h", &ProblemInSpace::h, "[length]")
         .def_property_readonly("horizon", &ProblemInSpace::horizon, "[length]");
     py::class_<SolvedInSpace>(module, "SpaceSolution",
@@ -213,7 +228,7 @@ load, constraint, solution
             "u at the nodes, shape (n,).")
         .def_property_readonly(
             "cells", [](const SolvedInSpace &one) { return to_array(centres(*one.of)); },
-            "Centres of the cells, x fastest, shape (n_cells, 3) [length].")
+            "Centres of the domain's cells, x fastest, shape (n_cells, 3) [length].")
         .def_property_readonly(
             "averages",
             [](const SolvedInSpace &one)

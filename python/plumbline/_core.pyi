@@ -52,7 +52,8 @@ class SpaceKernel:
 
 class SpaceProblem:
     def __init__(self, kernel: SpaceKernel, *, box: npt.ArrayLike, h: float,
-                 load: Any = ..., constraint: Any = ..., solution: Any = ...) -> None: ...
+                 exclude: Optional[npt.ArrayLike] = ..., load: Any = ..., constraint: Any = ...,
+                 solution: Any = ...) -> None: ...
     @property
     def h(self) -> float: ...
     @property

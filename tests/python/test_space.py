@@ -83,6 +83,21 @@ def test_functions_are_taken_as_expressions_are():
     np.testing.assert_allclose(one.values, other.values, rtol=0, atol=1e-14)
 
 
+def test_domains_are_boxes_without_holes():
+    kernel = space.Kernel("linear-decay", 2 / 8, diffusion=.5)
+    boxes = [((0, 0, 0), (1, .5, .5)), ((0, 0, 0), (.5, 1, .5))]
+    u = "x^2 - y*z"
+    by_union = space.Problem(kernel, box=boxes, h=1 / 8, solution=u)
+    by_hole = space.Problem(kernel, box=((0, 0, 0), (1, 1, .5)), exclude=((.5, .5, 0), (1, 1, .5)),
+                            h=1 / 8, solution=u)
+    for problem in (by_union, by_hole):
+        solved = space.solve(problem, "Q1")
+        assert solved.cells.shape == (192, 3) and solved.averages.shape == (192,)
+        assert not ((solved.cells[:, 0] > .5) & (solved.cells[:, 1] > .5)).any()
+        x, y, z = solved.nodes.T
+        np.testing.assert_allclose(solved.values, x**2 - y * z, rtol=0, atol=1e-12)
+
+
 def test_kernels_have_their_moments():
     kernel = space.Kernel("linear-decay", .3, diffusion=.5)
     assert kernel.moment((2, 0, 0)) == pytest.approx(1)
@@ -94,6 +109,8 @@ def test_kernels_have_their_moments():
 @pytest.mark.parametrize("call, words", [
     (lambda k: space.Problem(k, box=((0, 0), (1, 1)), h=.5, solution="x"), "shape"),
     (lambda k: space.Problem(k, box=((0, 0, 0), (1, 1, 1)), h=.3, solution="x"), "whole cells"),
+    (lambda k: space.Problem(k, box=((0, 0, 0), (1, 1, 1)), exclude=((2, 0, 0), (3, 1, 1)), h=.5,
+                             solution="x"), "outside"),
     (lambda k: space.Problem(k, box=((0, 0, 0), (1, 1, 1)), h=.5), "neither a load nor a solution"),
     (lambda k: space.Problem(k, box=((0, 0, 0), (1, 1, 1)), h=.5, solution="x, y"), "components"),
     (lambda k: space.weights("FB", k, .5), "FB"),
