@@ -51,6 +51,14 @@ TEST(ChebyshevInSpace, is_not_there_for_a_field_with_a_kink)
                    .has_value());
 }
 
+TEST(ChebyshevInSpace, is_not_there_for_a_field_without_values_in_a_part)
+{
+  EXPECT_FALSE(ChebyshevInSpace::resolve([](const Point<3> &x, unsigned int)
+                                         { return std::sqrt(x[1] - .3); },
+                                         1, {0, 0, 0}, {1, 1, 1})
+                   .has_value());
+}
+
 TEST(ChebyshevInSpace, does_not_miss_what_lies_between_its_points)
 {
   const double place = base::control_points(10)[2], width = .015;
