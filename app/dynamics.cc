@@ -28,11 +28,13 @@ namespace plumbline::app
       for (const problem::Series &series : scene.study.series)
       {
         const double h = series.levels.back().h;
-        double area = 0;
         for (const geometry::Box &box : scene.domain.boxes.include)
-          area += (box.upper[0] - box.lower[0]) *
-                  (scene.domain.dimension == 1 ? h : box.upper[1] - box.lower[1]);
-        n_nodes += area / (h * h);
+          n_nodes += (box.upper[0] - box.lower[0]) / h *
+                     (scene.domain.dimension == 1 ? 1 : (box.upper[1] - box.lower[1]) / h);
+        for (const geometry::Cuboid &cuboid : scene.domain.solid.include)
+          n_nodes += (cuboid.upper[0] - cuboid.lower[0]) / h *
+                     ((cuboid.upper[1] - cuboid.lower[1]) / h) *
+                     ((cuboid.upper[2] - cuboid.lower[2]) / h);
       }
       constexpr double of_node = 50; // its place, u, its rate and indices, compressed
       const double needed = of_node * n_nodes * scene.time.n_frames *
@@ -49,15 +51,15 @@ namespace plumbline::app
     void write_frame(const fs::path &folder, const std::string &name,
                      const std::vector<double> &times, const study::Frame &frame)
     {
-      const unsigned int n = frame.equation.n_components();
+      const unsigned int n = frame.n_components;
       const auto values = [n](const std::vector<double> &nodal)
       {
         return [nodal, n](std::size_t node, unsigned int component)
         { return component < n ? nodal[node * n + component] : 0; };
       };
-      report::write_frame(folder, name, times, frame.equation.nodes(),
-                          {{"displacement", n == 2, values(frame.equation.nodal(frame.state.u))},
-                           {"velocity", n == 2, values(frame.equation.nodal(frame.state.v))}});
+      report::write_frame(
+          folder, name, times, frame.nodes,
+          {{"displacement", n > 1, values(frame.u)}, {"velocity", n > 1, values(frame.v)}});
     }
   } // namespace
 

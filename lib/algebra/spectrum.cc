@@ -290,15 +290,27 @@ namespace plumbline::algebra
   Action restrict(std::shared_ptr<const Operator> matrix, std::size_t n,
                   std::vector<std::size_t> positions)
   {
-    return [matrix = std::move(matrix), n,
-            positions = std::move(positions)](const std::vector<double> &x, std::vector<double> &y)
+    struct Work
     {
-      Vector in(n), out(n);
+      std::shared_ptr<const Operator> matrix;
+      Vector in, out; ///< made once: memory that is given back costs more than sums
+    };
+    const auto work = std::make_shared<Work>(Work{std::move(matrix), Vector(n), Vector(n)});
+    if (positions.size() == n && std::is_sorted(positions.begin(), positions.end())) // all
+      return [work](const std::vector<double> &x, std::vector<double> &y)
+      {
+        std::copy(x.begin(), x.end(), work->in.begin());
+        work->matrix->vmult(work->out, work->in);
+        std::copy(work->out.begin(), work->out.end(), y.begin());
+      };
+    return [work, positions = std::move(positions)](const std::vector<double> &x,
+                                                    std::vector<double> &y)
+    {
       for (std::size_t i = 0; i < positions.size(); ++i)
-        in[positions[i]] = x[i];
-      matrix->vmult(out, in);
+        work->in[positions[i]] = x[i];
+      work->matrix->vmult(work->out, work->in);
       for (std::size_t i = 0; i < positions.size(); ++i)
-        y[i] = out[positions[i]];
+        y[i] = work->out[positions[i]];
     };
   }
 

@@ -11,7 +11,8 @@ namespace plumbline::algebra
   /// y = A x on vectors of A's size.
   using Action = std::function<void(const std::vector<double> &x, std::vector<double> &y)>;
 
-  /// An operator on vectors of size n at some positions, everything else being 0.
+  /// An operator on vectors of size n at some positions, everything else being 0. Not for several
+  /// threads at once.
   Action restrict(std::shared_ptr<const Operator> matrix, std::size_t n,
                   std::vector<std::size_t> positions);
 

@@ -9,7 +9,7 @@
 
 namespace plumbline::analysis
 {
-  Transient::Transient(const method::EquationOfMotion &equation, TimeSeries drive, double density,
+  Transient::Transient(const method::SemiDiscreteMotion &equation, TimeSeries drive, double density,
                        double damping)
       : equation_(equation), drive_(std::move(drive)), rate_(drive_.derivative()),
         density_(density), damping_(damping), g_(drive_.at(0))

@@ -21,9 +21,9 @@ namespace plumbline::analysis
   class Transient
   {
   public:
-    /// @param drive  of EquationOfMotion, inertia of a manufactured motion in it
+    /// @param drive  of MotionOf, inertia of a manufactured motion in it
     /// @param equation  must outlive it
-    Transient(const method::EquationOfMotion &equation, TimeSeries drive, double density,
+    Transient(const method::SemiDiscreteMotion &equation, TimeSeries drive, double density,
               double damping);
 
     /// For schemes; must not outlive this. Not for several threads at once.
@@ -42,7 +42,7 @@ namespace plumbline::analysis
   private:
     double largest_squared_frequency() const;
 
-    const method::EquationOfMotion &equation_;
+    const method::SemiDiscreteMotion &equation_;
     TimeSeries drive_, rate_;
     double density_, damping_;
     mutable std::optional<double> largest_;

@@ -194,6 +194,49 @@ namespace plumbline::method
     return n_components_ * nodes_.n_free();
   }
 
+  algebra::Vector BoxDiscretisation::tested(const problem::Field<3> &field) const
+  {
+    physics::AxisFunctionals functionals;
+    for (unsigned int d = 0; d < 3; ++d)
+      for (int i = 0; i < nodes_.n[d]; ++i)
+        functionals[d].push_back(load_functional(coordinate(d, i)));
+    Vector result(static_cast<Vector::size_type>(n_components_ * nodes_.n_positions()));
+    auto value = result.begin();
+    for (unsigned int c = 0; c < n_components_; ++c)
+    {
+      const auto of_component = field.apply(c, functionals, nodes_.is_free);
+      value = std::copy(of_component.begin(), of_component.end(), value);
+    }
+    return result;
+  }
+
+  std::vector<double> BoxDiscretisation::constraint_values(const problem::Problem<3> &problem,
+                                                           int margin) const
+  {
+    const Nearness is_near(lattice_, node_place_, margin);
+    std::vector<double> values;
+    for_each_position(nodes_.n, n_components_, margin,
+                      [&](unsigned int c, const std::array<int, 3> &at)
+                      {
+                        values.push_back(!nodes_.free(at) && is_near(at)
+                                             ? problem.constraint.value(place(at), c)
+                                             : 0);
+                      });
+    return values;
+  }
+
+  std::vector<Point> BoxDiscretisation::free_points() const
+  {
+    std::vector<Point> points;
+    for_each_position(nodes_.n, 1, 0,
+                      [&](unsigned int, const std::array<int, 3> &at)
+                      {
+                        if (nodes_.free(at))
+                          points.push_back(place(at));
+                      });
+    return points;
+  }
+
   BoxDiscretisation::Data BoxDiscretisation::data(const problem::Problem<3> &problem) const
   {
     const int margin = std::max(1, stencil_.reach());
@@ -201,18 +244,8 @@ namespace plumbline::method
     const auto around = std::make_shared<const Surroundings>(surroundings(
         problem, nodes_.n, margin, [this](const std::array<int, 3> &at) { return place(at); },
         [&](const std::array<int, 3> &at) { return !nodes_.free(at) && is_near(at); }));
-    physics::AxisFunctionals functionals;
-    for (unsigned int d = 0; d < 3; ++d)
-      for (int i = 0; i < nodes_.n[d]; ++i)
-        functionals[d].push_back(load_functional(coordinate(d, i)));
     Data result;
-    result.load.reinit(static_cast<Vector::size_type>(n_components_ * nodes_.n_positions()));
-    auto value = result.load.begin();
-    for (unsigned int c = 0; c < n_components_; ++c)
-    {
-      const auto tested = problem.load.apply(c, functionals, nodes_.is_free);
-      value = std::copy(tested.begin(), tested.end(), value);
-    }
+    result.load = tested(problem.load);
     result.load -= collar_action(stencil_, nodes_, around->values);
     result.field = [this, around, margin](const Vector &u)
     {

@@ -3,6 +3,7 @@
 #include "algebra/linear_system.h"
 #include "algebra/symbol.h"
 #include "method/diagnostics.h"
+#include "method/equation_of_motion.h"
 #include "problem/in_space.h"
 
 #include <deal.II/lac/vector.h>
@@ -65,6 +66,10 @@ namespace plumbline::method
     /// M ü = -A u on an unbounded lattice.
     algebra::WaveOperator waves() const;
 
+    /// What moves, which must not outlive this.
+    /// @param is_lumped  Galerkin methods: masses by the scaled diagonal instead of the mass matrix
+    std::unique_ptr<MotionOf<3>> motion(bool is_lumped) const;
+
     virtual Diagnostics diagnostics() const = 0;
 
   protected:
@@ -81,6 +86,15 @@ namespace plumbline::method
 
     double coordinate(unsigned int axis, int position) const;
     dealii::Point<3> place(const std::array<int, 3> &position) const;
+
+    /// A field by the method's own test functions, 0 where nodes are not free.
+    Vector tested(const problem::Field<3> &field) const;
+
+    /// The constraint within a margin around the nodes, 0 where they are free or Ω is far away:
+    /// shape (n_components, n[2] + 2 margin, n[1] + 2 margin, n[0] + 2 margin).
+    std::vector<double> constraint_values(const problem::Problem<3> &problem, int margin) const;
+
+    std::vector<dealii::Point<3>> free_points() const;
 
     /// Over the cells of Ω.
     /// @param values  solution and, around it, the constraint at positions -1 ... n of each axis:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "problem/in_space.h"
 #include "problem/problem.h"
 
 #include <map>
@@ -9,27 +10,16 @@
 
 namespace plumbline::method
 {
-  /// ü = a(u, g) of unit density and without damping, as a method discretises it in space: what an
-  /// analysis of motion needs. States are vectors in an order and a scaling of its own, in which
-  /// the tangent is symmetric. g, what drives it, comes from load and constraint at an instant; a
-  /// is affine in g.
-  class EquationOfMotion
+  /// ü = a(u, g) of unit density and without damping, as a method discretises it in space: what
+  /// schemes need. States are vectors in an order and a scaling of its own, in which the tangent is
+  /// symmetric. g, what drives it, comes from load and constraint at an instant; a is affine in g.
+  class SemiDiscreteMotion
   {
   public:
     using State = std::vector<double>;
 
-    virtual ~EquationOfMotion() = default;
+    virtual ~SemiDiscreteMotion() = default;
     virtual std::size_t size() const = 0;
-
-    /// @throws InputError  a load or constraint that is not finite
-    virtual std::vector<double> drive(const problem::Problem<2> &instant) const = 0;
-
-    /// The drive that ü brings, in which u of the instant's solution and constraint stands for ü.
-    /// @pre instant.solution
-    virtual std::vector<double> inertia(const problem::Problem<2> &instant) const = 0;
-
-    /// A field at the nodes.
-    virtual State state(const problem::Field<2> &field) const = 0;
 
     /// Overwrites a, of the same size.
     virtual void acceleration(const State &u, const std::vector<double> &g, State &a) const = 0;
@@ -58,11 +48,30 @@ namespace plumbline::method
     virtual std::map<std::string, double> facts() const { return {}; }
 
     virtual unsigned int n_components() const = 0;
-    virtual const std::vector<dealii::Point<2>> &nodes() const = 0; ///< that are free
 
-    /// Values there, shape (n_nodes, n_components).
+    /// Values at the free nodes, shape (n_nodes, n_components).
     virtual std::vector<double> nodal(const State &u) const = 0;
   };
+
+  /// The same with what a problem brings.
+  template <int dim>
+  class MotionOf : public SemiDiscreteMotion
+  {
+  public:
+    /// @throws InputError  a load or constraint that is not finite
+    virtual std::vector<double> drive(const problem::Problem<dim> &instant) const = 0;
+
+    /// The drive that ü brings, in which u of the instant's solution and constraint stands for ü.
+    /// @pre instant.solution
+    virtual std::vector<double> inertia(const problem::Problem<dim> &instant) const = 0;
+
+    /// A field at the nodes.
+    virtual State state(const problem::Field<dim> &field) const = 0;
+
+    virtual const std::vector<dealii::Point<dim>> &nodes() const = 0; ///< that are free
+  };
+
+  using EquationOfMotion = MotionOf<2>;
 
   /// One whose states are functions of all x: a reference without nodes of its own.
   class ContinuousMotion : public EquationOfMotion

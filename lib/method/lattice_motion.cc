@@ -34,27 +34,6 @@ namespace plumbline::method
       return MassRoot(masses);
     }
 
-    /// The stencil on unknowns that stand at some positions, ascending ones without a detour.
-    algebra::Action action_at(std::unique_ptr<algebra::Operator> matrix, std::size_t n,
-                              const std::vector<std::size_t> &positions)
-    {
-      if (positions.size() != n || !std::is_sorted(positions.begin(), positions.end()))
-        return algebra::restrict(std::move(matrix), n, positions);
-      struct Work
-      {
-        std::unique_ptr<algebra::Operator> matrix;
-        algebra::Vector in, out; ///< made once: memory that is given back costs more than sums
-      };
-      const auto work =
-          std::make_shared<Work>(Work{std::move(matrix), algebra::Vector(n), algebra::Vector(n)});
-      return [work](const std::vector<double> &x, std::vector<double> &y)
-      {
-        std::copy(x.begin(), x.end(), work->in.begin());
-        work->matrix->vmult(work->out, work->in);
-        std::copy(work->out.begin(), work->out.end(), y.begin());
-      };
-    }
-
     /// What the collar adds to a stencil's action.
     algebra::Vector around(const algebra::Stencil &stencil, const geometry::NodeSet &nodes,
                            const problem::Problem<2> &instant)
@@ -99,13 +78,13 @@ namespace plumbline::method
       load -= around(parts->mass, parts->nodes, instant);
       return unknowns(load);
     };
-    return move_linear(
+    return move_linear<2>(
         {free_points(parts->lattice, parts->nodes),
          parts->nodes.n_components,
          place,
          mass_root(parts->mass, parts->nodes, positions),
-         action_at(algebra::make_operator(parts->stiffness, parts->nodes, parts->backend),
-                   parts->nodes.size(), positions),
+         algebra::restrict(algebra::make_operator(parts->stiffness, parts->nodes, parts->backend),
+                           parts->nodes.size(), positions),
          {},
          load,
          inertia,

@@ -9,27 +9,30 @@ namespace plumbline::method
 {
   namespace
   {
-    class LinearMotion : public EquationOfMotion
+    template <int dim>
+    class LinearMotion : public MotionOf<dim>
     {
     public:
-      explicit LinearMotion(LinearParts parts)
+      using State = SemiDiscreteMotion::State;
+
+      explicit LinearMotion(LinearParts<dim> parts)
           : parts_(std::move(parts)), n_(parts_.nodes.size() * parts_.n_components)
       {
       }
 
       std::size_t size() const override { return n_; }
 
-      std::vector<double> drive(const problem::Problem<2> &instant) const override
+      std::vector<double> drive(const problem::Problem<dim> &instant) const override
       {
         return parts_.mass.of_force(parts_.load(instant));
       }
 
-      std::vector<double> inertia(const problem::Problem<2> &instant) const override
+      std::vector<double> inertia(const problem::Problem<dim> &instant) const override
       {
         return parts_.mass.of_force(parts_.inertia(instant));
       }
 
-      State state(const problem::Field<2> &field) const override
+      State state(const problem::Field<dim> &field) const override
       {
         State u(n_);
         std::size_t k = 0;
@@ -85,7 +88,7 @@ namespace plumbline::method
       }
 
       unsigned int n_components() const override { return parts_.n_components; }
-      const std::vector<dealii::Point<2>> &nodes() const override { return parts_.nodes; }
+      const std::vector<dealii::Point<dim>> &nodes() const override { return parts_.nodes; }
       std::vector<double> nodal(const State &u) const override
       {
         const State unknowns = parts_.mass.to_unknowns(u);
@@ -111,13 +114,17 @@ namespace plumbline::method
 
       std::size_t place(std::size_t k) const { return parts_.place.empty() ? k : parts_.place[k]; }
 
-      LinearParts parts_;
+      LinearParts<dim> parts_;
       std::size_t n_;
     };
   } // namespace
 
-  std::unique_ptr<EquationOfMotion> move_linear(LinearParts parts)
+  template <int dim>
+  std::unique_ptr<MotionOf<dim>> move_linear(LinearParts<dim> parts)
   {
-    return std::make_unique<LinearMotion>(std::move(parts));
+    return std::make_unique<LinearMotion<dim>>(std::move(parts));
   }
+
+  template std::unique_ptr<MotionOf<2>> move_linear(LinearParts<2>);
+  template std::unique_ptr<MotionOf<3>> move_linear(LinearParts<3>);
 } // namespace plumbline::method

@@ -9,12 +9,13 @@
 namespace plumbline::method
 {
   /// What moves by a matrix: M ü = load - A u.
+  template <int dim>
   struct LinearParts
   {
-    using State = EquationOfMotion::State;
-    using Driven = std::function<State(const problem::Problem<2> &)>;
+    using State = SemiDiscreteMotion::State;
+    using Driven = std::function<State(const problem::Problem<dim> &)>;
 
-    std::vector<dealii::Point<2>> nodes; ///< that are free
+    std::vector<dealii::Point<dim>> nodes; ///< that are free
     unsigned int n_components = 1;
     std::vector<std::size_t> place; ///< of values counted node by node; empty: unknowns are, too
     MassRoot mass;
@@ -22,12 +23,14 @@ namespace plumbline::method
     algebra::Action transposed = {}; ///< Aᵀ where A is not symmetric
     Driven load;                     ///< M b, less what constrained nodes add to A u
     Driven inertia;  ///< M u of the solution and of constrained nodes: u stands for ü
-    double unit = 1; ///< that masses are counted in [length^2]
+    double unit = 1; ///< that masses are counted in [length^dim]
   };
 
   /// States are Sᵀ u with M = S Sᵀ, so that the tangent of a symmetric A is symmetric.
   /// Where A is not symmetric the tangent is that of its symmetric part, whose largest eigenvalue
   /// bounds the real parts of A's; the energy is that part's too, and the rest disturbs its
   /// balance.
-  std::unique_ptr<EquationOfMotion> move_linear(LinearParts parts);
+  /// Instantiated for dim = 2 and 3.
+  template <int dim>
+  std::unique_ptr<MotionOf<dim>> move_linear(LinearParts<dim> parts);
 } // namespace plumbline::method

@@ -44,6 +44,58 @@ namespace plumbline::method
     Eigen::SparseMatrix<double> lower;
   };
 
+  /// S = √factor L⊗L⊗L, T = L Lᵀ with L bidiagonal.
+  struct MassRoot::Product
+  {
+    /// Of one axis: L_ii and L_(i+1)i.
+    struct Axis
+    {
+      std::size_t n, stride;
+      std::vector<double> diagonal, below;
+    };
+
+    explicit Product(const ProductMass &mass) : root(std::sqrt(mass.factor))
+    {
+      std::size_t stride = 1;
+      for (const int n : mass.n)
+      {
+        Axis axis{static_cast<std::size_t>(n), stride, {}, {}};
+        double before = 0;
+        for (int i = 0; i < n; ++i)
+        {
+          axis.diagonal.push_back(std::sqrt(1 - before * before));
+          before = mass.off / axis.diagonal.back();
+          axis.below.push_back(before);
+        }
+        axes.push_back(std::move(axis));
+        stride *= n;
+      }
+    }
+
+    /// line(axis, x) along all lines of all axes.
+    template <class Line>
+    State along_lines(State x, const Line &line) const
+    {
+      for (const Axis &axis : axes)
+        for (std::size_t outer = 0; outer < x.size(); outer += axis.stride * axis.n)
+          for (std::size_t inner = 0; inner < axis.stride; ++inner)
+            line(axis, x.data() + outer + inner);
+      return x;
+    }
+
+    State scaled(State x, double factor) const
+    {
+      for (double &value : x)
+        value *= factor;
+      return x;
+    }
+
+    double root;
+    std::vector<Axis> axes;
+  };
+
+  MassRoot::MassRoot(const ProductMass &mass) : product_(std::make_unique<Product>(mass)) {}
+
   MassRoot::MassRoot(std::vector<double> masses) : roots_(std::move(masses))
   {
     for (double &root : roots_)
@@ -66,6 +118,16 @@ namespace plumbline::method
   {
     if (factor_)
       return values(factor_->lower.transpose() * (factor_->permuted.permutationP() * view(u)));
+    if (product_)
+      return product_->scaled(
+          product_->along_lines(u,
+                                [](const Product::Axis &axis, double *x)
+                                {
+                                  for (std::size_t i = 0; i < axis.n; ++i, x += axis.stride)
+                                    *x = axis.diagonal[i] * *x +
+                                         (i + 1 < axis.n ? axis.below[i] * x[axis.stride] : 0);
+                                }),
+          product_->root);
     State x = u;
     for (std::size_t i = 0; i < x.size(); ++i)
       x[i] *= roots_[i];
@@ -77,6 +139,20 @@ namespace plumbline::method
     if (factor_)
       return values(factor_->permuted.permutationPinv() *
                     factor_->lower.transpose().triangularView<Eigen::Upper>().solve(view(x)));
+    if (product_)
+      return product_->scaled(product_->along_lines(x,
+                                                    [](const Product::Axis &axis, double *x)
+                                                    {
+                                                      double after = 0;
+                                                      for (std::size_t i = axis.n; i-- > 0;)
+                                                      {
+                                                        double &value = x[i * axis.stride];
+                                                        value = (value - axis.below[i] * after) /
+                                                                axis.diagonal[i];
+                                                        after = value;
+                                                      }
+                                                    }),
+                              1 / product_->root);
     return of_force(x);
   }
 
@@ -85,6 +161,19 @@ namespace plumbline::method
     if (factor_)
       return values(factor_->lower.triangularView<Eigen::Lower>().solve(
           factor_->permuted.permutationP() * view(f)));
+    if (product_)
+      return product_->scaled(product_->along_lines(f,
+                                                    [](const Product::Axis &axis, double *x)
+                                                    {
+                                                      double before = 0;
+                                                      for (std::size_t i = 0; i < axis.n;
+                                                           ++i, x += axis.stride)
+                                                      {
+                                                        *x = (*x - before) / axis.diagonal[i];
+                                                        before = axis.below[i] * *x;
+                                                      }
+                                                    }),
+                              1 / product_->root);
     State x = f;
     for (std::size_t i = 0; i < x.size(); ++i)
       x[i] /= roots_[i];

@@ -2,14 +2,24 @@
 
 #include "algebra/csr_matrix.h"
 
+#include <array>
 #include <memory>
 #include <vector>
 
 namespace plumbline::method
 {
-  /// M = S Sᵀ of a symmetric positive definite mass matrix, by a sparse Cholesky factor, or square
-  /// roots of masses: states Sᵀ u make the tangent of a symmetric operator symmetric, S⁻¹ A S⁻ᵀ.
-  /// Exact to round-off.
+  /// The mass matrix of trilinear functions on a box of nodes: factor T⊗T⊗T for each component, T
+  /// tridiagonal with 1 on the diagonal and `off` beside it.
+  struct ProductMass
+  {
+    std::array<int, 3> n{};
+    unsigned int n_components = 1;
+    double factor = 1, off = 0;
+  };
+
+  /// M = S Sᵀ of a symmetric positive definite mass matrix, by a sparse Cholesky factor, the
+  /// product of factors along the axes, or square roots of masses: states Sᵀ u make the tangent of
+  /// a symmetric operator symmetric, S⁻¹ A S⁻ᵀ. Exact to round-off.
   class MassRoot
   {
   public:
@@ -20,6 +30,9 @@ namespace plumbline::method
 
     /// @throws NumericalError  M is not positive definite
     explicit MassRoot(const algebra::CsrMatrix &matrix);
+
+    /// @param mass  positive definite: |off| < 1/2, factor > 0
+    explicit MassRoot(const ProductMass &mass);
     MassRoot(MassRoot &&) noexcept;
     ~MassRoot();
 
@@ -30,8 +43,10 @@ namespace plumbline::method
 
   private:
     struct Factor;
-    std::vector<double> roots_;      ///< of masses
-    bool is_one_ = false;            ///< all of them
-    std::unique_ptr<Factor> factor_; ///< of a matrix; empty: there are roots
+    struct Product;
+    std::vector<double> roots_;        ///< of masses
+    bool is_one_ = false;              ///< all of them
+    std::unique_ptr<Factor> factor_;   ///< of a matrix
+    std::unique_ptr<Product> product_; ///< of factors along the axes; both empty: there are roots
   };
 } // namespace plumbline::method

@@ -84,7 +84,7 @@ namespace plumbline::method
         subtract_constrained(parts->mass.constrained, parts->around(instant), load);
       return values(load);
     };
-    return move_linear(
+    return move_linear<2>(
         {parts->nodes,
          parts->n_components,
          {},

@@ -20,18 +20,20 @@ namespace plumbline::report
       return name + number;
     }
 
+    template <int dim>
     unsigned int n_components(const PointField &field)
     {
-      return field.is_vector ? 2 : 1;
+      return field.is_vector ? dim : 1;
     }
 
-    std::vector<Patch<0, 2>> make_patches(const std::vector<dealii::Point<2>> &points,
-                                          const std::vector<PointField> &fields)
+    template <int dim>
+    std::vector<Patch<0, dim>> make_patches(const std::vector<dealii::Point<dim>> &points,
+                                            const std::vector<PointField> &fields)
     {
       unsigned int n_values = 0;
       for (const PointField &field : fields)
-        n_values += n_components(field);
-      std::vector<Patch<0, 2>> patches(points.size());
+        n_values += n_components<dim>(field);
+      std::vector<Patch<0, dim>> patches(points.size());
       for (unsigned int i = 0; i < points.size(); ++i)
       {
         patches[i].vertices[0] = points[i];
@@ -39,15 +41,16 @@ namespace plumbline::report
         patches[i].data.reinit(n_values, 1);
         unsigned int row = 0;
         for (const PointField &field : fields)
-          for (unsigned int c = 0; c < n_components(field); ++c)
+          for (unsigned int c = 0; c < n_components<dim>(field); ++c)
             patches[i].data(row++, 0) = static_cast<float>(field.value(i, c));
       }
       return patches;
     }
   } // namespace
 
+  template <int dim>
   void write_frame(const std::filesystem::path &dir, const std::string &name,
-                   const std::vector<double> &times, const std::vector<dealii::Point<2>> &points,
+                   const std::vector<double> &times, const std::vector<dealii::Point<dim>> &points,
                    const std::vector<PointField> &fields)
   {
     using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
@@ -56,9 +59,9 @@ namespace plumbline::report
     for (const PointField &field : fields)
     {
       const auto first = static_cast<unsigned int>(names.size());
-      names.insert(names.end(), n_components(field), field.name);
+      names.insert(names.end(), n_components<dim>(field), field.name);
       if (field.is_vector)
-        vectors.emplace_back(first, first + 1, field.name,
+        vectors.emplace_back(first, first + dim - 1, field.name,
                              dealii::DataComponentInterpretation::component_is_part_of_vector);
     }
     dealii::DataOutBase::VtkFlags flags;
@@ -73,4 +76,11 @@ namespace plumbline::report
     dealii::DataOutBase::write_pvd_record(pvd, files);
     write_file(dir / (name + ".pvd"), pvd.str());
   }
+
+  template void write_frame(const std::filesystem::path &, const std::string &,
+                            const std::vector<double> &, const std::vector<dealii::Point<2>> &,
+                            const std::vector<PointField> &);
+  template void write_frame(const std::filesystem::path &, const std::string &,
+                            const std::vector<double> &, const std::vector<dealii::Point<3>> &,
+                            const std::vector<PointField> &);
 } // namespace plumbline::report

@@ -86,8 +86,8 @@ namespace plumbline::scene
       case C::line:
         return {"Domain/dimension = 1, which is for transient analysis of double wells", "write 2"};
       case C::space:
-        return {"Domain/dimension = 3, which is for static problems, waves and weights of "
-                "bond-based materials",
+        return {"Domain/dimension = 3, which is for static problems, motions, waves and "
+                "weights of bond-based materials",
                 "write 2"};
       }
       return {};
@@ -113,7 +113,7 @@ namespace plumbline::scene
     static const std::vector<Capable> all = {
         {base::word(Analysis::statics),
          all_but(moving | of_double_wells | Capabilities{C::floating})},
-        {base::word(Analysis::transient), all_but({C::notch, C::space})},
+        {base::word(Analysis::transient), all_but({C::notch})},
         {base::word(Analysis::crack),
          of_double_wells | Capabilities{C::lattice, C::notch, C::dynamic, C::nonlocal}},
         {base::word(Analysis::growth),

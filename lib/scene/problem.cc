@@ -143,11 +143,12 @@ namespace plumbline::scene
   }
 
   problem::Problem<3> make_problem_in_space(const Scene &scene, unsigned int case_index,
-                                            const Level &level)
+                                            const Level &level, double t,
+                                            const problem::Field<3> *known_load)
   {
     const auto field = [&](const std::string &key, const std::string &text)
     {
-      const Expression expression(key, text, scene.names(level.horizon));
+      const Expression expression(key, text, scene.names(level.horizon, t));
       problem::Field<3> result{[expression](const dealii::Point<3> &x, unsigned int component)
                                { return expression.at(x, component); }};
       result.is_piecewise = expression.is_piecewise();
@@ -159,13 +160,17 @@ namespace plumbline::scene
     const ProblemSection &section = scene.problem;
     if (!section.solutions.empty())
       given.solution = field("Problem/solution", section.solutions[case_index].expression);
-    if (!section.loads.empty())
+    if (known_load != nullptr)
+      given.load = *known_load;
+    else if (!section.loads.empty())
       given.load = field("Problem/load", section.loads[case_index].expression);
     if (section.constraint)
       given.constraint = field("Problem/constraint", *section.constraint);
     if (section.local_solution == LocalSolution::expression)
       given.local_solution = field("Problem/local solution", section.local_expression);
-    return problem::complete(std::move(given));
+    problem::Problem<3> result = problem::complete(std::move(given));
+    result.is_load_given = !section.loads.empty();
+    return result;
   }
 
   Case make_case(const Scene &scene, unsigned int case_index, const Level &level)

@@ -33,11 +33,12 @@ namespace plumbline::scene
   /// The same of a problem that the scene poses, as it may have been changed since.
   Case make_case(const Scene &scene, unsigned int case_index, Problem problem);
 
-  /// In space.
+  /// The same in space.
   /// @pre scene.domain.is_in_space()
   /// @throws InputError, NumericalError  as problem::complete
   problem::Problem<3> make_problem_in_space(const Scene &scene, unsigned int case_index,
-                                            const Level &level);
+                                            const Level &level, double t = 0,
+                                            const problem::Field<3> *known_load = nullptr);
 
   /// Constants of the material that vary in space, by their keys.
   std::vector<problem::SpatialValue<2>> material_values(const Scene &scene);

@@ -33,8 +33,8 @@ namespace plumbline::scene
     {
       needs(scene.material.model == &bond_based(),
             "Material/model = " + scene.material.model->name(), "write bond-based");
-      needs(!scene.is_no_problem(), "motions, cracks and strips",
-            "clear Time/final time, Crack, Fracture and Strip");
+      needs(!scene.crack.is_there() && !scene.fracture.is_there() && !scene.strip.is_there(),
+            "cracks and strips", "clear Crack, Fracture and Strip");
       const NodeSource &nodes = scene.methods.nodes;
       needs(nodes.kind() == NodeKind::centres && nodes.perturbation == 0,
             "Methods/nodes = " + nodes.name + " with perturbation " +

@@ -3,6 +3,8 @@
 #include "base/control_points.h"
 #include "base/cost.h"
 #include "base/error.h"
+#include "method/box_discretisation.h"
+#include "method/discretisation.h"
 #include "method/equation_of_motion.h"
 #include "physics/expression.h"
 #include "scene/problem.h"
@@ -18,31 +20,85 @@ namespace plumbline::study
     using analysis::TimeSeries;
     using analysis::Vector;
 
-    problem::Field<2> given(const std::string &key, const std::string &text,
-                            const physics::Names &names)
+    double value_of(const physics::Expression &u, const dealii::Point<2> &x, unsigned int c)
+    {
+      return u(x, c);
+    }
+
+    double value_of(const physics::Expression &u, const dealii::Point<3> &x, unsigned int c)
+    {
+      return u.at(x, c);
+    }
+
+    template <int dim>
+    problem::Field<dim> given(const std::string &key, const std::string &text,
+                              const physics::Names &names)
     {
       const physics::Expression u(key, text, names);
-      return {[u](const dealii::Point<2> &x, unsigned int c) { return u(x, c); }, {}};
+      return {[u](const dealii::Point<dim> &x, unsigned int c) { return value_of(u, x, c); }, {}};
+    }
+
+    /// Indices below a number, spread evenly.
+    std::vector<std::size_t> some_of(std::size_t n_all)
+    {
+      constexpr std::size_t n_places = 128;
+      std::vector<std::size_t> indices;
+      for (const double s : base::control_points(std::min(n_places, n_all)))
+        indices.push_back(static_cast<std::size_t>(s * static_cast<double>(n_all)));
+      return indices;
     }
 
     /// Places in Ω, spread evenly.
     std::vector<dealii::Point<2>> some_places(const problem::Problem<2> &problem)
     {
-      constexpr std::size_t n_places = 128;
       const std::vector<dealii::Point<2>> all = comparison_points(problem);
       std::vector<dealii::Point<2>> places;
-      for (const double s : base::control_points(std::min(n_places, all.size())))
-        places.push_back(all[static_cast<std::size_t>(s * static_cast<double>(all.size()))]);
+      for (const std::size_t i : some_of(all.size()))
+        places.push_back(all[i]);
       return places;
     }
 
-    problem::Field<2> nothing()
+    std::vector<dealii::Point<3>> some_places(const problem::Problem<3> &problem)
     {
-      return {[](const dealii::Point<2> &, unsigned int) { return 0.; }, {}};
+      constexpr double middle = .5;
+      const geometry::CubeLattice &lattice = problem.lattice;
+      std::vector<dealii::Point<3>> all, places;
+      lattice.for_each_cell(
+          [&](const std::array<int, 3> &cell)
+          {
+            all.emplace_back(lattice.coordinate(0, cell[0] + middle),
+                             lattice.coordinate(1, cell[1] + middle),
+                             lattice.coordinate(2, cell[2] + middle));
+          });
+      for (const std::size_t i : some_of(all.size()))
+        places.push_back(all[i]);
+      return places;
+    }
+
+    problem::Problem<2> problem_at(const scene::Scene &scene, unsigned int case_index,
+                                   const problem::Level &level, double t,
+                                   const problem::Field<2> *known_load,
+                                   const problem::Problem<2> *same_place)
+    {
+      return make_problem(scene, case_index, level, t, known_load, same_place);
+    }
+
+    problem::Problem<3> problem_at(const scene::Scene &scene, unsigned int case_index,
+                                   const problem::Level &level, double t,
+                                   const problem::Field<3> *known_load, const problem::Problem<3> *)
+    {
+      return make_problem_in_space(scene, case_index, level, t, known_load);
+    }
+
+    template <int dim>
+    problem::Field<dim> nothing()
+    {
+      return {[](const dealii::Point<dim> &, unsigned int) { return 0.; }, {}};
     }
   } // namespace
 
-  const problem::Problem<2> &ProblemsInTime::at(double t)
+  template <int dim>
+  const problem::Problem<dim> &ProblemsInTime<dim>::at(double t)
   {
     auto &problem = problems_[t];
     if (!problem)
@@ -50,11 +106,11 @@ namespace plumbline::study
       const base::CpuTimer timer;
       const std::tuple key(case_index_, level_.horizon, t);
       const auto known = loads_.find(key);
-      problem = std::make_unique<const problem::Problem<2>>(
-          make_problem(scene_, case_index_, level_, t,
-                       known == loads_.end() ? nullptr : &known->second, first_.get()));
+      problem = std::make_unique<const problem::Problem<dim>>(
+          problem_at(scene_, case_index_, level_, t,
+                     known == loads_.end() ? nullptr : &known->second, first_.get()));
       if (!first_)
-        first_ = std::make_unique<const problem::Problem<2>>(*problem);
+        first_ = std::make_unique<const problem::Problem<dim>>(*problem);
       if (known == loads_.end() && problem->load.series) // a series stands on the box, not on h
         loads_.emplace(key, problem->load);
       seconds_ += timer.seconds();
@@ -62,11 +118,12 @@ namespace plumbline::study
     return *problem;
   }
 
-  std::size_t ProblemsInTime::points_in_time()
+  template <int dim>
+  std::size_t ProblemsInTime<dim>::points_in_time()
   {
     if (n_points_)
       return *n_points_;
-    const std::vector<dealii::Point<2>> places = some_places(at(0));
+    const std::vector<dealii::Point<dim>> places = some_places(at(0));
     const scene::ProblemSection &problem = scene_.problem;
     std::size_t most = 0;
     const auto look_at = [&](const std::string &key, const std::string &text)
@@ -77,7 +134,7 @@ namespace plumbline::study
         Vector result;
         for (const auto &x : places)
           for (unsigned int c = 0; c < u.n_components(); ++c)
-            result.push_back(u(x, c));
+            result.push_back(value_of(u, x, c));
         return result;
       };
       const auto n = TimeSeries::points(values, scene_.time.final_time);
@@ -97,8 +154,9 @@ namespace plumbline::study
     return most;
   }
 
-  MotionData motion_data(const scene::Scene &scene, const method::EquationOfMotion &equation,
-                         ProblemsInTime &problems)
+  template <int dim>
+  MotionData<dim> motion_data(const scene::Scene &scene, const method::MotionOf<dim> &equation,
+                              ProblemsInTime<dim> &problems)
   {
     constexpr double tolerance = 1e-11;
     const scene::TimeSection &time = scene.time;
@@ -110,21 +168,21 @@ namespace plumbline::study
                        : TimeSeries::resolve(at, time.final_time, tolerance, what,
                                              problems.points_in_time());
     };
-    const problem::Problem<2> &first = problems.at(0);
-    MotionData data{{},
-                    {},
-                    {},
-                    series("Problem/load", [&](const problem::Problem<2> &instant)
-                           { return equation.drive(instant); }),
-                    {}};
+    const problem::Problem<dim> &first = problems.at(0);
+    MotionData<dim> data{{},
+                         {},
+                         {},
+                         series("Problem/load", [&](const problem::Problem<dim> &instant)
+                                { return equation.drive(instant); }),
+                         {}};
     if (!is_steady)
     {
-      const auto of = [&](const problem::Problem<2> &instant)
+      const auto of = [&](const problem::Problem<dim> &instant)
       {
         if (is_manufactured && instant.solution)
           return equation.inertia(instant);
-        problem::Problem<2> constrained = instant; // a load that is given holds Ω's part itself
-        constrained.solution = nothing();
+        problem::Problem<dim> constrained = instant; // a load that is given holds Ω's part itself
+        constrained.solution = nothing<dim>();
         return equation.inertia(constrained);
       };
       const TimeSeries rate = series("Problem/solution", of).derivative();
@@ -132,15 +190,15 @@ namespace plumbline::study
       data.drive.add(time.density * time.damping, rate);
     }
     if (first.solution)
-      data.exact = series("Problem/solution", [&](const problem::Problem<2> &instant)
+      data.exact = series("Problem/solution", [&](const problem::Problem<dim> &instant)
                           { return equation.state(*instant.solution); });
 
     physics::Names names = scene.names(first.horizon());
-    names.constants["h"] = first.h; // for averages over cells
+    names.constants["h"] = first.level().h; // for averages over cells
     if (!time.initial_displacement.empty())
-      data.displacement = given("Time/initial displacement", time.initial_displacement, names);
+      data.displacement = given<dim>("Time/initial displacement", time.initial_displacement, names);
     if (!time.initial_velocity.empty())
-      data.velocity = given("Time/initial velocity", time.initial_velocity, names);
+      data.velocity = given<dim>("Time/initial velocity", time.initial_velocity, names);
     data.start.u = data.displacement ? equation.state(*data.displacement)
                    : data.exact      ? data.exact->at(0)
                                      : Vector(equation.size());
@@ -149,4 +207,23 @@ namespace plumbline::study
                                               : Vector(equation.size());
     return data;
   }
+
+  std::unique_ptr<method::Discretisation> discretise(const method::Method &method,
+                                                     const problem::Problem<2> &problem)
+  {
+    return method.discretise(problem, base::Communicator::alone());
+  }
+
+  std::unique_ptr<method::BoxDiscretisation> discretise(const method::Method &method,
+                                                        const problem::Problem<3> &problem)
+  {
+    return method.discretise_in_space(problem);
+  }
+
+  template class ProblemsInTime<2>;
+  template class ProblemsInTime<3>;
+  template MotionData<2> motion_data(const scene::Scene &, const method::MotionOf<2> &,
+                                     ProblemsInTime<2> &);
+  template MotionData<3> motion_data(const scene::Scene &, const method::MotionOf<3> &,
+                                     ProblemsInTime<3> &);
 } // namespace plumbline::study

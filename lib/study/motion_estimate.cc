@@ -2,10 +2,12 @@
 
 #include "analysis/statics.h"
 #include "base/error.h"
+#include "method/box_discretisation.h"
 #include "method/discretisation.h"
 #include "study/motion_norms.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -13,33 +15,34 @@ namespace plumbline::study
 {
   namespace
   {
-    using Places = std::map<std::pair<long long, long long>, std::size_t>;
+    template <int dim>
+    using Places = std::map<std::array<long long, dim>, std::size_t>;
 
     /// Nodes by where they are; empty where several share a place, as those of discontinuous
     /// functions do.
-    Places places_of(const method::EquationOfMotion &equation, double h)
+    template <int dim>
+    Places<dim> places_of(const method::MotionOf<dim> &equation, double h)
     {
       constexpr double rounding = 1e-6; // of h, far below the distance of nodes
-      Places places;
+      Places<dim> places;
       for (std::size_t i = 0; i < equation.nodes().size(); ++i)
       {
-        const auto &x = equation.nodes()[i];
-        if (!places
-                 .try_emplace(
-                     {std::llround(x[0] / (rounding * h)), std::llround(x[1] / (rounding * h))}, i)
-                 .second)
+        std::array<long long, dim> place;
+        for (unsigned int d = 0; d < dim; ++d)
+          place[d] = std::llround(equation.nodes()[i][d] / (rounding * h));
+        if (!places.try_emplace(place, i).second)
           return {};
       }
       return places;
     }
 
     /// What a motion has beyond another at the nodes that both have.
-    std::vector<double> change_at_shared(const method::EquationOfMotion &from,
-                                         const std::vector<double> &of_from,
-                                         const method::EquationOfMotion &to,
-                                         const std::vector<double> &of_to, double h)
+    template <int dim>
+    std::vector<double>
+    change_at_shared(const method::MotionOf<dim> &from, const std::vector<double> &of_from,
+                     const method::MotionOf<dim> &to, const std::vector<double> &of_to, double h)
     {
-      const Places here = places_of(from, h), there = places_of(to, h);
+      const Places<dim> here = places_of(from, h), there = places_of(to, h);
       const unsigned int n = from.n_components();
       std::vector<double> change;
       for (const auto &[place, i] : here)
@@ -81,19 +84,20 @@ namespace plumbline::study
   namespace
   {
     /// A motion to compare others with.
+    template <int dim>
     class Own
     {
     public:
-      Own(const scene::Scene &scene, const method::EquationOfMotion &equation,
+      Own(const scene::Scene &scene, const method::MotionOf<dim> &equation,
           const analysis::State &end, double area, double h)
           : scene_(scene), equation_(equation), u_(equation.nodal(end.u)), area_(area), h_(h)
       {
       }
 
       /// How far another one is off at the final time; 0: they share no nodes.
-      double change_to(const method::EquationOfMotion &other, ProblemsInTime &problems) const
+      double change_to(const method::MotionOf<dim> &other, ProblemsInTime<dim> &problems) const
       {
-        const MotionData data = motion_data(scene_, other, problems);
+        const MotionData<dim> data = motion_data(scene_, other, problems);
         const analysis::Transient transient(other, data.drive, scene_.time.density,
                                             scene_.time.damping);
         const std::vector<double> change = change_at_shared(
@@ -101,28 +105,30 @@ namespace plumbline::study
         return change.empty() ? 0 : norm_of(change, equation_.n_components(), area_, false);
       }
 
-      double change_to(const Method &method, ProblemsInTime &problems) const
+      double change_to(const Method &method, ProblemsInTime<dim> &problems) const
       {
-        const auto other = method.discretise(problems.at(0), base::Communicator::alone());
+        const auto other = discretise(method, problems.at(0));
         settle_quadrature(*other, problems.at(0));
         return change_to(*other->motion(scene_.time.is_lumped), problems);
       }
 
     private:
       const scene::Scene &scene_;
-      const method::EquationOfMotion &equation_;
+      const method::MotionOf<dim> &equation_;
       std::vector<double> u_;
       double area_, h_;
     };
 
     /// Largest part of an error that is left when h is halved, as far as 2 h tells.
-    double ratio(const Own &own, const Method &method, double change, ProblemsInTime &problems)
+    template <int dim>
+    double ratio(const Own<dim> &own, const Method &method, double change,
+                 ProblemsInTime<dim> &problems)
     {
       constexpr double slowest = .9; // errors ten times the change
       const double best = std::exp2(-static_cast<double>(method.order()));
       try
       {
-        ProblemsInTime coarser = problems.resized(2 * problems.at(0).h);
+        ProblemsInTime<dim> coarser = problems.resized(2 * problems.at(0).level().h);
         if (const double before = own.change_to(method, coarser); before > 0)
           return std::min(slowest, std::max(best, change / before));
       }
@@ -133,29 +139,45 @@ namespace plumbline::study
     }
   } // namespace
 
+  template <int dim>
   std::optional<MotionEstimate> estimate_in_space(const scene::Scene &scene, const Method &method,
-                                                  const method::Discretisation &discretisation,
-                                                  const method::EquationOfMotion &equation,
+                                                  const method::MotionOf<dim> &equation,
+                                                  const method::MotionOf<dim> *finer_quadrature,
                                                   const analysis::State &end, double area,
-                                                  ProblemsInTime &problems)
+                                                  ProblemsInTime<dim> &problems)
   {
     constexpr double safety = 1.5;
-    const auto higher = method.higher_degree();
-    if (!higher)
-      return {};
-    const double h = problems.at(0).h;
-    const Own own(scene, equation, end, area, h);
-    const double degree = own.change_to(*higher, problems);
-    if (degree == 0)
-      return {};
-    ProblemsInTime finer = problems.resized(h / 2);
+    const double h = problems.at(0).level().h;
+    const Own<dim> own(scene, equation, end, area, h);
+    double degree = 0;
+    if (dim == 2)
+    {
+      const auto higher = method.higher_degree();
+      if (!higher)
+        return {};
+      degree = own.change_to(*higher, problems);
+      if (degree == 0)
+        return {};
+    }
+    ProblemsInTime<dim> finer = problems.resized(h / 2);
     const double half = own.change_to(method, finer);
     if (half == 0)
       return {};
     MotionEstimate estimate;
     estimate.space = safety * std::max(degree, half / (1 - ratio(own, method, half, problems)));
-    if (const auto same = discretisation.finer_motion(scene.time.is_lumped))
-      estimate.quadrature = own.change_to(*same, problems);
+    if (finer_quadrature != nullptr)
+      estimate.quadrature = own.change_to(*finer_quadrature, problems);
     return estimate;
   }
+
+  template std::optional<MotionEstimate> estimate_in_space(const scene::Scene &, const Method &,
+                                                           const method::MotionOf<2> &,
+                                                           const method::MotionOf<2> *,
+                                                           const analysis::State &, double,
+                                                           ProblemsInTime<2> &);
+  template std::optional<MotionEstimate> estimate_in_space(const scene::Scene &, const Method &,
+                                                           const method::MotionOf<3> &,
+                                                           const method::MotionOf<3> *,
+                                                           const analysis::State &, double,
+                                                           ProblemsInTime<3> &);
 } // namespace plumbline::study

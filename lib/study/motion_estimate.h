@@ -30,18 +30,24 @@ namespace plumbline::study
   /// floats has no statics.
   void settle_quadrature(method::Discretisation &discretisation, const problem::Problem<2> &first);
 
+  /// Entries in space are exact.
+  inline void settle_quadrature(method::BoxDiscretisation &, const problem::Problem<3> &) {}
+
   /// What a Galerkin method's motion may be wrong by in space and by quadrature, at the final time,
   /// L2 over nodes. Space: with the changes d to h/2 and d' from 2 h, at the nodes that both have,
   /// Richardson's d / (1 - q), q the larger of 2^-(p+1) and d / d' (1/2 where 2 h does not fit), or
   /// the change to degree p + 1 if that is larger; 3/2 of it. Quadrature: the change to finer one.
   /// All exact in time. A bound in practice, no theorem; nothing for discontinuous functions, whose
-  /// nodes share places, and for meshes whose nodes move with h.
+  /// nodes share places, and for meshes whose nodes move with h. In space there is no degree p + 1.
   /// Cost: that of the motions at h/2 (16 times as many bonds), at degree p + 1 and at 2 h.
   /// @param end   of `equation`, by move_exactly
+  /// @param finer_quadrature  the same equation with forces by finer quadrature; null: exact ones
   /// @param area  of Ω
+  /// Instantiated for dim = 2 and 3.
+  template <int dim>
   std::optional<MotionEstimate> estimate_in_space(const scene::Scene &scene, const Method &method,
-                                                  const method::Discretisation &discretisation,
-                                                  const method::EquationOfMotion &equation,
+                                                  const method::MotionOf<dim> &equation,
+                                                  const method::MotionOf<dim> *finer_quadrature,
                                                   const analysis::State &end, double area,
-                                                  ProblemsInTime &problems);
+                                                  ProblemsInTime<dim> &problems);
 } // namespace plumbline::study

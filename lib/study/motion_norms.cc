@@ -38,6 +38,11 @@ namespace plumbline::study
     return n * std::pow(lattice.h(), problem.dimension());
   }
 
+  double area_of(const problem::Problem<3> &problem)
+  {
+    return static_cast<double>(problem.lattice.size()) * std::pow(problem.h(), 3);
+  }
+
   double extent_of(const std::vector<double> &nodal, unsigned int n_components)
   {
     double extent = 0;

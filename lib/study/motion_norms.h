@@ -15,4 +15,5 @@ namespace plumbline::study
 
   /// Of Ω. @pre problem.lattice()
   double area_of(const problem::Problem<2> &problem);
+  double area_of(const problem::Problem<3> &problem); ///< its volume
 } // namespace plumbline::study

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "method/box_discretisation.h"
 #include "method/discretisation.h"
 #include "study/motion_data.h"
 #include "study/transient.h"
@@ -40,13 +41,14 @@ namespace plumbline::study
 
   namespace
   {
-    void check_steps(const scene::Scene &scene, const Method &method, const problem::Level &level)
+    template <int dim>
+    void check_steps(const scene::Scene &scene, const Method &method,
+                     const problem::Problem<dim> &problem)
     {
-      const problem::Problem<2> problem = make_problem(scene, 0, level);
-      std::unique_ptr<method::Discretisation> discretisation;
+      decltype(discretise(method, problem)) discretisation;
       try
       {
-        discretisation = method.discretise(problem, base::Communicator::alone());
+        discretisation = discretise(method, problem);
       }
       catch (const NumericalError &)
       {
@@ -74,11 +76,24 @@ namespace plumbline::study
                 std::string(rule.is_fraction ? "Time/critical fractions" : "Time/steps") + ": " +
                 rule.text() + " with the scheme " + name + " is a step of " +
                 base::to_text(step, 5) + " by " + method.name() +
-                " at h = " + base::to_text(level.h, 4) + ", longer than the critical one, " +
-                base::to_text(critical, 5) +
+                " at h = " + base::to_text(problem.level().h, 4) +
+                ", longer than the critical one, " + base::to_text(critical, 5) +
                 (critical > 0 ? ", so that errors grow without bound; shorten it"
                               : ": the scheme is unstable at any step; take another") +
                 ", or write Time/show blow-up = true");
+      }
+    }
+
+    /// That expressions are resolved in time.
+    template <int dim>
+    void check_times(const scene::Scene &scene)
+    {
+      for (unsigned int c = 0; c < scene.problem.case_names().size(); ++c)
+      {
+        const problem::Level &level = scene.study.series.front().levels.front();
+        const scene::Scene here = at_level(scene, level);
+        typename ProblemsInTime<dim>::Loads loads;
+        (void)ProblemsInTime<dim>(here, c, level, loads).points_in_time();
       }
     }
   } // namespace
@@ -94,14 +109,16 @@ namespace plumbline::study
       {
         throw InputError(std::string("Time/schemes: ") + error.what());
       }
+    const auto check_level = [&](const problem::Level &level)
+    {
+      const scene::Scene here = at_level(scene, level);
+      for (const auto &method : methods)
+        here.domain.is_in_space()
+            ? check_steps(here, *method, make_problem_in_space(here, 0, level))
+            : check_steps(here, *method, make_problem(here, 0, level));
+    };
     if (!scene.is_steady()) // else it would be said when much is done
-      for (unsigned int c = 0; c < scene.problem.case_names().size(); ++c)
-      {
-        const problem::Level &level = scene.study.series.front().levels.front();
-        const scene::Scene here = at_level(scene, level);
-        ProblemsInTime::Loads loads;
-        (void)ProblemsInTime(here, c, level, loads).points_in_time();
-      }
+      scene.domain.is_in_space() ? check_times<3>(scene) : check_times<2>(scene);
     for (const problem::Series &series : scene.study.series)
     {
       const std::size_t n_all = series.levels.size(),
@@ -109,8 +126,7 @@ namespace plumbline::study
       // critical steps are the shortest at the finest level; of a variable nothing is known
       const bool is_any = scene.study.regime == scene::Regime::variable;
       for (std::size_t level = is_any ? 0 : n - 1; level < n; ++level)
-        for (const auto &method : methods)
-          check_steps(at_level(scene, series.levels[level]), *method, series.levels[level]);
+        check_level(series.levels[level]);
     }
   }
 } // namespace plumbline::study

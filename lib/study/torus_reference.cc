@@ -53,7 +53,7 @@ namespace plumbline::study
 
     /// Of what a motion begins with and is driven by.
     double unresolved_part(const method::ContinuousMotion &equation, const scene::Scene &scene,
-                           const MotionData &data, ProblemsInTime &problems)
+                           const MotionData<2> &data, ProblemsInTime<2> &problems)
     {
       double worst = 0;
       const double end = scene.is_steady() ? 0 : scene.time.final_time;
@@ -83,7 +83,7 @@ namespace plumbline::study
   } // namespace
 
   TorusSolution solve_torus(const scene::Scene &scene, const Methods &available, double horizon,
-                            ProblemsInTime &problems)
+                            ProblemsInTime<2> &problems)
   {
     constexpr double tolerance = 1e-8;
     constexpr double of_data = 1e-6; // of the largest value: loads are seen by the motion's average
@@ -98,7 +98,7 @@ namespace plumbline::study
     {
       coarse = std::move(fine);
       fine.equation = make_torus(scene, available, horizon, n);
-      const MotionData data = motion_data(scene, *fine.equation, problems);
+      const MotionData<2> data = motion_data<2>(scene, *fine.equation, problems);
       const Transient transient(*fine.equation, data.drive, scene.time.density, scene.time.damping);
       fine.state = move_exactly(scene, transient, data.start);
       solution.n_points = n;

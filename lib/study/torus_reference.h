@@ -30,5 +30,5 @@ namespace plumbline::study
   /// below the errors of lattices; 54 a side at most.
   /// @param available  among which there is one that solves it
   TorusSolution solve_torus(const scene::Scene &scene, const Methods &available, double horizon,
-                            ProblemsInTime &problems);
+                            ProblemsInTime<2> &problems);
 } // namespace plumbline::study

@@ -1,6 +1,7 @@
 #include "study/transient.h"
 
 #include "base/error.h"
+#include "method/box_discretisation.h"
 #include "method/discretisation.h"
 #include "study/motion_data.h"
 #include "study/motion_estimate.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace plumbline::study
 {
@@ -24,10 +26,11 @@ namespace plumbline::study
   namespace
   {
     /// What is made of the scene at one value of its variable, whatever the method and level.
+    template <int dim>
     struct Shared
     {
       double value = 0, horizon = 0;
-      ProblemsInTime::Loads loads;
+      typename ProblemsInTime<dim>::Loads loads;
       std::map<unsigned int, TorusSolution> tori; ///< by case, of this horizon
       const TorusSolution *last = nullptr;        ///< that was asked for values at `nodes`
       std::vector<dealii::Point<2>> nodes;
@@ -71,19 +74,42 @@ namespace plumbline::study
       return variant;
     }
 
+    /// The same equation with forces by finer quadrature; null: exact ones.
+    std::unique_ptr<method::EquationOfMotion>
+    finer_motion(const method::Discretisation &discretisation, bool is_lumped)
+    {
+      return discretisation.finer_motion(is_lumped);
+    }
+
+    std::unique_ptr<method::MotionOf<3>> finer_motion(const method::BoxDiscretisation &, bool)
+    {
+      return nullptr;
+    }
+
+    template <int dim>
+    std::vector<dealii::Point<3>> in_space(const std::vector<dealii::Point<dim>> &nodes)
+    {
+      std::vector<dealii::Point<3>> result;
+      for (const auto &node : nodes)
+        result.emplace_back(node[0], node[1], dim == 3 ? node[dim - 1] : 0);
+      return result;
+    }
+
     /// A method on one case at one level, by all schemes and steps.
+    template <int dim>
     class CaseOfMethod
     {
     public:
       CaseOfMethod(const Place &place, const Method &method, unsigned int case_index,
                    const TransientOptions &options, const Methods &available)
           : place_(place), scene_(place.scene()), method_(method), case_index_(case_index),
-            options_(options), available_(available), shared_(place.kept<Shared>("in time")),
-            problems_(*place.shared<std::unique_ptr<ProblemsInTime>>(
+            options_(options), available_(available), shared_(place.kept<Shared<dim>>("in time")),
+            problems_(*place.shared<std::unique_ptr<ProblemsInTime<dim>>>(
                 "in time, case " + std::to_string(case_index),
-                [&] {
-                  return std::make_unique<ProblemsInTime>(scene_, case_index, place.level(),
-                                                          shared_.loads);
+                [&]
+                {
+                  return std::make_unique<ProblemsInTime<dim>>(scene_, case_index, place.level(),
+                                                               shared_.loads);
                 })),
             begun_(place.record("dynamics", method))
       {
@@ -126,7 +152,7 @@ namespace plumbline::study
           throw NumericalError(failure_);
         try
         {
-          discretise();
+          make_equation();
         }
         catch (const NumericalError &error)
         {
@@ -135,18 +161,18 @@ namespace plumbline::study
         }
       }
 
-      void discretise()
+      void make_equation()
       {
         const base::CpuTimer timer;
         const double shared = problems_.seconds();
-        const problem::Problem<2> &first = problems_.at(0);
+        const problem::Problem<dim> &first = problems_.at(0);
         area_ = area_of(first);
-        discretisation_ = method_.discretise(first, base::Communicator::alone());
+        discretisation_ = discretise(method_, first);
         settle_quadrature(*discretisation_, first);
         equation_ = discretisation_->motion(scene_.time.is_lumped);
         if (!equation_)
           throw NumericalError("the method has no equation of motion here");
-        data_ = motion_data(scene_, *equation_, problems_);
+        data_.emplace(motion_data(scene_, *equation_, problems_));
         transient_.emplace(*equation_, data_->drive, scene_.time.density, scene_.time.damping);
         describe();
         of_method_.cost.setup_seconds = timer.seconds() - (problems_.seconds() - shared);
@@ -155,8 +181,9 @@ namespace plumbline::study
         if (is_estimated || has_orders())
           in_time_ = move_exactly(scene_, *transient_, data_->start);
         if (is_estimated)
-          estimate_ = estimate_in_space(scene_, method_, *discretisation_, *equation_, *in_time_,
-                                        area_, problems_);
+          estimate_ = estimate_in_space(scene_, method_, *equation_,
+                                        finer_motion(*discretisation_, scene_.time.is_lumped).get(),
+                                        *in_time_, area_, problems_);
         is_set_up_ = true;
       }
 
@@ -174,8 +201,13 @@ namespace plumbline::study
 
       void solve_reference()
       {
-        if (!scene_.reference.method || available_.empty())
-          return;
+        if constexpr (dim == 2)
+          if (scene_.reference.method && !available_.empty())
+            find_torus();
+      }
+
+      void find_torus()
+      {
         const auto known = shared_.tori.find(case_index_);
         torus_ = known != shared_.tori.end()
                      ? &known->second
@@ -211,7 +243,8 @@ namespace plumbline::study
           if (!is_shown || !options_.on_frame || n_frames >= time.n_frames ||
               now.t < due - .5 * step)
             return;
-          options_.on_frame(record, {now.t, *equation_, now});
+          options_.on_frame(record, {now.t, in_space(equation_->nodes()), equation_->n_components(),
+                                     equation_->nodal(now.u), equation_->nodal(now.v)});
           ++n_frames;
         };
         analysis::Curve errors{{"time", "time", {}}, {"error", "", {}}};
@@ -298,11 +331,12 @@ namespace plumbline::study
         if (data_->exact)
           against(scene::Target::exact, equation_->nodal(data_->exact->at(end.t)),
                   equation_->nodal(data_->exact->derivative().at(end.t)));
-        if (torus_ != nullptr)
-        {
-          shared_.evaluate(*torus_, equation_->nodes());
-          against(scene::Target::reference, shared_.u, shared_.v);
-        }
+        if constexpr (dim == 2)
+          if (torus_ != nullptr)
+          {
+            shared_.evaluate(*torus_, equation_->nodes());
+            against(scene::Target::reference, shared_.u, shared_.v);
+          }
         if (in_time_)
         {
           const double of_time =
@@ -312,13 +346,14 @@ namespace plumbline::study
           if (estimate_)
             set_estimate(record, *estimate_, of_time);
         }
-        if (options_.keeps_end)
-        {
-          const auto &nodes = equation_->nodes();
-          record.fields["displacement"] = {
-              equation_->n_components(), nodes, u,
-              Vector(nodes.size(), area_ / static_cast<double>(nodes.size()))};
-        }
+        if constexpr (dim == 2)
+          if (options_.keeps_end)
+          {
+            const auto &nodes = equation_->nodes();
+            record.fields["displacement"] = {
+                equation_->n_components(), nodes, u,
+                Vector(nodes.size(), area_ / static_cast<double>(nodes.size()))};
+          }
       }
 
       static void set_estimate(Record &record, MotionEstimate estimate, double of_time)
@@ -336,15 +371,16 @@ namespace plumbline::study
       unsigned int case_index_;
       const TransientOptions &options_;
       const Methods &available_;
-      Shared &shared_;
-      ProblemsInTime &problems_;
+      Shared<dim> &shared_;
+      ProblemsInTime<dim> &problems_;
       Record begun_, of_method_;
       bool is_set_up_ = false;
       std::string failure_; ///< of what is set up
       double area_ = 1;
-      std::unique_ptr<method::Discretisation> discretisation_;
-      std::unique_ptr<const method::EquationOfMotion> equation_;
-      std::optional<MotionData> data_;
+      decltype(discretise(std::declval<const Method &>(),
+                          std::declval<const problem::Problem<dim> &>())) discretisation_;
+      std::unique_ptr<const method::MotionOf<dim>> equation_;
+      std::optional<MotionData<dim>> data_;
       std::optional<Transient> transient_;
       const TorusSolution *torus_ = nullptr;
       /// The state at the final time of the same equation, exact in time, where orders or the own
@@ -376,7 +412,9 @@ namespace plumbline::study
     analysis.analyse = [available, options](const Place &place, const Method &method)
     {
       for (unsigned int c = 0; c < place.scene().problem.case_names().size(); ++c)
-        CaseOfMethod(place, method, c, options, available).run();
+        place.scene().domain.is_in_space()
+            ? CaseOfMethod<3>(place, method, c, options, available).run()
+            : CaseOfMethod<2>(place, method, c, options, available).run();
       return Records();
     };
     analysis.has_parts = true;

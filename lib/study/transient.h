@@ -10,8 +10,9 @@ namespace plumbline::study
   struct Frame
   {
     double t = 0;
-    const method::EquationOfMotion &equation;
-    const analysis::State &state;
+    std::vector<dealii::Point<3>> nodes; ///< in the plane z = 0
+    unsigned int n_components = 1;
+    std::vector<double> u, v; ///< shape (n_nodes, n_components)
   };
 
   struct TransientOptions

@@ -148,15 +148,15 @@ namespace plumbline::meshfree
           of_solution.load = *instant.solution;
           return at_free(of_solution);
         };
-        return method::move_linear({shown.nodes,
-                                    2,
-                                    {},
-                                    method::MassRoot(std::move(masses)),
-                                    shown.action,
-                                    {},
-                                    at_free,
-                                    inertia,
-                                    1});
+        return method::move_linear<2>({shown.nodes,
+                                       2,
+                                       {},
+                                       method::MassRoot(std::move(masses)),
+                                       shown.action,
+                                       {},
+                                       at_free,
+                                       inertia,
+                                       1});
       }
 
     private:

@@ -58,11 +58,11 @@ namespace
   /// The state at the end of the coarsest level, nodes sorted by place.
   Places end_of(const scene::Scene &scene)
   {
-    ProblemsInTime::Loads loads;
-    ProblemsInTime problems(scene, 0, scene.study.series[0].levels[0], loads);
+    ProblemsInTime<2>::Loads loads;
+    ProblemsInTime<2> problems(scene, 0, scene.study.series[0].levels[0], loads);
     const auto discretisation = methods_of(scene)[0]->discretise(problems.at(0));
     const auto equation = discretisation->motion(scene.time.is_lumped);
-    const MotionData data = motion_data(scene, *equation, problems);
+    const MotionData<2> data = motion_data<2>(scene, *equation, problems);
     const analysis::Transient transient(*equation, data.drive, scene.time.density,
                                         scene.time.damping);
     analysis::State state = data.start;
@@ -227,8 +227,8 @@ TEST(MovingNodes, of_double_wells_have_the_slope_of_their_energy_for_a_force)
     const scene::Scene scene = scene_of(
         "double-well", moved_wells(method, {{"Problem/solution", "0.3*sin(4*x)*y, 0.2*x*y*(1 + t)"},
                                             {"Study/h", "0.2"}}));
-    ProblemsInTime::Loads loads;
-    ProblemsInTime problems(scene, 0, scene.study.series[0].levels[0], loads);
+    ProblemsInTime<2>::Loads loads;
+    ProblemsInTime<2> problems(scene, 0, scene.study.series[0].levels[0], loads);
     const auto discretisation = methods_of(scene)[0]->discretise(problems.at(0));
     const auto equation = discretisation->motion(false);
     EXPECT_EQ(equation->is_symmetric(), method == "FA");
