@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "base/temporary_folder.h"
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -37,32 +38,6 @@ namespace plumbline::geometry
       std::ifstream in(file, std::ios::binary);
       return {std::istreambuf_iterator<char>(in), {}};
     }
-
-    /// A folder that vanishes with its files.
-    class Folder
-    {
-    public:
-      Folder()
-      {
-        std::string name = (fs::temp_directory_path() / "plumbline-gmsh-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr)
-          throw InputError("gmsh needs a folder for its files, and '" +
-                           fs::temp_directory_path().string() +
-                           "' cannot be written; set TMPDIR to one that can");
-        path_ = name;
-      }
-      ~Folder()
-      {
-        std::error_code error;
-        fs::remove_all(path_, error);
-      }
-      Folder(const Folder &) = delete;
-      Folder &operator=(const Folder &) = delete;
-      const fs::path &path() const { return path_; }
-
-    private:
-      fs::path path_;
-    };
 
     std::string find_gmsh()
     {
@@ -203,8 +178,8 @@ namespace plumbline::geometry
     }
 
     /// Runs gmsh on the words, which leave a file. @return its text
-    std::string run(std::vector<std::string> words, const Folder &folder, const GmshLimits &limits,
-                    const std::string &source)
+    std::string run(std::vector<std::string> words, const base::TemporaryFolder &folder,
+                    const GmshLimits &limits, const std::string &source)
     {
       const std::string program = find_gmsh(), log = (folder.path() / "log").string(),
                         mesh = (folder.path() / "mesh.msh").string();
@@ -280,7 +255,7 @@ namespace plumbline::geometry
   std::string mesh_by_gmsh(const std::string &file, double h, double delta,
                            const GmshLimits &limits, const std::string &source, unsigned int order)
   {
-    const Folder folder;
+    const base::TemporaryFolder folder("gmsh");
     // read after the script, whose own settings would make another format
     const std::string last = (folder.path() / "last.geo").string();
     std::ofstream(last) << size_check(h)
@@ -305,7 +280,7 @@ namespace plumbline::geometry
   std::string convert_by_gmsh(const std::string &file, const GmshLimits &limits,
                               const std::string &source)
   {
-    const Folder folder;
+    const base::TemporaryFolder folder("gmsh");
     return run({fs::absolute(file).string(), "-save"}, folder, limits, source);
   }
 } // namespace plumbline::geometry

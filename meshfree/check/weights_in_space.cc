@@ -11,6 +11,7 @@
 #include <cmath>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace plumbline::meshfree
 {
@@ -30,26 +31,6 @@ namespace plumbline::meshfree
         if (!(x[d] > omega.lower[d] && x[d] < omega.upper[d]))
           return false;
       return true;
-    }
-
-    Index read_nodes(const std::string &file, WeightsInSpace &given)
-    {
-      base::Csv csv(file, {"id", "x", "y", "z", "volume"});
-      Index index;
-      while (csv.next())
-      {
-        const std::int64_t id = csv.integer("id");
-        if (!index.emplace(id, given.id.size()).second)
-          csv.fail("id " + std::to_string(id) +
-                   " is given already; give every node an id of its own");
-        given.id.push_back(id);
-        given.places.emplace_back(csv.number("x"), csv.number("y"), csv.number("z"));
-        given.volumes.push_back(csv.number("volume"));
-        if (!(given.volumes.back() > 0))
-          csv.fail("the volume of node " + std::to_string(id) +
-                   " is not positive; give that of its cell");
-      }
-      return index;
     }
 
     /// @param sizes  the rounding errors of weights by their digits, relative
@@ -92,6 +73,27 @@ namespace plumbline::meshfree
       return *middle;
     }
   } // namespace
+
+  WeightsInSpace read_nodes_in_space(const std::string &file)
+  {
+    WeightsInSpace given;
+    base::Csv csv(file, {"id", "x", "y", "z", "volume"});
+    std::unordered_set<std::int64_t> ids;
+    while (csv.next())
+    {
+      const std::int64_t id = csv.integer("id");
+      if (!ids.insert(id).second)
+        csv.fail("id " + std::to_string(id) +
+                 " is given already; give every node an id of its own");
+      given.id.push_back(id);
+      given.places.emplace_back(csv.number("x"), csv.number("y"), csv.number("z"));
+      given.volumes.push_back(csv.number("volume"));
+      if (!(given.volumes.back() > 0))
+        csv.fail("the volume of node " + std::to_string(id) +
+                 " is not positive; give that of its cell");
+    }
+    return given;
+  }
 
   void set_families(WeightsInSpace &given, const std::vector<BondInSpace> &bonds,
                     const geometry::Cuboid &omega, const std::string &nodes_name,
@@ -153,8 +155,10 @@ namespace plumbline::meshfree
   WeightsInSpace read_weights_in_space(const std::string &nodes_file, const std::string &bonds_file,
                                        const geometry::Cuboid &omega)
   {
-    WeightsInSpace given;
-    const Index index = read_nodes(nodes_file, given);
+    WeightsInSpace given = read_nodes_in_space(nodes_file);
+    Index index;
+    for (std::size_t node = 0; node < given.id.size(); ++node)
+      index[given.id[node]] = node;
     std::vector<double> roundings;
     const auto bonds = read_bonds(bonds_file, index, given, roundings);
     set_families(given, bonds, omega, "file '" + nodes_file + "'", "file '" + bonds_file + "'");

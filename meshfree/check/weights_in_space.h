@@ -40,9 +40,13 @@ namespace plumbline::meshfree
                     const geometry::Cuboid &omega, const std::string &nodes_name,
                     const std::string &bonds_name);
 
-  /// Nodes from a CSV file with the columns id, x, y, z and volume, bonds from one with i, j (ids),
-  /// weight [length^3] and, if they are there, qx, qy and qz: where the kernel is taken, relative
-  /// to node i, else at node j. Bonds of nodes outside Ω are left out.
+  /// Nodes alone from a CSV file with the columns id, x, y, z and volume.
+  /// @throws InputError  as read_weights_in_space
+  WeightsInSpace read_nodes_in_space(const std::string &file);
+
+  /// Nodes as by read_nodes_in_space, bonds from a CSV file with i, j (ids), weight [length^3] and,
+  /// if they are there, qx, qy and qz: where the kernel is taken, relative to node i, else at node
+  /// j. Bonds of nodes outside Ω are left out.
   /// @throws InputError  files that cannot be read, no column z, a volume <= 0, an id given twice
   /// or not known, a bond of a node with itself or given twice, a kernel point at 0, no node in Ω,
   /// a node in Ω without bonds; naming file, line and value
