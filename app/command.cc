@@ -9,6 +9,7 @@
 #include "moduli.h"
 #include "new_scene.h"
 #include "parser_text.h"
+#include "probe.h"
 #include "requirements.h"
 #include "run.h"
 #include "sample.h"
@@ -150,6 +151,32 @@ namespace
     check.add_flag("--quiet", options->quiet, "Print nothing but errors, write nothing without -o");
     check.add_flag("--json", options->json, "Print a JSON object, write nothing without -o");
     set_action(check, request, options, plumbline::app::check, true);
+  }
+
+  void add_probe(CLI::App &app, Request &request)
+  {
+    const auto options = std::make_shared<ProbeOptions>();
+    auto &probe =
+        *app.add_subcommand("probe", "Derive bonds for 'check' from the forces of another program");
+    probe.add_option("NODES", options->nodes_file, "Its nodes: CSV with id,x,y[,z],volume")
+        ->required();
+    probe
+        .add_option("--command", options->command,
+                    "Computes forces: reads the file {nodes} (id,x,y[,z],ux,uy[,uz]) and writes "
+                    "the file {forces} ([id,]fx,fy[,fz])")
+        ->required();
+    probe.add_option("--horizon", options->horizon, "Length of the longest bonds")->required();
+    probe.add_option("-o,--output", options->output, "Bonds file (default: bonds.csv)");
+    probe.add_option("--nodes", options->n_nodes,
+                     "Number of nodes to displace, nearest to the middle (default: 2, and those as "
+                     "near)");
+    probe.add_flag("--all", options->all, "Displace all nodes");
+    probe.add_option("--step", options->step,
+                     "Length of the displacements (default: 1e-5 horizons)");
+    probe.add_option("--forces-are", options->forces_are,
+                     "forces (default) or densities: forces per volume");
+    probe.add_flag("--quiet", options->quiet, "Print nothing but errors");
+    set_action(probe, request, options, plumbline::app::probe);
   }
 
   /// `stability`, `dispersion`, `crack`, `grow`, `strip` and `sample` take the same.
@@ -364,6 +391,7 @@ namespace
     app.ignore_case(); // of commands, as they are added
     add_run(app, request);
     add_check(app, request);
+    add_probe(app, request);
     add_analysis(app, request, "stability",
                  "Stability analysis: eigenvalues, signs, modes, weights, time steps",
                  "Expected/stability fails", [](const auto &) { return stability_row(); });
