@@ -197,7 +197,8 @@ namespace plumbline::study
         side = std::max(side, upper - lower);
       };
       for (unsigned int d = 0; d < domain.dimension; ++d)
-        domain.is_in_space() ? add_axis(domain.solid.include, d) : add_axis(domain.boxes.include, d);
+        domain.is_in_space() ? add_axis(domain.solid.include, d)
+                             : add_axis(domain.boxes.include, d);
       return side;
     }
 
