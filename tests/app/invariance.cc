@@ -94,7 +94,7 @@ namespace
         "expectations|n_updates|"
         "factorisations|largest.rank|/updates|/iterations|most "
         "iterations|noise|/rates/|worst/node|advice/[0-9]+/choices/[0-9]+/"
-        "(h|method|error)");
+        "(h|method|error)|cheapest/[0-9]+/(h|method|error|count|n_modes)"); // chosen by CPU times
     return std::regex_search(key, noise);
   }
 
