@@ -168,8 +168,8 @@ namespace
     probe.add_option("--horizon", options->horizon, "Length of the longest bonds")->required();
     probe.add_option("-o,--output", options->output, "Bonds file (default: bonds.csv)");
     probe.add_option("--nodes", options->n_nodes,
-                     "Number of nodes to displace, nearest to the middle (default: 2, and those as "
-                     "near)");
+                     "Number of nodes to displace, those nearest to the centre; nodes at the same "
+                     "distance as the last one are included (default: 2)");
     probe.add_flag("--all", options->all, "Displace all nodes");
     probe.add_option("--step", options->step,
                      "Length of the displacements (default: 1e-5 horizons)");
@@ -234,12 +234,13 @@ namespace
                      });
     command
         .add_option(angles_option, *angles,
-                    "In the plane: directions in degrees, separated by commas, semicolons or "
+                    "In two dimensions: directions in degrees, separated by commas, semicolons or "
                     "blanks (default: 0,22.5,45); may be repeated")
         ->allow_extra_args(false);
     command
         .add_option(directions_option, *directions,
-                    "In space: directions, three numbers for each (default: 1,0,0 1,1,0 1,1,1); "
+                    "In three dimensions: direction vectors, three numbers each (default: 1,0,0 "
+                    "1,1,0 1,1,1); "
                     "may be repeated")
         ->allow_extra_args(false);
   }

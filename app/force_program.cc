@@ -2,6 +2,7 @@
 
 #include "base/csv.h"
 #include "base/error.h"
+#include "base/exec_words.h"
 #include "base/number_text.h"
 #include "base/text_file.h"
 #include "run_parts.h"
@@ -66,20 +67,12 @@ namespace plumbline::app
       return result;
     }
 
-    std::vector<char *> pointers(std::vector<std::string> &words)
-    {
-      std::vector<char *> result;
-      for (std::string &word : words)
-        result.push_back(word.data());
-      result.push_back(nullptr);
-      return result;
-    }
-
     /// @return  its status as of waitpid
     int run_by_shell(const std::string &command, const std::string &log)
     {
       std::vector<std::string> words = {"sh", "-c", command}, settings = first_environment();
-      const std::vector<char *> arguments = pointers(words), environment = pointers(settings);
+      const std::vector<char *> arguments = base::exec_words(words),
+                                environment = base::exec_words(settings);
       posix_spawn_file_actions_t actions;
       posix_spawn_file_actions_init(&actions);
       posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -203,7 +196,8 @@ namespace plumbline::app
     if (WEXITSTATUS(status) != 0)
       throw InputError("the command '" + command_ + "' failed with exit code " +
                        std::to_string(WEXITSTATUS(status)) +
-                       "; try it with a file of nodes of your own" + log_end());
+                       "; run it by hand on a node file with these columns to find the cause" +
+                       log_end());
     if (!std::filesystem::exists(forces_file_, error))
       throw InputError("the command '" + command_ +
                        "' wrote no forces; write CSV with the columns " + columns("f", dim) +

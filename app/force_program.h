@@ -30,7 +30,7 @@ namespace plumbline::app
   };
 
   /// Another program that computes forces: a command for the shell, run once for each call, in the
-  /// present folder. `{nodes}` in it stands for a file that it reads, `{forces}` for one that it
+  /// current folder. `{nodes}` in it stands for a file that it reads, `{forces}` for one that it
   /// writes, both in a temporary folder:
   /// - nodes: CSV with id, x, y[, z] as given and the displacements ux, uy[, uz];
   /// - forces: CSV with fx, fy[, fz] of each node and, if rows are not in the order of the nodes,

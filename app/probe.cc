@@ -89,23 +89,23 @@ namespace plumbline::app
     {
       std::vector<std::string> result;
       if (found.asymmetry.value > noticeable)
-        result.push_back("force constants of a pair differ by " +
-                         base::to_percent(found.asymmetry.value) + " of the largest, of " +
-                         bond(found.asymmetry, nodes) +
-                         ": its forces do not balance. Bonds with one displaced node have the "
-                         "value of the other end; displace all nodes (--all)");
+        result.push_back("the force constants k_ij and k_ji of " + bond(found.asymmetry, nodes) +
+                         " differ by " + base::to_percent(found.asymmetry.value) +
+                         " of the largest force constant: their forces do not balance. For a bond "
+                         "with one displaced node, the value found by displacing that node is used "
+                         "for both ends; displace all nodes (--all)");
       if (found.imbalance > noticeable)
-        result.push_back("the forces by one node's displacement add up to " +
+        result.push_back("the forces due to the displacement of one node sum to " +
                          base::to_percent(found.imbalance) +
-                         " of the largest force constant: forces of pairs do not balance, or "
-                         "constrained nodes have no forces");
+                         " of the largest force constant: forces of pairs do not balance, or the "
+                         "forces on constrained nodes are set to zero");
       if (found.nonlinearity > noticeable)
         result.push_back("force constants change by " + base::to_percent(found.nonlinearity) +
-                         " where the step is halved; give a smaller --step, or a larger one if "
-                         "forces have few digits");
+                         " when the step is halved; give a smaller --step, or a larger one if the "
+                         "forces are written with few digits");
       if (found.n_loaded > 0)
-        result.push_back("forces do not vanish on " + std::to_string(found.n_loaded) +
-                         " nodes where none is displaced, the largest on node " +
+        result.push_back(std::to_string(found.n_loaded) +
+                         " nodes have forces although no node is displaced, the largest on node " +
                          std::to_string(nodes.id[found.loaded]) +
                          "; give the undeformed state without loads");
       return result;
@@ -128,9 +128,11 @@ namespace plumbline::app
       else
         out << number(found.asymmetry.value) << " between the two ends, of " << found.n_two_sided
             << " pairs\n";
-      out << "balance    " << number(found.imbalance) << " of all forces by one displacement\n"
+      out << "balance    " << number(found.imbalance)
+          << " is the norm of the sum of all forces due to one displacement\n"
           << "direction  " << number(found.noncentral.value) << " is not along the bond\n"
-          << "linearity  " << number(found.nonlinearity) << " between the step and half of it\n";
+          << "linearity  " << number(found.nonlinearity)
+          << " is the change when the step is halved\n";
       constexpr std::size_t n_columns = 120, indent = 2;
       for (const std::string &warning : warnings(found, nodes))
         out << report::wrapped("warning: " + warning, n_columns, indent) << '\n';
@@ -168,9 +170,9 @@ namespace plumbline::app
         throw InputError(
             "forces are not along the bonds: " + base::to_percent(found.noncentral.value) +
             " of the largest force constant are not, of " + bond(found.noncentral, nodes) +
-            ". The program is not bond-based, takes kernels off the nodes, or its bonds are under "
-            "load; probe a bond-based material in the undeformed state, or write the weights of "
-            "the program itself");
+            ". The program is not bond-based, evaluates kernels at points other than the nodes, or "
+            "its bonds are under load; probe a bond-based material in the undeformed state, or "
+            "export the weights from the program");
       base::write_file(options.output, bonds_csv(found, nodes));
       if (!options.quiet)
         std::cout << text(options, plan, found, nodes);

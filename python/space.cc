@@ -195,7 +195,7 @@ namespace plumbline::python
 
 Problem(kernel, *, box, h, exclude=None, load=None, constraint=None, solution=None)
 
-box         corners ((x0, y0, z0), (x1, y1, z1)), or a list of them [length]; exclude: taken out of
+box         corners ((x0, y0, z0), (x1, y1, z1)), or a list of such boxes [length]; exclude: boxes to remove from
             these
 h           side of the cubes, which divides the distances between parallel sides [length]
 load, constraint, solution

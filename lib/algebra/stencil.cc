@@ -14,23 +14,6 @@ namespace plumbline::algebra
         n *= 2 * reach + 1;
       return n;
     }
-
-    /// f(k1, k2, k3) for all offsets with k_d >= lowest_d.
-    template <typename Function>
-    void for_each_offset(const std::array<int, 3> &lowest, const std::array<int, 3> &reaches,
-                         const Function &f)
-    {
-      for (int k3 = lowest[2]; k3 <= reaches[2]; ++k3)
-        for (int k2 = lowest[1]; k2 <= reaches[1]; ++k2)
-          for (int k1 = lowest[0]; k1 <= reaches[0]; ++k1)
-            f(k1, k2, k3);
-    }
-
-    template <typename Function>
-    void for_each_offset(const std::array<int, 3> &reaches, const Function &f)
-    {
-      for_each_offset({-reaches[0], -reaches[1], -reaches[2]}, reaches, f);
-    }
   } // namespace
 
   Stencil::Stencil(unsigned int n_blocks, int reach) : Stencil(n_blocks, {reach, reach, 0}) {}
@@ -68,19 +51,16 @@ namespace plumbline::algebra
   bool Stencil::is_even() const
   {
     double largest = 0, defect = 0;
-    // of two opposite offsets one has the last index that is not negative
-    std::array<int, 3> lowest = {-reaches_[0], -reaches_[1], -reaches_[2]};
-    lowest[reaches_[2] > 0 ? 2 : 1] = 0;
     for (unsigned int s = 0; s < n_blocks_; ++s)
       for (unsigned int t = 0; t < n_blocks_; ++t)
-        for_each_offset(lowest, reaches_,
-                        [&](int k1, int k2, int k3)
-                        {
-                          const double a = (*this)(s, t, k1, k2, k3);
-                          largest = std::max(largest, std::abs(a));
-                          defect = std::max({defect, std::abs(a - (*this)(s, t, -k1, -k2, -k3)),
-                                             std::abs(a - (*this)(t, s, k1, k2, k3))});
-                        });
+        for_each_offset(
+            [&](int k1, int k2, int k3)
+            {
+              const double a = (*this)(s, t, k1, k2, k3);
+              largest = std::max(largest, std::abs(a));
+              defect = std::max({defect, std::abs(a - (*this)(s, t, -k1, -k2, -k3)),
+                                 std::abs(a - (*this)(t, s, k1, k2, k3))});
+            });
     return defect <= 1e-14 * largest;
   }
 
@@ -89,13 +69,13 @@ namespace plumbline::algebra
     double largest = 0, defect = 0;
     for (unsigned int s = 0; s < n_blocks_; ++s)
       for (unsigned int t = 0; t <= s; ++t)
-        for_each_offset(reaches_,
-                        [&](int k1, int k2, int k3)
-                        {
-                          const double a = (*this)(s, t, k1, k2, k3);
-                          largest = std::max(largest, std::abs(a));
-                          defect = std::max(defect, std::abs(a - (*this)(t, s, -k1, -k2, -k3)));
-                        });
+        for_each_offset(
+            [&](int k1, int k2, int k3)
+            {
+              const double a = (*this)(s, t, k1, k2, k3);
+              largest = std::max(largest, std::abs(a));
+              defect = std::max(defect, std::abs(a - (*this)(t, s, -k1, -k2, -k3)));
+            });
     return largest > 0 ? defect / largest : 0;
   }
 
@@ -108,8 +88,8 @@ namespace plumbline::algebra
     for (const Stencil *term : {&a, &b})
       for (unsigned int s = 0; s < term->n_blocks(); ++s)
         for (unsigned int t = 0; t < term->n_blocks(); ++t)
-          for_each_offset(term->reaches(), [&](int k1, int k2, int k3)
-                          { sum(s, t, k1, k2, k3) += (*term)(s, t, k1, k2, k3); });
+          term->for_each_offset([&](int k1, int k2, int k3)
+                                { sum(s, t, k1, k2, k3) += (*term)(s, t, k1, k2, k3); });
     return sum;
   }
 } // namespace plumbline::algebra

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/for_each_index.h"
 #include "geometry/lattice.h"
 
 #include <array>
@@ -22,6 +23,15 @@ namespace plumbline::algebra
     unsigned int n_blocks() const { return n_blocks_; }
     int reach() const { return reaches_[0]; } ///< along the first axis
     const std::array<int, 3> &reaches() const { return reaches_; }
+
+    /// visit(k1, k2, k3) for all offsets within the reaches, the first index fastest.
+    template <class Visit>
+    void for_each_offset(const Visit &visit) const
+    {
+      geometry::for_each_index({-reaches_[0], -reaches_[1], -reaches_[2]},
+                               {reaches_[0] + 1, reaches_[1] + 1, reaches_[2] + 1},
+                               [&](const std::array<int, 3> &k) { visit(k[0], k[1], k[2]); });
+    }
 
     double &operator()(unsigned int s, unsigned int t, int k1, int k2, int k3 = 0);
     double operator()(unsigned int s, unsigned int t, int k1, int k2, int k3 = 0) const;

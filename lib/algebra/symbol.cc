@@ -24,20 +24,20 @@ namespace plumbline::algebra
                     const Factor &factor)
     {
       const auto n_blocks = stencil.n_blocks();
-      const auto &reach = stencil.reaches();
       Matrix result = Matrix::Zero(n_blocks, n_blocks);
       for (unsigned int s = 0; s < n_blocks; ++s)
         for (unsigned int t = 0; t < n_blocks; ++t)
         {
           const Vector3 &from = waves.places[s % waves.n_families()],
                         &to = waves.places[t % waves.n_families()];
-          for (int j3 = -reach[2]; j3 <= reach[2]; ++j3)
-            for (int j2 = -reach[1]; j2 <= reach[1]; ++j2)
-              for (int j1 = -reach[0]; j1 <= reach[0]; ++j1)
+          stencil.for_each_offset(
+              [&](int j1, int j2, int j3)
+              {
                 if (const double a = stencil(s, t, j1, j2, j3); a != 0)
                   result(s, t) +=
                       a * factor(n[0] * (j1 + (to[0] - from[0])) + n[1] * (j2 + (to[1] - from[1])) +
                                  n[2] * (j3 + (to[2] - from[2])));
+              });
         }
       return result;
     }
@@ -168,16 +168,12 @@ namespace plumbline::algebra
 
   Stencil lump(const Stencil &mass, unsigned int n_families)
   {
-    const auto &reach = mass.reaches();
     double total = 0, diagonal = 0;
     for (unsigned int s = 0; s < n_families; ++s)
     {
       diagonal += mass(s, s, 0, 0);
       for (unsigned int t = 0; t < n_families; ++t)
-        for (int j3 = -reach[2]; j3 <= reach[2]; ++j3)
-          for (int j2 = -reach[1]; j2 <= reach[1]; ++j2)
-            for (int j1 = -reach[0]; j1 <= reach[0]; ++j1)
-              total += mass(s, t, j1, j2, j3);
+        mass.for_each_offset([&](int j1, int j2, int j3) { total += mass(s, t, j1, j2, j3); });
     }
     Stencil lumped(mass.n_blocks(), 0);
     for (unsigned int s = 0; s < mass.n_blocks(); ++s)
@@ -187,14 +183,15 @@ namespace plumbline::algebra
 
   bool couples_cells(const Stencil &mass)
   {
-    const auto &reach = mass.reaches();
+    bool couples = false;
     for (unsigned int s = 0; s < mass.n_blocks(); ++s)
       for (unsigned int t = 0; t < mass.n_blocks(); ++t)
-        for (int j3 = -reach[2]; j3 <= reach[2]; ++j3)
-          for (int j2 = -reach[1]; j2 <= reach[1]; ++j2)
-            for (int j1 = -reach[0]; j1 <= reach[0]; ++j1)
+        mass.for_each_offset(
+            [&](int j1, int j2, int j3)
+            {
               if ((j1 != 0 || j2 != 0 || j3 != 0) && mass(s, t, j1, j2, j3) != 0)
-                return true;
-    return false;
+                couples = true;
+            });
+    return couples;
   }
 } // namespace plumbline::algebra

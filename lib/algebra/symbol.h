@@ -54,8 +54,8 @@ namespace plumbline::algebra
     /// @throws NumericalError  A or M is not symmetric to 1e-10
     explicit Symbol(WaveOperator waves);
 
-    /// One wave for each component: along the direction n first, then across it; in space first
-    /// across the third axis, too, e_3 × n, then n × (e_3 × n).
+    /// One wave for each component, by polarisation: n first, then perpendicular to n; in three
+    /// dimensions e_3 × n (e_1 if n is parallel to e_3), then n × this vector.
     /// @param k  wave number > 0 [1/length]
     /// @throws NumericalError  M is not positive definite
     std::vector<PlaneWave> waves(double k, const Vector3 &n) const;

@@ -111,13 +111,14 @@ namespace plumbline::algebra
         second.fill(first);
         for (unsigned int s = 0; s < n; ++s)
           for (unsigned int t = 0; t < n; ++t)
-            for (int j3 = -reach[2]; j3 <= reach[2]; ++j3)
-              for (int j2 = -reach[1]; j2 <= reach[1]; ++j2)
-                for (int j1 = -reach[0]; j1 <= reach[0]; ++j1)
+            stencil.for_each_offset(
+                [&](int j1, int j2, int j3)
+                {
                   if (const double a = stencil(s, t, j1, j2, j3); a != 0)
                     add(s, t, {j1, j2, j3},
                         a * phase[0][j1 + reach[0]] * phase[1][j2 + reach[1]] *
                             phase[2][j3 + reach[2]]);
+                });
       }
 
     private:
@@ -229,7 +230,7 @@ namespace plumbline::algebra
     using Place = std::array<int, 3>;
 
     /// An eigenvalue over a grid of the half zone 0 <= κ_1 <= π, 0 <= κ_d < 2π of the others, the
-    /// other half being the same turned by π.
+    /// other half follows from the symmetry κ → -κ.
     struct Grid
     {
       int n;                           ///< intervals on π

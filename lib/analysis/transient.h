@@ -21,7 +21,8 @@ namespace plumbline::analysis
   class Transient
   {
   public:
-    /// @param drive  of MotionOf, inertia of a manufactured motion in it
+    /// @param drive  g(t) from MotionOf::drive, including MotionOf::inertia for a manufactured
+    /// motion
     /// @param equation  must outlive it
     Transient(const method::SemiDiscreteMotion &equation, TimeSeries drive, double density,
               double damping);

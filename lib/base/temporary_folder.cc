@@ -12,7 +12,7 @@ namespace plumbline::base
     std::string name = (parent / ("plumbline-" + user + "-XXXXXX")).string();
     if (mkdtemp(name.data()) == nullptr)
       throw InputError(user + " needs a folder for its files, and '" + parent.string() +
-                       "' cannot be written; set TMPDIR to one that can");
+                       "' is not writable; set TMPDIR to a writable folder");
     path_ = name;
   }
 

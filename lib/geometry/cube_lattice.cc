@@ -126,10 +126,8 @@ namespace plumbline::geometry
         for (const bool is_upper : {false, true})
           (is_upper ? range.upper : range.lower)[d] = static_cast<int>(std::lround(std::clamp(
               ((is_upper ? box.upper : box.lower)[d] - origin_[d]) / h_, 0., n_[d] + 0.)));
-      for (int k = range.lower[2]; k < range.upper[2]; ++k)
-        for (int j = range.lower[1]; j < range.upper[1]; ++j)
-          for (int i = range.lower[0]; i < range.upper[0]; ++i)
-            action(cells[number({i, j, k})]);
+      for_each_index(range.lower, range.upper,
+                     [&](const std::array<int, 3> &cell) { action(cells[number(cell)]); });
     };
     for (const Cuboid &box : solid_.include)
       visit(box, [](char &cell) { cell = 1; });
@@ -202,10 +200,12 @@ namespace plumbline::geometry
     if (lattice.is_box())
       return nodes;
     const CellCounts cells(lattice.mask(), lattice.n_cells());
-    for (int k = 0; k < nodes.n[2]; ++k)
-      for (int j = 0; j < nodes.n[1]; ++j)
-        for (int i = 0; i < nodes.n[0]; ++i)
-          nodes.is_free.push_back(cells.is_filled({{i, j, k}, {i + 2, j + 2, k + 2}}) ? 1 : 0);
+    for_each_index({0, 0, 0}, nodes.n,
+                   [&](const std::array<int, 3> &at)
+                   {
+                     const CubeRange around = {at, {at[0] + 2, at[1] + 2, at[2] + 2}};
+                     nodes.is_free.push_back(cells.is_filled(around) ? 1 : 0);
+                   });
     return nodes;
   }
 } // namespace plumbline::geometry

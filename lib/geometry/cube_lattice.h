@@ -1,5 +1,7 @@
 #pragma once
 
+#include "geometry/for_each_index.h"
+
 #include <deal.II/base/point.h>
 
 #include <array>
@@ -70,7 +72,7 @@ namespace plumbline::geometry
     /// The bounding box.
     Cuboid cuboid() const { return cuboid({0, 0, 0}, n_); }
 
-    /// The largest boxes in Ω, which cover it and overlap: of a box itself.
+    /// The maximal boxes in Ω, which cover it and may overlap; if Ω is a box, Ω itself.
     std::vector<Cuboid> boxes() const;
 
     /// The coordinate of an axis that is so many cells from the origin.
@@ -80,11 +82,12 @@ namespace plumbline::geometry
     template <class Visit>
     void for_each_cell(const Visit &visit) const
     {
-      for (int k = 0; k < n_[2]; ++k)
-        for (int j = 0; j < n_[1]; ++j)
-          for (int i = 0; i < n_[0]; ++i)
-            if (const std::array<int, 3> cell = {i, j, k}; is_inside(cell))
-              visit(cell);
+      for_each_index({0, 0, 0}, n_,
+                     [&](const std::array<int, 3> &cell)
+                     {
+                       if (is_inside(cell))
+                         visit(cell);
+                     });
     }
 
   private:

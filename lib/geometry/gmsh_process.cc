@@ -1,6 +1,7 @@
 #include "geometry/gmsh_process.h"
 
 #include "base/error.h"
+#include "base/exec_words.h"
 #include "base/number_text.h"
 #include "base/temporary_folder.h"
 
@@ -47,16 +48,6 @@ namespace plumbline::geometry
         if (const std::string file = folder + "/gmsh"; access(file.c_str(), X_OK) == 0)
           return file;
       throw InputError("gmsh is not installed, which meshes .geo files; apt-get install gmsh");
-    }
-
-    /// Of strings that outlive it, ended by a null, as exec wants it.
-    std::vector<char *> pointers(std::vector<std::string> &words)
-    {
-      std::vector<char *> result;
-      for (std::string &word : words)
-        result.push_back(word.data());
-      result.push_back(nullptr);
-      return result;
     }
 
     void limit(int resource, double value)
@@ -193,7 +184,8 @@ namespace plumbline::geometry
       for (const char *name : {"PATH", "LD_LIBRARY_PATH"})
         if (const char *value = std::getenv(name))
           settings.push_back(std::string(name) + "=" + value);
-      const std::vector<char *> arguments = pointers(words), environment = pointers(settings);
+      const std::vector<char *> arguments = base::exec_words(words),
+                                environment = base::exec_words(settings);
 
       const pid_t child = fork();
       if (child < 0)

@@ -1,5 +1,7 @@
 #include "geometry/maximal_boxes.h"
 
+#include "geometry/for_each_index.h"
+
 namespace plumbline::geometry
 {
   namespace
@@ -36,13 +38,15 @@ namespace plumbline::geometry
       for (unsigned int d = 0; d < 3; ++d)
         n_blocks[d] = static_cast<int>(breaks[d].size()) - 1;
       std::vector<char> is_block_inside;
-      for (int k = 0; k < n_blocks[2]; ++k)
-        for (int j = 0; j < n_blocks[1]; ++j)
-          for (int i = 0; i < n_blocks[0]; ++i)
+      for_each_index(
+          {0, 0, 0}, n_blocks,
+          [&](const Index &at)
+          {
+            const Index cell = {breaks[0][at[0]], breaks[1][at[1]], breaks[2][at[2]]};
             is_block_inside.push_back(
-                is_inside[breaks[0][i] +
-                          static_cast<std::size_t>(n[0]) *
-                              (breaks[1][j] + static_cast<std::size_t>(n[1]) * breaks[2][k])]);
+                is_inside[cell[0] + static_cast<std::size_t>(n[0]) *
+                                        (cell[1] + static_cast<std::size_t>(n[1]) * cell[2])]);
+          });
       return {is_block_inside, n_blocks};
     }
 

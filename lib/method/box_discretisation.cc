@@ -22,10 +22,9 @@ namespace plumbline::method
                            const Visit &visit)
     {
       for (unsigned int c = 0; c < n_components; ++c)
-        for (int k = -margin; k < n[2] + margin; ++k)
-          for (int j = -margin; j < n[1] + margin; ++j)
-            for (int i = -margin; i < n[0] + margin; ++i)
-              visit(c, std::array<int, 3>{i, j, k});
+        geometry::for_each_index({-margin, -margin, -margin},
+                                 {n[0] + margin, n[1] + margin, n[2] + margin},
+                                 [&](const std::array<int, 3> &at) { visit(c, at); });
     }
 
     /// Whether a position is so near to Ω that a free node or the average of a cell needs its

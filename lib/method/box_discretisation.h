@@ -38,8 +38,8 @@ namespace plumbline::method
     vertices ///< u is trilinear on each cell
   };
 
-  /// A problem on boxes of cubes in space, as both families of methods have it: one stencil for all
-  /// nodes, the constraint on those that are not free. A state has the shape of the BoxNodes.
+  /// A problem on a union of boxes in space, as both families of methods have it: one stencil for
+  /// all nodes, the constraint on those that are not free. A state has the shape of the BoxNodes.
   class BoxDiscretisation
   {
   public:
@@ -66,7 +66,7 @@ namespace plumbline::method
     /// M ü = -A u on an unbounded lattice.
     algebra::WaveOperator waves() const;
 
-    /// What moves, which must not outlive this.
+    /// The semi-discrete equation of motion; it must not outlive this object.
     /// @param is_lumped  Galerkin methods: masses by the scaled diagonal instead of the mass matrix
     std::unique_ptr<MotionOf<3>> motion(bool is_lumped) const;
 

@@ -1,4 +1,4 @@
-// What moves on boxes of cubes in space.
+// The semi-discrete equation of motion on unions of boxes, in three dimensions.
 #include "algebra/spectrum.h"
 #include "base/error.h"
 #include "method/box_discretisation.h"
@@ -31,44 +31,37 @@ namespace plumbline::method
       return positions;
     }
 
-    /// Couplings by one scalar stencil of each component between free positions.
-    algebra::CsrMatrix assemble(const algebra::Stencil &stencil, const geometry::BoxNodes &nodes,
-                                unsigned int n_components)
+    /// Couplings by a stencil without entries between components, between free positions.
+    algebra::CsrMatrix assemble(const algebra::Stencil &stencil, const geometry::BoxNodes &nodes)
     {
-      constexpr unsigned int none = static_cast<unsigned int>(-1);
-      const auto positions = free_positions(nodes, n_components);
-      std::vector<unsigned int> number(n_components * nodes.n_positions(), none);
+      constexpr auto none = static_cast<unsigned int>(-1);
+      const std::array<int, 3> &n = nodes.n, &reach = stencil.reaches();
+      const auto positions = free_positions(nodes, stencil.n_blocks());
+      std::vector<unsigned int> number(stencil.n_blocks() * nodes.n_positions(), none);
       for (unsigned int i = 0; i < positions.size(); ++i)
         number[positions[i]] = i;
-      const auto &n = nodes.n;
-      const auto &reach = stencil.reaches();
-      const auto place = [&](unsigned int c, int i, int j, int k)
-      {
-        return i +
-               static_cast<std::size_t>(n[0]) *
-                   (j + static_cast<std::size_t>(n[1]) * (k + static_cast<std::size_t>(n[2]) * c));
-      };
       algebra::CsrMatrix rows;
       rows.start.assign(1, 0);
-      for (unsigned int c = 0; c < n_components; ++c)
-        for (int k = 0; k < n[2]; ++k)
-          for (int j = 0; j < n[1]; ++j)
-            for (int i = 0; i < n[0]; ++i)
+      for (unsigned int c = 0; c < stencil.n_blocks(); ++c)
+        geometry::for_each_index(
+            {0, 0, 0}, n,
+            [&](const std::array<int, 3> &at)
             {
-              if (number[place(c, i, j, k)] == none)
-                continue;
-              for (int d3 = -std::min(reach[2], k); d3 <= std::min(reach[2], n[2] - 1 - k); ++d3)
-                for (int d2 = -std::min(reach[1], j); d2 <= std::min(reach[1], n[1] - 1 - j); ++d2)
-                  for (int d1 = -std::min(reach[0], i); d1 <= std::min(reach[0], n[0] - 1 - i);
-                       ++d1)
-                    if (const auto column = number[place(c, i + d1, j + d2, k + d3)];
-                        column != none)
-                    {
-                      rows.column.push_back(column);
-                      rows.value.push_back(stencil(c, c, d1, d2, d3));
-                    }
+              if (!nodes.free(at))
+                return;
+              geometry::for_each_index(
+                  {-reach[0], -reach[1], -reach[2]}, {reach[0] + 1, reach[1] + 1, reach[2] + 1},
+                  [&](const std::array<int, 3> &k)
+                  {
+                    const std::array<int, 3> there = {at[0] + k[0], at[1] + k[1], at[2] + k[2]};
+                    if (!nodes.free(there))
+                      return;
+                    rows.column.push_back(
+                        number[c * nodes.n_positions() + geometry::number_within(there, n)]);
+                    rows.value.push_back(stencil(c, c, k[0], k[1], k[2]));
+                  });
               rows.start.push_back(rows.column.size());
-            }
+            });
       return rows;
     }
 
@@ -80,7 +73,7 @@ namespace plumbline::method
         return MassRoot(std::vector<double>(n_unknowns, own));
       if (nodes.is_free.empty())
         return MassRoot(ProductMass{nodes.n, mass.n_blocks(), own, mass(0, 0, 1, 0, 0) / own});
-      return MassRoot(assemble(mass, nodes, mass.n_blocks()));
+      return MassRoot(assemble(mass, nodes));
     }
   } // namespace
 

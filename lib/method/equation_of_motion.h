@@ -53,7 +53,7 @@ namespace plumbline::method
     virtual std::vector<double> nodal(const State &u) const = 0;
   };
 
-  /// The same with what a problem brings.
+  /// A SemiDiscreteMotion that also computes g and states from the fields of a problem.
   template <int dim>
   class MotionOf : public SemiDiscreteMotion
   {
@@ -61,7 +61,7 @@ namespace plumbline::method
     /// @throws InputError  a load or constraint that is not finite
     virtual std::vector<double> drive(const problem::Problem<dim> &instant) const = 0;
 
-    /// The drive that ü brings, in which u of the instant's solution and constraint stands for ü.
+    /// The contribution of ü to g: pass ü as the solution and constraint of `instant`.
     /// @pre instant.solution
     virtual std::vector<double> inertia(const problem::Problem<dim> &instant) const = 0;
 

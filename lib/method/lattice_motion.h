@@ -7,8 +7,8 @@
 
 namespace plumbline::method
 {
-  /// What moves on a lattice by one stencil: M ü = load - A u, M that of Galerkin methods or a
-  /// number.
+  /// The parts of an equation of motion on a lattice by one stencil: M ü = load - A u, M that of
+  /// Galerkin methods or a number.
   struct LatticeParts
   {
     const geometry::Lattice &lattice;

@@ -8,7 +8,7 @@
 
 namespace plumbline::method
 {
-  /// What moves by a matrix: M ü = load - A u.
+  /// The parts of a linear equation of motion M ü = load - A u.
   template <int dim>
   struct LinearParts
   {

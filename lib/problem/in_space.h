@@ -26,8 +26,8 @@ namespace plumbline::problem
                               const std::vector<char> &is_wanted = {}) const;
   };
 
-  /// A boundary-value problem in space at one level: a homogeneous material on boxes of cubes, with
-  /// u given all around them. Fill in what it has, then complete() it.
+  /// A boundary-value problem in space at one level: a homogeneous material on a union of boxes,
+  /// with u given all around them. Fill in what it has, then complete() it.
   template <>
   struct Problem<3>
   {

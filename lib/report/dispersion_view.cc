@@ -76,11 +76,12 @@ namespace plumbline::report
         columns.push_back(error_column(name, name));
       return {"long", "Long waves",
               "Errors of the phase speed as the wave number tends to 0, relative to the local "
-              "limit's: L waves move along their direction, T waves across it (in space T1 waves "
-              "across the third axis, too, T2 waves across both others). They are the defects of "
-              "the second moments, and stay as h and horizon go to 0 together. anisotropy: the "
-              "speed along an axis less that along the diagonal (in space of a face or of the "
-              "cube, whichever differs more), over the local limit's.",
+              "limit's. L waves are polarised along their direction, T waves perpendicular to it "
+              "(in three dimensions, T1 also perpendicular to the third axis, and T2 perpendicular "
+              "to T1). These errors are the defects of the second moments, and do not vanish as h "
+              "and the horizon tend to 0 together. anisotropy: the speed along an axis minus that "
+              "along the diagonal (in three dimensions, the face or space diagonal, whichever "
+              "differs more), relative to the speed of the local limit.",
               table_of(results, with_place(results, columns),
                        [&](const Record &record) {
                          return std::find(finest.begin(), finest.end(), &record) != finest.end();

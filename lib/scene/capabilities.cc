@@ -86,8 +86,8 @@ namespace plumbline::scene
       case C::line:
         return {"Domain/dimension = 1, which is for transient analysis of double wells", "write 2"};
       case C::space:
-        return {"Domain/dimension = 3, which is for static problems, motions, waves and "
-                "weights of bond-based materials",
+        return {"Domain/dimension = 3, which is available for static, transient and dispersion "
+                "analyses and the check of weights, for bond-based materials",
                 "write 2"};
       }
       return {};

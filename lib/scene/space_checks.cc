@@ -20,8 +20,8 @@ namespace plumbline::scene
     {
       const DomainSection &domain = scene.domain;
       require(!domain.solid.include.empty() && domain.boxes.exclude.empty(),
-              "Domain/dimension = 3 needs Domain/boxes and Domain/holes with three coordinates a "
-              "corner; write '0, 0, 0 : 1, 1, 1'");
+              "Domain/dimension = 3 needs three coordinates per corner in Domain/boxes and "
+              "Domain/holes; write '0, 0, 0 : 1, 1, 1'");
       needs(domain.mesh.is_lattice(), "Domain/mesh = " + domain.mesh.name, "write lattice");
       needs(!domain.is_free_body && !domain.is_periodic, "Domain/boundary other than constrained",
             "write constrained");
@@ -64,10 +64,10 @@ namespace plumbline::scene
       check_study_in_space(scene);
     }
     else
-      require(
-          scene.domain.solid.include.empty() && scene.domain.solid.exclude.empty(),
-          "Domain/boxes or Domain/holes has three coordinates a corner, but Domain/dimension = " +
-              std::to_string(scene.domain.dimension) +
-              "; write Domain/dimension = 3, or two coordinates");
+      require(scene.domain.solid.include.empty() && scene.domain.solid.exclude.empty(),
+              "Domain/boxes or Domain/holes has three coordinates per corner, but Domain/dimension "
+              "= " +
+                  std::to_string(scene.domain.dimension) +
+                  "; write Domain/dimension = 3, or two coordinates");
   }
 } // namespace plumbline::scene

@@ -256,7 +256,7 @@ namespace plumbline::study
     {
       if (!std::isfinite(angle) || std::abs(angle) > 360)
         throw InputError("--angles: " + base::to_text(angle, 4) +
-                         " is no direction; give degrees from -360 to 360");
+                         " is not a direction; give degrees from -360 to 360");
       return {"at " + base::to_text(angle, 4) + "°", algebra::in_plane(angle * M_PI / 180)};
     }
 
@@ -270,8 +270,9 @@ namespace plumbline::study
         result.n[d] /= size;
       }
       if (!(size > 0 && std::isfinite(size)))
-        throw InputError("--directions: " + result.name.substr(6) +
-                         " is no direction; give three numbers that are not all 0, e.g. 1,1,0");
+        throw InputError(
+            "--directions: " + result.name.substr(6) +
+            " is not a direction; give three finite numbers that are not all 0, e.g. 1,1,0");
       return result;
     }
   } // namespace
@@ -282,8 +283,8 @@ namespace plumbline::study
     if (dimension == 3)
     {
       if (!asked.angles.empty())
-        throw InputError("--angles gives directions in the plane, but Domain/dimension = 3; write "
-                         "--directions and three numbers for each, e.g. 1,0,0 1,1,0");
+        throw InputError("--angles is for two dimensions, but Domain/dimension = 3; give "
+                         "--directions, three numbers each, e.g. 1,0,0 1,1,0");
       check_number_of_directions("--directions", asked.vectors.size());
       for (const auto &vector : asked.vectors.empty()
                                     ? std::vector<algebra::Vector3>{{1}, {1, 1}, {1, 1, 1}}
@@ -292,7 +293,7 @@ namespace plumbline::study
       return result;
     }
     if (!asked.vectors.empty())
-      throw InputError("--directions gives directions in space, but Domain/dimension = " +
+      throw InputError("--directions is for three dimensions, but Domain/dimension = " +
                        std::to_string(dimension) + "; write --angles in degrees, e.g. 0,45");
     check_number_of_directions("--angles", asked.angles.size());
     for (const double angle :

@@ -79,9 +79,10 @@ namespace plumbline::study
     double density = 1;    ///< > 0, see scene::TimeSection
   };
 
-  /// In the plane along an axis, along the diagonal and halfway; in space along an axis and along
-  /// the diagonals of a face and of the cube.
-  /// @throws InputError  directions of the other dimension, more than 16, or none
+  /// The requested directions, or the defaults: in two dimensions along an axis, along the diagonal
+  /// and halfway; in space along an axis and along the diagonals of a face and of the cube.
+  /// @throws InputError  directions for the other dimension, more than 16, or an invalid one: a
+  /// vector that is zero or not finite, an angle not in [-360, 360]
   std::vector<WaveDirection> wave_directions(const AskedDirections &asked, unsigned int dimension);
 
   /// @throws InputError  a scene without one stencil for all nodes: a mesh, a free body, cracks,

@@ -90,10 +90,18 @@ namespace plumbline::study
       return make_problem_in_space(scene, case_index, level, t, known_load);
     }
 
-    template <int dim>
-    problem::Field<dim> nothing()
+    problem::Field<2> nothing(const problem::Problem<2> &)
     {
-      return {[](const dealii::Point<dim> &, unsigned int) { return 0.; }, {}};
+      return {[](const dealii::Point<2> &, unsigned int) { return 0.; }, {}};
+    }
+
+    problem::Field<3> nothing(const problem::Problem<3> &problem)
+    {
+      problem::Field<3> zero{[](const dealii::Point<3> &, unsigned int) { return 0.; }};
+      const geometry::Cuboid box = problem.lattice.cuboid();
+      zero.series = physics::ChebyshevInSpace::resolve(zero.value, problem.n_components, box.lower,
+                                                       box.upper);
+      return zero;
     }
   } // namespace
 
@@ -182,7 +190,7 @@ namespace plumbline::study
         if (is_manufactured && instant.solution)
           return equation.inertia(instant);
         problem::Problem<dim> constrained = instant; // a load that is given holds Ω's part itself
-        constrained.solution = nothing<dim>();
+        constrained.solution = nothing(instant);
         return equation.inertia(constrained);
       };
       const TimeSeries rate = series("Problem/solution", of).derivative();

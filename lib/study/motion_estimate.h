@@ -30,7 +30,7 @@ namespace plumbline::study
   /// floats has no statics.
   void settle_quadrature(method::Discretisation &discretisation, const problem::Problem<2> &first);
 
-  /// Entries in space are exact.
+  /// Nothing to refine: in three dimensions matrix entries are exact.
   inline void settle_quadrature(method::BoxDiscretisation &, const problem::Problem<3> &) {}
 
   /// What a Galerkin method's motion may be wrong by in space and by quadrature, at the final time,
@@ -38,8 +38,9 @@ namespace plumbline::study
   /// Richardson's d / (1 - q), q the larger of 2^-(p+1) and d / d' (1/2 where 2 h does not fit), or
   /// the change to degree p + 1 if that is larger; 3/2 of it. Quadrature: the change to finer one.
   /// All exact in time. A bound in practice, no theorem; nothing for discontinuous functions, whose
-  /// nodes share places, and for meshes whose nodes move with h. In space there is no degree p + 1.
-  /// Cost: that of the motions at h/2 (16 times as many bonds), at degree p + 1 and at 2 h.
+  /// nodes share places, and for meshes whose nodes move with h. In three dimensions the change to
+  /// degree p + 1 is not available. Cost: that of the motions at h/2 (16 times as many bonds), at
+  /// degree p + 1 and at 2 h.
   /// @param end   of `equation`, by move_exactly
   /// @param finer_quadrature  the same equation with forces by finer quadrature; null: exact ones
   /// @param area  of Ω

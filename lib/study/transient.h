@@ -10,7 +10,7 @@ namespace plumbline::study
   struct Frame
   {
     double t = 0;
-    std::vector<dealii::Point<3>> nodes; ///< in the plane z = 0
+    std::vector<dealii::Point<3>> nodes; ///< z = 0 in two dimensions
     unsigned int n_components = 1;
     std::vector<double> u, v; ///< shape (n_nodes, n_components)
   };

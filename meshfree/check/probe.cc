@@ -90,10 +90,10 @@ namespace plumbline::meshfree
       if (farthest > 0)
         throw InputError(
             "the horizon " + base::to_text(plan.settings.horizon, 6) +
-            " is too small: a force changes where a node at a distance of " +
+            " is too small: the force on a node changes when a node at a distance of " +
             base::to_text(farthest, 6) +
-            " is displaced; give a horizon that reaches all bonds, at least this distance. "
-            "State-based materials reach twice their horizon: they have no weights of bonds");
+            " is displaced; give a horizon of at least this distance that includes all bonds. In "
+            "state-based materials forces extend to twice the horizon; they have no bond weights");
     }
 
     /// Σ_i ∂F_i/∂u_j over the nodes that node j reaches.
@@ -146,8 +146,8 @@ namespace plumbline::meshfree
           found.imbalance = std::max(found.imbalance, imbalance(plan, k, derivatives));
         }
         if (found.largest == 0)
-          throw InputError("no force changes where nodes are displaced; read the displacements ux, "
-                           "uy (and uz) of the nodes, or give a larger step");
+          throw InputError("no force changes when nodes are displaced; make the command use the "
+                           "displacements ux, uy (and uz) in {nodes}, or give a larger --step");
         check_reach(plan, group, derivatives, found.largest);
         if (&group == &plan.groups.front())
           found.nonlinearity =

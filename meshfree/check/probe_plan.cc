@@ -120,7 +120,7 @@ namespace plumbline::meshfree
     check(settings);
     if (places.size() < 2)
       throw InputError("there are " + std::to_string(places.size()) +
-                       " nodes, and no bonds; give a body of some horizons");
+                       "  nodes, too few for a bond; give a body that is several horizons wide");
     ProbePlan<dim> plan;
     plan.places = places;
     plan.settings = settings;
@@ -135,8 +135,8 @@ namespace plumbline::meshfree
             nearest = std::min(nearest, places[i].distance(places[plan.displaced[k]]));
         throw InputError("the horizon " + number(settings.horizon) + " is less than the distance " +
                          number(nearest) +
-                         " between a node and the nearest one; give that of the program, in the "
-                         "unit of the nodes");
+                         " between a node and its nearest neighbour; give the horizon of the "
+                         "program, in the length unit of the nodes");
       }
     plan.groups = groups_of(plan.displaced, plan.neighbours, places.size());
     return plan;

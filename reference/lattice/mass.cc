@@ -34,11 +34,12 @@ namespace plumbline::reference
     for (unsigned int c = 0; c < n_components; ++c)
       for (unsigned int s = 0; s < n_families; ++s)
         for (unsigned int t = 0; t < n_families; ++t)
-          for (int k3 = -third; k3 <= third; ++k3)
-            for (int k2 = -reach; k2 <= reach; ++k2)
-              for (int k1 = -reach; k1 <= reach; ++k1)
+          mass.for_each_offset(
+              [&](int k1, int k2, int k3)
+              {
                 mass(c * n_families + s, c * n_families + t, k1, k2, k3) =
                     entry<dim>(r, n_axis, h, s, t, {k1, k2, k3});
+              });
     return mass;
   }
 

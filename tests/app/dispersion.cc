@@ -169,8 +169,8 @@ TEST(DispersionCommand, takes_vectors_as_directions_in_space)
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["facts"]["directions"], "(0, 0, 1), (1, 1, -1)");
   expect_no_waves(in_space + " --directions 1,0", "--directions has 2 numbers; give three");
-  expect_no_waves(in_space + " --directions 0,0,0", "(0, 0, 0) is no direction");
-  expect_no_waves(in_space + " --angles 45", "--angles gives directions in the plane");
+  expect_no_waves(in_space + " --directions 0,0,0", "(0, 0, 0) is not a direction");
+  expect_no_waves(in_space + " --angles 45", "--angles is for two dimensions");
   expect_no_waves(scene("diffusion") + " --directions 1,0,0",
-                  "--directions gives directions in space");
+                  "--directions is for three dimensions");
 }

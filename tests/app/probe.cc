@@ -252,9 +252,9 @@ TEST_F(Probe, warns_of_pairs_whose_forces_differ)
   std::ofstream(path("bonds.csv")) << bonds;
   const Outcome outcome = probe(program(), "--horizon 1");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  expect_found(outcome.out, "warning: force constants of a pair differ by");
+  expect_found(outcome.out, "warning: the force constants k_ij and k_ji of nodes");
   expect_found(outcome.out, "of nodes 24 and 25: its forces do not balance");
-  expect_found(outcome.out, "warning: the forces by one node's displacement add up to");
+  expect_found(outcome.out, "warning: the forces due to the displacement of one node sum to");
   expect_recovered(4);
 }
 
@@ -276,7 +276,7 @@ TEST_F(Probe, refuses_commands_that_do_not_give_forces)
   expect_refused(script("(echo fx,fy; yes 0,none | head -36) >$2"), "none");
   expect_refused(script("(echo id,fx,fy; yes 7,0,0 | head -36) >$2"),
                  "id = 7 is the id of no node");
-  expect_refused(script("(echo fx,fy; yes 0,0 | head -36) >$2"), "no force changes where");
+  expect_refused(script("(echo fx,fy; yes 0,0 | head -36) >$2"), "no force changes when");
 }
 
 TEST_F(Probe, refuses_what_it_cannot_use)
@@ -305,7 +305,7 @@ TEST_F(Probe, refuses_what_it_cannot_use)
   expect_refused(program(), "has no column volume");
 }
 
-TEST_F(Probe, leaves_nothing_where_it_is_interrupted)
+TEST_F(Probe, writes_no_file_when_interrupted)
 {
   write_program<2>("FA", 2);
   const std::string command = script("sed s/u/f/g $1 >$2; touch " + path("begun") + "; sleep .1");

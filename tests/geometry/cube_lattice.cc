@@ -19,15 +19,6 @@ namespace
   const Solid l_shape = {{unit}, {{{.5, .5, 0}, {1, 1, 1}}}};
   const Solid with_cavity = {{unit}, {{{.25, .5, .25}, {.5, .75, .75}}}};
 
-  template <class Visit>
-  void for_each_index(const Index &from, const Index &to, const Visit &visit)
-  {
-    for (int k = from[2]; k < to[2]; ++k)
-      for (int j = from[1]; j < to[1]; ++j)
-        for (int i = from[0]; i < to[0]; ++i)
-          visit(Index{i, j, k});
-  }
-
   std::string message_of(const Solid &solid, double h)
   {
     try
@@ -80,7 +71,7 @@ TEST(CubeLattice, tells_whether_larger_cubes_make_up_the_solid)
   EXPECT_EQ(CubeLattice(l_shape, .25).at_spacing(.5).size(), 6u);
 }
 
-TEST(CubeLattice, names_boxes_that_are_no_whole_cells)
+TEST(CubeLattice, rejects_boxes_that_are_not_whole_cells)
 {
   const auto expect = [](const Solid &solid, double h, const std::string &words)
   { EXPECT_NE(message_of(solid, h).find(words), std::string::npos) << message_of(solid, h); };

@@ -1,5 +1,6 @@
 // Counts of cells in boxes, and the largest boxes in a set of cells, against counting.
 #include "geometry/maximal_boxes.h"
+#include "geometry/for_each_index.h"
 
 #include <gtest/gtest.h>
 
@@ -21,15 +22,6 @@ namespace
     for (char &cell : cells)
       cell = is_inside(random) ? 1 : 0;
     return cells;
-  }
-
-  template <class Visit>
-  void for_each_index(const Index &from, const Index &to, const Visit &visit)
-  {
-    for (int k = from[2]; k < to[2]; ++k)
-      for (int j = from[1]; j < to[1]; ++j)
-        for (int i = from[0]; i < to[0]; ++i)
-          visit(Index{i, j, k});
   }
 
   std::size_t count(const std::vector<char> &cells, const Index &n, const CubeRange &range)
@@ -55,7 +47,7 @@ namespace
   }
 } // namespace
 
-TEST(CellCounts, are_those_of_counting)
+TEST(CellCounts, agree_with_brute_force)
 {
   const Index n = {4, 3, 5};
   const auto cells = random_cells(n, .6);

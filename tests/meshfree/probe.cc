@@ -256,7 +256,7 @@ TEST(Probe, refuses_what_has_no_force_constants)
   EXPECT_TRUE(is_refused(one, .5 * h, "is less than the distance 0.1"));
   EXPECT_TRUE(is_refused(one, -1, "the horizon is -1"));
   one.of_pair = [](const Tensor<1, 2> &, const Tensor<1, 2> &) { return Tensor<1, 2>(); };
-  EXPECT_TRUE(is_refused(one, 3 * h, "no force changes where nodes are displaced"));
+  EXPECT_TRUE(is_refused(one, 3 * h, "no force changes when nodes are displaced"));
 }
 
 // the pressure of node i is its dilatation: forces reach twice the horizon

@@ -83,7 +83,7 @@ def test_functions_are_taken_as_expressions_are():
     np.testing.assert_allclose(one.values, other.values, rtol=0, atol=1e-14)
 
 
-def test_domains_are_boxes_without_holes():
+def test_domain_is_union_of_boxes_minus_holes():
     kernel = space.Kernel("linear-decay", 2 / 8, diffusion=.5)
     boxes = [((0, 0, 0), (1, .5, .5)), ((0, 0, 0), (.5, 1, .5))]
     u = "x^2 - y*z"

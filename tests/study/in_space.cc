@@ -219,13 +219,13 @@ TEST(StaticsInSpace, have_the_memory_that_is_foretold)
 TEST(StaticsInSpace, refuse_what_is_for_the_plane)
 {
   const std::vector<std::pair<Settings, std::string>> refused = {
-      {{{"Domain/boxes", "0,0 : 1,1"}}, "with three coordinates a corner"},
+      {{{"Domain/boxes", "0,0 : 1,1"}}, "needs three coordinates per corner"},
       {{{"Domain/boxes", "0,0,0 : 1,1"}}, "a corner without three coordinates"},
       {{{"Domain/boxes", "0,0,0 : 1,1,0"}}, "is empty"},
       {{{"Domain/dimension", "2"}}, "write Domain/dimension = 3, or two coordinates"},
       {{{"Domain/boxes", "0,0,0 : 1,1,.1"}}, "0.8 along z"},
       {{{"Domain/mesh", "squares"}}, "Domain/mesh = squares yet; write lattice"},
-      {{{"Domain/holes", "0,0 : .5,.5"}}, "with three coordinates a corner"},
+      {{{"Domain/holes", "0,0 : .5,.5"}}, "needs three coordinates per corner"},
       {{{"Kernel/coefficient", "1 + x"}}, "clear both"},
       {{{"Methods/nodes", "vertices"}}, "write centres"},
       {{{"Material/model", "LPS"}, {"Material/E", "1"}, {"Material/nu", ".3"}},
