@@ -1,8 +1,8 @@
 #include "point_values.h"
 
+#include "base/csv.h"
 #include "base/error.h"
 #include "problem/inside.h"
-#include "scene/mesh.h"
 #include "scene/problem.h"
 
 #include <algorithm>
@@ -33,10 +33,10 @@ namespace plumbline::app
       return name + (n_components == 1 ? "" : std::to_string(component + 1));
     }
 
-    void write_header(std::ostream &out, unsigned int n_components, bool has_exact, bool has_change,
-                      bool has_estimate)
+    void write_header(std::ostream &out, std::size_t dimension, unsigned int n_components,
+                      bool has_exact, bool has_change, bool has_estimate)
     {
-      out << "x,y";
+      out << (dimension == 3 ? "x,y,z" : "x,y");
       const auto name = [&](const std::string &one)
       {
         for (unsigned int c = 0; c < n_components; ++c)
@@ -61,10 +61,25 @@ namespace plumbline::app
     file_ = (fs::path(scene.folder) / scene.output.points).string();
     try
     {
-      points_ = scene::read_nodes(file_, &lines_);
+      std::vector<std::string> axes = {"x", "y"};
+      if (scene.domain.is_in_space())
+        axes.push_back("z");
+      base::Csv csv(file_, axes);
+      while (csv.next())
+      {
+        points_.emplace_back();
+        for (const std::string &axis : axes)
+          points_.back().push_back(csv.number(axis));
+        lines_.push_back(csv.line());
+      }
       if (points_.empty())
-        throw InputError("'" + file_ + "' has no points; give one x,y on each line");
-      require_inside(scene::make_problem(scene, 0, scene.study.series.front().levels.front()));
+        throw InputError("'" + file_ + "' has no points; give one " +
+                         (axes.size() == 3 ? "x,y,z" : "x,y") + " on each line");
+      const problem::Level &first = scene.study.series.front().levels.front();
+      if (scene.domain.is_in_space())
+        (void)in_solid(scene.domain.cubes(first.h));
+      else
+        (void)of(scene::make_problem(scene, 0, first));
     }
     catch (const InputError &error)
     {
@@ -74,68 +89,85 @@ namespace plumbline::app
 
   std::vector<Point<2>> PointValues::of(const problem::Problem<2> &problem) const
   {
+    const auto is_inside = problem::inside(problem);
     std::vector<Point<2>> points;
-    for (const Point<2> &x : points_)
-      points.push_back(Point<2>() + (x - problem.origin));
+    for (const auto &x : points_)
+    {
+      points.push_back(Point<2>() + (Point<2>(x[0], x[1]) - problem.origin));
+      if (!is_inside(points.back()))
+        refuse(points.size() - 1);
+    }
     return points;
   }
 
-  void PointValues::require_inside(const problem::Problem<2> &problem) const
+  std::vector<Point<3>> PointValues::of(const problem::Problem<3> &problem) const
   {
-    const auto is_inside = problem::inside(problem);
-    const std::vector<Point<2>> points = of(problem);
-    for (std::size_t k = 0; k < points.size(); ++k)
-      if (!is_inside(points[k]))
-        throw InputError("'" + file_ + "', line " + std::to_string(lines_[k]) + ": (" +
-                         std::to_string(points_[k][0]) + ", " + std::to_string(points_[k][1]) +
-                         ") lies outside of the domain; take it out");
+    return in_solid(problem.lattice);
   }
 
-  void PointValues::write(const problem::Problem<2> &problem, const analysis::Solution &solution,
-                          const analysis::Record &run, const std::vector<double> &estimate,
+  std::vector<Point<3>> PointValues::in_solid(const geometry::CubeLattice &lattice) const
+  {
+    std::vector<Point<3>> points;
+    for (const auto &x : points_)
+    {
+      points.emplace_back(x[0], x[1], x[2]);
+      if (!lattice.cell_at(points.back()))
+        refuse(points.size() - 1);
+    }
+    return points;
+  }
+
+  void PointValues::refuse(std::size_t point) const
+  {
+    std::string place;
+    for (const double x : points_[point])
+      place += (place.empty() ? "" : ", ") + std::to_string(x);
+    throw InputError("'" + file_ + "', line " + std::to_string(lines_[point]) + ": (" + place +
+                     ") lies outside of the domain; take it out");
+  }
+
+  void PointValues::write(const study::ValuesAtPoints &found, const analysis::Record &run,
                           const fs::path &folder)
   {
-    require_inside(problem);
-    const unsigned int n = problem.n_components;
+    const unsigned int n = found.n_components;
     const std::string name = name_of(run);
     std::vector<double> &before = before_[name];
     fs::create_directories(folder);
     const fs::path file = folder / (name + "_level" + std::to_string(run.key.level + 1) + ".csv");
     std::ofstream out(file);
     out.precision(std::numeric_limits<double>::max_digits10);
-    write_header(out, n, problem.solution.has_value(), !before.empty(), !estimate.empty());
-    const std::vector<Point<2>> points = of(problem);
-    std::vector<double> values;
+    write_header(out, points_.front().size(), n, !found.exact.empty(), !before.empty(),
+                 !found.estimate.empty());
     for (std::size_t k = 0; k < points_.size(); ++k)
     {
-      const Point<2> &x = points[k];
-      out << points_[k][0] << ',' << points_[k][1];
+      const char *separator = "";
+      const auto add = [&](double value)
+      {
+        out << separator << value;
+        separator = ",";
+      };
+      for (const double x : points_[k])
+        add(x);
+      const double *const u = &found.values[k * n];
       for (unsigned int c = 0; c < n; ++c)
+        add(u[c]);
+      if (!found.exact.empty())
       {
-        values.push_back(solution.value(x, c));
-        out << ',' << values.back();
-      }
-      const double *u = &values[k * n];
-      if (problem.solution)
-      {
-        std::vector<double> exact;
+        const double *const exact = &found.exact[k * n];
         for (unsigned int c = 0; c < n; ++c)
-        {
-          exact.push_back(problem.solution->value(x, c));
-          out << ',' << exact.back();
-        }
+          add(exact[c]);
         for (unsigned int c = 0; c < n; ++c)
-          out << ',' << u[c] - exact[c];
+          add(u[c] - exact[c]);
       }
       for (unsigned int c = 0; c < n && !before.empty(); ++c)
-        out << ',' << u[c] - before[k * n + c];
-      if (!estimate.empty())
-        out << ',' << estimate[k];
+        add(u[c] - before[k * n + c]);
+      if (!found.estimate.empty())
+        add(found.estimate[k]);
       out << '\n';
     }
     if (!out.flush())
       throw InputError("cannot write all of '" + file.string() +
                        "'; free some space, or give another output folder (-o)");
-    before = std::move(values);
+    before = found.values;
   }
 } // namespace plumbline::app

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "analysis/record.h"
-#include "analysis/statics.h"
+#include "problem/in_space.h"
+#include "problem/problem.h"
 #include "scene/scene.h"
+#include "study/values_at_points.h"
 
 #include <filesystem>
 #include <map>
@@ -22,24 +24,24 @@ namespace plumbline::app
     bool is_wanted() const { return !points_.empty(); }
 
     /// In the problem's coordinates.
+    /// @throws InputError  a point outside of its domain, by its line
     std::vector<dealii::Point<2>> of(const problem::Problem<2> &problem) const;
+    std::vector<dealii::Point<3>> of(const problem::Problem<3> &problem) const;
 
-    /// x, y, u, the exact solution and the error where the former is known, how far u is from that
-    /// of the level before, if this object has written it, and an estimate of the error where there
-    /// is one; numbers read back to the same bits.
-    /// @param estimate  at each point, or empty
+    /// Coordinates, u, the exact solution and the error where the former is known, how far u is
+    /// from that of the level before, if this object has written it, and an estimate of the error
+    /// where there is one; numbers read back to the same bits.
     /// @param folder  of the files, made if it is not there
-    /// @throws InputError  a point outside of the domain of the level; a file that cannot be
-    /// written
-    void write(const problem::Problem<2> &problem, const analysis::Solution &solution,
-               const analysis::Record &run, const std::vector<double> &estimate,
+    /// @throws InputError  a file that cannot be written
+    void write(const study::ValuesAtPoints &found, const analysis::Record &run,
                const std::filesystem::path &folder);
 
   private:
-    void require_inside(const problem::Problem<2> &problem) const;
+    std::vector<dealii::Point<3>> in_solid(const geometry::CubeLattice &lattice) const;
+    [[noreturn]] void refuse(std::size_t point) const;
 
     std::string file_;
-    std::vector<dealii::Point<2>> points_; ///< in the scene's coordinates
+    std::vector<std::vector<double>> points_; ///< in the scene's coordinates, two or three of each
     std::vector<std::size_t> lines_;
     /// By case, series and method: u at the level before, shape (n_points, n_components).
     std::map<std::string, std::vector<double>> before_;

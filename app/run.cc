@@ -160,14 +160,11 @@ namespace plumbline::app
       {
         options.points = [&points](const problem::Problem<2> &problem)
         { return points.of(problem); };
-        options.on_solution = [communicator, folder, &points](const problem::Problem<2> &problem,
-                                                              const analysis::Solution &solution,
-                                                              const study::Record &run,
-                                                              const std::vector<double> &estimate)
-        {
-          write(communicator,
-                [&] { points.write(problem, solution, run, estimate, folder / "points"); });
-        };
+        options.points_in_space = [&points](const problem::Problem<3> &problem)
+        { return points.of(problem); };
+        options.on_values = [communicator, folder, &points](const study::ValuesAtPoints &found,
+                                                            const study::Record &run)
+        { write(communicator, [&] { points.write(found, run, folder / "points"); }); };
       }
       if (scene.output.fields)
         options.on_finest =

@@ -38,7 +38,7 @@ namespace
     };
     solid.material = [](const Point<2> &) { return physics::Lame{1, 1}; };
     solid.toughness = [](const Point<2> &) { return 1.; };
-    const auto K = physics::influence_function(physics::kernel_type("1/r").profile, m * h);
+    const auto K = physics::influence_function<2>(physics::kernel_type("1/r").profile, m * h);
     return make_bond_network(solid, meshfree::optimisation_based(physics::deviatoric_kernel(K, 1)),
                              K, h, geometry::Backend::fast);
   }

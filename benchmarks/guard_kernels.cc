@@ -245,8 +245,8 @@ namespace plumbline::benchmarks
       const auto material = [=](const Point<2> &x) {
         return physics::Lame{is_striped ? (x[0] < .5 ? 3. : 4.) : 3 + x[0], 1};
       };
-      const physics::Dilatation solid{physics::influence_function({{1, -1}}, horizon), material,
-                                      true, false};
+      const physics::Dilatation<2> solid{physics::influence_function<2>({{1, -1}}, horizon),
+                                         material, true, false};
       return {name, "node", static_cast<double>(space->n_free()), 1, [=, owner = mesh] {
                 sink = assemble_dilatation(*space, *cells, solid, {}, base::Communicator::alone())
                            .value[0];
@@ -260,7 +260,7 @@ namespace plumbline::benchmarks
       constexpr double h = 1. / 8, horizon = 3 * h;
       const auto cells = std::make_shared<const geometry::NodeCells>(geometry::vertex_squares(
           geometry::Lattice({{{Point<2>(0, 0), Point<2>(1, 1)}}, {}}, h), 2 * horizon));
-      const auto influence = physics::influence_function({{1, -1}}, horizon);
+      const auto influence = physics::influence_function<2>({{1, -1}}, horizon);
       const auto kernel = physics::deviatoric_kernel(influence, 1);
       const auto families = std::make_shared<const meshfree::Families>(
           meshfree::optimisation_based(kernel), kernel, *cells, Backend::fast);

@@ -44,7 +44,7 @@ namespace
 
     static physics::Kernel<2> influence(double horizon)
     {
-      return physics::influence_function({{1, -1}}, horizon);
+      return physics::influence_function<2>({{1, -1}}, horizon);
     }
   };
 
@@ -100,7 +100,7 @@ namespace
     constexpr double h = 1. / 80, horizon = 3 * h;
     const auto cells =
         geometry::vertex_squares(geometry::Lattice({{{{0, 0}, {1, 1}}}, {}}, h), 2 * horizon);
-    const auto influence = physics::influence_function({{1, -1}}, horizon);
+    const auto influence = physics::influence_function<2>({{1, -1}}, horizon);
     const auto kernel = physics::deviatoric_kernel(influence, 1);
     const meshfree::Families families(meshfree::optimisation_based(kernel), kernel, cells,
                                       geometry::Backend::fast);

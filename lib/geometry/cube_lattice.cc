@@ -187,6 +187,28 @@ namespace plumbline::geometry
                            : n_positions() - std::count(is_free.begin(), is_free.end(), 0);
   }
 
+  std::optional<std::array<int, 3>> CubeLattice::cell_at(const dealii::Point<3> &x) const
+  {
+    constexpr double rounding = 1e-9;
+    std::array<int, 3> lower{}, upper{};
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      const double s = (x[d] - origin_[d]) / h_;
+      if (!(s >= -1 && s <= n_[d] + 1.)) // also of points that are not finite
+        return {};
+      lower[d] = static_cast<int>(std::floor(s - rounding));
+      upper[d] = static_cast<int>(std::floor(s + rounding)) + 1;
+    }
+    std::optional<std::array<int, 3>> found;
+    for_each_index(lower, upper,
+                   [&](const std::array<int, 3> &cell)
+                   {
+                     if (!found && is_inside(cell))
+                       found = cell;
+                   });
+    return found;
+  }
+
   BoxNodes cell_centres(const CubeLattice &lattice)
   {
     return {lattice.n_cells(), lattice.mask()};

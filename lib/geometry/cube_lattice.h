@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace plumbline::geometry
@@ -66,6 +67,9 @@ namespace plumbline::geometry
     {
       return is_within(cell, n_) && (is_box() || is_inside_[number(cell)] != 0);
     }
+
+    /// A cell of Ω that contains a point or has it on its boundary, to 1e-9 h; none outside Ω.
+    std::optional<std::array<int, 3>> cell_at(const dealii::Point<3> &x) const;
 
     std::size_t number(const std::array<int, 3> &cell) const { return number_within(cell, n_); }
 

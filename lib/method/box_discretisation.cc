@@ -118,6 +118,90 @@ namespace plumbline::method
       return values;
     }
 
+    /// A solution on the cells of Ω: constant where nodes are at centres, else trilinear.
+    class OnCells
+    {
+    public:
+      /// @param values  solution and, around it, the constraint at positions -1 ... n of each axis:
+      /// shape (n_components, n[2] + 2, n[1] + 2, n[0] + 2)
+      OnCells(const geometry::CubeLattice &lattice, NodePlace nodes, const std::array<int, 3> &n,
+              std::vector<double> values)
+          : lattice_(lattice), n_{n[0] + 2, n[1] + 2, n[2] + 2}, values_(std::move(values)),
+            first_(nodes == NodePlace::vertices ? 0 : 1),
+            n_along_(nodes == NodePlace::vertices ? 2 : 1)
+      {
+      }
+
+      /// Shape (n_cells, n_components).
+      std::vector<double> averages() const
+      {
+        const double weight = 1. / static_cast<double>(n_along_ * n_along_ * n_along_);
+        const std::size_t n_components = values_.size() / block();
+        std::vector<double> result;
+        lattice_.for_each_cell(
+            [&](const std::array<int, 3> &cell)
+            {
+              for (std::size_t c = 0; c < n_components; ++c)
+              {
+                double sum = 0;
+                for_each_corner([&](const std::array<int, 3> &corner)
+                                { sum += values_[at(c, cell, corner)]; });
+                result.push_back(weight * sum);
+              }
+            });
+        return result;
+      }
+
+      /// @throws NumericalError  a point outside Ω
+      double operator()(const Point &x, unsigned int component) const
+      {
+        const auto cell = lattice_.cell_at(x);
+        if (!cell)
+        {
+          std::ostringstream message;
+          message << "(" << x << ") is outside the domain; take points in Domain/boxes";
+          throw NumericalError(message.str());
+        }
+        double sum = 0;
+        for_each_corner(
+            [&](const std::array<int, 3> &corner)
+            {
+              double weight = 1;
+              for (unsigned int d = 0; d < 3 && n_along_ == 2; ++d)
+              {
+                const double s = (x[d] - lattice_.coordinate(d, (*cell)[d])) / lattice_.h();
+                weight *= corner[d] == 0 ? 1 - s : s;
+              }
+              sum += weight * values_[at(component, *cell, corner)];
+            });
+        return sum;
+      }
+
+    private:
+      std::size_t block() const { return static_cast<std::size_t>(n_[0]) * n_[1] * n_[2]; }
+
+      template <class Visit>
+      void for_each_corner(const Visit &visit) const
+      {
+        geometry::for_each_index({0, 0, 0}, {n_along_, n_along_, n_along_}, visit);
+      }
+
+      /// Of a cell's own node, or its vertices from its lower one on.
+      std::size_t at(std::size_t component, const std::array<int, 3> &cell,
+                     const std::array<int, 3> &corner) const
+      {
+        return component * block() +
+               geometry::number_within({cell[0] + first_ + corner[0], cell[1] + first_ + corner[1],
+                                        cell[2] + first_ + corner[2]},
+                                       n_);
+      }
+
+      geometry::CubeLattice lattice_;
+      std::array<int, 3> n_;
+      std::vector<double> values_;
+      int first_, n_along_;
+    };
+
     /// Cells outside of Ω are blanked: ParaView neither shows them nor takes them into a range.
     void write_hidden_cells(const geometry::CubeLattice &lattice, std::ostream &out)
     {
@@ -262,35 +346,13 @@ namespace plumbline::method
                           }
                           ++i;
                         });
-      field.averages = averages(merge(nodes_, u, *around, margin));
+      const auto on_cells = std::make_shared<const OnCells>(lattice_, node_place_, nodes_.n,
+                                                            merge(nodes_, u, *around, margin));
+      field.averages = on_cells->averages();
+      field.value = [on_cells](const Point &x, unsigned int component)
+      { return (*on_cells)(x, component); };
       return field;
     };
-    return result;
-  }
-
-  std::vector<double> BoxDiscretisation::averages(const std::vector<double> &values) const
-  {
-    // position p is at index p + 1: a cell's own node, or its vertices from its lower one on
-    const std::size_t first = node_place_ == NodePlace::vertices ? 0 : 1,
-                      n_along = node_place_ == NodePlace::vertices ? 2 : 1;
-    const double weight = 1. / static_cast<double>(n_along * n_along * n_along);
-    const std::size_t row = nodes_.n[0] + 2, layer = row * (nodes_.n[1] + 2),
-                      block = layer * (nodes_.n[2] + 2);
-    std::vector<double> result;
-    lattice_.for_each_cell(
-        [&](const std::array<int, 3> &cell)
-        {
-          for (unsigned int c = 0; c < n_components_; ++c)
-          {
-            double sum = 0;
-            for (std::size_t r = first; r < first + n_along; ++r)
-              for (std::size_t t = first; t < first + n_along; ++t)
-                for (std::size_t s = first; s < first + n_along; ++s)
-                  sum +=
-                      values[c * block + (cell[2] + r) * layer + (cell[1] + t) * row + cell[0] + s];
-            result.push_back(weight * sum);
-          }
-        });
     return result;
   }
 

@@ -22,6 +22,9 @@ namespace plumbline::method
     std::vector<dealii::Point<3>> nodes; ///< the method's own free nodes in Ω
     std::vector<double> nodal;           ///< values there, shape (n_nodes, n_components)
     std::vector<double> averages;        ///< over the cells of Ω, shape (n_cells, n_components)
+    /// u in Ω, which is closed: of meshfree rules the value of the cell; on faces between cells any
+    /// of the two. Thread safe.
+    std::function<double(const dealii::Point<3> &x, unsigned int component)> value;
   };
 
   /// Averages over the cells as VTK image data in 64-bit floating point. Cells of the bounding box
@@ -95,11 +98,6 @@ namespace plumbline::method
     std::vector<double> constraint_values(const problem::Problem<3> &problem, int margin) const;
 
     std::vector<dealii::Point<3>> free_points() const;
-
-    /// Over the cells of Ω.
-    /// @param values  solution and, around it, the constraint at positions -1 ... n of each axis:
-    /// shape (n_components, n[2] + 2, n[1] + 2, n[0] + 2)
-    std::vector<double> averages(const std::vector<double> &values) const;
 
     geometry::CubeLattice lattice_;
     NodePlace node_place_;

@@ -32,13 +32,12 @@ namespace plumbline::method
       ++alpha[c];
       ++alpha[d];
       double value = problem.kernel.moment(alpha, a, b) / 2;
-      if constexpr (dim == 2)
-        if (problem.dilatation)
-        {
-          const physics::Lame lame = problem.dilatation->material({});
-          const int n_ways = (a == c && b == d ? 1 : 0) + (a == d && b == c ? 1 : 0);
-          value += (lame.lambda - lame.mu) * n_ways / 2;
-        }
+      if (problem.dilatation)
+      {
+        const physics::Lame lame = problem.dilatation->material({});
+        const int n_ways = (a == c && b == d ? 1 : 0) + (a == d && b == c ? 1 : 0);
+        value += (lame.lambda - lame.mu) * n_ways / 2;
+      }
       return value;
     }
 

@@ -71,7 +71,7 @@ namespace plumbline::physics
   {
   public:
     /// @param theta  on Ω and the horizon around it
-    DilatationForce(Dilatation dilatation, std::function<double(const Point<2> &)> theta,
+    DilatationForce(Dilatation<2> dilatation, std::function<double(const Point<2> &)> theta,
                     FewestRadii fewest = {})
         : dilatation_(std::move(dilatation)), theta_(std::move(theta)), fewest_(std::move(fewest))
     {
@@ -81,7 +81,7 @@ namespace plumbline::physics
     double operator()(const Point<2> &x, unsigned int component) const;
 
   private:
-    Dilatation dilatation_;
+    Dilatation<2> dilatation_;
     std::function<double(const Point<2> &)> theta_;
     FewestRadii fewest_;
   };

@@ -38,14 +38,21 @@ namespace plumbline::physics
     return {k - l / 8, l / 8};
   }
 
-  Kernel<2> influence_function(RadialProfile profile, double horizon)
+  template <int dim>
+  Kernel<dim> influence_function(RadialProfile profile, double horizon)
   {
-    return Kernel<2>::with_diffusion(std::move(profile), horizon, .5);
+    return Kernel<dim>::with_diffusion(std::move(profile), horizon, .5);
   }
 
-  Kernel<2> deviatoric_kernel(const Kernel<2> &influence, double mu)
+  template <int dim>
+  Kernel<dim> deviatoric_kernel(const Kernel<dim> &influence, double mu)
   {
     return {Structure::tensor, influence.profile(), influence.horizon(),
-            8 * mu * influence.constant()};
+            2 * (dim + 2) * mu * influence.constant()};
   }
+
+  template Kernel<2> influence_function(RadialProfile, double);
+  template Kernel<3> influence_function(RadialProfile, double);
+  template Kernel<2> deviatoric_kernel(const Kernel<2> &, double);
+  template Kernel<3> deviatoric_kernel(const Kernel<3> &, double);
 } // namespace plumbline::physics

@@ -7,10 +7,9 @@
 
 namespace plumbline::physics
 {
-  /// Constants of an isotropic linear elastic solid in the plane [force/length^2]:
-  /// σ = λ tr(ε) I + 2μ ε. Plane strain: those of the solid. Plane stress: λ of the plane is
-  /// 2λμ/(λ + 2μ) = Eν/(1 - ν²). (In 3D, which is not modelled: ∫K|ξ|² = 3, bonds 10μ K ξ⊗ξ/|ξ|²,
-  /// k = λ + 2μ/3, l = 15μ, bond-based if l = 9k.)
+  /// Constants of an isotropic linear elastic solid [force/length^2]: σ = λ tr(ε) I + 2μ ε. In
+  /// plane strain they are those of the solid; in plane stress λ of the plane is
+  /// 2λμ/(λ + 2μ) = Eν/(1 - ν²).
   struct Lame
   {
     double lambda = 0, mu = 0;
@@ -20,8 +19,8 @@ namespace plumbline::physics
 
   enum class PlaneState
   {
-    strain,
-    stress ///< λ is that of the plane, Eν/(1 - ν²)
+    strain, ///< and solids in space
+    stress  ///< λ is that of the plane, Eν/(1 - ν²)
   };
 
   /// @param E  Young's modulus > 0 [force/length^2]
@@ -33,25 +32,29 @@ namespace plumbline::physics
   /// @throws InputError  k <= 0 or l <= 0
   Lame lame_from_bulk(double k, double l);
 
-  /// The influence function of a radial profile ρ(|ξ|/δ): K = c ρ with ∫K|ξ|² = 2, so that the
+  /// The influence function of a radial profile ρ(|ξ|/δ): K = c ρ with ∫K|ξ|² = dim, so that the
   /// dilatation ∫Kξ·(u(x+ξ) - u(x)) dξ of a linear field is its divergence. ρ = 1/t gives K =
-  /// 3/(πδ³|ξ|).
-  Kernel<2> influence_function(RadialProfile profile, double horizon);
+  /// 3/(πδ³|ξ|) in the plane and 3/(πδ⁴|ξ|) in space. Instantiated for dim = 2 and 3.
+  template <int dim>
+  Kernel<dim> influence_function(RadialProfile profile, double horizon);
 
-  /// The bonds of a state-based solid: 8μ K ξ⊗ξ/|ξ|².
-  Kernel<2> deviatoric_kernel(const Kernel<2> &influence, double mu);
+  /// The bonds of a state-based solid: 2 (dim + 2) μ K ξ⊗ξ/|ξ|². Instantiated for dim = 2 and 3.
+  template <int dim>
+  Kernel<dim> deviatoric_kernel(const Kernel<dim> &influence, double mu);
 
   /// What a state-based solid adds to its bonds, the forces of the dilatation
   ///   θ(x) = ∫ K ξ·(u(x+ξ) - u(x)) dξ,
-  ///   L u(x) = -∫ K ξ [f(x, x+ξ) θ(x) + f(x+ξ, x) θ(x+ξ)] dξ - ∫ 8μ K ξ⊗ξ/|ξ|² (u(x+ξ) - u(x)) dξ
+  ///   L u(x) = -∫ K ξ [f(x, x+ξ) θ(x) + f(x+ξ, x) θ(x+ξ)] dξ
+  ///            - ∫ 2 (dim + 2) μ K ξ⊗ξ/|ξ|² (u(x+ξ) - u(x)) dξ
   /// where f = λ - μ is taken at the dilatation's own point (variational model), or is the
   /// difference of the harmonic means of both ends (linear peridynamic solid). Zero where λ = μ:
   /// then the bonds are all.
   /// Sources: Fan et al. 2022, eq. (2.5); Silling et al. 2007, doi:10.1007/s10659-007-9125-1.
+  template <int dim>
   struct Dilatation
   {
-    Kernel<2> influence; ///< K, scalar, ∫K|ξ|² = 2
-    std::function<Lame(const Point<2> &)> material;
+    Kernel<dim> influence; ///< K, scalar, ∫K|ξ|² = dim
+    std::function<Lame(const Point<dim> &)> material;
     bool is_two_point = false;   ///< harmonic means: heterogeneous operators are not symmetric
     bool is_homogeneous = false; ///< material is the same everywhere
 

@@ -145,51 +145,44 @@ namespace plumbline::physics
   }
 
   template <int dim>
-  Frequency exact_wave(const Kernel<dim> &kernel, Polarisation polarisation, double k)
+  Frequency exact_wave(const Kernel<dim> &kernel, const std::optional<Dilatation<dim>> &dilatation,
+                       Polarisation polarisation, double k)
   {
     const Pair of_bonds =
         integrate(kernel, k, [&](double r) { return bonds(kernel, polarisation, k, r); });
-    return {of_bonds[0], of_bonds[1]};
-  }
-
-  template Frequency exact_wave(const Kernel<2> &, Polarisation, double);
-  template Frequency exact_wave(const Kernel<3> &, Polarisation, double);
-
-  Frequency exact_wave(const Kernel<2> &kernel, const std::optional<Dilatation> &dilatation,
-                       Polarisation polarisation, double k)
-  {
-    Frequency result = exact_wave(kernel, polarisation, k);
+    Frequency result{of_bonds[0], of_bonds[1]};
     if (dilatation && polarisation == Polarisation::longitudinal)
     {
-      const Kernel<2> &influence = dilatation->influence;
+      const Kernel<dim> &influence = dilatation->influence;
       const Pair g =
           integrate(influence, k,
-                    [&](double r) -> Pair
-                    {
-                      const Bessel b = bessel<2>(k * r);
-                      const double weight = 2 * M_PI * influence.radial(r) * r * r;
-                      return {weight * b.j1, weight * r * .5 * (1 - b.one_minus_j0 - b.j2)};
+                    [&](double r) -> Pair { // J1' = (J0 - J2) / 2, in space (J0 - 2 J2) / 3
+                      const Bessel b = bessel<dim>(k * r);
+                      const double weight =
+                          2 * (dim - 1) * M_PI * influence.radial(r) * std::pow(r, dim);
+                      const double slope = 1 - b.one_minus_j0 - (dim - 1) * b.j2;
+                      return {weight * b.j1, weight * r * slope / dim};
                     });
       const Lame lame = dilatation->material({});
-      result.squared += (lame.lambda - lame.mu) * g[0] * g[0];
-      result.slope += (lame.lambda - lame.mu) * 2 * g[0] * g[1];
+      const double factor = dilatation->factor(lame, lame);
+      result.squared += factor * g[0] * g[0];
+      result.slope += factor * 2 * g[0] * g[1];
     }
     return result;
   }
 
-  double squared_local_speed(const LocalLimit &limit, const std::optional<Dilatation> &dilatation,
+  template Frequency exact_wave(const Kernel<2> &, const std::optional<Dilatation<2>> &,
+                                Polarisation, double);
+  template Frequency exact_wave(const Kernel<3> &, const std::optional<Dilatation<3>> &,
+                                Polarisation, double);
+
+  double squared_local_speed(const LocalLimit &limit, const std::optional<Lame> &solid,
                              Polarisation polarisation)
   {
     if (polarisation == Polarisation::scalar)
       return limit.diffusion;
     if (polarisation == Polarisation::transverse)
       return limit.mu;
-    double lambda = limit.lambda;
-    if (dilatation)
-    {
-      const Lame lame = dilatation->material({});
-      lambda += lame.lambda - lame.mu;
-    }
-    return lambda + 2 * limit.mu;
+    return (solid ? solid->lambda : limit.lambda) + 2 * limit.mu;
   }
 } // namespace plumbline::physics

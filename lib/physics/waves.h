@@ -46,20 +46,20 @@ namespace plumbline::physics
   /// Source: Silling 2000, doi:10.1016/S0022-5096(99)00029-0, ω² = ∫ C (1 - cos k·ξ) dξ, its angles
   /// integrated by Bessel's and Gegenbauer's integrals.
   /// @param k  > 0 [1/length], at most 1e4 / δ
+  /// A dilatation of influence K adds (λ - μ) g² to ω² of longitudinal waves, g =
+  /// |S| ∫ K J1(z) r^d dr → k.
+  /// @param dilatation  of a homogeneous solid, or empty
   /// Accuracy: 1e-13 relative. Instantiated for dim = 2 and 3.
   /// @throws NumericalError  the quadrature does not settle to 1e-12
   template <int dim>
-  Frequency exact_wave(const Kernel<dim> &kernel, Polarisation polarisation, double k);
-
-  /// The same with a dilatation, whose influence K adds (λ - μ) g² to ω² of longitudinal waves, g =
-  /// 2π ∫ K J1(z) r² dr → k.
-  /// @param dilatation  of a homogeneous solid, or empty
-  Frequency exact_wave(const Kernel<2> &kernel, const std::optional<Dilatation> &dilatation,
+  Frequency exact_wave(const Kernel<dim> &kernel, const std::optional<Dilatation<dim>> &dilatation,
                        Polarisation polarisation, double k);
 
   /// The square of the speed of all waves of the local limit, and of long ones here: diffusion,
   /// λ + 2μ or μ.
-  double squared_local_speed(const LocalLimit &limit, const std::optional<Dilatation> &dilatation,
+  /// @param limit  of the bonds
+  /// @param solid  the constants of a state-based solid, whose λ is another; empty: bonds are all
+  double squared_local_speed(const LocalLimit &limit, const std::optional<Lame> &solid,
                              Polarisation polarisation);
 } // namespace plumbline::physics
 

@@ -111,7 +111,7 @@ namespace plumbline::problem
       const std::vector<Cuboid> omega = problem.lattice.boxes();
       std::vector<Cuboid> around;
       for (const Cuboid &box : omega)
-        around.push_back(with_margin(box, problem.horizon()));
+        around.push_back(with_margin(box, problem.reach()));
       for (const Point &x : samples(around, n_samples))
         if (!is_inside(omega, x))
           check_finite("constraint", problem.constraint, problem.n_components, x);
@@ -120,7 +120,7 @@ namespace plumbline::problem
     Field<3> manufactured_load(const Problem<3> &problem)
     {
       constexpr unsigned int n_samples = 3;
-      const physics::LoadInSpace load(problem.kernel, problem.solution->value,
+      const physics::LoadInSpace load(problem.kernel, problem.dilatation, problem.solution->value,
                                       samples(problem.lattice.boxes(), n_samples));
       Field<3> field{load};
       if (problem.lattice.is_box() || problem.solution->series) // else the load has none either

@@ -34,6 +34,7 @@ namespace plumbline::problem
     geometry::CubeLattice lattice;
     physics::Kernel<3> kernel;
     unsigned int n_components = kernel.n_components();
+    std::optional<physics::Dilatation<3>> dilatation = {}; ///< homogeneous; empty: bonds are all
     Field<3> load = {};                          ///< empty: manufactured from the solution
     Field<3> constraint = {};                    ///< around Ω; empty: the solution
     std::optional<Field<3>> solution = {};       ///< the exact nonlocal solution, if known
@@ -43,12 +44,15 @@ namespace plumbline::problem
 
     double h() const { return lattice.h(); }
     double horizon() const { return kernel.horizon(); }
+
+    /// How far bonds and dilatations reach from a point of Ω [length].
+    double reach() const { return dilatation ? 2 * horizon() : horizon(); }
     Level level() const { return {h(), horizon()}; }
   };
 
   /// The problem with its fields as series where they are smooth, checked on samples.
   /// @throws InputError      neither a load nor a solution; values that are not finite in Ω or
-  /// within the horizon around it
+  /// within reach() around it
   /// @throws NumericalError  a load that cannot be manufactured, see physics::LoadInSpace
   Problem<3> complete(Problem<3> problem);
 

@@ -209,7 +209,7 @@ namespace plumbline::problem
 
     /// θ of a field, as a series where it is smooth: a load asks for it all over the ball.
     std::function<double(const Point<2> &)> dilatation_of(const Function &u,
-                                                          const physics::Dilatation &dilatation,
+                                                          const physics::Dilatation<2> &dilatation,
                                                           const Ingredients &of, double noise)
     {
       const double horizon = dilatation.influence.horizon();

@@ -68,8 +68,8 @@ namespace plumbline::problem
     Domain domain;
     double h = 0; ///< of the level [length]
     physics::Kernel<dim> kernel;
-    std::optional<physics::Coefficient> coefficient = {}; ///< of the bonds; empty: homogeneous
-    std::optional<physics::Dilatation> dilatation = {};   ///< empty: bonds are all
+    std::optional<physics::Coefficient> coefficient = {};  ///< of the bonds; empty: homogeneous
+    std::optional<physics::Dilatation<2>> dilatation = {}; ///< empty: bonds are all
     unsigned int n_components = 0;
     Field<dim> load = {};                          ///< b on Ω
     Field<dim> constraint = {};                    ///< u in the interaction domain

@@ -156,6 +156,7 @@ namespace plumbline::scene
     };
     problem::Problem<3> given{scene.domain.cubes(level.h),
                               make_kernel_in_space(scene, level.horizon)};
+    given.dilatation = scene.material.model->dilatation_in_space(scene, level.horizon);
     given.settings = method_settings(scene);
     const ProblemSection &section = scene.problem;
     if (!section.solutions.empty())

@@ -31,8 +31,17 @@ namespace plumbline::scene
 
     void check_study_in_space(const Scene &scene)
     {
-      needs(scene.material.model == &bond_based(),
-            "Material/model = " + scene.material.model->name(), "write bond-based");
+      const MaterialSection &material = scene.material;
+      needs(material.model->is_linear(), "Material/model = " + material.model->name(),
+            "write bond-based, LPS or variational");
+      needs(material.is_homogeneous, "constants that vary in space (section Material)",
+            "write numbers");
+      require(material.plane == physics::PlaneState::strain,
+              "Material/plane = stress is for two dimensions; clear it, or write "
+              "Domain/dimension = 2");
+      require(material.given[2][0].empty() && material.given[2][1].empty(),
+              "Material/k and Material/l are constants of the plane; write Material/E and "
+              "Material/nu, or Domain/dimension = 2");
       needs(!scene.crack.is_there() && !scene.fracture.is_there() && !scene.strip.is_there(),
             "cracks and strips", "clear Crack, Fracture and Strip");
       const NodeSource &nodes = scene.methods.nodes;
@@ -47,9 +56,9 @@ namespace plumbline::scene
             "Problem/local solution = computed", "write none, or an expression");
       needs(scene.study.decisive_error.target != Target::finest,
             "Study/decisive error against the own finest level", "write exact or reference");
-      needs(!scene.sampling.is_there() && scene.random.variables.empty(),
-            "random variables and samples", "clear Random/variables and Sampling/rule");
-      needs(scene.output.points.empty(), "Output/points", "clear it");
+      needs(!scene.sampling.is_there() && scene.random.field == FieldKind::none,
+            "samples and random fields",
+            "clear Sampling/rule and Random/field; Study/regime = variable varies a parameter");
       needs(quantity(scene.study.decisive_error.norm) != Quantity::field,
             "Study/decisive error = " + scene.study.decisive_error.text(),
             "write a nodal or averages norm");

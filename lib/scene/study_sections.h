@@ -93,7 +93,7 @@ namespace plumbline::scene
   struct OutputSection
   {
     bool fields = false;
-    std::string points; ///< name of a CSV file with columns x and y; empty: none
+    std::string points; ///< name of a CSV file with columns x, y (and z); empty: none
 
     void declare(Keys &keys);
   };

@@ -39,27 +39,14 @@ namespace plumbline::study
       return worst;
     }
 
-    // what the dimension changes
-    physics::Frequency exact_wave(const problem::Problem<2> &problem, physics::Polarisation p,
-                                  double k)
+    /// The square of the speed of long waves.
+    template <int dim>
+    double squared_local_speed(const problem::Problem<dim> &problem, physics::Polarisation p)
     {
-      return physics::exact_wave(problem.kernel, problem.dilatation, p, k);
-    }
-
-    physics::Frequency exact_wave(const problem::Problem<3> &problem, physics::Polarisation p,
-                                  double k)
-    {
-      return physics::exact_wave(problem.kernel, p, k);
-    }
-
-    const std::optional<physics::Dilatation> &dilatation(const problem::Problem<2> &problem)
-    {
-      return problem.dilatation;
-    }
-
-    std::optional<physics::Dilatation> dilatation(const problem::Problem<3> &)
-    {
-      return {};
+      std::optional<physics::Lame> solid;
+      if (problem.dilatation)
+        solid = problem.dilatation->material({});
+      return physics::squared_local_speed(problem.kernel.limit(), solid, p);
     }
 
     std::vector<algebra::Vector3> diagonals(unsigned int dimension)
@@ -125,8 +112,7 @@ namespace plumbline::study
 
       double local_speed(std::size_t i) const
       {
-        return speed(physics::squared_local_speed(problem_.kernel.limit(), dilatation(problem_),
-                                                  branches_[i].polarisation));
+        return speed(squared_local_speed(problem_, branches_[i].polarisation));
       }
 
       double anisotropy(const algebra::Symbol &symbol, std::size_t i) const
@@ -161,7 +147,8 @@ namespace plumbline::study
       {
         std::vector<physics::Frequency> exact; // the same in all directions
         for (const physics::Branch &branch : branches_)
-          exact.push_back(exact_wave(problem_, branch.polarisation, k));
+          exact.push_back(
+              physics::exact_wave(problem_.kernel, problem_.dilatation, branch.polarisation, k));
         auto curve = row.curves.begin();
         for (const WaveDirection &direction : study_.directions)
         {

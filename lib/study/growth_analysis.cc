@@ -370,7 +370,7 @@ namespace plumbline::study
       const scene::Scene &scene = place.scene();
       const problem::Level &level = place.level();
       const problem::GrowthSolver solver = expected_size(scene).solver;
-      const auto influence = physics::influence_function(scene.kernel.profile, level.horizon);
+      const auto influence = physics::influence_function<2>(scene.kernel.profile, level.horizon);
       Record record = place.record("grow", method);
       double trapping = 1;
       if (scene.fracture.criterion == problem::Criterion::calibrated)

@@ -181,9 +181,11 @@ namespace plumbline::study
         for (const auto &[error, value] : found)
           if (!std::isfinite(value))
             throw NumericalError("the error " + error + " is not a finite number");
-        const std::vector<double> at_points = estimate(method, one, solution);
-        if (options_.on_solution)
-          options_.on_solution(problem, solution, run, at_points);
+        const auto points =
+            options_.points ? options_.points(problem) : std::vector<dealii::Point<2>>{};
+        std::vector<double> at_points = estimate(method, one, solution, points);
+        if (!points.empty())
+          options_.on_values(values_at(points, problem, solution, std::move(at_points)), run);
         if (is_saving_due(method, one, run))
           if (const auto saving = measure_saving(one, method, solution))
             results_.savings.push_back(*saving);
@@ -195,16 +197,16 @@ namespace plumbline::study
       /// Enter the estimate that the scene asks for.
       /// @return that at points
       std::vector<double> estimate(const Method &method, const OpenCase &one,
-                                   const Solution &solution) const
+                                   const Solution &solution,
+                                   const std::vector<dealii::Point<2>> &points) const
       {
         const bool is_shown = is_estimated(method, one.problem),
-                   is_at_points = options_.points && method.family() == MethodFamily::reference &&
+                   is_at_points = !points.empty() && method.family() == MethodFamily::reference &&
                                   scene_.reference.estimate != scene::Estimate::none;
         if (!is_shown && !is_at_points)
           return {};
-        const ErrorEstimate found = estimate_error(one, method, solution, true,
-                                                   is_at_points ? options_.points(one.problem)
-                                                                : std::vector<dealii::Point<2>>{});
+        const ErrorEstimate found = estimate_error(
+            one, method, solution, true, is_at_points ? points : std::vector<dealii::Point<2>>{});
         if (is_shown)
           results_.estimates.push_back(placed(found, one.name));
         return found.at_points;

@@ -2,6 +2,7 @@
 
 #include "analysis/statics.h"
 #include "study/analysis.h"
+#include "study/values_at_points.h"
 
 #include <functional>
 #include <vector>
@@ -16,13 +17,11 @@ namespace plumbline::study
     /// Of finest levels: what writes the solution to a VTK file, whose name it ends.
     std::function<void(const std::function<void(const std::string &stem)> &write, const Record &)>
         on_finest = {};
-    /// Of every level, their records with errors, and estimates of the error at `points`: of
-    /// Galerkin methods, else empty.
-    std::function<void(const problem::Problem<2> &, const Solution &, const Record &,
-                       const std::vector<double> &estimate)>
-        on_solution = {};
-    /// Where errors are estimated for on_solution.
+    /// Where solutions are wanted, in the problem's coordinates; empty: nowhere.
     std::function<std::vector<dealii::Point<2>>(const problem::Problem<2> &)> points = {};
+    std::function<std::vector<dealii::Point<3>>(const problem::Problem<3> &)> points_in_space = {};
+    /// Takes them for every solution, with estimates of the error for Galerkin methods.
+    std::function<void(const ValuesAtPoints &, const Record &)> on_values = {};
     /// Records have the field that the decisive error is about: nodal values, or averages over the
     /// comparison cells.
     bool has_fields = false;

@@ -164,19 +164,46 @@ namespace plumbline::study
              inner_vertices(problem.lattice.at_spacing(2 * problem.h())).n_free() > 0;
     }
 
+    /// At points, by the change to h/2, but no less than twice the root mean square of these.
+    /// @param contraction  of changes as h is halved
+    std::vector<double> estimate_at(const std::vector<dealii::Point<3>> &points,
+                                    const ProblemInSpace &problem, const SolutionInSpace &solution,
+                                    const SolutionInSpace &fine, double contraction)
+    {
+      constexpr double least = 2;
+      std::vector<double> errors;
+      double squares = 0, size = 0;
+      for (const auto &x : points)
+      {
+        double change = 0;
+        for (unsigned int c = 0; c < problem.n_components; ++c)
+        {
+          change = std::max(change, std::abs(solution.value(x, c) - fine.value(x, c)));
+          size = std::max(size, std::abs(solution.value(x, c)));
+        }
+        errors.push_back(error_of_change(change, contraction));
+        squares += errors.back() * errors.back() / static_cast<double>(points.size());
+      }
+      for (double &error : errors)
+        error = std::max(error, least * std::sqrt(squares)) +
+                solver_error(problem.settings.solver.tolerance, size);
+      return errors;
+    }
+
     /// How far the averages of a reference may be wrong, by the changes to h/2 and from 2 h, as
     /// estimate_error() has them in the plane. Of the field and of degree p + 1 nothing is known.
+    /// @param points  where the error is estimated, too
     ErrorEstimate estimate_of(const Method &method, const ProblemInSpace &problem,
-                              const SolutionInSpace &solution)
+                              const SolutionInSpace &solution,
+                              const std::vector<dealii::Point<3>> &points = {})
     {
       ErrorEstimate estimate;
       estimate.method = method.name();
       estimate.h = problem.h();
       estimate.horizon = problem.horizon();
-      estimate.h_change = averages_l2(
-          problem, solution.averages,
-          coarsened(analysis::solve(method, at_spacing(problem, problem.h() / 2)).averages,
-                    problem));
+      const SolutionInSpace fine = analysis::solve(method, at_spacing(problem, problem.h() / 2));
+      estimate.h_change =
+          averages_l2(problem, solution.averages, coarsened(fine.averages, problem));
       if (has_doubled(problem))
       {
         const ProblemInSpace coarse = at_spacing(problem, 2 * problem.h());
@@ -193,6 +220,7 @@ namespace plumbline::study
       estimate.field_h_change = estimate.field_coarse_change = not_fitted;
       estimate.field_rate = estimate.field_estimate = not_fitted;
       estimate.certified_digits = certified_digits(estimate.estimate, size);
+      estimate.at_points = estimate_at(points, problem, solution, fine, q);
       return estimate;
     }
 
@@ -213,8 +241,13 @@ namespace plumbline::study
         {
           records.push_back(place_.record("statics", method));
           records.back().key.problem = one.name;
-          place_.fill(records.back(), [&](Record &record)
-                      { evaluate(one, analysis::solve(method, one.problem), record); });
+          place_.fill(records.back(),
+                      [&](Record &record)
+                      {
+                        const SolutionInSpace solution = analysis::solve(method, one.problem);
+                        evaluate(one, solution, record);
+                        tell_values(method, one.problem, solution, record);
+                      });
         }
         return records;
       }
@@ -285,6 +318,20 @@ namespace plumbline::study
                      nodal_values(*problem.local_solution, solution));
         if (place_.is_finest())
           finish_series(one, solution, run);
+      }
+
+      /// At the points where they are wanted.
+      void tell_values(const Method &method, const ProblemInSpace &problem,
+                       const SolutionInSpace &solution, const Record &run) const
+      {
+        if (!options_.points_in_space)
+          return;
+        const auto points = options_.points_in_space(problem);
+        std::vector<double> errors;
+        if (method.family() == method::MethodFamily::reference &&
+            scene_.reference.estimate != scene::Estimate::none)
+          errors = estimate_of(method, problem, solution, points).at_points;
+        options_.on_values(values_at(points, problem, solution, std::move(errors)), run);
       }
 
       /// What is done with a solution of the finest level: stored, and drawn for the first series.

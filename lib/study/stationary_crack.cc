@@ -183,7 +183,7 @@ namespace plumbline::study
                               {}};
       if (scene.strip.edges == scene::StripEdges::K_field)
         strip.K_tip = strip.n_crack + .5;
-      const auto influence = physics::influence_function(scene.kernel.profile, level.horizon);
+      const auto influence = physics::influence_function<2>(scene.kernel.profile, level.horizon);
       const method::StripSolver &solver = *method.strip_solver();
       const method::StripState state = solver.solve_strip(strip, influence);
       method::RiceStrip longer = strip;

@@ -23,8 +23,8 @@ namespace plumbline::meshfree
     VariationalOperator make_operator(const VariationalBody &body, const Bonds<2> &bonds,
                                       const problem::Problem<2> &problem)
     {
-      return {body, physics::influence_function(problem.kernel.profile(), problem.horizon()), bonds,
-              problem.settings.solver.operator_backend};
+      return {body, physics::influence_function<2>(problem.kernel.profile(), problem.horizon()),
+              bonds, problem.settings.solver.operator_backend};
     }
 
     /// ∫ b over the free cells: on each quarter by a rule of degree 5, so that loads may jump at

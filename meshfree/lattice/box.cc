@@ -11,7 +11,8 @@ namespace plumbline::meshfree
     public:
       RuleOnBox(const problem::Problem<3> &problem, const Bonds<3> &bonds)
           : BoxDiscretisation(problem, method::NodePlace::centres,
-                              lattice_operator(problem.kernel, bonds)),
+                              problem.dilatation ? state_based_stencil(*problem.dilatation, bonds)
+                                                 : lattice_operator(problem.kernel, bonds)),
             diagnostics_(describe(problem, bonds, stencil()))
       {
       }

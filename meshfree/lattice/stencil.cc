@@ -47,25 +47,34 @@ namespace plumbline::meshfree
   template algebra::Stencil lattice_operator(const physics::Kernel<2> &, const Bonds<2> &);
   template algebra::Stencil lattice_operator(const physics::Kernel<3> &, const Bonds<3> &);
 
-  algebra::Stencil state_based_stencil(const physics::Dilatation &dilatation, const Bonds<2> &bonds)
+  template <int dim>
+  algebra::Stencil state_based_stencil(const physics::Dilatation<dim> &dilatation,
+                                       const Bonds<dim> &bonds)
   {
     const physics::Lame lame = dilatation.material({});
     const auto deviatoric =
         lattice_operator(physics::deviatoric_kernel(dilatation.influence, lame.mu), bonds);
-    algebra::Stencil stencil(2, 2 * deviatoric.reach());
-    for (const Bond<2> &one : bonds.family)
-      for (const Bond<2> &two : bonds.family)
+    std::array<int, 3> reaches = deviatoric.reaches();
+    for (int &reach : reaches)
+      reach *= 2;
+    algebra::Stencil stencil(dim, reaches);
+    const double factor = dilatation.factor(lame, lame);
+    for (const Bond<dim> &one : bonds.family)
+      for (const Bond<dim> &two : bonds.family)
       {
         const auto k = offset(one, bonds.h), l = offset(two, bonds.h);
-        const double factor = (lame.lambda - lame.mu) * one.weight * two.weight *
-                              radial_value(dilatation.influence, one) *
-                              radial_value(dilatation.influence, two);
-        for (unsigned int a = 0; a < 2; ++a)
-          for (unsigned int b = 0; b < 2; ++b)
-            stencil(a, b, k[0] + l[0], k[1] + l[1]) -= factor * one.xi[a] * two.xi[b];
+        const double product = factor * one.weight * two.weight *
+                               radial_value(dilatation.influence, one) *
+                               radial_value(dilatation.influence, two);
+        for (unsigned int a = 0; a < dim; ++a)
+          for (unsigned int b = 0; b < dim; ++b)
+            stencil(a, b, k[0] + l[0], k[1] + l[1], k[2] + l[2]) -= product * one.xi[a] * two.xi[b];
       }
     return add(deviatoric, stencil);
   }
+
+  template algebra::Stencil state_based_stencil(const physics::Dilatation<2> &, const Bonds<2> &);
+  template algebra::Stencil state_based_stencil(const physics::Dilatation<3> &, const Bonds<3> &);
 
   template <int dim>
   method::Diagnostics describe(const problem::Problem<dim> &problem, const Bonds<dim> &bonds,

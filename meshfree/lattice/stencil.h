@@ -16,11 +16,12 @@ namespace plumbline::meshfree
   /// The same of a homogeneous state-based solid, θ eliminated: with g_k = w_k K(q_k) ξ_k, q the
   /// kernel point, and Σ g = 0 by symmetry, θ_i = Σ_k g_k·u_{i+k} adds -(λ - μ) Σ_k,l g_k ⊗ g_l
   /// u_{i+k+l} to the bonds: twice their reach. Weights that give the tensor moments
-  /// Σ w 8μ K ξ⊗ξ/|ξ|² ξ^α exactly (OPT, IPA-AC-R2) give those of K, their trace, exactly as well,
-  /// and so the dilatation.
+  /// Σ w μ K ξ⊗ξ/|ξ|² ξ^α exactly (OPT, IPA-AC-R2) give those of K, their trace, exactly as well,
+  /// and so the dilatation. Instantiated for dim = 2 and 3.
   /// @param bonds  of its deviatoric kernel
-  algebra::Stencil state_based_stencil(const physics::Dilatation &dilatation,
-                                       const Bonds<2> &bonds);
+  template <int dim>
+  algebra::Stencil state_based_stencil(const physics::Dilatation<dim> &dilatation,
+                                       const Bonds<dim> &bonds);
 
   /// Diagnostics of a rule's weights and of its limit. Instantiated for dim = 2 and 3.
   /// @param stencil  its operator for the problem

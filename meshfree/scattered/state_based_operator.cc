@@ -204,7 +204,7 @@ namespace plumbline::meshfree
       }
 
       const geometry::NodeCells &cells_;
-      const physics::Dilatation &dilatation_;
+      const physics::Dilatation<2> &dilatation_;
       bool has_collar_dilatation_, keeps_dilatation_;
       std::pair<std::size_t, std::size_t> share_;
       Links links_;

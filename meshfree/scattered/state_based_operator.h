@@ -10,7 +10,7 @@ namespace plumbline::meshfree
   struct StateBasedBody
   {
     const geometry::NodeCells *cells = nullptr; ///< Ω and a collar twice as wide as the horizon
-    physics::Dilatation dilatation;
+    physics::Dilatation<2> dilatation;
     Damage damage = {};
     /// Else θ counts as 0 in the collar. That is wrong, of first order in the horizon and the more
     /// so the less compressible the solid is; it is there to be shown.

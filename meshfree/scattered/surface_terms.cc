@@ -17,7 +17,7 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  physics::Lame pair_constants(const physics::Dilatation &dilatation, const physics::Lame &a,
+  physics::Lame pair_constants(const physics::Dilatation<2> &dilatation, const physics::Lame &a,
                                const physics::Lame &b)
   {
     const auto kind = dilatation.is_two_point ? physics::Mean::harmonic : physics::Mean::arithmetic;

@@ -7,7 +7,7 @@
 namespace plumbline::meshfree
 {
   /// Lamé constants of a bond between two nodes, by the means that the model takes.
-  physics::Lame pair_constants(const physics::Dilatation &dilatation, const physics::Lame &a,
+  physics::Lame pair_constants(const physics::Dilatation<2> &dilatation, const physics::Lame &a,
                                const physics::Lame &b);
 
   /// 2μ d·ε d / θ for a direction d of length 1 where stress is uniaxial, along a face of normal n:

@@ -15,10 +15,10 @@ namespace plumbline::reference
     {
     public:
       GalerkinOnBox(const problem::Problem<3> &problem, const AxisShapes &shapes)
-          : BoxDiscretisation(problem,
-                              shapes.is_continuous() ? method::NodePlace::vertices
-                                                     : method::NodePlace::centres,
-                              galerkin_stencil(problem.kernel, problem.h(), shapes)),
+          : BoxDiscretisation(
+                problem,
+                shapes.is_continuous() ? method::NodePlace::vertices : method::NodePlace::centres,
+                galerkin_stencil(problem.kernel, problem.h(), shapes, problem.dilatation)),
             shapes_(shapes),
             limit_(shapes.degree() == 0
                        ? method::prove_by_moments(problem, stencil(), std::pow(problem.h(), 3))

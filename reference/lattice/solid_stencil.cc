@@ -1,9 +1,12 @@
 #include "reference/lattice/solid_stencil.h"
 
+#include "physics/dilatation_in_space.h"
+
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace plumbline::reference
@@ -87,12 +90,51 @@ namespace plumbline::reference
       }
     }
 
-    /// The rule on cell ∩ ball: its corner next to the origin sees all of it.
+    /// A kernel across I + excess z⊗z/|z|² that is smooth between two spheres.
+    struct Shell
+    {
+      double inner = 0, outer = 0;
+      std::function<physics::DilatationInSpace::Value(double r)> value;
+    };
+
+    /// Kernels of smooth profiles that add up to the bonds, and the two shells of the dilatation.
+    std::vector<Shell> shells(const physics::Kernel<3> &kernel,
+                              const std::optional<physics::Dilatation<3>> &dilatation)
+    {
+      using Value = physics::DilatationInSpace::Value;
+      const bool is_scalar = kernel.structure() == physics::Structure::scalar;
+      std::vector<Shell> result;
+      for (const physics::Kernel<3> &part : kernel.parts())
+        result.push_back({0, part.horizon(),
+                          [part, is_scalar](double r)
+                          {
+                            const double value = part.radial(r);
+                            return is_scalar ? Value{value, 0} : Value{0, value};
+                          }});
+      if (dilatation)
+      {
+        const physics::DilatationInSpace of_dilatation(dilatation->influence);
+        const physics::Lame lame = dilatation->material({});
+        const double factor = dilatation->factor(lame, lame), horizon = kernel.horizon();
+        for (const double inner : {0., horizon})
+          result.push_back({inner, inner + horizon,
+                            [of_dilatation, factor](double r)
+                            {
+                              const Value value = of_dilatation(r);
+                              return Value{factor * value.across, factor * value.excess};
+                            }});
+      }
+      return result;
+    }
+
+    /// The rule on cell ∩ shell: the cell's corner next to the origin sees all of its part in the
+    /// outer ball, and each ray from there leaves the inner one once.
     class Cones
     {
     public:
-      Cones(const Cell &cell, double h, double radius)
-          : h_(h), radius_(radius), apex_(cell[0] * h, cell[1] * h, cell[2] * h)
+      Cones(const Cell &cell, double h, const Shell &shell)
+          : h_(h), inner_(shell.inner), radius_(shell.outer),
+            apex_(cell[0] * h, cell[1] * h, cell[2] * h)
       {
         for (unsigned int d = 0; d < 3; ++d)
           add_face(d);
@@ -106,12 +148,24 @@ namespace plumbline::reference
       void add(const Point<3> &y, double weight)
       {
         const auto &along = gauss(n_radii);
+        const double first = exit_of_inner(y);
         for (unsigned int q = 0; q < along.size(); ++q)
         {
-          const double t = along.point(q)[0];
+          const double t = first + (1 - first) * along.point(q)[0];
           rule.points.push_back(apex_ + t * (y - apex_));
-          rule.weights.push_back(weight * t * t * along.weight(q));
+          rule.weights.push_back(weight * t * t * (1 - first) * along.weight(q));
         }
+      }
+
+      /// Where the ray from the apex, at 0, to y, at 1, leaves the inner ball.
+      double exit_of_inner(const Point<3> &y) const
+      {
+        const double depth = inner_ * inner_ - apex_.square();
+        if (depth <= 0)
+          return 0;
+        const auto ray = y - apex_;
+        const double along = apex_ * ray, square = ray.norm_square();
+        return std::min(1., depth / (along + std::sqrt(along * along + square * depth)));
       }
 
       /// The face away from the origin, normal to axis d.
@@ -122,7 +176,8 @@ namespace plumbline::reference
         if (x >= radius_)
           return;
         const auto &across = gauss(n_radii);
-        for_each_angle({apex_[e], apex_[f], h_}, 0, std::sqrt(radius_ * radius_ - x * x),
+        for_each_angle({apex_[e], apex_[f], h_}, std::sqrt(std::max(0., inner_ * inner_ - x * x)),
+                       std::sqrt(radius_ * radius_ - x * x),
                        [&](double phi, double from, double to, double weight)
                        {
                          for (unsigned int q = 0; q < across.size(); ++q)
@@ -160,11 +215,11 @@ namespace plumbline::reference
                        });
       }
 
-      double h_, radius_;
+      double h_, inner_, radius_;
       Point<3> apex_;
     };
 
-    /// A cell inside the ball, away from the origin.
+    /// A cell inside the shell, away from the origin.
     Rule product_rule(const Cell &cell, double h)
     {
       Rule rule;
@@ -189,23 +244,24 @@ namespace plumbline::reference
     constexpr std::array<std::array<unsigned int, 3>, 3> pair_of = {
         {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
 
-    /// ∫ over cell ∩ ball of C_ab(z) P_p(x) P_q(y) P_r(z) dz, x, y, z the cell's own coordinates
+    /// ∫ over cell ∩ shells of C_ab(z) P_p(x) P_q(y) P_r(z) dz, x, y, z the cell's own coordinates
     /// in [-1, 1], of the cells i >= j >= k >= 0; those of the others are images.
     class SolidMomentTable
     {
     public:
-      SolidMomentTable(const physics::Kernel<3> &kernel, double h, unsigned int n_modes)
-          : n_(static_cast<int>(std::ceil(kernel.horizon() / h * (1 - 1e-14)))), n_modes_(n_modes),
-            n_pairs_(kernel.n_components() == 1 ? 1 : 6)
+      /// @param n_components  1 or 3
+      SolidMomentTable(const std::vector<Shell> &shells, double h, unsigned int n_components,
+                       unsigned int n_modes)
+          : n_(static_cast<int>(std::ceil(shells.back().outer / h * (1 - 1e-14)))),
+            n_modes_(n_modes), n_pairs_(n_components == 1 ? 1 : 6)
       {
-        const std::vector<physics::Kernel<3>> parts = kernel.parts();
         for (int i = 0; i < n_; ++i)
           for (int j = 0; j <= i; ++j)
             for (int k = 0; k <= j; ++k)
             {
               std::vector<double> moments;
-              for (const physics::Kernel<3> &part : parts)
-                integrate(part, h, {i, j, k}, moments);
+              for (const Shell &shell : shells)
+                integrate(shell, h, {i, j, k}, moments);
               sorted_.push_back(std::move(moments));
             }
       }
@@ -252,7 +308,7 @@ namespace plumbline::reference
         const std::size_t i = c[0], j = c[1], k = c[2];
         return i * (i + 1) * (i + 2) / 6 + j * (j + 1) / 2 + k;
       }
-      void integrate(const physics::Kernel<3> &kernel, double h, const Cell &cell,
+      void integrate(const Shell &shell, double h, const Cell &cell,
                      std::vector<double> &moments) const;
 
       int n_;
@@ -260,15 +316,15 @@ namespace plumbline::reference
       std::vector<std::vector<double>> sorted_;
     };
 
-    void SolidMomentTable::integrate(const physics::Kernel<3> &kernel, double h, const Cell &cell,
+    void SolidMomentTable::integrate(const Shell &shell, double h, const Cell &cell,
                                      std::vector<double> &moments) const
     {
-      const double radius = kernel.horizon();
-      if (h * distance(cell[0], cell[1], cell[2]) >= radius)
+      const double nearest = h * distance(cell[0], cell[1], cell[2]),
+                   farthest = h * distance(cell[0] + 1, cell[1] + 1, cell[2] + 1);
+      if (nearest >= shell.outer || farthest <= shell.inner)
         return;
-      const bool is_whole =
-          cell[0] > 0 && h * distance(cell[0] + 1, cell[1] + 1, cell[2] + 1) <= radius;
-      const Rule rule = is_whole ? product_rule(cell, h) : Cones(cell, h, radius).rule;
+      const bool is_whole = cell[0] > 0 && nearest >= shell.inner && farthest <= shell.outer;
+      const Rule rule = is_whole ? product_rule(cell, h) : Cones(cell, h, shell).rule;
 
       moments.resize(n_pairs_ * n_modes_ * n_modes_ * n_modes_);
       std::array<std::vector<double>, 3> values;
@@ -278,12 +334,14 @@ namespace plumbline::reference
         const Point<3> &z = rule.points[i];
         for (unsigned int d = 0; d < 3; ++d)
           legendre(2 * (z[d] / h - cell[d]) - 1, n_modes_, values[d].data());
-        const double value = rule.weights[i] * kernel.radial(z.norm());
+        const physics::DilatationInSpace::Value value = shell.value(z.norm());
+        const double across = rule.weights[i] * value.across,
+                     directed = rule.weights[i] * value.excess / z.square();
         double *moment = moments.data();
         for (unsigned int a = 0, pair = 0; a < 3; ++a)
           for (unsigned int b = a; b < 3 && pair < n_pairs_; ++b, ++pair)
           {
-            const double factor = value * kernel.direction_factor(a, b, z);
+            const double factor = (a == b ? across : 0) + directed * z[a] * z[b];
             for (unsigned int p = 0; p < n_modes_; ++p)
               for (unsigned int q = 0; q < n_modes_; ++q)
               {
@@ -365,14 +423,15 @@ namespace plumbline::reference
   } // namespace
 
   algebra::Stencil galerkin_stencil(const physics::Kernel<3> &kernel, double h,
-                                    const AxisShapes &shapes)
+                                    const AxisShapes &shapes,
+                                    const std::optional<physics::Dilatation<3>> &dilatation)
   {
     const Correlations r(shapes);
     const unsigned int n_modes = r.n_modes();
     const auto n_axis = static_cast<unsigned int>(shapes.families().size());
     const unsigned int n_families = n_axis * n_axis * n_axis, n_components = kernel.n_components();
     const std::vector<AxisPair> pairs = axis_pairs(r, n_axis);
-    const SolidMomentTable table(kernel, h, n_modes);
+    const SolidMomentTable table(shells(kernel, dilatation), h, n_components, n_modes);
     const int n = table.n_cells();
 
     algebra::Stencil stencil(n_components * n_families, {n + 1, n + 1, n + 1});

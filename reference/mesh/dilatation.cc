@@ -303,7 +303,7 @@ namespace plumbline::reference
   } // namespace
 
   algebra::CsrMatrix assemble_dilatation(const MeshSpace &space, const MeshCells &cells,
-                                         const physics::Dilatation &dilatation,
+                                         const physics::Dilatation<2> &dilatation,
                                          const DilatationOptions &options,
                                          const base::Communicator &communicator)
   {

@@ -34,7 +34,7 @@ namespace plumbline::reference
   /// Sources: Fan et al. 2022, eq. (2.5); with normalised θ and degree 0 on squares Pflug, Stingl &
   /// Zetzmann 2026, eqs. (13)-(15).
   algebra::CsrMatrix assemble_dilatation(const MeshSpace &space, const MeshCells &cells,
-                                         const physics::Dilatation &dilatation,
+                                         const physics::Dilatation<2> &dilatation,
                                          const DilatationOptions &options,
                                          const base::Communicator &communicator);
 } // namespace plumbline::reference

@@ -42,7 +42,7 @@ namespace plumbline::reference
   } // namespace
 
   DilatationRow::DilatationRow(const MeshSpace &space, const MeshCells &cells,
-                               const physics::Dilatation &dilatation,
+                               const physics::Dilatation<2> &dilatation,
                                std::vector<physics::Lame> materials, unsigned int smooth_degree,
                                geometry::Backend backend)
       : space_(space), cells_(cells), dilatation_(dilatation), profile_(dilatation.influence),

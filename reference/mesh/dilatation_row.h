@@ -21,7 +21,7 @@ namespace plumbline::reference
     /// @param smooth_degree  of polynomials that stand on a cell for functions that are none: the
     /// material of two-point models, shape functions through a bilinear map
     DilatationRow(const MeshSpace &space, const MeshCells &cells,
-                  const physics::Dilatation &dilatation, std::vector<physics::Lame> materials,
+                  const physics::Dilatation<2> &dilatation, std::vector<physics::Lame> materials,
                   unsigned int smooth_degree, geometry::Backend backend);
 
     /// What a material has no part in is the same for pairs that are translations.
@@ -54,7 +54,7 @@ namespace plumbline::reference
 
     const MeshSpace &space_;
     const MeshCells &cells_;
-    physics::Dilatation dilatation_;
+    physics::Dilatation<2> dilatation_;
     KernelEntries profile_;
     std::vector<physics::Lame> materials_;
     unsigned int smooth_degree_;

@@ -59,7 +59,7 @@ namespace plumbline::reference
       if (!problem.body())
         return problem.coefficient;
       const auto influence =
-          physics::influence_function(problem.kernel.profile(), problem.horizon());
+          physics::influence_function<2>(problem.kernel.profile(), problem.horizon());
       const auto volume = std::make_shared<const WeightedVolume>(*problem.mesh(), influence);
       return physics::Coefficient([mu = *problem.coefficient, volume](const Point<2> &x)
                                   { return mu.at(x) * 2 / (*volume)(x); },

@@ -82,6 +82,61 @@ TEST(Points, outside_of_the_domain_are_refused_by_their_line_before_anything_is_
                  "'" + file + "', line 4: (1.500000, 0.500000) lies outside");
 }
 
+TEST(Points, in_space_have_values_and_estimates)
+{
+  const auto scene_of = [](const std::string &solution, const std::string &points)
+  {
+    return write("space_points.prm",
+                 "subsection Domain\n set dimension = 3\n"
+                 " set boxes = 0,0,0 : 1,1/2,1/2 ; 0,0,0 : 1/2,1,1/2\nend\n"
+                 "subsection Problem\n set solution = " +
+                     solution +
+                     "\nend\nsubsection Methods\n set names = FA, Q1\nend\n"
+                     "subsection Study\n set h = 1/8, 1/16\n set norms = nodal Linf\n"
+                     " set decisive error = nodal Linf | exact\nend\n"
+                     "subsection Output\n set points = " +
+                     points + "\nend\n");
+  };
+  // in cells, on a vertex at the re-entrant edge, on the upper side, in a corner
+  const std::string inside =
+      write("at_z.csv", "x,y,z\n0.31,0.73,0.2\n0.5,0.5,0.25\n0.9,0.5,0.1\n1,0.5,0.5\n");
+  const fs::path folder = temporary("space_points");
+  const std::string of_trilinear = "x + 2*y - z + x*y*z", of_sine = "sin(3*x)*y^2 + cos(2*z)";
+  for (const std::string &solution : {of_trilinear, of_sine})
+  {
+    const Outcome outcome =
+        run("run --quiet " + scene_of(solution, inside) + " -o " + folder.string());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    for (const std::string method : {"FA", "Q1"})
+    {
+      const auto fine = table(folder / "points" / ("u_m___3_" + method + "_level2.csv"));
+      ASSERT_EQ(fine.size(), method == "Q1" ? 8u : 7u); // x, y, z, u, exact, error, change
+      ASSERT_EQ(fine.at("u").size(), 4u);
+      EXPECT_EQ(fine.at("z"), (std::vector<double>{.2, .25, .1, .5}));
+      for (unsigned int k = 0; k < 4; ++k)
+      {
+        const double x = fine.at("x")[k], y = fine.at("y")[k], z = fine.at("z")[k],
+                     error = std::abs(fine.at("error")[k]);
+        EXPECT_NEAR(fine.at("exact")[k],
+                    solution == of_trilinear ? x + 2 * y - z + x * y * z
+                                             : std::sin(3 * x) * y * y + std::cos(2 * z),
+                    1e-13);
+        EXPECT_LT(error, method == "FA" ? .2 : solution == of_trilinear ? 1e-11 : 1e-2);
+        if (method == "Q1")
+        {
+          EXPECT_LE(error, fine.at("estimate")[k] + 1e-11) << k;
+          EXPECT_LT(fine.at("estimate")[k], .05);
+        }
+      }
+    }
+  }
+  fs::remove_all(folder);
+  const std::string outside = write("outside_z.csv", "x,y,z\n0.2,0.2,0.2\n0.75,0.75,0.2\n");
+  expect_refused("run " + scene_of(of_sine, outside),
+                 "line 3: (0.750000, 0.750000, 0.200000) lies outside of the domain");
+  expect_refused("run " + scene_of(of_sine, write("plane.csv", "x,y\n0.5,0.2\n")), "no column z");
+}
+
 TEST(Points, need_a_file_with_points)
 {
   expect_refused("run " + scene_at("/no-such.csv"), "Output/points = /no-such.csv: ");

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 using namespace plumbline;
@@ -119,4 +120,29 @@ TEST(CubeLattice, has_two_largest_boxes_in_an_l_and_six_around_a_cavity)
   ASSERT_EQ(boxes.size(), 2u);
   EXPECT_EQ(boxes[0].upper, dealii::Point<3>(.5, 1, 1));
   EXPECT_EQ(boxes[1].upper, dealii::Point<3>(1, .5, 1));
+}
+
+TEST(CubeLattice, finds_the_cell_of_a_point_in_the_closed_domain)
+{
+  const CubeLattice lattice(l_shape, .125);
+  EXPECT_EQ(lattice.cell_at({.3, .8, .1}), (Index{2, 6, 0}));
+  for (const dealii::Point<3> &x :
+       {dealii::Point<3>(0, 0, 0), {1, .5, 1}, {.5, 1, .3}, {.5, .5, .5}, {1 + 1e-12, .2, .2}})
+  {
+    const auto cell = lattice.cell_at(x);
+    ASSERT_TRUE(cell.has_value()) << x;
+    EXPECT_TRUE(lattice.is_inside(*cell)) << x;
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      EXPECT_GE(x[d], lattice.coordinate(d, (*cell)[d]) - 1e-10) << x;
+      EXPECT_LE(x[d], lattice.coordinate(d, (*cell)[d] + 1) + 1e-10) << x;
+    }
+  }
+  for (const dealii::Point<3> &x : {dealii::Point<3>(.75, .75, .5),
+                                    {.5 + 1e-6, .5 + 1e-6, .5},
+                                    {-1e-6, .5, .5},
+                                    {.2, .2, 1.5},
+                                    {std::nan(""), .5, .5},
+                                    {1e300, .5, .5}})
+    EXPECT_FALSE(lattice.cell_at(x).has_value()) << x;
 }

@@ -46,7 +46,7 @@ namespace
   }
 
   const Kernel<2> influence =
-      physics::influence_function(physics::kernel_type("1/r").profile, horizon);
+      physics::influence_function<2>(physics::kernel_type("1/r").profile, horizon);
 } // namespace
 
 TEST(Centroids, of_cut_cells_are_those_of_ball_and_cell)
@@ -122,8 +122,8 @@ TEST(Centroids, of_double_wells_on_a_line_are_where_j_alone_is_taken)
 TEST(Centroids, of_state_based_solids_are_where_k_and_the_direction_are_taken_not_dilatations)
 {
   const physics::Lame lame{3, 1};
-  const physics::Dilatation dilatation{influence, [&](const Point<2> &) { return lame; }, true,
-                                       true};
+  const physics::Dilatation<2> dilatation{influence, [&](const Point<2> &) { return lame; }, true,
+                                          true};
   const Bonds<2> bonds = bonds_of(physics::deviatoric_kernel(influence, lame.mu));
   const algebra::Stencil stencil = state_based_stencil(dilatation, bonds);
   Tensor<2, 2> expected; // at (1, 2)

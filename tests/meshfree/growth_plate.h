@@ -37,7 +37,7 @@ namespace growth_plate
 
   inline physics::Kernel<2> influence(double horizon)
   {
-    return physics::influence_function(physics::kernel_type("1/r").profile, horizon);
+    return physics::influence_function<2>(physics::kernel_type("1/r").profile, horizon);
   }
 
   inline meshfree::BondNetwork network(const meshfree::BreakingSolid &solid, int m = 3)

@@ -44,7 +44,8 @@ namespace
     solid.constrained = field;
     solid.material = [](const Point<2> &) { return physics::Lame{mu, mu}; };
     solid.toughness = [](const Point<2> &) { return 1.; };
-    const auto influence = physics::influence_function(physics::kernel_type("1/r").profile, m * h);
+    const auto influence =
+        physics::influence_function<2>(physics::kernel_type("1/r").profile, m * h);
     const auto rule = meshfree::optimisation_based(physics::deviatoric_kernel(influence, 1));
     return {make_bond_network(solid, rule, influence, h, meshfree::Backend::fast),
             problem::Stretch::linear};

@@ -24,7 +24,7 @@ namespace
                            meshfree::NeighbourhoodQuadrature<2> (*rule)(const physics::Kernel<2> &))
   {
     const auto influence =
-        physics::influence_function(physics::kernel_type("1/r").profile, horizon);
+        physics::influence_function<2>(physics::kernel_type("1/r").profile, horizon);
     return solve_strip(strip, rule(physics::deviatoric_kernel(influence, 1)), influence);
   }
 } // namespace

@@ -408,7 +408,7 @@ TEST(Damage, names_nodes_on_a_crack_ghosts_in_the_domain_and_isolated_nodes)
 
 TEST(Damage, the_correction_makes_dilatations_of_linear_fields_exact)
 {
-  const Kernel<2> influence = physics::influence_function({{1, -1}}, 1);
+  const Kernel<2> influence = physics::influence_function<2>({{1, -1}}, 1);
   const auto family = [](const std::vector<Point<2>> &ends)
   {
     Family<2> result;

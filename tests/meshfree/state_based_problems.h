@@ -145,7 +145,7 @@ namespace plumbline::meshfree
                        optimisation_based<2>)
         : problem(problem),
           square(square), body{&square.cells,
-                               {physics::influence_function({{1, -1}}, square.horizon),
+                               {physics::influence_function<2>({{1, -1}}, square.horizon),
                                 problem.material, problem.is_two_point, problem.is_homogeneous},
                                problem.damage},
           families(rule(deviatoric()), deviatoric(), square.cells, Backend::fast)

@@ -30,7 +30,7 @@ namespace
     problem::SurfaceTerms surface_terms = problem::SurfaceTerms::uncorrected;
 
     Strip(int m, int n_height, int n_length)
-        : K(physics::influence_function(physics::kernel_type("1/r").profile, m * h)),
+        : K(physics::influence_function<2>(physics::kernel_type("1/r").profile, m * h)),
           rule(meshfree::optimisation_based(physics::deviatoric_kernel(K, 1))), height(n_height),
           length(n_length)
     {

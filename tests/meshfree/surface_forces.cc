@@ -58,7 +58,7 @@ namespace
     solid.material = [lame](const Point<2> &) { return lame; };
     solid.toughness = [](const Point<2> &) { return 1.; };
     solid.surface_terms = terms;
-    const auto K = physics::influence_function(physics::kernel_type("1/r").profile, m * h);
+    const auto K = physics::influence_function<2>(physics::kernel_type("1/r").profile, m * h);
     return make_bond_network(solid, meshfree::optimisation_based(physics::deviatoric_kernel(K, 1)),
                              K, h, geometry::Backend::fast);
   }
@@ -67,7 +67,7 @@ namespace
   Field by_operator(const BondNetwork &net, const physics::Lame &lame, const Field &u,
                     SurfaceTerms terms)
   {
-    const auto K = physics::influence_function(physics::kernel_type("1/r").profile, net.horizon);
+    const auto K = physics::influence_function<2>(physics::kernel_type("1/r").profile, net.horizon);
     const auto deviatoric = physics::deviatoric_kernel(K, 1);
     const auto bonds = lattice_bonds(meshfree::optimisation_based(deviatoric), deviatoric, h,
                                      geometry::Backend::fast);

@@ -14,9 +14,9 @@ namespace
 {
   constexpr double horizon = .4;
 
-  Dilatation homogeneous(const std::string &profile, const Lame &lame)
+  Dilatation<2> homogeneous(const std::string &profile, const Lame &lame)
   {
-    return {influence_function(kernel_type(profile).profile, horizon),
+    return {influence_function<2>(kernel_type(profile).profile, horizon),
             [lame](const Point<2> &) { return lame; }, true, true};
   }
 } // namespace
@@ -47,23 +47,37 @@ TEST(Lame, constants_of_no_solid_are_refused)
   EXPECT_THROW(lame_from_bulk(1, 0), InputError);
 }
 
+TEST(StateBased, influence_and_bonds_in_space_are_normalised)
+{
+  for (const std::string profile : {"1/r", "constant", "conical", "linear-decay"})
+  {
+    const auto influence = influence_function<3>(kernel_type(profile).profile, horizon);
+    EXPECT_NEAR(influence.moment({2, 0, 0}), 1, 1e-13) << profile; // a third of ∫K|ξ|²
+    const auto limit = deviatoric_kernel(influence, 1.7).limit();
+    EXPECT_NEAR(limit.mu, 1.7, 1e-13) << profile;
+    EXPECT_NEAR(limit.lambda, 1.7, 1e-13) << profile;
+  }
+  EXPECT_NEAR(influence_function<3>({{1, -1}}, horizon).radial(.1) * .1,
+              3 / (M_PI * std::pow(horizon, 4)), 1e-12);
+}
+
 TEST(StateBased, influence_and_bonds_are_normalised)
 {
   for (const std::string profile : {"1/r", "constant", "conical", "linear-decay"})
   {
-    const auto influence = influence_function(kernel_type(profile).profile, horizon);
+    const auto influence = influence_function<2>(kernel_type(profile).profile, horizon);
     EXPECT_NEAR(influence.moment({2, 0}) + influence.moment({0, 2}), 2, 1e-13) << profile;
     const auto limit = deviatoric_kernel(influence, 1.7).limit();
     EXPECT_NEAR(limit.mu, 1.7, 1e-13) << profile;
     EXPECT_NEAR(limit.lambda, 1.7, 1e-13) << profile;
   }
-  const auto influence = influence_function(kernel_type("1/r").profile, horizon);
+  const auto influence = influence_function<2>(kernel_type("1/r").profile, horizon);
   EXPECT_NEAR(influence.radial(.1) * .1, 3 / (M_PI * std::pow(horizon, 3)), 1e-12);
 }
 
 TEST(StateBased, dilatation_of_linear_and_quadratic_fields_is_their_divergence)
 {
-  const auto influence = influence_function(kernel_type("1/r").profile, horizon);
+  const auto influence = influence_function<2>(kernel_type("1/r").profile, horizon);
   const FieldDilatation theta(influence, Expression("u", "3*x + y + x^2 + x*y, 2*x - y + 4*y^2"));
   for (const Point<2> &x : {Point<2>(.1, .7), Point<2>(-.3, .2)})
     EXPECT_NEAR(theta(x), 3 + 2 * x[0] + x[1] - 1 + 8 * x[1], 1e-12);
@@ -73,7 +87,7 @@ TEST(StateBased, dilatation_of_linear_and_quadratic_fields_is_their_divergence)
 TEST(StateBased, load_of_a_wave_has_the_symbol_of_the_dilatation_squared)
 {
   const Lame lame{3, 1.2};
-  const Dilatation dilatation = homogeneous("1/r", lame);
+  const Dilatation<2> dilatation = homogeneous("1/r", lame);
   const double k1 = 2, k2 = 1.5, kappa = 2.5, a1 = .4, a2 = -.7;
   double g = 0; // 3/(πδ³) ∫ r 2π J_1(κ r) dr by the midpoint rule, to 1e-9
   constexpr int n = 20000;
@@ -98,7 +112,7 @@ TEST(StateBased, load_of_a_wave_has_the_symbol_of_the_dilatation_squared)
 
 TEST(StateBased, two_point_factors_are_differences_of_harmonic_means)
 {
-  Dilatation dilatation = homogeneous("1/r", {3, 1});
+  Dilatation<2> dilatation = homogeneous("1/r", {3, 1});
   dilatation.is_homogeneous = false;
   const Lame a{3, 1}, b{6, 2};
   EXPECT_NEAR(dilatation.factor(a, b), 4 - 4. / 3, 1e-15);
@@ -113,11 +127,11 @@ TEST(StateBased, two_point_factors_are_differences_of_harmonic_means)
 // ∫ K ξ_1 [f(x) θ(x) + f(x+ξ) θ(x+ξ)] = ∫ K ξ_1 (x + ξ_1)³, where the other order lacks ξ_1⁴.
 TEST(StateBased, load_of_a_heterogeneous_solid_takes_the_factor_of_the_dilatations_own_point)
 {
-  const Dilatation dilatation{influence_function(kernel_type("1/r").profile, horizon),
-                              [](const Point<2> &x) {
-                                return Lame{2 + x[0] * x[0], 2};
-                              },
-                              false, false};
+  const Dilatation<2> dilatation{influence_function<2>(kernel_type("1/r").profile, horizon),
+                                 [](const Point<2> &x) {
+                                   return Lame{2 + x[0] * x[0], 2};
+                                 },
+                                 false, false};
   const DilatationForce force(dilatation, [](const Point<2> &x) { return x[0]; });
   const double second = dilatation.influence.moment({2, 0}),
                fourth = dilatation.influence.moment({4, 0});

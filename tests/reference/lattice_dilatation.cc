@@ -49,7 +49,7 @@ namespace
   algebra::Stencil solid(double ratio, const Lame &lame, const AxisShapes &shapes,
                          const Profile &profile = cone)
   {
-    const auto influence = physics::influence_function(profile, ratio * h);
+    const auto influence = physics::influence_function<2>(profile, ratio * h);
     return add(galerkin_stencil(physics::deviatoric_kernel(influence, lame.mu), h, shapes,
                                 geometry::Backend::fast),
                dilatation_stencil(influence, lame.lambda - lame.mu, h, shapes));
@@ -112,7 +112,7 @@ TEST(DilatationKernel, derives_from_a_function_of_unit_mass_with_twice_the_sprea
   for (const auto &profile : profiles)
     for (const double horizon : {1., .3})
     {
-      const auto influence = physics::influence_function(profile, horizon);
+      const auto influence = physics::influence_function<2>(profile, horizon);
       const DilatationKernel c(influence);
       const auto across = [&](int power) {
         return integrate_radially(horizon,
@@ -137,7 +137,7 @@ TEST(DilatationKernel, derives_from_a_function_of_unit_mass_with_twice_the_sprea
 TEST(DilatationKernel, of_the_cone_has_its_closed_forms_at_0)
 {
   const double horizon = .7;
-  const DilatationKernel c(physics::influence_function(cone, horizon));
+  const DilatationKernel c(physics::influence_function<2>(cone, horizon));
   const double peak =
       -integrate_radially(horizon, [&](double r) { return r * c(r).across; }); // Ψ(0) = ∫ φ²
   EXPECT_NEAR(peak * std::pow(horizon, 2), 1.5 / M_PI, 1e-13);
@@ -189,7 +189,7 @@ TEST(DilatationStencil, is_symmetric_for_every_space)
   for (const bool is_continuous : {true, false})
     for (unsigned int degree = is_continuous ? 1 : 0; degree <= 3; ++degree)
     {
-      const auto stencil = dilatation_stencil(physics::influence_function(cone, 2.5 * h), 1, h,
+      const auto stencil = dilatation_stencil(physics::influence_function<2>(cone, 2.5 * h), 1, h,
                                               AxisShapes(is_continuous, degree));
       EXPECT_LT(stencil.symmetry_defect(), 1e-14);
       EXPECT_EQ(stencil.reach(), 6);
@@ -202,7 +202,7 @@ TEST(DilatationStencil, of_a_continuous_space_lies_in_that_of_the_discontinuous_
   for (unsigned int degree = 1; degree <= 3; ++degree)
   {
     const AxisShapes q(true, degree), dgq(false, degree);
-    const auto influence = physics::influence_function(cone, 1.7 * h);
+    const auto influence = physics::influence_function<2>(cone, 1.7 * h);
     const auto continuous = dilatation_stencil(influence, 1, h, q);
     const auto broken = dilatation_stencil(influence, 1, h, dgq);
     const unsigned int n_q = degree, n_dgq = degree + 1;
@@ -238,7 +238,7 @@ TEST(DilatationStencil, agrees_with_brute_force_over_dilatations)
 {
   constexpr int n_parts = 12, reach = 4; // of a cell; cells where θ does not vanish
   const double horizon = 1.5;            // h = 1
-  const auto influence = physics::influence_function(cone, horizon);
+  const auto influence = physics::influence_function<2>(cone, horizon);
   const dealii::QIterated<1> outer(dealii::QGauss<1>(3), n_parts);
   const int n_points = static_cast<int>(outer.size()), width = 2 * reach * n_points;
   for (const bool is_continuous : {true, false})
@@ -294,7 +294,7 @@ TEST(DilatationStencil, has_the_symbol_that_follows_from_the_transform_of_the_co
 {
   const double horizon = 2.6;
   const auto stencil =
-      dilatation_stencil(physics::influence_function(cone, horizon), 1, 1, AxisShapes(true, 1));
+      dilatation_stencil(physics::influence_function<2>(cone, horizon), 1, 1, AxisShapes(true, 1));
   const dealii::QIterated<1> gauss(dealii::QGauss<1>(10), 12);
   const auto transform = [&](double k)
   {

@@ -35,7 +35,7 @@ namespace
     {
     }
 
-    algebra::CsrMatrix assemble(const Dilatation &dilatation, unsigned int refinement,
+    algebra::CsrMatrix assemble(const Dilatation<2> &dilatation, unsigned int refinement,
                                 bool is_normalised = false) const
     {
       return reference::assemble_dilatation(space, cells, dilatation,
@@ -91,18 +91,18 @@ namespace
     return inside;
   }
 
-  Dilatation homogeneous(physics::RadialProfile profile, double horizon)
+  Dilatation<2> homogeneous(physics::RadialProfile profile, double horizon)
   {
-    return {physics::influence_function(std::move(profile), horizon),
+    return {physics::influence_function<2>(std::move(profile), horizon),
             [](const Point<2> &) {
               return Lame{3, 1};
             },
             true, true};
   }
 
-  Dilatation heterogeneous(double horizon, bool is_two_point)
+  Dilatation<2> heterogeneous(double horizon, bool is_two_point)
   {
-    return {physics::influence_function({{1, -1}}, horizon),
+    return {physics::influence_function<2>({{1, -1}}, horizon),
             [](const Point<2> &x) {
               return Lame{3 + x[0], 1 + .5 * x[1] * x[1]};
             },
@@ -152,7 +152,7 @@ namespace
   }
 
   /// Largest |θ_u(x) - divergence(x)| at points of Ω.
-  double row_error(const Discrete &discrete, const Dilatation &dilatation, const Field &u,
+  double row_error(const Discrete &discrete, const Dilatation<2> &dilatation, const Field &u,
                    const std::function<double(const Point<2> &)> &divergence)
   {
     const MeshSpace &space = discrete.space;
@@ -191,7 +191,7 @@ TEST(DilatationRow, GivesTheDivergenceOfLinearAndQuadraticFields)
       for (const unsigned int degree : {1u, 2u})
         for (const bool is_continuous : {true, false})
         {
-          const Dilatation dilatation = homogeneous(profile, .3);
+          const Dilatation<2> dilatation = homogeneous(profile, .3);
           const Discrete any(square_mesh(.125, .3, is_triangles, .15), is_continuous, degree);
           EXPECT_LT(row_error(any, dilatation, linear, [](const Point<2> &) { return 5; }), 3e-13);
           if (degree == 1)
@@ -208,7 +208,7 @@ TEST(WeightedVolume, IsTwoInAFullBallAndItsShareAtTheBoundary)
   const Mesh mesh = free_square(.25, true);
   for (const auto &profile : {singular, constant, conical, bell, decaying, table})
   {
-    const reference::WeightedVolume volume(mesh, physics::influence_function(profile, .3));
+    const reference::WeightedVolume volume(mesh, physics::influence_function<2>(profile, .3));
     EXPECT_DOUBLE_EQ(volume(Point<2>(.5, .5)), 2);
     for (const double y : {0., 1e-17, 1e-15})
       EXPECT_NEAR(volume(Point<2>(.5, y)), 1, 1e-13);
@@ -223,7 +223,7 @@ TEST(WeightedVolume, IsTheSumOverTheCells)
   const MeshCells cells(mesh);
   for (const auto &profile : {singular, constant, conical, bell, decaying, table})
   {
-    const auto kernel = physics::influence_function(profile, .3);
+    const auto kernel = physics::influence_function<2>(profile, .3);
     const reference::WeightedVolume volume(mesh, kernel);
     for (std::size_t cell = 0; cell < cells.size(); ++cell)
     {
@@ -241,7 +241,7 @@ TEST(WeightedVolume, IsTheSumOverTheCells)
 
 TEST(WeightedVolume, IsHalfAtTheBoundaryInSpiteOfRounding)
 {
-  const auto kernel = physics::influence_function(singular, .2);
+  const auto kernel = physics::influence_function<2>(singular, .2);
   Mesh mesh = free_square(.5, true);
   const double c = std::cos(.7), s = std::sin(.7);
   for (Point<2> &x : mesh.vertices) // turned, so that points of its sides are rounded
@@ -281,11 +281,11 @@ TEST(MeshDilatation, OfSurroundingsThatRepeatIsThatOfEachCell)
   // a material that differs by rounding inside of cells is asked for at every point
   const auto halves = [](double rounding, bool is_two_point)
   {
-    return Dilatation{physics::influence_function(singular, .4),
-                      [=](const Point<2> &x) {
-                        return Lame{(x[0] < .5 ? 3 : 5) + rounding * x[1], x[0] < .5 ? 1. : 4.};
-                      },
-                      is_two_point, false};
+    return Dilatation<2>{physics::influence_function<2>(singular, .4),
+                         [=](const Point<2> &x) {
+                           return Lame{(x[0] < .5 ? 3 : 5) + rounding * x[1], x[0] < .5 ? 1. : 4.};
+                         },
+                         is_two_point, false};
   };
   for (const bool is_triangles : {true, false})
     for (const bool is_continuous : {true, false})
@@ -309,7 +309,7 @@ TEST(MeshDilatation, OfSurroundingsThatRepeatIsThatOfEachCell)
 TEST(MeshDilatation, OfUniformSquaresApproachesThatOfTheLattice)
 {
   const double h = .5, horizon = 1.3;
-  const Dilatation dilatation = homogeneous(singular, horizon);
+  const Dilatation<2> dilatation = homogeneous(singular, horizon);
   for (const unsigned int degree : {1u, 2u})
   {
     const Discrete discrete(square_mesh(h, 2 * horizon, false), true, degree);
@@ -360,7 +360,7 @@ TEST(MeshDilatation, WithItsBondsIsTheLocalOperatorOfPolynomials)
 {
   // weakly for interior test functions: -(λ - μ) ∇div u, and -[μ Δu + (λ + μ) ∇div u] with bonds
   const Discrete discrete(square_mesh(.25, .6, true, .15), true, 2);
-  const Dilatation dilatation = homogeneous(singular, .3);
+  const Dilatation<2> dilatation = homogeneous(singular, .3);
   std::vector<double> integrals(discrete.space.n_free());
   const auto &shapes = discrete.space.shapes();
   const dealii::QWitherdenVincentSimplex<2> gauss(3);
@@ -404,8 +404,8 @@ TEST(MeshDilatation, OfDegreeZeroIsTheVariationalModel)
   // Stingl & Zetzmann 2026, eqs. (13)-(15)
   const double horizon = .6;
   const Discrete discrete(free_square(.25, false), false, 0);
-  Dilatation dilatation = heterogeneous(horizon, false);
-  dilatation.influence = physics::influence_function(constant, horizon);
+  Dilatation<2> dilatation = heterogeneous(horizon, false);
+  dilatation.influence = physics::influence_function<2>(constant, horizon);
   const double K = dilatation.influence.constant();
   const std::size_t n = discrete.cells.size();
   std::vector<double> expected(4 * n * n);
@@ -454,8 +454,8 @@ TEST(MeshDilatation, TakesTheMaterialAtBothEnds)
                    Point<2>(0, 1), Point<2>(1, 1), Point<2>(2, 1)};
   mesh.cells = {{{0, 1, 4, 3}, 4, true}, {{1, 2, 5, 4}, 4, true}};
   const Discrete discrete(mesh, false, 0);
-  Dilatation dilatation = heterogeneous(3, true);
-  dilatation.influence = physics::influence_function(constant, 3);
+  Dilatation<2> dilatation = heterogeneous(3, true);
+  dilatation.influence = physics::influence_function<2>(constant, 3);
   const double K = dilatation.influence.constant();
   const dealii::QGauss<2> gauss(8);
   std::vector<std::array<double, 4>> expected(4);

@@ -217,6 +217,53 @@ TEST(SolidLattice, moments_of_the_bond_tensor_are_those_of_the_kernel)
                     1e-12 * h);
 }
 
+namespace
+{
+  /// With λ = 3 and μ = 1.
+  std::optional<physics::Dilatation<3>> solid(double delta, const std::string &type = "1/r")
+  {
+    return physics::Dilatation<3>{
+        physics::influence_function<3>(physics::kernel_type(type).profile, delta),
+        [](const Point<3> &) {
+          return physics::Lame{3, 1};
+        },
+        false, true};
+  }
+} // namespace
+
+TEST(SolidLattice, moments_of_a_state_based_solid_are_those_of_its_constants)
+{
+  const double h = .1;
+  for (const double delta : {.3, .25, .1, .13})
+    for (const std::string type : {"1/r", "linear-decay"})
+    {
+      const auto dilatation = solid(delta, type);
+      const auto stencil = galerkin_stencil(physics::deviatoric_kernel(dilatation->influence, 1), h,
+                                            AxisShapes(true, 1), dilatation);
+      EXPECT_TRUE(stencil.is_even());
+      EXPECT_LT(stencil.symmetry_defect(), 1e-13);
+      const auto delta_of = [](unsigned int i, unsigned int j) { return i == j ? 1. : 0.; };
+      for (unsigned int a = 0; a < 3; ++a)
+        for (unsigned int b = 0; b < 3; ++b)
+        {
+          EXPECT_NEAR(stencil_moment(stencil, a, b, {0, 0, 0}), 0, 1e-13 * largest_entry(stencil));
+          for (unsigned int c = 0; c < 3; ++c)
+            for (unsigned int d = c; d < 3; ++d)
+            {
+              std::array<int, 3> alpha{};
+              ++alpha[c];
+              ++alpha[d];
+              // -2 μ δ_ab δ_cd - (λ + μ) (δ_ac δ_bd + δ_ad δ_bc)
+              const double exact =
+                  -2 * delta_of(a, b) * delta_of(c, d) -
+                  4 * (delta_of(a, c) * delta_of(b, d) + delta_of(a, d) * delta_of(b, c));
+              EXPECT_NEAR(stencil_moment(stencil, a, b, alpha), exact * h, 5e-12 * h)
+                  << type << ", " << delta;
+            }
+        }
+    }
+}
+
 TEST(SolidLattice, all_shape_functions_take_constants_to_zero)
 {
   for (const AxisShapes &shapes : {AxisShapes(false, 0), AxisShapes(false, 1), AxisShapes(true, 2)})
@@ -256,6 +303,17 @@ TEST(SolidLattice, Q1_is_exact_at_nodes_for_quadratics)
   const Solved solved =
       solve(galerkin_stencil(tensor, cube.h, AxisShapes(true, 1)), cube, field, load);
   EXPECT_LT(solved.error, 1e-11);
+
+  // of λ = 3 and μ = 1: Δu = (6, 4, 2), ∇ div u = (2, 0, 3)
+  const auto dilatation = solid(2.5 * cube.h);
+  const auto of_solid = [](const Point<3> &, unsigned int a) {
+    return -std::array<double, 3>{6, 4, 2}[a] - 4 * std::array<double, 3>{2, 0, 3}[a];
+  };
+  EXPECT_LT(solve(galerkin_stencil(physics::deviatoric_kernel(dilatation->influence, 1), cube.h,
+                                   AxisShapes(true, 1), dilatation),
+                  cube, field, of_solid)
+                .error,
+            1e-11);
 }
 
 // largest errors at nodes by an independent prototype, to the digits known

@@ -327,11 +327,11 @@ TEST(FreeBody, StretchesAsYoungsModulusAndPoissonsRatioSay)
 TEST(FreeBody, MovesAsAWholeWithoutForces)
 {
   const double horizon = .25;
-  const physics::Dilatation dilatation{physics::influence_function({{1, -1}}, horizon),
-                                       [](const Point<2> &x) {
-                                         return physics::Lame{3 + x[0], 1 + x[1] * x[1]};
-                                       },
-                                       false, false};
+  const physics::Dilatation<2> dilatation{physics::influence_function<2>({{1, -1}}, horizon),
+                                          [](const Point<2> &x) {
+                                            return physics::Lame{3 + x[0], 1 + x[1] * x[1]};
+                                          },
+                                          false, false};
   for (const bool is_triangles : {false, true})
   {
     const auto mesh = std::make_shared<const geometry::Mesh>(

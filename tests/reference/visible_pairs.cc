@@ -26,7 +26,7 @@ namespace
   physics::Kernel<2> bonds()
   {
     return physics::deviatoric_kernel(
-        physics::influence_function(physics::kernel_type("1/r").profile, horizon), 1);
+        physics::influence_function<2>(physics::kernel_type("1/r").profile, horizon), 1);
   }
 
   struct System

@@ -16,12 +16,6 @@ namespace
   const Settings l_shape = {{"Domain/boxes", "0,0,0 : 1,1/2,1/2 ; 0,0,0 : 1/2,1,1/2"}};
   const Settings with_cavity = {{"Domain/holes", "1/4,1/2,3/8 : 1/2,3/4,5/8"}};
 
-  Settings with(Settings settings, const Settings &more)
-  {
-    settings.insert(settings.end(), more.begin(), more.end());
-    return settings;
-  }
-
   StudyResults solve(const Settings &solid, const Settings &more)
   {
     auto results = run(make_scene(with(solid, more)));

@@ -17,6 +17,12 @@ namespace plumbline::study::in_space
 
   inline const std::string polynomial = "x^3*y^2 + z^4 + x*y*z^2";
 
+  inline Settings with(Settings settings, const Settings &more)
+  {
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+  }
+
   inline scene::Scene make_scene(Settings settings)
   {
     settings.insert(settings.begin(),

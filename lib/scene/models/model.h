@@ -4,6 +4,7 @@
 #include "scene/problem.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -67,6 +68,13 @@ namespace plumbline::scene
     /// The same in space.
     /// @throws InputError  the model is of the plane
     virtual physics::Kernel<3> kernel_in_space(const Scene &scene, double horizon) const;
+
+    /// What its dilatation adds in space; empty: bonds are all.
+    virtual std::optional<physics::Dilatation<3>> dilatation_in_space(const Scene &,
+                                                                      double /*horizon*/) const
+    {
+      return {};
+    }
 
     /// Adds the model's other data to a problem.
     virtual void complete(const Scene &, const Level &, Problem &) const {}

@@ -22,9 +22,9 @@ namespace plumbline::scene
       Capabilities can() const override
       {
         using C = Capability;
-        return of_meshes() | Capabilities{C::lattice,         C::heterogeneous, C::nonlocal,
-                                          C::dynamic,         C::dilatation,    C::zero_dilatation,
-                                          C::mixed_dilatation};
+        return of_meshes() | Capabilities{C::lattice,          C::heterogeneous, C::nonlocal,
+                                          C::dynamic,          C::dilatation,    C::zero_dilatation,
+                                          C::mixed_dilatation, C::space};
       }
 
       Capabilities needs(const Scene &scene) const override
@@ -59,8 +59,26 @@ namespace plumbline::scene
         // bodies with a free boundary have their own constants at each node
         const bool is_one = scene.material.is_homogeneous && !scene.domain.is_free_body;
         return physics::deviatoric_kernel(
-            physics::influence_function(scene.kernel.profile, horizon),
+            physics::influence_function<2>(scene.kernel.profile, horizon),
             is_one ? scene.material.lame()({}).mu : 1);
+      }
+
+      physics::Kernel<3> kernel_in_space(const Scene &scene, double horizon) const override
+      {
+        return physics::deviatoric_kernel(
+            physics::influence_function<3>(scene.kernel.profile, horizon),
+            scene.material.lame()({}).mu);
+      }
+
+      std::optional<physics::Dilatation<3>> dilatation_in_space(const Scene &scene,
+                                                                double horizon) const override
+      {
+        if (!scene.has_dilatation())
+          return {};
+        const physics::Lame lame = scene.material.lame()({});
+        return physics::Dilatation<3>{physics::influence_function<3>(scene.kernel.profile, horizon),
+                                      [lame](const dealii::Point<3> &) { return lame; }, false,
+                                      true};
       }
 
       void complete(const Scene &scene, const Level &level, Problem &problem) const override
@@ -68,7 +86,7 @@ namespace plumbline::scene
         if (scene.domain.is_free_body)
           problem.lame = scene.material.lame();
         if (scene.has_dilatation())
-          problem.dilatation = {physics::influence_function(scene.kernel.profile, level.horizon),
+          problem.dilatation = {physics::influence_function<2>(scene.kernel.profile, level.horizon),
                                 scene.material.lame(), mean() == physics::Mean::harmonic,
                                 scene.material.is_homogeneous};
       }
@@ -109,7 +127,8 @@ namespace plumbline::scene
                  "Poisson's ratio, -1 < nu < 1/2, given with E. Bond tensors and double wells have "
                  "1/4, and 1/3 in plane stress.");
         keys.add("lambda", given[1][0],
-                 "Lame's first constant in the plane, instead of E and nu. [force/length^2]");
+                 "Lame's first constant (in plane stress that of the plane), instead of E and nu. "
+                 "[force/length^2]");
         keys.add("mu", given[1][1],
                  "The shear modulus > 0, given with lambda, which is > -mu. [force/length^2]");
         keys.add(
